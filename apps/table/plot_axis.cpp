@@ -38,8 +38,10 @@ std::string gnuplot_number(double number) {
 }
 
 std::string gnuplot_text(const std::string& text) {
-  if (text.starts_with('\'')) {  // gnuplot takes two quotes at the beginning for an empty text
-    return "\"'\"." + gnuplot_text(text.substr(1));
+  // gnuplot takes two quotes for an empty text at the beginning, and four of them for the end.
+  if (const std::size_t quote = text.starts_with('\'') ? 0 : text.find("''"); quote != std::string::npos) {
+    const std::string before = text.substr(0, quote), behind = text.substr(quote + 1);
+    return (before.empty() ? "" : gnuplot_text(before) + ".") + "\"'\"" + (behind.empty() ? "" : "." + gnuplot_text(behind));
   }
   std::string safe = "'";
   for (const char character : text) {

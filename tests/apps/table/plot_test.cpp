@@ -68,7 +68,9 @@ TEST_CASE("a script names its files, its axes and their scales") {
 TEST_CASE("texts cannot end their quotes or lines") {
   Plot plot = curves();
   plot.title = "'first'";
-  CHECK(contains(script(plot), "set title \"'\".'first'''\n"));  // two quotes at the beginning are an empty text
+  CHECK(contains(script(plot), "set title \"'\".'first'''\n"));
+  plot.title = "a''b'";
+  CHECK(contains(script(plot), "set title 'a'.\"'\".\"'\".'b'''\n"));
   plot.title = "it's\n\"new\"";
   CHECK(contains(script(plot), "set title 'it''s \"new\"'\n"));
   CHECK(contains(script(plot), "title 'a''s time'"));
