@@ -1,17 +1,16 @@
 #include "apps/computer/instruments.h"
 
-#include "apps/computer/program_work.h"
 #include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {
 
-Instruments::Instruments(const ProgramOptions& options, std::uint32_t node_count, bool has_pages) {
+Instruments::Instruments(const ProgramOptions& options, std::uint32_t node_count, const nodes::WorkOf& work_of) {
   const std::uint32_t peer_count = node_count + 1;  // and the host
   if (options.trace) {
     join(recorder_.emplace(peer_count, nodes::TraceChoice{}));
   }
   if (options.report) {
-    join(profile_.emplace(peer_count, [has_pages](const nodes::Span& span) { return program_work_of(span, has_pages); }));
+    join(profile_.emplace(peer_count, work_of));
   }
 }
 

@@ -18,7 +18,8 @@ namespace dmpc::apps {
 /// For one run. Thread safety: as an Observer.
 class Instruments {
  public:
-  Instruments(const ProgramOptions& options, std::uint32_t node_count, bool has_pages);
+  /// `work_of`: what its nodes are busy with.
+  Instruments(const ProgramOptions& options, std::uint32_t node_count, const nodes::WorkOf& work_of);
   Instruments(const Instruments&) = delete;
   Instruments& operator=(const Instruments&) = delete;
 

@@ -99,7 +99,7 @@ void add_losses(Page& page, const Losses& losses) {
   page.add_table(table);
 }
 
-void add_steps(Page& page, const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names,
+void add_steps(Page& page, const nodes::ActivitySteps& steps, const std::vector<std::string>& work_names,
                const std::string& remark) {
   if (steps.nodes.front().empty()) {
     return;

@@ -4,9 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "apps/computer/options.h"
@@ -52,7 +50,7 @@ void add_ranks(Page& page, const std::vector<nodes::RankFigures>& ranks);
 
 void add_losses(Page& page, const Losses& losses);
 /// `remark`: of which run it is, if there were several.
-void add_steps(Page& page, const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names,
+void add_steps(Page& page, const nodes::ActivitySteps& steps, const std::vector<std::string>& work_names,
                const std::string& remark);
 
 }  // namespace dmpc::apps::html

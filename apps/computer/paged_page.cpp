@@ -126,7 +126,7 @@ void write_paged_page(const PagedRecord& record, std::ostream& output) {
                   " together, where it does not say otherwise.");
   }
   add_losses(page, losses_of(record));
-  add_steps(page, record.view->steps, program_work_names, remark_on_runs(record));
+  add_steps(page, record.view->steps, task_work(record.operations).names, remark_on_runs(record));
   add_heat(page, record);
   add_pages(page, record);
   add_nodes(page, record);

@@ -148,7 +148,7 @@ class AskedComputer final : public PagedComputer {
                  std::span<std::byte> results) {
     const auto plan = with_options_named([&] { return svm::TaskPlan(options_.tasks, data.size(), count, kinds.plain.sizes); });
     check_room(plan);
-    last_watch_ = std::make_unique<PagedWatch>(options_, plan, count);
+    last_watch_ = std::make_unique<PagedWatch>(options_, record_.operations, plan, count);
     const auto take = [&](std::uint32_t first, std::string_view bytes) {
       std::copy_n(bytes.data(), bytes.size(), reinterpret_cast<char*>(&results[first * kinds.plain.sizes.result_bytes]));
     };

@@ -24,14 +24,14 @@ constexpr std::size_t heat_columns_max = 128;
 const nodes::Machine* machine_of(const PagedRecord& record) { return record.options.program.computer.model(); }
 
 /// Counts, or nanoseconds of computing.
-double heat_of(const PagedRecord& record, const svm::TaskTaken& taken, TaskHeatKind kind) {
+double heat_of(const nodes::Machine* machine, const svm::TaskTaken& taken, TaskHeatKind kind) {
   switch (kind) {
     case TaskHeatKind::faults:
       return static_cast<double>(taken.faults);
     case TaskHeatKind::references:
       return static_cast<double>(taken.references);
     case TaskHeatKind::computing:
-      return static_cast<double>(machine_of(record)->price_ps(taken.charges)) / 1000;
+      return machine == nullptr ? 0 : static_cast<double>(machine->price_ps(taken.charges)) / 1000;
   }
   return 0;
 }
@@ -47,7 +47,7 @@ TaskHeatKind main_kind(const PagedRecord& record) {
 std::vector<double> heat_by_task(const PagedRecord& record, TaskHeatKind kind) {
   std::vector<double> heat;
   for (const svm::TaskTaken& taken : record.heat) {
-    heat.push_back(heat_of(record, taken, kind));
+    heat.push_back(heat_of(machine_of(record), taken, kind));
   }
   return heat;
 }

@@ -2,13 +2,15 @@
 
 #include <utility>
 
+#include "apps/computer/program_work.h"
 #include "apps/run/miss_estimate.h"
 #include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {
 
-PagedWatch::PagedWatch(const PagedOptions& options, const svm::TaskPlan& plan, std::uint32_t task_count)
-    : instruments_(options.program, plan.node_count(), true) {
+PagedWatch::PagedWatch(const PagedOptions& options, const std::vector<OperationNeed>& operations, const svm::TaskPlan& plan,
+                       std::uint32_t task_count)
+    : instruments_(options.program, plan.node_count(), task_work(operations).work_of) {
   const bool has_report = options.program.report.has_value();
   if (has_report) {
     instruments_.join(fetches_.emplace(plan.node_count(), plan.pages().page_count));

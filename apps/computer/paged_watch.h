@@ -17,10 +17,11 @@
 
 namespace dmpc::apps {
 
-/// For one run of so many tasks. Thread safety: as an Observer.
+/// For one run of so many tasks that have these operations. Thread safety: as an Observer.
 class PagedWatch {
  public:
-  PagedWatch(const PagedOptions& options, const svm::TaskPlan& plan, std::uint32_t task_count);
+  PagedWatch(const PagedOptions& options, const std::vector<OperationNeed>& operations, const svm::TaskPlan& plan,
+             std::uint32_t task_count);
 
   /// For the run, on every rank, where nobody has a pointer who wants to know nothing; what ranks saw is added up.
   svm::TaskWatching watching();

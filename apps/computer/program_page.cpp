@@ -1,7 +1,6 @@
 #include "apps/computer/program_page.h"
 
 #include <iostream>
-#include <span>
 
 #include "apps/computer/page_parts.h"
 #include "apps/computer/program_tables.h"
@@ -79,7 +78,7 @@ void write_program_page(const ProgramRecord& record, std::ostream& output) {
   Page page("Run of " + record.name, std::cerr, speaker(record.name));
   begin_page(page, origin, facts_of(record), record.result, record.plan.node_count());
   add_losses(page, losses_of(record));
-  add_steps(page, record.view->steps, std::span(program_work_names).first(packet_work_count), "");
+  add_steps(page, record.view->steps, packet_work(record.plan.needs().operations).names, "");
   add_packets(page, record);
   add_operations(page, operations_of(record), record.options.computer.model());
   add_nodes(page, record);

@@ -2,14 +2,16 @@
 
 #include <utility>
 
+#include "apps/computer/program_work.h"
 #include "apps/computer/readable_nodes.h"
 #include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {
 
-ProgramWatch::ProgramWatch(const ProgramOptions& options, std::uint32_t node_count) : instruments_(options, node_count, false) {
-  if (options.report && node_count <= readable_nodes_max) {
-    instruments_.join(pairs_.emplace(node_count));
+ProgramWatch::ProgramWatch(const ProgramOptions& options, const ProgramPlan& plan)
+    : instruments_(options, plan.node_count(), packet_work(plan.needs().operations).work_of) {
+  if (options.report && plan.node_count() <= readable_nodes_max) {
+    instruments_.join(pairs_.emplace(plan.node_count()));
   }
 }
 

@@ -15,7 +15,7 @@ namespace dmpc::apps {
 /// For one run. Thread safety: as an Observer.
 class ProgramWatch {
  public:
-  ProgramWatch(const ProgramOptions& options, std::uint32_t node_count);
+  ProgramWatch(const ProgramOptions& options, const ProgramPlan& plan);
 
   /// For the run; nullptr if nobody looks on.
   nodes::Observer* observer() { return instruments_.observer(); }

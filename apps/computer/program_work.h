@@ -1,31 +1,24 @@
-// What the nodes of any program are busy with, as far as the computer can tell.
+// What the nodes of a program are busy with, in its own words.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <string_view>
+#include <string>
+#include <vector>
 
-#include "core/trace/charge.h"
-#include "nodes/observer.h"
+#include "apps/computer/dmpc/computer.h"
+#include "nodes/watch/activity_profile.h"
 
 namespace dmpc::apps {
 
-enum class ProgramWork : std::uint8_t {
-  computing,
-  messages,  ///< sending and taking over packets (modelled machines)
-  pages      ///< of tasks: installing pages, and serving them to others
+/// Kinds of work, of which a span is one.
+struct ProgramWork {
+  std::vector<std::string> names;  ///< by number
+  nodes::WorkOf work_of;
 };
-inline constexpr std::array<std::string_view, 3> program_work_names = {"computing", "messages", "pages"};
-/// Of programs without pages the first two.
-inline constexpr std::size_t packet_work_count = 2;
 
-/// For a nodes::ActivityProfile: the number of what a span counts as. `has_pages`: a task's, which are charged for installs.
-inline std::size_t program_work_of(const nodes::Span& span, bool has_pages) {
-  constexpr auto install = nodes::ChargeBits{1U << static_cast<std::uint32_t>(core::Charge::page_install)};
-  const bool is_message = span.activity == nodes::Activity::send || span.activity == nodes::Activity::take_over;
-  const bool is_page = has_pages && (span.activity == nodes::Activity::serve || span.charged() == install);
-  return static_cast<std::size_t>(is_message ? ProgramWork::messages : is_page ? ProgramWork::pages : ProgramWork::computing);
-}
+/// Of a program with packets: its first four operations, each where a call was charged it and none before it, what else its calls
+/// do, and messages.
+ProgramWork packet_work(const std::vector<OperationNeed>& operations);
+/// Of one of tasks: its first three, the rest, pages that are installed and served, and messages.
+ProgramWork task_work(const std::vector<OperationNeed>& operations);
 
 }  // namespace dmpc::apps

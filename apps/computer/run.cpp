@@ -182,7 +182,7 @@ int run_plan(const ProgramCall& call, const ProgramOptions& options, const Progr
     check_outputs(inputs_of(options), outputs.names());
     check_page_room(options);
   }
-  ProgramWatch watch(options, plan.node_count());
+  ProgramWatch watch(options, plan);
   const std::vector<nodes::NodeSpecification> all = specifications(plan, application);
   const auto runner = made_runner(all, options, watch, rounds);
   ProgramRecord record{.name = call.name, .options = options, .plan = plan};

@@ -29,7 +29,6 @@ constexpr std::array<Sign, 3> signs = {{{"mpirun", "OMPI_COMM_WORLD_SIZE", "OMPI
 /// By which srun tells MPI of its ranks: PMIx; PMI, or what speaks it.
 constexpr std::array<const char*, 3> signs_of_pmi = {"PMIX_RANK", "PMI_RANK", "PMI_FD"};
 
-/// mpirun ends all processes as soon as one has ended with an error: the first is to have said it by then.
 constexpr useconds_t time_to_say_it_us = 500'000;
 
 std::optional<std::uint32_t> number(const char* text) {
@@ -72,9 +71,11 @@ void leave_errors_to_first() {
   const std::optional<Launcher> started_by = launcher();
   if (started_by && started_by->rank != 0) {
     say_no_more();
-    ::usleep(time_to_say_it_us);
+    leave_time_to_say_it();
   }
 }
+
+void leave_time_to_say_it() { ::usleep(time_to_say_it_us); }
 
 void say_no_more() { std::cerr.setstate(std::ios_base::badbit); }
 

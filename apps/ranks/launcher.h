@@ -30,6 +30,9 @@ void expect_one_process(const std::string& advice);
 /// Before an error that all processes of a launcher come to, each by itself: the first one is to say it.
 void leave_errors_to_first();
 
+/// Before a process other than the first ends with an error, with which mpirun ends all: the first is to have said it by then.
+void leave_time_to_say_it();
+
 /// From now on this process says nothing on stderr, in its whole life: another one does.
 void say_no_more();
 

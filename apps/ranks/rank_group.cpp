@@ -107,12 +107,19 @@ int run_as_rank(const RankStart& start, const std::function<int(RankGroup&)>& ru
     expect_all_known(library, library.rank_count());
     RankGroup group(library, start.own);
     const int status = run(group);
-    return finish(patience_at_the_end) ? status : throw nodes::LostRank("not all ranks have come to the end");
+    if (!finish(patience_at_the_end)) {
+      throw nodes::LostRank("not all ranks have come to the end");
+    }
+    if (status != 0 && !says_errors) {
+      leave_time_to_say_it();
+    }
+    return status;
   } catch (const nodes::LostRank&) {
     throw;  // nobody need be waited for
   } catch (...) {
     if (finish(patience_in_failure) && !says_errors) {
       say_no_more();
+      leave_time_to_say_it();
     }
     throw;
   }

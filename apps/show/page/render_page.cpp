@@ -85,9 +85,10 @@ void add_time(Page& page, const RunView& view) {
   }
   page.begin_section("Over time");
   page.add_conclusion(time_conclusion(view.steps));
-  Table table = step_table(view.steps, work_names);
+  const std::vector<std::string> names(work_names.begin(), work_names.end());
+  Table table = step_table(view.steps, names);
   table.add_note("The host is left out.");
-  page.add_plot(step_plot(view.steps, work_names), table);
+  page.add_plot(step_plot(view.steps, names), table);
   page.add_map(step_map(view.steps), "Each row is a node, each column a step of time: the darker, the less it did.");
   page.add_table(table);
 }

@@ -26,7 +26,7 @@ double microseconds(double ns) { return ns / 1000; }
 std::size_t node_count_of(const nodes::ActivitySteps& steps) { return steps.nodes.size() - 1; }  // the host is the last
 std::size_t step_count_of(const nodes::ActivitySteps& steps) { return steps.nodes.front().size(); }
 
-/// Of all nodes but the host.
+/// Of all nodes but the host, with work of one kind.
 std::uint64_t busy_ns(const nodes::ActivitySteps& steps, std::size_t step, std::size_t work) {
   std::uint64_t sum_ns = 0;
   for (std::size_t node = 0; node < node_count_of(steps); ++node) {
@@ -121,11 +121,11 @@ double total_fetches(const Fetches& fetches) {
 
 }  // namespace
 
-Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names) {
+Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string> work_names) {
   const int digits = steps.step_ns < 10'000 ? 3 : steps.step_ns < 100'000 ? 2 : steps.step_ns < 1'000'000 ? 1 : 0;
   std::vector<Column> columns = {{"since the start", "ms", digits}};
-  for (const std::string_view name : work_names) {
-    columns.push_back({std::string(name), "%", 1});
+  for (const std::string& name : work_names) {
+    columns.push_back({name, "%", 1});
   }
   Table table("What the nodes were busy with over time", std::move(columns));
   const double whole_ns = static_cast<double>(steps.step_ns) * static_cast<double>(node_count_of(steps));
@@ -142,11 +142,11 @@ Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string_
   return table;
 }
 
-Plot step_plot(const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names) {
+Plot step_plot(const nodes::ActivitySteps& steps, std::span<const std::string> work_names) {
   Plot plot = curves("steps", "What the nodes were busy with over time", "since the start", {.label = "since the start"},
                      {.label = "of the nodes' time (%)", .least = 0}, {});
-  for (const std::string_view name : work_names) {
-    plot.series.push_back({std::string(name), std::string(name), {}, PlotMark::bars, plot.series.size()});
+  for (const std::string& name : work_names) {
+    plot.series.push_back({name, name, {}, PlotMark::bars, plot.series.size()});
   }
   plot.bar_width = static_cast<double>(steps.step_ns) / 1e6;
   plot.is_stacked = true;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "apps/run/run_view.h"
 #include "apps/show/page/number_map.h"
@@ -13,9 +13,10 @@
 
 namespace dmpc::apps::html {
 
-/// A row for each step of time: what all nodes but the host were busy with, in percent of their time. `work_names`: by number.
-Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names);
-Plot step_plot(const nodes::ActivitySteps& steps, std::span<const std::string_view> work_names);
+/// A row for each step of time: what all nodes but the host were busy with, in percent of their time. Kinds of work have these
+/// names; there are no others.
+Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string> work_names);
+Plot step_plot(const nodes::ActivitySteps& steps, std::span<const std::string> work_names);
 /// A row for each node but the host, a column for each step: its share of the time in which it was busy.
 NumberMap step_map(const nodes::ActivitySteps& steps);
 

@@ -1,0 +1,60 @@
+#include "apps/computer/program_work.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "apps/computer/own_name.h"
+#include "apps/computer/paged_options.h"
+#include "core/trace/charge.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr auto install_bit = 1U << static_cast<std::uint32_t>(core::Charge::page_install);
+
+/// With operations that are charged by these bits.
+ProgramWork work_with(const std::vector<OperationNeed>& operations, std::vector<std::uint32_t> bits, bool has_pages) {
+  const std::size_t shown = std::min(operations.size(), nodes::work_count - (has_pages ? 3 : 2));
+  bits.resize(shown);
+  ProgramWork work;
+  for (std::size_t i = 0; i < shown; ++i) {
+    work.names.push_back(own_name(operations[i].name));
+  }
+  work.names.emplace_back(shown > 0 ? "other computing" : "computing");
+  if (has_pages) {
+    work.names.emplace_back("pages");
+  }
+  work.names.emplace_back("messages");
+  const std::size_t messages = work.names.size() - 1, pages = has_pages ? shown + 1 : shown;
+  work.work_of = [bits = std::move(bits), pages, messages](const nodes::Span& span) {
+    if (span.activity == nodes::Activity::send || span.activity == nodes::Activity::take_over) {
+      return messages;
+    }
+    const std::uint32_t charged = span.charged();
+    const auto first = std::find_if(bits.begin(), bits.end(), [charged](std::uint32_t bit) { return (charged & bit) != 0; });
+    const bool is_paging = span.activity == nodes::Activity::serve || charged == install_bit;
+    return first == bits.end() && is_paging ? pages : static_cast<std::size_t>(first - bits.begin());
+  };
+  return work;
+}
+
+}  // namespace
+
+ProgramWork packet_work(const std::vector<OperationNeed>& operations) {
+  std::vector<std::uint32_t> bits;
+  for (Index i = 0; i < operations.size(); ++i) {
+    bits.push_back(1U << i);
+  }
+  return work_with(operations, std::move(bits), false);
+}
+
+ProgramWork task_work(const std::vector<OperationNeed>& operations) {
+  std::vector<std::uint32_t> bits;
+  for (Index i = 0; i < operations.size(); ++i) {
+    bits.push_back(1U << static_cast<std::uint32_t>(charge_of(i)));
+  }
+  return work_with(operations, std::move(bits), true);
+}
+
+}  // namespace dmpc::apps
