@@ -261,6 +261,9 @@ struct RanksRunner::Implementation {
         may_start = true;
         return;
       case Item::failure:
+        if (word.ending == Ending::failed || word.ending == Ending::stalled) {
+          return;  // of the run, of which this rank knows
+        }
         fail_as_said(links.name_of(rank), bytes);
       case Item::dismissal:
         throw Dismissed{value_of<int>(bytes)};

@@ -42,7 +42,8 @@ TEST_CASE("the page says how to make it again") {
   check_has(page, {"To make it again, and to cite it</h2>", "asker on dmpc ", "Run of asker. asker on dmpc "});
 }
 
-TEST_CASE("a page speaks the words of programs alone")  // and of the command line, on which this name may stand {
+// On the page stands the command line, too: with this name, where a test is called by it.
+TEST_CASE("a page speaks the words of programs alone") {
   const std::string page = asker_page(asker(10), {"--nodes=3", "--runner=virtual"});
   check_knows_no_rays(page);
 }
