@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "nodes/observer.h"
+#include "nodes/ranks/dismissal.h"
+#include "nodes/ranks/failure.h"
 #include "nodes/threads/clock.h"
 #include "tests/nodes/toy_machine.h"
 #include "tests/nodes/toy_programs.h"
@@ -173,6 +175,30 @@ TEST_CASE("an exception of a program ends the run on all ranks, and others say w
   CHECK(results[0].failure_text() == "rank 1: the hundredth quantum");
   CHECK(results[1].failure_text() == "the hundredth quantum");
   CHECK(results[2].failure_text() == "rank 1: the hundredth quantum");
+}
+
+TEST_CASE("what a failed run has told rank 0 is not told again by a rank that says its failure behind it") {
+  auto specifications = equal_nodes(6, {}, making<Waiter>());
+  specifications[1].make_program = making<Worker>(true);
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    CAPTURE(seed);
+    const auto results = on_ranks(3, {.seed = seed, .late_looks_max = 200}, [&](Fabric& fabric) {
+      RankLinks links(fabric);
+      RanksRunner runner(specifications, links);
+      try {
+        return runner.run({});
+      } catch (...) {
+        if (fabric.rank() == 0) {
+          dismiss(links, 3);
+          throw;
+        }
+        say_failure(links, failure_of(std::current_exception()));
+        wait_for_dismissal(links);
+        return RunEnd::interrupted;
+      }
+    });
+    CHECK(results[0].failure_text() == "the hundredth quantum");
+  }
 }
 
 TEST_CASE("a mailbox smaller than the credits is found out by the rank whose node it is") {
