@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 #include <string>
 
@@ -53,6 +54,9 @@ int run_on_ranks(ProgramOptions& options, const ProgramCall& call, const std::fu
   const RankStart start = {.own = likeness_of(call), .module_place = ModulePlace::companion_or_linked};
   return run_as_rank(start, [&](RankGroup& group) {
     choose_nodes(options, group);
+    if (group.rank_count() == 1 && !options.quiet) {
+      std::cerr << call.name + ": --runner=mpi: this is the only process, so that all nodes are in it\n";
+    }
     const RankNeeds own = needs();
     nodes::RankLinks links(group.connect(own.payload_bytes_max, own.alike), {}, *options.idle);
     options.computer.ranks = &links;

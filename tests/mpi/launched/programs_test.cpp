@@ -199,6 +199,12 @@ TEST_CASE("as many nodes as there are processors for them are made where nobody 
   CHECK_MESSAGE(contains(ended.errors, "asker: --nodes=2: expected at least one node for each of the 3 ranks"), ended.errors);
 }
 
+TEST_CASE("a process that is alone on ranks says so, unless it is to be quiet") {
+  const std::string said = "asker: --runner=mpi: this is the only process, so that all nodes are in it\n";
+  CHECK(contains(on_ranks(1, "asker", {"--nodes=2"}).errors, said));
+  CHECK_FALSE(contains(on_ranks(1, "asker", {"--nodes=2", "--quiet"}).errors, said));
+}
+
 TEST_CASE("processes that are started together without --runner=mpi are told of it once") {
   const Ended ended = end_of(mpirun_of(3, program_named("asker"), {}));
   CHECK(ended.status == 2);
