@@ -7,18 +7,35 @@
 
 namespace dmpc::nodes {
 
-void Errands::send(const std::function<void()>& errand) {
-  std::packaged_task<void()> task([this, &errand] { failure_ ? std::rethrow_exception(failure_) : errand(); });
-  std::future<void> done = task.get_future();
+namespace {
+
+/// What it throws, or nothing.
+std::exception_ptr failure_in(const std::function<void()>& act) {
+  try {
+    act();
+    return nullptr;
+  } catch (...) {
+    return std::current_exception();
+  }
+}
+
+}  // namespace
+
+void Errands::send(const std::function<void()>& act) {
+  Errand errand{.act = &act};
   {
-    const std::lock_guard lock(mutex_);
-    pending_ = std::move(task);
+    std::unique_lock lock(mutex_);
     if (failure_) {
-      std::exchange(pending_, {})();
+      end(errand, failure_);
+    } else {
+      pending_ = &errand;
+      news_.notify_all();
+      news_.wait(lock, [&errand] { return errand.is_done; });
     }
   }
-  news_.notify_one();
-  done.get();
+  if (errand.failure) {
+    std::rethrow_exception(errand.failure);
+  }
 }
 
 bool Errands::is_end_of_all(const std::exception_ptr& failure) {
@@ -34,36 +51,36 @@ bool Errands::is_end_of_all(const std::exception_ptr& failure) {
 }
 
 bool Errands::do_one(std::chrono::milliseconds patience) {
-  std::packaged_task<void()> errand;
-  {
-    std::unique_lock lock(mutex_);
-    news_.wait_for(lock, patience, [this] { return is_over_ || pending_.valid(); });
-    errand = std::exchange(pending_, {});
-    if (is_over_) {
-      return true;
-    }
+  std::unique_lock lock(mutex_);
+  news_.wait_for(lock, patience, [this] { return is_over_ || pending_ != nullptr; });
+  if (pending_ == nullptr) {
+    return is_over_;
   }
-  if (errand.valid()) {
-    errand();
-  }
+  Errand& errand = *std::exchange(pending_, nullptr);
+  lock.unlock();
+  std::exception_ptr failure = failure_in(*errand.act);
+  lock.lock();
+  end(errand, std::move(failure));
   return false;
 }
 
-void Errands::end() {
+void Errands::end(Errand& errand, std::exception_ptr failure) {
+  errand.failure = std::move(failure);
+  errand.is_done = true;
+  news_.notify_all();
+}
+
+void Errands::end_work() {
   const std::lock_guard lock(mutex_);
   is_over_ = true;
-  news_.notify_one();
+  news_.notify_all();
 }
 
 void Errands::fail(const std::exception_ptr& failure) {
-  std::packaged_task<void()> errand;
-  {
-    const std::lock_guard lock(mutex_);
-    failure_ = failure_ ? failure_ : failure;
-    errand = std::exchange(pending_, {});
-  }
-  if (errand.valid()) {
-    errand();
+  const std::lock_guard lock(mutex_);
+  failure_ = failure_ ? failure_ : failure;
+  if (pending_ != nullptr) {
+    end(*std::exchange(pending_, nullptr), failure_);
   }
 }
 

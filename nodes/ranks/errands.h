@@ -46,26 +46,34 @@ class Errands {
   }
 
   /// Has it done there, and returns or throws as it does.
-  void send(const std::function<void()>& errand);
+  void send(const std::function<void()>& act);
 
  private:
   /// Says, in the end, that there are no more errands.
   struct Over {
     Errands& errands;
-    ~Over() { errands.end(); }
+    ~Over() { errands.end_work(); }
+  };
+  /// Of the sender, which waits. What it throws there is the sender's alone.
+  struct Errand {
+    const std::function<void()>* act = nullptr;
+    std::exception_ptr failure;
+    bool is_done = false;
   };
 
   /// Dismissed, or LostRank.
   static bool is_end_of_all(const std::exception_ptr& failure);
   /// Waits so long for an errand, and does it. Whether the work is over.
   bool do_one(std::chrono::milliseconds patience);
-  void end();
+  /// With the mutex locked.
+  void end(Errand& errand, std::exception_ptr failure);
+  void end_work();
   /// Every errand that waits or comes fails as the first failure says.
   void fail(const std::exception_ptr& failure);
 
   std::mutex mutex_;
   std::condition_variable news_;
-  std::packaged_task<void()> pending_;
+  Errand* pending_ = nullptr;
   std::exception_ptr failure_;
   bool is_over_ = false;
 };
