@@ -95,8 +95,8 @@ void run_and_gather(nodes::Runner& runner, const TaskPlan& plan, std::stop_token
 void gather_from_ranks(nodes::Runner& runner, std::span<const nodes::PeerMemory> peers, const nodes::RankLinks& links,
                        const TaskWatching& watching, TaskFigures& figures) {
   const std::vector<nodes::RankReport> told = runner.gather_ranks(watching.seen());
-  for (std::size_t rank = 1; rank < told.size() && watching.add; ++rank) {
-    watching.add(told[rank].told, told[rank].clock);
+  if (watching.add) {
+    nodes::add_seen(told, watching.add);
   }
   figures.ranks = nodes::rank_figures(peers, links, told);
   nodes::expect_nothing_lost(figures.ranks);

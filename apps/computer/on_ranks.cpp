@@ -6,11 +6,13 @@
 #include <sstream>
 #include <string>
 
+#include "apps/computer/dmpc/computer.h"
 #include "apps/line/number_text.h"
 #include "apps/ranks/parts.h"
 #include "apps/ranks/rank_group.h"
 #include "apps/run/option_words.h"
 #include "apps/system/digest.h"
+#include "core/base/expect.h"
 #include "nodes/runner.h"
 
 namespace dmpc::apps {
@@ -47,6 +49,15 @@ void choose_nodes(ProgramOptions& options, const RankGroup& group) {
   }
 }
 
+/// A program's own error of usage as one of ours, which rank 0 tells the others.
+int with_usage_told(const std::function<int()>& act) {
+  try {
+    return act();
+  } catch (const dmpc::UsageError& error) {
+    throw core::UsageError(error.what());
+  }
+}
+
 }  // namespace
 
 int run_on_ranks(ProgramOptions& options, const ProgramCall& call, const std::function<RankNeeds()>& needs,
@@ -61,7 +72,8 @@ int run_on_ranks(ProgramOptions& options, const ProgramCall& call, const std::fu
     nodes::RankLinks links(group.connect(own.payload_bytes_max, own.alike), {}, *options.idle);
     options.computer.ranks = &links;
     RankRounds rounds(links);
-    return rounds.is_first() ? lead(links, [&] { return act(rounds); }) : follow(links, [&] { act(rounds); });
+    return rounds.is_first() ? lead(links, [&] { return with_usage_told([&] { return act(rounds); }); })
+                             : follow(links, [&] { act(rounds); });
   });
 }
 

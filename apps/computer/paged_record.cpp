@@ -18,10 +18,6 @@ namespace {
 constexpr std::array<const char*, span_names.size()> task_activity_names = {
     "compute", "compute", "install page", "compute", "compute", "compute", "serve page", "send packets", "take packet"};
 
-}  // namespace
-
-namespace {
-
 /// Links count frames and their bytes from the beginning, runners the rest in each run.
 void add_ranks(std::vector<nodes::RankFigures>& sums, const std::vector<nodes::RankFigures>& more) {
   for (std::size_t rank = 0; rank < more.size(); ++rank) {

@@ -100,10 +100,14 @@ svm::TaskKind<Records> kind_of(const AnyTask& task, const PagesBounds& bounds) {
 /// What all ranks must agree on before they run tasks.
 std::string words_of_run(std::uint32_t number, std::uint32_t count, const svm::TaskKinds& kinds, std::span<const std::byte> data,
                          bool has_unique_bytes) {
+  const std::string words = "run " + std::to_string(number) + " of " + counted(count, "task") + " of " +
+                            bytes_text(kinds.plain.sizes.task_bytes) + " over " + bytes_text(data.size());
+  if (!has_unique_bytes) {
+    return words;
+  }
   Digest digest;
   digest.add(data);
-  return "run " + std::to_string(number) + " of " + counted(count, "task") + " of " + bytes_text(kinds.plain.sizes.task_bytes) +
-         " over " + bytes_text(data.size()) + (has_unique_bytes ? " of data " + hash_text(digest.value()) : "");
+  return words + " of data " + hash_text(digest.value());
 }
 
 class AskedComputer final : public PagedComputer {
@@ -209,15 +213,6 @@ OutputSet<PagedRecord> outputs_of(const PagedOptions& options) {
   return outputs;
 }
 
-/// What it came to. On ranks all of them act, and have the same results.
-std::string acted(AskedComputer& computer, const PagedApplication& application) {
-  try {
-    return application.act(computer);
-  } catch (const dmpc::UsageError& error) {
-    throw core::UsageError(error.what());
-  }
-}
-
 int end_tasks(AskedComputer& computer, PagedRecord& record, const OutputSet<PagedRecord>& outputs) {
   if (record.run_count == 0) {
     throw ProgramError("no tasks were run");
@@ -241,10 +236,10 @@ int act_on_pages(const ProgramCall& call, PagedOptions& options, const PagedAppl
   PagedRecord record{.name = call.name, .options = options, .operations = application.operations};
   AskedComputer computer(options, record, interrupt, rounds);
   if (rounds == nullptr) {
-    record.result = acted(computer, application);
+    record.result = application.act(computer);
     return end_tasks(computer, record, outputs);
   }
-  record.result = rounds->apart([&] { return acted(computer, application); });
+  record.result = rounds->apart([&] { return application.act(computer); });  // on all ranks, with the same results
   rounds->agree("the end");
   rounds->meet();
   return rounds->is_first() ? rounds->apart([&] { return end_tasks(computer, record, outputs); }) : 0;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/computer/declared.h"
+#include "apps/computer/own_name.h"
 #include "apps/line/number_text.h"
 #include "apps/system/digest.h"
 #include "core/base/expect.h"
@@ -23,8 +24,6 @@ static_assert(small_bytes_max == nodes::small_payload_bytes && packets_max == no
 /// No computer has more for a node; sums of all that a run needs stay below 2^64.
 constexpr std::size_t packet_bytes_max = std::size_t{1} << 30, memory_bytes_max = std::size_t{1} << 40,
                       node_bytes_max = std::size_t{1} << 44;
-
-std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
 }  // namespace
 
@@ -53,13 +52,13 @@ void ProgramPlan::check_names() const {
 void ProgramPlan::check_sizes() const {
   for (const PacketNeed& packet : needs_.packets) {
     if (packet.bytes_max > packet_bytes_max) {
-      throw core::UsageError("the packet " + quoted(packet.name) + " has up to " + std::to_string(packet.bytes_max) +
+      throw core::UsageError("the packet " + own_name(packet.name) + " has up to " + std::to_string(packet.bytes_max) +
                              " bytes: expected at most " + std::to_string(packet_bytes_max));
     }
   }
   for (const MemoryNeed& memory : needs_.memory) {
     if (memory.bytes > memory_bytes_max) {
-      throw core::UsageError("the memory " + quoted(memory.name) + " has " + std::to_string(memory.bytes) +
+      throw core::UsageError("the memory " + own_name(memory.name) + " has " + std::to_string(memory.bytes) +
                              " bytes: expected at most " + std::to_string(memory_bytes_max));
     }
   }
@@ -69,7 +68,7 @@ void ProgramPlan::match_answers() {
   for (Index answer = 0; answer < needs_.packets.size(); ++answer) {
     const PacketNeed& need = needs_.packets[answer];
     if (need.answers.empty() == !need.senders) {
-      throw core::UsageError("the packet " + quoted(need.name) + " has " +
+      throw core::UsageError("the packet " + own_name(need.name) + " has " +
                              (need.senders ? "senders and answers another" : "no senders and answers none") +
                              ": expected one of both");
     }
@@ -80,7 +79,7 @@ void ProgramPlan::match_answers() {
                                     [&](const PacketNeed& request) { return request.name == need.answers && request.senders; });
     const auto request = static_cast<Index>(asked - needs_.packets.begin());
     if (asked == needs_.packets.end() || answers_[request]) {
-      throw core::UsageError("the packet " + quoted(need.name) + " answers " + quoted(need.answers) +
+      throw core::UsageError("the packet " + own_name(need.name) + " answers " + own_name(need.answers) +
                              ": expected a packet that has senders, and no other answer");
     }
     answers_[request] = answer;

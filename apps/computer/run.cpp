@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/computer/dmpc/computer.h"
@@ -136,9 +137,7 @@ void gather_from_ranks(ProgramRecord& record, nodes::Runner& runner, std::span<c
                        ProgramWatch& watch) {
   if (const nodes::RankLinks* const links = record.options.computer.ranks) {
     const std::vector<nodes::RankReport> told = runner.gather_ranks(watch.seen());
-    for (std::size_t rank = 1; rank < told.size(); ++rank) {
-      watch.add(told[rank].told, told[rank].clock);
-    }
+    nodes::add_seen(told, [&watch](std::string_view seen, const nodes::ClockDrift& clock) { watch.add(seen, clock); });
     record.ranks = nodes::rank_figures(peers, *links, told);
     nodes::expect_nothing_lost(record.ranks);
   }
@@ -162,11 +161,7 @@ void check_answers(const ProgramRecord& record) {
 int end_run(ProgramRecord& record, const std::vector<std::string>& outcomes, const AnyApplication& application,
             const OutputSet<ProgramRecord>& outputs) {
   check_answers(record);
-  try {
-    record.result = application.result(outcomes);
-  } catch (const dmpc::UsageError& error) {
-    throw core::UsageError(error.what());
-  }
+  record.result = application.result(outcomes);
   Attempts attempts(std::cerr, record.name);
   outputs.write(record, attempts);
   attempts.make([&] { print_result(record.result, summary(record), record.options); });

@@ -33,10 +33,17 @@ inline std::vector<RankFigures> rank_figures(std::span<const PeerMemory> peers, 
   return figures;
 }
 
-/// Lets `watching` add what was seen on the other ranks.
+/// Calls add(seen, clock) with what was seen on each of the other ranks.
+template <class Add>
+void add_seen(const std::vector<RankReport>& reports, const Add& add) {
+  for (std::size_t rank = 1; rank < reports.size(); ++rank) {
+    add(reports[rank].told, reports[rank].clock);
+  }
+}
+/// Lets `watching` do so, if it wants to see anything there.
 inline void add_seen(const Watching& watching, const std::vector<RankReport>& reports) {
-  for (std::size_t rank = 1; rank < reports.size() && !watching.elsewhere.order.empty(); ++rank) {
-    watching.elsewhere.add(reports[rank].told, reports[rank].clock);
+  if (!watching.elsewhere.order.empty()) {
+    add_seen(reports, watching.elsewhere.add);
   }
 }
 

@@ -19,6 +19,8 @@ namespace {
 
 using apps::RankRounds;
 
+constexpr nodes::RankSilence impatient{.life_sign = std::chrono::milliseconds{10}, .longest = std::chrono::milliseconds{400}};
+
 /// A rank plays its part; the status with which it ends.
 template <class Act>
 int play(nodes::Fabric& fabric, const Act& act, const nodes::RankSilence& silence = {}) {
@@ -71,7 +73,6 @@ TEST_CASE("a rank that comes to something else than rank 0 is named, and all end
 }
 
 TEST_CASE("a rank that works apart for longer than silence may last is not taken for lost, and its errands are done") {
-  const nodes::RankSilence impatient{.life_sign = std::chrono::milliseconds{10}, .longest = std::chrono::milliseconds{400}};
   const auto results = on_ranks(3, {}, [&](nodes::Fabric& fabric) {
     return play(
         fabric,
@@ -114,7 +115,6 @@ TEST_CASE("an errand that fails on one rank ends all, though its work goes on as
 }
 
 TEST_CASE("what has failed on a rank is told, though rank 0 works on for longer than silence may last") {
-  const nodes::RankSilence impatient{.life_sign = std::chrono::milliseconds{10}, .longest = std::chrono::milliseconds{400}};
   const auto results = on_ranks(2, {}, [&](nodes::Fabric& fabric) {
     return play(
         fabric,
