@@ -12,6 +12,8 @@
 #include "core/base/expect.h"
 #include "tests/support/small_pages.h"
 
+namespace svm_cache_test {
+
 using namespace dmpc;
 using svm::Cache;
 using svm::CacheShape;
@@ -179,3 +181,5 @@ TEST_CASE("a cache takes exactly the memory that it says it needs") {
     }
   }
 }
+
+}  // namespace svm_cache_test
