@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 
 namespace curved_values_test {
 
