@@ -10,8 +10,6 @@
 
 namespace rays_bundle_task_test {
 
-namespace dataflow_bundle_task_test {
-
 using namespace dmpc;
 using dataflow::BundleTask;
 using dataflow::RayMessage;
@@ -215,7 +213,5 @@ TEST_CASE("a bundle's task refuses a seventeenth ray, another finder's hit, and 
   CHECK_THROWS_AS(bench.task.enter(foreign), core::InternalError);
   CHECK_THROWS_AS(bench.task.resume_hit(foreign), core::InternalError);
 }
-
-}  // namespace dataflow_bundle_task_test
 
 }  // namespace rays_bundle_task_test

@@ -14,8 +14,6 @@
 
 namespace pages_cache_test {
 
-namespace svm_cache_test {
-
 using namespace dmpc;
 using svm::Cache;
 using svm::CacheShape;
@@ -183,7 +181,5 @@ TEST_CASE("a cache takes exactly the memory that it says it needs") {
     }
   }
 }
-
-}  // namespace svm_cache_test
 
 }  // namespace pages_cache_test
