@@ -4,7 +4,6 @@
 #include <bit>
 #include <limits>
 
-#include "core/base/mutation.h"
 #include "core/trace/bundle_kernel.h"
 
 // clang-format off
@@ -250,12 +249,7 @@ HWY_INLINE Vertices shear(const ShearedRays& rays, const TriangleRows& triangles
           fused(hn::Neg(rays.shear_y), z, hn::Sub(coordinate(rays.y), rays.origin_y)), z};
 }
 
-HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
-  if constexpr (mutation == Mutation::contracted_edges) {
-    return fused(a.x, b.y, hn::Neg(hn::Mul(a.y, b.x)));
-  }
-  return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
-}
+HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)); }
 
 /// Of the rays `asked`, which pass the triangle, those about which floats may be wrong, and some more: the scalar twin has the
 /// last word.
