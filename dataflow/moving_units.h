@@ -4,15 +4,15 @@
 #include <cstdint>
 #include <span>
 
-#include "dataflow/gather.h"
-#include "dataflow/movement.h"
 #include "dataflow/node_deal.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"
-#include "dataflow/primaries.h"
+#include "dataflow/rays/gather.h"
+#include "dataflow/rays/primaries.h"
 #include "dataflow/termination.h"
-#include "dataflow/unit_pages.h"
-#include "dataflow/unit_primaries.h"
+#include "dataflow/units/movement.h"
+#include "dataflow/units/unit_pages.h"
+#include "dataflow/units/unit_primaries.h"
 #include "nodes/node.h"
 
 namespace dmpc::dataflow {

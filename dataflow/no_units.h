@@ -8,14 +8,14 @@
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
 #include "core/record/records.h"
-#include "dataflow/gather.h"
-#include "dataflow/movement.h"
 #include "dataflow/node_deal.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"
-#include "dataflow/primaries.h"
+#include "dataflow/rays/gather.h"
+#include "dataflow/rays/primaries.h"
 #include "dataflow/termination.h"
-#include "dataflow/unit_pages.h"
+#include "dataflow/units/movement.h"
+#include "dataflow/units/unit_pages.h"
 #include "nodes/node.h"
 
 namespace dmpc::dataflow {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/build/extract.h"
+#include "core/database/extract.h"
 #include "core/picture/pixel_task.h"
 #include "dataflow/regions/primary_run.h"
 #include "dataflow/regions/regions.h"

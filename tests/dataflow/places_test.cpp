@@ -4,6 +4,8 @@
 
 #include "core/base/expect.h"
 
+namespace places_test {
+
 using namespace dmpc;
 using dataflow::Places;
 using nodes::NodeId;
@@ -84,3 +86,4 @@ TEST_CASE("nodes that share places have one account, and the host its own") {
   CHECK(owner.places.gives_back(owner.places.account_of(NodeId{1}), 1, false));
   CHECK_FALSE(owner.places.gives_back(hosts, 3, false));
 }
+}  // namespace places_test
