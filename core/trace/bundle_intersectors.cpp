@@ -274,33 +274,14 @@ HWY_INLINE RayMask doubtful(const RayBundle& bundle, RayMask asked, const Vertic
   return HWY_LIKELY(asked == 0) ? 0 : within_rounding(bundle.rest_most, asked, a, b, c, hn::Min(hn::Neg(least), greatest));
 }
 
-/// A triangle, as a hit names it.
-struct TriangleName {
-  std::uint32_t id;
-  Address block;
-  std::uint32_t lane;
-};
-
 /// A hit in doubt, in the scalar twin.
-HWY_INLINE void hit_apart(RayBundle& bundle, const TriangleRows& triangles, const TriangleName& name, std::size_t ray) {
-  const float t = intersect_triangle(ShearedRay(bundle.rays[ray]), triangles.rows, triangles.count, name.lane);
-  if (t > 0.0F && t < bundle.t_max[ray] && nearer(t, name.id, bundle.best.of(ray))) {
-    bundle.best.set(ray, {t, name.id, name.block, name.lane});
+HWY_INLINE void hit_apart(RayBundle& bundle, const TriangleRows& triangles, Address block, std::size_t lane, std::uint32_t id,
+                          std::size_t ray) {
+  const float t = intersect_triangle(ShearedRay(bundle.rays[ray]), triangles.rows, triangles.count, lane);
+  if (t > 0.0F && t < bundle.t_max[ray] && nearer(t, id, bundle.best.of(ray))) {
+    bundle.best.set(ray, {t, id, block, static_cast<std::uint32_t>(lane)});
     bundle.found |= RayMask{1} << ray;
   }
-}
-
-/// The triangle is the nearest that the rays `hit`, from `first` on, have met.
-HWY_INLINE void keep_hits(RayBundle& bundle, std::size_t first, RayMask hit, Vector t, const TriangleName& name) {
-  const Floats tag;
-  const Unsigned ids;
-  const auto takes = mask_of(tag, hit);
-  const auto takes_ids = hn::RebindMask(ids, takes);
-  hn::BlendedStore(t, takes, tag, bundle.best.t.data() + first);
-  hn::BlendedStore(hn::Set(ids, name.id), takes_ids, ids, bundle.best.primitive.data() + first);
-  hn::BlendedStore(hn::Set(ids, static_cast<std::uint32_t>(name.block)), takes_ids, ids, bundle.best.block.data() + first);
-  hn::BlendedStore(hn::Set(ids, name.lane), takes_ids, ids, bundle.best.lane.data() + first);
-  bundle.found |= hit << first;
 }
 
 /// One triangle and some of the rays from `first` on.
@@ -317,28 +298,31 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays& rays, std::si
   if ((active & (~outside | in_doubt)) == 0) {
     return;
   }
-  const TriangleName name{read<std::uint32_t>(triangles.ids() + lane * sizeof(std::uint32_t)), block,
-                          static_cast<std::uint32_t>(lane)};
+  const auto id = read<std::uint32_t>(triangles.ids() + lane * sizeof(std::uint32_t));
   const Vector determinant = hn::Add(hn::Add(u, v), w);
   const Vector weighted =
       fused(hn::Div(u, determinant), a.z, fused(hn::Div(v, determinant), b.z, hn::Mul(hn::Div(w, determinant), c.z)));
   const Vector t = hn::Mul(weighted, hn::Load(tag, bundle.scale_z.data() + first));
-  const auto ignored = hn::Eq(hn::Load(ids, bundle.ignored_primitive.data() + first), hn::Set(ids, name.id));
+  const auto ignored = hn::Eq(hn::Load(ids, bundle.ignored_primitive.data() + first), hn::Set(ids, id));
   const RayMask others = active & ~bits_of(ids, ignored);
   const RayMask crossed = others & ~outside & ~bits_of(tag, hn::Eq(determinant, zero));
-  const RayMask near = crossed & bits_of(tag, hn::Lt(hn::Abs(t), hn::Set(tag, near_start)));
-  RayMask unsettled = (in_doubt & others) | near;
+  RayMask unsettled = (in_doubt & others) | (crossed & bits_of(tag, hn::Lt(hn::Abs(t), hn::Set(tag, near_start))));
   const Vector best = hn::Load(tag, bundle.best.t.data() + first);
   const auto in_time = hn::And(hn::Gt(t, zero), hn::Lt(t, hn::Load(tag, bundle.t_max.data() + first)));
-  const auto has_lower_id =
-      hn::RebindMask(tag, hn::Gt(hn::Load(ids, bundle.best.primitive.data() + first), hn::Set(ids, name.id)));
+  const auto has_lower_id = hn::RebindMask(tag, hn::Gt(hn::Load(ids, bundle.best.primitive.data() + first), hn::Set(ids, id)));
   const auto is_nearer = hn::Or(hn::Lt(t, best), hn::And(hn::Eq(t, best), has_lower_id));
   const RayMask hit = crossed & ~unsettled & bits_of(tag, hn::And(in_time, is_nearer));
   if (hit != 0) {
-    keep_hits(bundle, first, hit, t, name);
+    const auto takes = mask_of(tag, hit);
+    const auto takes_ids = hn::RebindMask(ids, takes);
+    hn::BlendedStore(t, takes, tag, bundle.best.t.data() + first);
+    hn::BlendedStore(hn::Set(ids, id), takes_ids, ids, bundle.best.primitive.data() + first);
+    hn::BlendedStore(hn::Set(ids, static_cast<std::uint32_t>(block)), takes_ids, ids, bundle.best.block.data() + first);
+    hn::BlendedStore(hn::Set(ids, static_cast<std::uint32_t>(lane)), takes_ids, ids, bundle.best.lane.data() + first);
+    bundle.found |= hit << first;
   }
   for (; unsettled != 0; unsettled &= unsettled - 1) {
-    hit_apart(bundle, triangles, name, first + static_cast<std::size_t>(std::countr_zero(unsettled)));
+    hit_apart(bundle, triangles, block, lane, id, first + static_cast<std::size_t>(std::countr_zero(unsettled)));
   }
 }
 
