@@ -287,7 +287,7 @@ std::size_t Plan::unit_packet_bytes() const {
 UnitPages::Capacity Plan::pages_of_node(std::uint32_t index) const {
   const Share& share = request.shares[index];
   return {.page_bytes = share.page_bytes,
-          .frames = is_moving() ? static_cast<std::uint32_t>(share.part_bytes / share.page_bytes) + spare_frames : 0};
+          .frames = static_cast<std::uint32_t>(share.part_bytes / share.page_bytes) + spare_frames};
 }
 
 UnitPrimaries::Capacity Plan::primaries_of_node(std::uint32_t index) const {
@@ -296,9 +296,7 @@ UnitPrimaries::Capacity Plan::primaries_of_node(std::uint32_t index) const {
     runs += share.primary_runs;
   }
   const std::size_t mean = core::ceil_divide<std::size_t>(runs, node_count());
-  return is_moving() ? UnitPrimaries::Capacity{.units = request.rays.balance.regions_a_node,
-                                               .runs = std::max(request.shares[index].primary_runs, mean)}
-                     : UnitPrimaries::Capacity{};
+  return {.units = request.rays.balance.regions_a_node, .runs = std::max(request.shares[index].primary_runs, mean)};
 }
 
 std::uint32_t Plan::largest_node() const {

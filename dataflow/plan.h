@@ -78,10 +78,10 @@ struct Plan {
   std::uint32_t unit_count() const { return is_moving() ? node_count() * request.rays.balance.regions_a_node : 0; }
   /// Of a page of a unit with its header.
   std::size_t unit_packet_bytes() const;
-  /// The primary rays that node `index` has room for by unit, if regions move: a node that takes a unit may have had fewer of its
-  /// own than the mean.
+  /// The primary rays that node `index` has room for by unit: a node that takes a unit may have had fewer of its own than the
+  /// mean. Requires that regions move, here and below.
   UnitPrimaries::Capacity primaries_of_node(std::uint32_t index) const;
-  /// The pages that node `index` has room for, if regions move.
+  /// The pages that node `index` has room for.
   UnitPages::Capacity pages_of_node(std::uint32_t index) const;
 
   /// Packets of primary rays that the host may have under way to each node.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/mutation.h"
-
 namespace dmpc::core {
 namespace {
 
@@ -27,16 +25,8 @@ bool separates(const Vec3d& axis, const Vec3d& half, const Vec3d& p, const Vec3d
   return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
 }
 
-/// Half a cell's box, pad included.
-Vec3d half_of_cell(const Vec3d& half) {
-  if constexpr (mutation == Mutation::shrunk_insertion) {
-    return {std::nextafter(half.x, 0.0), std::nextafter(half.y, 0.0), std::nextafter(half.z, 0.0)};
-  }
-  return half;
-}
-
 /// Whether a bound that lies `above` the box's face leaves the box: one in the face does not.
-bool leaves(double above) { return mutation == Mutation::exclusive_insertion ? above >= 0.0 : above > 0.0; }
+bool leaves(double above) { return above > 0.0; }
 
 /// Distance of a point to the segment from p to q, in a plane.
 double segment_distance(double x, double y, double px, double py, double qx, double qy) {
@@ -103,8 +93,7 @@ Overlap::Overlap(const PrimitiveValues& primitive)
   }
 }
 
-bool Overlap::touches(const Vec3d& center, const Vec3d& cell_half) const {
-  const Vec3d half = half_of_cell(cell_half);
+bool Overlap::touches(const Vec3d& center, const Vec3d& half) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (leaves(bounds_.low[axis] - (center[axis] + half[axis])) || leaves(center[axis] - half[axis] - bounds_.high[axis])) {
       return false;

@@ -37,7 +37,7 @@ class GridTracer {
   /// The same with a test of blocks of one's own: test(record, address, best).
   template <class Test>
   Traced trace(const Ray& ray, Cursor& cursor, Operations& operations, const Test& test) {
-    return trace_blocks(ray, cursor, *records_, header_, skips_, operations, meet_children, test);
+    return RayWalk(ray, cursor, *records_, operations).trace(header_, skips_, meet_children, test);
   }
   /// The same for rays that walk together.
   bool trace(RayBundle& bundle, Operations& operations) { return core::trace(bundle, *records_, header_, skips_, operations); }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/mutation.h"
-
 namespace dmpc::core {
 namespace {
 
@@ -90,9 +88,6 @@ TexturePlace place_on(const TexturedNormals& triangle, double u, double v) {
 TextureFootprint footprint_of(const TexturedNormals& triangle, double u, double v, const CutEllipse& ellipse, double cone_width) {
   const Ellipse covered = covered_by(triangle, ellipse, cone_width);
   const TexturePlace place = place_on(triangle, u, v);
-  if constexpr (mutation == Mutation::round_footprint) {
-    return {.middle = place, .stride = {}, .width = covered.longer};
-  }
   // Between the middles of the first and the last probe, about the place, as far as the triangle's rectangle goes.
   const double probe = std::max(covered.shorter, 1.0), between = std::max(covered.longer - probe, 0.0);
   const TexturePlace texel{covered.direction.s / triangle.texture.width, covered.direction.t / triangle.texture.height};

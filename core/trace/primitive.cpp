@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/base/mutation.h"
 #include "core/record/block_lane.h"
 #include "core/record/curved_values.h"
 
@@ -28,12 +27,7 @@ struct ShearedVertex {
   }
 };
 
-float edge(const ShearedVertex& a, const ShearedVertex& b) {
-  if constexpr (mutation == Mutation::contracted_edges) {
-    return std::fma(a.x, b.y, -(a.y * b.x));
-  }
-  return a.x * b.y - a.y * b.x;
-}
+float edge(const ShearedVertex& a, const ShearedVertex& b) { return a.x * b.y - a.y * b.x; }
 
 /// Products of floats are exact in double, so the sign of the difference is.
 float exact_edge(const ShearedVertex& a, const ShearedVertex& b) {
@@ -41,12 +35,7 @@ float exact_edge(const ShearedVertex& a, const ShearedVertex& b) {
 }
 
 /// Whether the edge functions differ in sign; zeros are on either side, so an edge belongs to both its triangles.
-bool outside(float u, float v, float w) {
-  if constexpr (mutation == Mutation::exclusive_edges) {
-    return (u <= 0.0F || v <= 0.0F || w <= 0.0F) && (u >= 0.0F || v >= 0.0F || w >= 0.0F);
-  }
-  return (u < 0.0F || v < 0.0F || w < 0.0F) && (u > 0.0F || v > 0.0F || w > 0.0F);
-}
+bool outside(float u, float v, float w) { return (u < 0.0F || v < 0.0F || w < 0.0F) && (u > 0.0F || v > 0.0F || w > 0.0F); }
 
 /// A vertex as seen from the ray's origin, in the ray's order of axes: exact but for double's rounding.
 Vec3d seen_vertex(const ShearedRay& ray, const float* vertex, std::size_t stride) {

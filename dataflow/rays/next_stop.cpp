@@ -14,8 +14,8 @@ float first_meeting(const core::Ray& ray, const core::Walk& walk, const core::Pa
     return static_cast<float>(passage.t_enter);
   }
   core::LocalRecords records = surroundings.records;
-  return core::first_block(ray, core::BoxRay(ray, walk.reciprocal()), walk, passage, records, surroundings.outline,
-                           surroundings.skips, operations);
+  core::Cursor cursor = core::arrive(passage);
+  return core::RayWalk(ray, cursor, records, operations).first_block(walk, surroundings.outline, surroundings.skips);
 }
 
 }  // namespace

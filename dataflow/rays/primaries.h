@@ -29,6 +29,12 @@ std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSetti
                                                          std::span<const Regions> partitions, const core::Pass& pass,
                                                          const core::PixelMask& done, const std::stop_token& stop = {});
 
+/// A primary ray that is to start: its number, and that by which it is numbered.
+struct PrimaryStart {
+  std::uint64_t number = 0;
+  core::SampleRange samples;
+};
+
 /// A node's own primary rays, in its local memory: those dealt before the start, then packets of those that the host deals on the
 /// way. Thread safety: belongs to one node.
 class Primaries {

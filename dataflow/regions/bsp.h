@@ -94,9 +94,7 @@ class Bsp {
   nodes::NodeId owner_at(std::uint32_t index) const { return nodes::NodeId{owner_[index]}; }
   /// The node that answers for a finest cell of the grid.
   nodes::NodeId owner_of(const core::Corner& cell) const { return owner_at(region_index_of(cell)); }
-  /// What `node` answers for. Requires a node that owns a region.
-  core::Region region_of(nodes::NodeId node) const { return region_at(region_index_of(node)); }
-  /// The number of the region that `node` owns.
+  /// The number of the region that `node` owns. Requires that it owns one.
   std::uint32_t region_index_of(nodes::NodeId node) const;
 
   /// Whether region `index` is known to hold nothing.

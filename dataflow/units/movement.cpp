@@ -34,16 +34,15 @@ Movement::Movement(nodes::Node& node, const Plan& plan, const Units& units)
       units_(units),
       version_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.unit_count())),
       pages_of_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.unit_count())),
-      rays_told_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.is_moving() ? plan.node_count() : 0)),
-      stale_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.is_moving() ? plan.node_count() : 0)),
+      rays_told_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.node_count())),
+      stale_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.node_count())),
       packet_(node.memory().allocate<std::byte>(Category::queues, plan.unit_packet_bytes())) {
   std::fill(stale_.begin(), stale_.end(), none);
 }
 
 void Movement::add_needs(nodes::MemoryPlan& memory, const Plan& plan) {
-  const std::size_t nodes = plan.is_moving() ? plan.node_count() : 0;
   memory[core::MemoryUse::page_table] +=
-      2 * LocalMemory::bytes_for<std::uint32_t>(plan.unit_count()) + 2 * LocalMemory::bytes_for<std::uint32_t>(nodes);
+      2 * LocalMemory::bytes_for<std::uint32_t>(plan.unit_count()) + 2 * LocalMemory::bytes_for<std::uint32_t>(plan.node_count());
   memory[Category::queues] += LocalMemory::bytes_for<std::byte>(plan.unit_packet_bytes());
 }
 

@@ -37,7 +37,7 @@ struct MovementCounters {
   MovementCounters& operator+=(const MovementCounters& more);
 };
 
-/// Thread safety: belongs to one node. Where regions do not move it takes no memory, and nobody asks it for anything.
+/// Thread safety: belongs to one node.
 class Movement {
  public:
   /// What is a node's own of the units; all of it outlives this.
@@ -52,8 +52,7 @@ class Movement {
   /// Adds to `memory` exactly what the constructor takes.
   static void add_needs(nodes::MemoryPlan& memory, const Plan& plan);
 
-  bool is_on() const { return !version_.empty(); }
-  /// The node answers for a unit by what it knows. Requires that regions move, here and below.
+  /// The node answers for a unit by what it knows.
   bool answers_for(std::uint32_t unit) const { return units_.regions->owner_at(unit) == node_->id(); }
   void rays_came() { hand_over_.rays_came(); }
   /// A node that sends rays tells how many primary rays it could hand over.
@@ -68,7 +67,7 @@ class Movement {
   void sent_on() { ++counters_.rays_sent_on; }
 
   /// A resting node has someone to ask for a unit.
-  bool wants_to_ask() const { return is_on() && hand_over_.may_ask() && partner().has_value(); }
+  bool wants_to_ask() const { return hand_over_.may_ask() && partner().has_value(); }
   void ask();
   bool is_settled() const { return hand_over_.is_settled(); }
 

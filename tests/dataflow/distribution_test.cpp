@@ -58,7 +58,7 @@ TEST_CASE("every node is dealt the part of its own region, and every primary ray
   REQUIRE(distribution.parts.size() == 5);
   REQUIRE(distribution.primaries.size() == 5);
   for (std::uint32_t node = 0; node < 5; ++node) {
-    CHECK(distribution.parts[node].header.region == bsp.region_of(nodes::NodeId{node}));
+    CHECK(distribution.parts[node].header.region == bsp.region_at(bsp.region_index_of(nodes::NodeId{node})));
     for (const dataflow::PrimaryRun& run : distribution.primaries[node]) {
       for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
         ++times.at(number);

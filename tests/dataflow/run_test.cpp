@@ -189,7 +189,8 @@ TEST_CASE("a report's sums are those of its nodes") {
     CHECK(row == node.program.gather.rays);
     CHECK(matrix[6 * i] == 0);
     CHECK(work[i] == static_cast<double>(core::work_of(node.program.operations)));
-    CHECK(node.region == report.regions.bsp()->region_of(nodes::NodeId{static_cast<std::uint32_t>(i)}));
+    const dataflow::Bsp& bsp = *report.regions.bsp();
+    CHECK(node.region == bsp.region_at(bsp.region_index_of(nodes::NodeId{static_cast<std::uint32_t>(i)})));
     copies += node.primitive_copies;
   }
   CHECK(report.duplication == static_cast<double>(copies) / static_cast<double>(subject.database().references()));

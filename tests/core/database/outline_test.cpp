@@ -27,7 +27,8 @@ float first_block(const core::DatabaseHeader& header, std::span<const std::byte>
                   const core::Passage& start, core::Operations& operations) {
   core::LocalRecords records(bytes);
   const core::Walk walk(ray, header.frame, header.region);
-  return core::first_block(ray, core::BoxRay(ray, walk.reciprocal()), walk, start, records, header, {}, operations);
+  core::Cursor cursor = core::arrive(start);
+  return core::RayWalk(ray, cursor, records, operations).first_block(walk, header, {});
 }
 
 core::Ray random_ray(apps::Random& random, const core::GridFrame& frame) {

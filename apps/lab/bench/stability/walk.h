@@ -34,15 +34,15 @@ core::Hit walk_blocks(const core::Database& database, const core::Ray& ray, core
   core::LocalRecords records(database.bytes());
   core::Cursor cursor;
   core::Operations operations;
-  core::trace_blocks(ray, cursor, records, database.header(), {}, operations, meet,
-                     [&](const std::byte* record, core::Address address, core::Hit& best) {
-                       const BlockView block = view_block(record);
-                       if (block.kind == core::PrimitiveKind::triangle) {
-                         test(block, best);
-                       } else {
-                         core::test_block(ray, sheared, record, address, best, operations);
-                       }
-                     });
+  const auto test_any = [&](const std::byte* record, core::Address address, core::Hit& best) {
+    const BlockView block = view_block(record);
+    if (block.kind == core::PrimitiveKind::triangle) {
+      test(block, best);
+    } else {
+      core::test_block(ray, sheared, record, address, best, operations);
+    }
+  };
+  core::RayWalk(ray, cursor, records, operations).trace(database.header(), {}, meet, test_any);
   return cursor.best;
 }
 

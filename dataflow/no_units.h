@@ -1,0 +1,64 @@
+// What a node's program has where regions stay whose they are: its part in one piece, and nothing of units.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/expect.h"
+#include "core/picture/memory_use.h"
+#include "core/record/records.h"
+#include "dataflow/node_deal.h"
+#include "dataflow/packets.h"
+#include "dataflow/plan.h"
+#include "dataflow/rays/gather.h"
+#include "dataflow/rays/primaries.h"
+#include "dataflow/termination.h"
+#include "dataflow/units/movement.h"
+#include "dataflow/units/unit_pages.h"
+#include "nodes/node.h"
+
+namespace dmpc::dataflow {
+
+/// The same functions as MovingUnits, which do nothing.
+class NoUnits {
+ public:
+  NoUnits(nodes::Node& node, const Plan& /*plan*/, const NodeDeal& deal, const core::DatabaseHeader& /*header*/,
+          Regions& /*regions*/)
+      : part_(node.memory().allocate<std::byte>(core::MemoryUse::home_pages, deal.records.size_bytes())) {
+    deal.records.copy(0, part_);
+  }
+  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
+    memory[core::MemoryUse::home_pages] +=
+        nodes::LocalMemory::bytes_for<std::byte>(plan.request.shares[index].part_bytes + core::overread_bytes);
+  }
+
+  PartRecords records() const { return {part_, nullptr}; }
+  static std::span<const PrimaryRun> others_of(std::span<const PrimaryRun> primaries) { return primaries; }
+
+  std::uint64_t primaries_left() const { return 0; }
+  static PrimaryStart take_primary(Primaries& others) { return {others.take(), others.samples()}; }
+
+  void rays_came() {}
+  void packet_came(nodes::NodeId /*sender*/, const RayPacketHeader& /*header*/) {}
+  void ray_came(nodes::NodeId /*sender*/, const RayMessage& /*message*/) {}
+  bool is_others(const RayMessage& /*message*/) const { return false; }
+  void sent_on() {}
+  void tell_news(nodes::NodeId /*sender*/) {}
+  void tell_left(Gather& /*gather*/) const {}
+
+  bool is_settled() const { return true; }
+  bool wants_to_ask() const { return false; }
+  void ask() {}
+  void receive(const nodes::Packet& /*packet*/, Termination& /*termination*/) {
+    core::expect(false, "a node receives only what is sent to nodes");
+  }
+
+  MovementCounters counters() const { return {}; }
+  void add_charges(nodes::Charges& /*charges*/) const {}
+
+ private:
+  std::span<std::byte> part_;
+};
+
+}  // namespace dmpc::dataflow
