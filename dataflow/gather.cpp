@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "core/base/counts.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 
@@ -22,13 +23,8 @@ std::size_t packet_bytes_of(const Gather::Capacity& capacity) {
 }  // namespace
 
 Gather::Counters& Gather::Counters::operator+=(const Counters& more) {
-  packets += more.packets;
-  rays += more.rays;
-  packets_overflowed += more.packets_overflowed;
-  rays_overflowed += more.rays_overflowed;
-  packets_flushed += more.packets_flushed;
-  packets_queued += more.packets_queued;
-  queue_high_water = std::max(queue_high_water, more.queue_high_water);
+  const std::uint64_t high_water = std::max(queue_high_water, more.queue_high_water);
+  core::add_counts(*this, more).queue_high_water = high_water;
   return *this;
 }
 
@@ -196,7 +192,7 @@ void Gather::enqueue(NodeId owner) {
   slots_[target.open].next = none;
   (target.first == none ? target.first : slots_[target.last].next) = target.open;
   target.last = target.open;
-  counters_.queue_high_water = std::max(counters_.queue_high_water, ++queued_);
+  counters_.queue_high_water = std::max<std::uint64_t>(counters_.queue_high_water, ++queued_);
   ++counters_.packets_queued;
 }
 

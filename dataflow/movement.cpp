@@ -14,21 +14,6 @@ using nodes::LocalMemory;
 
 }  // namespace
 
-MovementCounters& MovementCounters::operator+=(const MovementCounters& more) {
-  units_given += more.units_given;
-  units_taken += more.units_taken;
-  pages_sent += more.pages_sent;
-  pages_installed += more.pages_installed;
-  records_walked += more.records_walked;
-  primaries_given += more.primaries_given;
-  primaries_taken += more.primaries_taken;
-  asks += more.asks;
-  refusals += more.refusals;
-  rays_sent_on += more.rays_sent_on;
-  units += more.units;
-  return *this;
-}
-
 Movement::Movement(nodes::Node& node, const Plan& plan, const Units& units)
     : node_(&node),
       units_(units),

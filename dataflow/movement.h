@@ -32,9 +32,7 @@ struct MovementCounters {
   std::uint64_t primaries_given = 0, primaries_taken = 0;  ///< rays that had not started, with units
   std::uint64_t asks = 0, refusals = 0;                    ///< of this node, and how many of these were refused
   std::uint64_t rays_sent_on = 0;                          ///< that came though another answered for their unit by then
-  std::uint32_t units = 0;                                 ///< that it answers for
-
-  MovementCounters& operator+=(const MovementCounters& more);
+  std::uint64_t units = 0;                                 ///< that it answers for
 };
 
 /// Thread safety: belongs to one node. Where regions do not move it takes no memory, and nobody asks it for anything.

@@ -38,23 +38,6 @@ core::RenderSettings settings_for(const NodeDeal& deal) {
   return settings;
 }
 
-}  // namespace
-
-RayCounters& operator+=(RayCounters& sum, const RayCounters& more) {
-  for (std::size_t kind = 0; kind < core::ray_kind_count; ++kind) {
-    sum.in[kind] += more.in[kind];
-    sum.out[kind] += more.out[kind];
-  }
-  sum.ended += more.ended;
-  sum.hits_sent_back += more.hits_sent_back;
-  sum.rests += more.rests;
-  sum.holds += more.holds;
-  sum.tests_avoided += more.tests_avoided;
-  return sum;
-}
-
-namespace {
-
 /// Where places are shared all other nodes count as one sender, the host as another.
 RayQueue::Capacity backlog_capacity(const Plan& plan) {
   const std::uint32_t packets_each = std::max({plan.ray_credits, plan.ray_places, plan.host_credits});

@@ -57,7 +57,6 @@ struct RayCounters {
   std::uint64_t tests_avoided = 0;  ///< lanes that rays had tested where they came from (RayOptions::tested_objects)
   std::uint64_t holds = 0;          ///< times that it asked the others to hold primary rays back
 };
-RayCounters& operator+=(RayCounters& sum, const RayCounters& more);
 
 /// All that a program counted.
 struct ProgramReport {

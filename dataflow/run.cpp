@@ -211,34 +211,10 @@ void fill(Report& report, nodes::Runner& runner, const Distribution& distributio
 
 }  // namespace
 
-core::Operations Report::operations() const {
-  core::Operations sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.operations;
-  }
-  return sum;
-}
-
-RayCounters Report::rays() const {
-  RayCounters sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.rays;
-  }
-  return sum;
-}
-
 Gather::Counters Report::gathers() const {
   Gather::Counters sum;
   for (const NodeReport& node : nodes) {
     sum += node.program.gather;
-  }
-  return sum;
-}
-
-MovementCounters Report::movement() const {
-  MovementCounters sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.movement;
   }
   return sum;
 }
@@ -269,19 +245,13 @@ double Report::messages_per_ray() const {
 double Report::mean_fill() const { return gathers().mean_fill(plan.ray_batch); }
 
 TrafficByKind Report::sent() const {
-  TrafficByKind sum = host.sent;
-  for (const NodeReport& node : nodes) {
-    sum += node.counters.sent;
-  }
-  return sum;
+  TrafficByKind sum = core::total_of(nodes, [](const NodeReport& node) { return node.counters.sent; });
+  return core::add_counts(sum, host.sent);
 }
 
 TrafficByKind Report::received() const {
-  TrafficByKind sum = host.received;
-  for (const NodeReport& node : nodes) {
-    sum += node.counters.received;
-  }
-  return sum;
+  TrafficByKind sum = core::total_of(nodes, [](const NodeReport& node) { return node.counters.received; });
+  return core::add_counts(sum, host.received);
 }
 
 nodes::Traffic ray_traffic(const TrafficByKind& by_kind) {

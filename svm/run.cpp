@@ -133,44 +133,9 @@ Report run_recording(const core::Database& database, const core::RenderSettings&
 
 }  // namespace
 
-core::Operations Report::operations() const {
-  core::Operations sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.operations;
-  }
-  return sum;
-}
-
-PageCounters Report::pages() const {
-  PageCounters sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.pages;
-  }
-  return sum;
-}
-
-WorkCounters Report::work() const {
-  WorkCounters sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.work;
-  }
-  return sum;
-}
-
-QuestionCounters Report::questions() const {
-  QuestionCounters sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.questions;
-  }
-  return sum;
-}
-
 nodes::TrafficByKind Report::sent() const {
-  nodes::TrafficByKind sum = host.sent;
-  for (const NodeReport& node : nodes) {
-    sum += node.counters.sent;
-  }
-  return sum;
+  nodes::TrafficByKind sum = core::total_of(nodes, [](const NodeReport& node) { return node.counters.sent; });
+  return core::add_counts(sum, host.sent);
 }
 
 Plan plan_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings, const RunOptions& options) {

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/counts.h"
 #include "core/base/expect.h"
 #include "core/build/database.h"
 #include "core/picture/film.h"
@@ -66,10 +67,15 @@ struct Report {
   core::RefinementResult refinement;
   std::vector<nodes::RankFigures> ranks;  ///< where there are several, or could be
 
-  core::Operations operations() const;  ///< summed over the nodes
-  PageCounters pages() const;
-  WorkCounters work() const;
-  QuestionCounters questions() const;
+  /// Of what programs count, summed over the nodes.
+  template <class Counts>
+  Counts sum_of(Counts ProgramReport::*counts) const {
+    return core::total_of(nodes, [counts](const NodeReport& node) { return node.program.*counts; });
+  }
+  core::Operations operations() const { return sum_of(&ProgramReport::operations); }
+  PageCounters pages() const { return sum_of(&ProgramReport::pages); }
+  WorkCounters work() const { return sum_of(&ProgramReport::work); }
+  QuestionCounters questions() const { return sum_of(&ProgramReport::questions); }
   /// Packets and bytes sent by all nodes and the host, by Kind's number.
   nodes::TrafficByKind sent() const;
 };

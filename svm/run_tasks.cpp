@@ -1,8 +1,10 @@
 #include "svm/run_tasks.h"
 
+#include <functional>
 #include <memory>
 #include <utility>
 
+#include "core/base/counts.h"
 #include "core/base/expect.h"
 #include "nodes/flat_bytes.h"
 #include "nodes/ranks/rank_memory.h"
@@ -111,13 +113,7 @@ void check_pages(const TaskFigures& figures) {
 
 }  // namespace
 
-PageCounters TaskFigures::all_pages() const {
-  PageCounters sum;
-  for (const PageCounters& node : pages) {
-    sum += node;
-  }
-  return sum;
-}
+PageCounters TaskFigures::all_pages() const { return core::total_of(pages, std::identity()); }
 
 TaskFigures run_tasks_of_kind(const TaskKinds& kinds, const TaskPlan& plan, std::span<const std::byte> database,
                               const TaskWatching& watching, std::stop_token stop, const TakeResults& take) {
