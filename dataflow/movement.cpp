@@ -7,29 +7,19 @@
 #include "core/picture/memory_use.h"
 
 namespace dmpc::dataflow {
-namespace {
 
-using nodes::Category;
-using nodes::LocalMemory;
-
-}  // namespace
-
-Movement::Movement(nodes::Node& node, const Plan& plan, const Units& units)
-    : node_(&node),
-      units_(units),
-      version_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.unit_count())),
-      pages_of_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.unit_count())),
-      rays_told_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.is_moving() ? plan.node_count() : 0)),
-      stale_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.is_moving() ? plan.node_count() : 0)),
-      packet_(node.memory().allocate<std::byte>(Category::queues, plan.unit_packet_bytes())) {
+Movement::Movement(nodes::Node& node, const Plan& plan, const Units& units) : node_(&node), units_(units) {
+  std::tie(version_, pages_of_, rays_told_, stale_, packet_) = layout(plan).in(node.memory());
   std::fill(stale_.begin(), stale_.end(), none);
 }
 
-void Movement::add_needs(nodes::MemoryPlan& memory, const Plan& plan) {
-  const std::size_t nodes = plan.is_moving() ? plan.node_count() : 0;
-  memory[core::MemoryUse::page_table] +=
-      2 * LocalMemory::bytes_for<std::uint32_t>(plan.unit_count()) + 2 * LocalMemory::bytes_for<std::uint32_t>(nodes);
-  memory[Category::queues] += LocalMemory::bytes_for<std::byte>(plan.unit_packet_bytes());
+nodes::Layout<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, std::byte> Movement::layout(const Plan& plan) {
+  const std::size_t node_count = plan.is_moving() ? plan.node_count() : 0;
+  return {{core::MemoryUse::page_table, plan.unit_count()},
+          {core::MemoryUse::page_table, plan.unit_count()},
+          {core::MemoryUse::page_table, node_count},
+          {core::MemoryUse::page_table, node_count},
+          {nodes::Category::queues, plan.unit_packet_bytes()}};
 }
 
 void Movement::tell_news(nodes::NodeId sender) {

@@ -20,6 +20,7 @@
 #include "dataflow/unit_pages.h"
 #include "dataflow/unit_primaries.h"
 #include "nodes/charge.h"
+#include "nodes/layout.h"
 #include "nodes/node.h"
 
 namespace dmpc::dataflow {
@@ -47,8 +48,8 @@ class Movement {
   };
 
   Movement(nodes::Node& node, const Plan& plan, const Units& units);
-  /// Adds to `memory` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan);
+  /// What the constructor takes.
+  static nodes::Layout<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, std::byte> layout(const Plan& plan);
 
   bool is_on() const { return !version_.empty(); }
   /// The node answers for a unit by what it knows. Requires that regions move, here and below.

@@ -7,6 +7,7 @@
 
 #include "core/base/expect.h"
 #include "dataflow/flow_control.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "nodes/node_id.h"
 
@@ -18,12 +19,10 @@ class Places {
  public:
   /// All of `count` places are free. `sender_count`: nodes that may ask; of no use without places.
   Places(nodes::LocalMemory& memory, std::uint32_t sender_count, std::uint32_t count)
-      : asking_(memory.allocate<std::uint16_t>(nodes::Category::queues, ring_size(sender_count, count))),
-        count_(count),
-        free_(count) {}
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t sender_count, std::uint32_t count) {
-    plan[nodes::Category::queues] += nodes::LocalMemory::bytes_for<std::uint16_t>(ring_size(sender_count, count));
+      : asking_(layout(sender_count, count).in(memory)), count_(count), free_(count) {}
+  /// What the constructor takes.
+  static nodes::Room<std::uint16_t> layout(std::uint32_t sender_count, std::uint32_t count) {
+    return {nodes::Category::queues, count == 0 ? 0 : sender_count};
   }
 
   /// A node waits for a place from now on.
@@ -51,8 +50,6 @@ class Places {
   std::uint32_t asking() const { return asking_count_; }
 
  private:
-  static std::uint32_t ring_size(std::uint32_t sender_count, std::uint32_t count) { return count == 0 ? 0 : sender_count; }
-
   std::span<std::uint16_t> asking_;
   std::uint32_t count_, free_;
   std::uint32_t first_ = 0, asking_count_ = 0;

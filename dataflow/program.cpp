@@ -17,17 +17,18 @@ namespace {
 
 using nodes::Category;
 using nodes::LocalMemory;
+using Bytes = nodes::Room<std::byte>;
 
 /// Copies `value`, which has no default, into local memory.
 template <class T>
 T* keep(LocalMemory& memory, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
-  const std::span<std::byte> bytes = memory.allocate<std::byte>(core::MemoryUse::constants, sizeof(T));
+  const std::span<std::byte> bytes = Bytes{core::MemoryUse::constants, sizeof(T)}.in(memory);
   return std::construct_at(reinterpret_cast<T*>(bytes.data()), value);
 }
 
 std::span<std::byte> keep_records(LocalMemory& memory, Category category, const nodes::ByteSource& records) {
-  const std::span<std::byte> bytes = memory.allocate<std::byte>(category, records.size_bytes());
+  const std::span<std::byte> bytes = Bytes{category, records.size_bytes()}.in(memory);
   records.copy(0, bytes);
   return bytes;
 }
@@ -111,23 +112,25 @@ RayProgram<RaysTask>::RayProgram(nodes::Node& node, const Plan& plan, const Node
   core::expect(RaysTask::rays_max == plan.rays_a_task, "a node's task is that of the plan");
 }
 
-void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
+nodes::MemoryPlan NodeProgram::layout(const Plan& plan, std::uint32_t index) {
   const Share& share = plan.request.shares[index];
-  memory[core::MemoryUse::constants] +=
-      LocalMemory::bytes_for<std::byte>(sizeof(Constants)) + LocalMemory::bytes_for<std::byte>(share.outline_bytes);
+  nodes::MemoryPlan memory = Bytes{core::MemoryUse::constants, sizeof(Constants)} +
+                             Bytes{core::MemoryUse::constants, share.outline_bytes} +
+                             Primaries::layout(plan.is_moving() ? 0 : share.primary_runs, plan.request.is_dealt()) +
+                             RayQueue::layout(backlog_capacity(plan)) + Places::layout(plan.node_count(), plan.ray_places) +
+                             Gather::layout(gather_capacity(plan)) + FilmGather::layout();
   if (plan.is_moving()) {
-    UnitPages::add_needs(memory, plan.pages_of_node(index));
-    UnitPrimaries::add_needs(memory, plan.primaries_of_node(index));
-    Movement::add_needs(memory, plan);
+    memory += UnitPages::layout(plan.pages_of_node(index)) + UnitPrimaries::layout(plan.primaries_of_node(index)) +
+              Movement::layout(plan);
   } else {
-    memory[core::MemoryUse::home_pages] += LocalMemory::bytes_for<std::byte>(share.part_bytes + core::overread_bytes);
+    memory += Bytes{core::MemoryUse::home_pages, share.part_bytes + core::overread_bytes};
   }
-  Primaries::add_needs(memory, plan.is_moving() ? 0 : share.primary_runs, plan.request.is_dealt());
-  RayQueue::add_needs(memory, backlog_capacity(plan));
-  Places::add_needs(memory, plan.node_count(), plan.ray_places);
-  (plan.rays_a_task > 1 ? BundleTask::add_needs : RayTask::add_needs)(memory, plan.request.depth_max);
-  Gather::add_needs(memory, gather_capacity(plan));
-  FilmGather::add_needs(memory);
+  if (plan.rays_a_task > 1) {
+    memory += BundleTask::layout(plan.request.depth_max);
+  } else {
+    memory += RayTask::layout(plan.request.depth_max);
+  }
+  return memory;
 }
 
 template <class RaysTask>

@@ -84,8 +84,8 @@ struct NodeDeal {
 /// What all node programs of dataflow are, whatever their rays share.
 class NodeProgram : public nodes::Program {
  public:
-  /// Adds to `memory` exactly what the program of the plan takes at node `index`.
-  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index);
+  /// What the program of the plan takes at node `index`.
+  static nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index);
   /// Call it only while the program is not running.
   virtual ProgramReport report() const = 0;
 

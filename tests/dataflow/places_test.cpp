@@ -12,13 +12,7 @@ namespace {
 
 /// An owner's account in a memory of its own that fits exactly.
 struct Owner {
-  Owner(std::uint32_t senders, std::uint32_t count) : memory(plan_for(senders, count)), places(memory, senders, count) {}
-
-  static nodes::MemoryPlan plan_for(std::uint32_t senders, std::uint32_t count) {
-    nodes::MemoryPlan plan;
-    Places::add_needs(plan, senders, count);
-    return plan;
-  }
+  Owner(std::uint32_t senders, std::uint32_t count) : memory(Places::layout(senders, count)), places(memory, senders, count) {}
 
   nodes::LocalMemory memory;
   Places places;
