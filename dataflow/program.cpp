@@ -662,13 +662,13 @@ std::string RayProgram<RaysTask>::describe() const {
 
 template <class RaysTask>
 ProgramReport RayProgram<RaysTask>::report() const {
-  ProgramReport report{.operations = operations_,
-                       .rays = counters_,
-                       .gather = gather_.counters(),
-                       .film = film_.counters(),
-                       .movement = movement_.counters(),
-                       .backlog_high_water = backlog_.high_water(),
-                       .pairs = gather_.pairs()};
+  ProgramReport report{{.operations = operations_,
+                        .rays = counters_,
+                        .gather = gather_.counters(),
+                        .film = film_.counters(),
+                        .movement = movement_.counters(),
+                        .backlog_high_water = backlog_.high_water()},
+                       gather_.pairs()};
   report.rays.holds = backpressure_.count();
   if constexpr (RaysTask::rays_max == 1) {
     report.rays.tests_avoided = task_.tests_avoided();

@@ -20,6 +20,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/build/extract.h"
@@ -58,15 +59,20 @@ struct RayCounters {
   std::uint64_t holds = 0;          ///< times that it asked the others to hold primary rays back
 };
 
-/// All that a program counted.
-struct ProgramReport {
+/// A value.
+struct ProgramCounts {
   core::Operations operations;
   RayCounters rays;
   Gather::Counters gather;
   FilmGather::Counters film;
   MovementCounters movement;
   std::uint32_t backlog_high_water = 0;  ///< the most rays in the backlog at once
-  std::vector<PairCounters> pairs;       ///< by owner
+};
+static_assert(std::is_trivially_copyable_v<ProgramCounts>, "it travels as bytes to the host's rank");
+
+/// All that a program counted.
+struct ProgramReport : ProgramCounts {
+  std::vector<PairCounters> pairs;  ///< by owner
 };
 
 /// What a node is given before the start, read in the constructor and never again.

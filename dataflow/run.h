@@ -69,12 +69,12 @@ struct Report {
 
   /// Of what programs count, summed over the nodes.
   template <class Counts>
-  Counts sum_of(Counts ProgramReport::*counts) const {
+  Counts summed(Counts ProgramReport::*counts) const {
     return core::total_of(nodes, [counts](const NodeReport& node) { return node.program.*counts; });
   }
-  core::Operations operations() const { return sum_of(&ProgramReport::operations); }
-  RayCounters rays() const { return sum_of(&ProgramReport::rays); }
-  MovementCounters movement() const { return sum_of(&ProgramReport::movement); }
+  core::Operations operations() const { return summed(&ProgramReport::operations); }
+  RayCounters rays() const { return summed(&ProgramReport::rays); }
+  MovementCounters movement() const { return summed(&ProgramReport::movement); }
   Gather::Counters gathers() const;
   /// The work that each node has done, in picoseconds by measured_prices: to be held against `predicted`.
   std::vector<double> work() const;
@@ -136,7 +136,7 @@ struct GatheredReports {
   std::vector<NodeReport> nodes;  ///< as far as their programs know
   bool are_credits_back = true;   ///< to where they started
 };
-/// After a run, on all ranks alike: what its nodes report, on that of the host; on others nothing.
+/// After a run, on all ranks alike: what its nodes report, on that of the host; on others what those there do.
 GatheredReports gather_reports(nodes::Runner& runner, const Plan& plan);
 
 }  // namespace dmpc::dataflow
