@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/counts.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/film.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/pixel_task.h"

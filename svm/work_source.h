@@ -9,8 +9,8 @@
 #include "core/picture/partial_picture.h"
 #include "nodes/layout.h"
 #include "nodes/node.h"
-#include "svm/node_program.h"
 #include "svm/packets.h"
+#include "svm/pages/node_program.h"
 #include "svm/work_items.h"
 
 namespace dmpc::svm {

@@ -8,8 +8,8 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/picture/memory_use.h"
-#include "dataflow/bundle_task.h"
 #include "dataflow/packets.h"
+#include "dataflow/rays/bundle_task.h"
 #include "nodes/size_text.h"
 
 using namespace dmpc;

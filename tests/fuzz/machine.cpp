@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/line/command_line.h"
-#include "apps/line/option_values.h"
-#include "apps/machine/machine_file.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/machine/machine_file.h"
 #include "apps/run/render_options.h"
 #include "core/base/expect.h"
 

@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <iostream>
 
-#include "apps/bench/stability/children.h"
-#include "apps/bench/stability/hearing.h"
-#include "apps/bench/stability/own_kernels.h"
-#include "apps/bench/stability/rays.h"
-#include "apps/oracle/referee.h"
+#include "apps/lab/bench/stability/children.h"
+#include "apps/lab/bench/stability/hearing.h"
+#include "apps/lab/bench/stability/own_kernels.h"
+#include "apps/lab/bench/stability/rays.h"
+#include "apps/lab/oracle/referee.h"
 #include "core/base/expect.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/fuzz/mesh_rays.h"
 #include "tests/fuzz/mesh_scene.h"

@@ -7,11 +7,11 @@
 #include <string>
 #include <string_view>
 
+#include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/mtl_text.h"
 #include "apps/foreign/mesh/obj_check.h"
 #include "apps/foreign/mesh/ply_check.h"
 #include "apps/foreign/mesh/stl_check.h"
-#include "apps/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 using namespace dmpc;

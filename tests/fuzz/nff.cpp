@@ -12,7 +12,7 @@
 #include "apps/formats/nff_reader.h"
 #include "apps/formats/nff_writer.h"
 #include "core/base/expect.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/render.h"
 #include "core/scene/scene.h"
 #include "tests/support/same_scene.h"

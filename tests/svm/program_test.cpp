@@ -4,9 +4,9 @@
 
 #include "core/picture/memory_use.h"
 #include "svm/local_copy.h"
-#include "svm/pager.h"
+#include "svm/pages/pager.h"
+#include "svm/pages/watch/counting_pager.h"
 #include "svm/run.h"
-#include "svm/watch/counting_pager.h"
 #include "tests/support/small_machine.h"
 
 using namespace dmpc;

@@ -7,8 +7,8 @@
 #include <stop_token>
 
 #include "core/picture/heat_kind.h"
-#include "svm/watch/miss_curve.h"
-#include "svm/watch/optimum.h"
+#include "svm/pages/watch/miss_curve.h"
+#include "svm/pages/watch/optimum.h"
 #include "tests/support/built_scene.h"
 #include "tests/support/references.h"
 

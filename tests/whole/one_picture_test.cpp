@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "apps/bench/stability/cells.h"
+#include "apps/lab/bench/stability/cells.h"
 #include "core/base/units.h"
 #include "dataflow/run.h"
 #include "svm/run.h"

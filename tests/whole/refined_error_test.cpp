@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/base/sampling.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "core/scene/scene.h"
 #include "svm/run.h"

@@ -8,7 +8,7 @@
 
 #include "nodes/watch/activity_profile.h"
 #include "nodes/watch/observer_group.h"
-#include "svm/watch/fetch_watch.h"
+#include "svm/pages/watch/fetch_watch.h"
 #include "tests/support/priced_machine.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"

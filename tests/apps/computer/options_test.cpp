@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "apps/machine/machines.h"
+#include "apps/edge/machine/machines.h"
 #include "core/trace/charge.h"
 
 namespace dmpc::apps {

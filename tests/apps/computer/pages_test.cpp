@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/show/references/reference_file.h"
-#include "svm/watch/miss_curve.h"
+#include "apps/edge/show/references/reference_file.h"
+#include "svm/pages/watch/miss_curve.h"
 #include "tests/apps/computer/adder.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/computer/dmpc/computer.h"
-#include "apps/ranks/parts.h"
+#include "apps/edge/ranks/parts.h"
 #include "tests/support/loopback_ranks.h"
 
 namespace dmpc::tests {

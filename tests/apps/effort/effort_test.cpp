@@ -6,7 +6,7 @@
 
 #include "apps/effort/pilot.h"
 #include "apps/effort/render_effort.h"
-#include "apps/study/effort.h"
+#include "apps/lab/study/effort.h"
 #include "tests/support/small_subject.h"
 
 namespace dmpc::apps {

@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
-#include "apps/commands.h"
+#include "apps/edge/machine/machines.h"
 #include "apps/help/choices.h"
-#include "apps/machine/machines.h"
+#include "apps/main/commands.h"
 #include "apps/scene/load_scene.h"
 #include "tests/support/text.h"
 

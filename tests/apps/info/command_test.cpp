@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
 #include "apps/info/json.h"
 #include "apps/info/record.h"
 #include "apps/info/text.h"
+#include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"
 #include "tests/support/painted_square.h"

@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/manual/leaves.h"
 #include "tests/apps/manual/painter.h"
 #include "tests/support/shell.h"

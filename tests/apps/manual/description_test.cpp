@@ -1,10 +1,10 @@
-#include "apps/line/command_description.h"
+#include "apps/edge/line/command_description.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "tests/apps/manual/painter.h"
 
 namespace dmpc::apps {

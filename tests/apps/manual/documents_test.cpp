@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/manual/leaves.h"
 #include "core/base/expect.h"
 #include "tests/support/documents.h"

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/manual/leaves.h"
 #include "apps/manual/roff.h"
 #include "tests/apps/manual/painter.h"

@@ -1,4 +1,4 @@
-#include "apps/picture/color_map.h"
+#include "apps/edge/picture/color_map.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

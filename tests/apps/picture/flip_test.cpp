@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/base/expect.h"
 #include "tests/support/gray.h"
 

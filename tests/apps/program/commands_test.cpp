@@ -1,8 +1,8 @@
-#include "apps/commands.h"
-#include "apps/check/command.h"
-#include "apps/compare/command.h"
-#include "apps/line/command_line.h"
-#include "apps/machine/machine_command.h"
+#include "apps/main/commands.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/machine/machine_command.h"
+#include "apps/lab/check/command.h"
+#include "apps/lab/compare/command.h"
 #include "apps/scene/scene_command.h"
 
 #include <doctest/doctest.h>

@@ -16,11 +16,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/stability/state.h"
+#include "apps/edge/machine/machine_file.h"
+#include "apps/edge/machine/machines.h"
 #include "apps/formats/nff_reader.h"
-#include "apps/machine/machine_file.h"
-#include "apps/machine/machines.h"
-#include "apps/oracle/accurate/reference_file.h"
+#include "apps/lab/bench/stability/state.h"
+#include "apps/lab/oracle/accurate/reference_file.h"
 #include "apps/render/checkpoint_file.h"
 #include "apps/render/command.h"
 #include "core/base/expect.h"

@@ -17,13 +17,13 @@
 #include <sstream>
 #include <string>
 
+#include "apps/edge/system/text_input.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/nff_reader.h"
 #include "apps/picture/image_file.h"
 #include "apps/picture/picture_reader.h"
 #include "apps/reader/file_access.h"
 #include "apps/reader/process.h"
-#include "apps/system/text_input.h"
 #include "core/base/expect.h"
 #include "tests/support/forked_process.h"
 #include "tests/support/hostile_files.h"

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/system/digest.h"
 #include "apps/render/checkpoint_file.h"
-#include "apps/system/digest.h"
 #include "core/base/expect.h"
 #include "core/picture/shade.h"
 #include "tests/support/environment.h"

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "apps/run/work.h"
+#include "apps/edge/run/work.h"
 #include "tests/apps/show/watched.h"
 
 namespace dmpc::apps {

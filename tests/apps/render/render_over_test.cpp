@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
-#include "apps/line/exit_status.h"
-#include "apps/line/words.h"
+#include "apps/edge/line/exit_status.h"
+#include "apps/edge/line/words.h"
+#include "apps/main/commands.h"
 #include "apps/render/command.h"
 #include "apps/render/ranks.h"
 #include "core/base/expect.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "tests/support/text.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
-#include "apps/line/command_line.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "tests/support/text.h"

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 
 using namespace dmpc::core;
 

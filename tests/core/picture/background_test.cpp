@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/stability/cells.h"
+#include "apps/lab/bench/stability/cells.h"
 #include "core/base/sampling.h"
 #include "core/trace/traversal.h"
 #include "tests/support/scaled.h"

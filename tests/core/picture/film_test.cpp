@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/base/expect.h"
 
 using namespace dmpc::apps;

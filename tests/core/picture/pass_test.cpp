@@ -4,8 +4,8 @@
 #include <cstring>
 #include <optional>
 
-#include "apps/bench/stability/random.h"
-#include "core/build/database.h"
+#include "apps/lab/bench/stability/random.h"
+#include "core/database/database.h"
 #include "core/trace/traversal.h"
 #include "tests/support/small_scenes.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "apps/bench/stability/mesh.h"
+#include "apps/lab/bench/stability/mesh.h"
 #include "core/base/expect.h"
 #include "tests/support/shooting.h"
 

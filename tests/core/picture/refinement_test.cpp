@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/render.h"
 #include "tests/support/film_error.h"
 #include "tests/support/small_scenes.h"

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "apps/bench/stability/children.h"
-#include "apps/bench/stability/mesh.h"
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/children.h"
+#include "apps/lab/bench/stability/mesh.h"
+#include "apps/lab/bench/stability/random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "apps/bench/stability/children.h"
-#include "apps/bench/stability/random.h"
-#include "apps/bench/stability/rays.h"
+#include "apps/lab/bench/stability/children.h"
+#include "apps/lab/bench/stability/random.h"
+#include "apps/lab/bench/stability/rays.h"
 #include "core/scene/frame.h"
 #include "tests/support/scaled.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/render.h"
 #include "core/record/records.h"
 #include "tests/support/checked_floor.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 
 using namespace dmpc::core;
 using dmpc::apps::Random;

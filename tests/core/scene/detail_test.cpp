@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/scene/frame.h"
 #include "tests/support/small_scenes.h"
 

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <string>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/families/scenes.h"
 #include "core/scene/ear_clipper.h"
 #include "core/scene/flat_polygon.h"

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "apps/bench/stability/crowd.h"
-#include "apps/bench/stability/random.h"
-#include "apps/bench/stability/records.h"
+#include "apps/lab/bench/stability/crowd.h"
+#include "apps/lab/bench/stability/random.h"
+#include "apps/lab/bench/stability/records.h"
 #include "core/families/scenes.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "apps/bench/stability/axes.h"
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/axes.h"
+#include "apps/lab/bench/stability/random.h"
 #include "tests/support/referee.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/camera.h"
 #include "tests/support/small_scenes.h"
 

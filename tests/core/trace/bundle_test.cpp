@@ -9,9 +9,9 @@
 #include <memory>
 #include <vector>
 
-#include "apps/bench/stability/random.h"
-#include "apps/bench/stability/records.h"
-#include "core/build/extract.h"
+#include "apps/lab/bench/stability/random.h"
+#include "apps/lab/bench/stability/records.h"
+#include "core/database/extract.h"
 #include "core/trace/bundle_walk.h"
 #include "tests/support/covering_faces.h"
 #include "tests/support/scaled.h"

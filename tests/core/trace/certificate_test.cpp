@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "apps/bench/stability/rays.h"
+#include "apps/lab/bench/stability/rays.h"
 #include "core/trace/primitive.h"
 
 using namespace dmpc::core;

@@ -4,8 +4,8 @@
 #include <array>
 #include <limits>
 
-#include "apps/bench/stability/mesh.h"
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/mesh.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/picture/render.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"

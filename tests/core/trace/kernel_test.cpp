@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/record/records.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"

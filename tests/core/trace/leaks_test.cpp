@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/bench/stability/mesh.h"
-#include "apps/bench/stability/random.h"
-#include "apps/bench/stability/rays.h"
-#include "apps/bench/stability/targets.h"
+#include "apps/lab/bench/stability/mesh.h"
+#include "apps/lab/bench/stability/random.h"
+#include "apps/lab/bench/stability/rays.h"
+#include "apps/lab/bench/stability/targets.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/record/curved_values.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"

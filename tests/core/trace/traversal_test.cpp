@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "apps/bench/stability/mesh.h"
-#include "core/build/extract.h"
+#include "apps/lab/bench/stability/mesh.h"
+#include "core/database/extract.h"
 #include "tests/support/border_scene.h"
 #include "tests/support/shooting.h"
 

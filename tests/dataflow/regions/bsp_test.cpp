@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 
 namespace dmpc::tests {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/trace/traversal.h"
-#include "dataflow/next_stop.h"
+#include "dataflow/rays/next_stop.h"
 #include "tests/support/surroundings.h"
 
 using namespace dmpc;

@@ -8,11 +8,11 @@
 #include "core/families/scenes.h"
 #include "core/picture/bundle_task.h"
 #include "nodes/threads/threads_runner.h"
-#include "svm/forest.h"
+#include "svm/forest/forest.h"
 #include "svm/local_copy.h"
-#include "svm/pager.h"
+#include "svm/pages/pager.h"
+#include "svm/pages/watch/counting_pager.h"
 #include "svm/run.h"
-#include "svm/watch/counting_pager.h"
 #include "tests/support/allocation_guard.h"
 
 namespace dmpc::tests {

@@ -1,5 +1,5 @@
 #include "apps/show/stats/stats.h"
-#include "apps/line/number_text.h"
+#include "apps/edge/line/number_text.h"
 
 #include <doctest/doctest.h>
 

@@ -1,12 +1,12 @@
 #include "apps/show/stats/virtual.h"
-#include "apps/line/number_text.h"
+#include "apps/edge/line/number_text.h"
 
 #include <doctest/doctest.h>
 
 #include <string>
 #include <vector>
 
-#include "apps/machine/machine_file.h"
+#include "apps/edge/machine/machine_file.h"
 #include "tests/apps/show/rendered.h"
 
 namespace dmpc::apps {
