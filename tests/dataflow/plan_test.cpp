@@ -12,6 +12,8 @@
 #include "dataflow/rays/bundle_task.h"
 #include "nodes/size_text.h"
 
+namespace dataflow_plan_test {
+
 using namespace dmpc;
 using core::operator""_KiB;
 using core::operator""_MiB;
@@ -321,3 +323,5 @@ TEST_CASE("each node is given its own share and no more") {
   CHECK(large[core::MemoryUse::home_pages] - small[core::MemoryUse::home_pages] == 62976);  // whole cache lines
   CHECK(large[nodes::Category::mailbox] == small[nodes::Category::mailbox]);
 }
+
+}  // namespace dataflow_plan_test

@@ -14,6 +14,8 @@
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
+namespace dataflow_run_test {
+
 using namespace dmpc;
 using dataflow::Kind;
 using dataflow::NodeReport;
@@ -266,3 +268,5 @@ TEST_CASE("rays walk in bundles on threads, unless single ones are watched or th
   CHECK(rays_a_task({.computer = {.node_count = 2, .machine = nodes::Machine{}}}) == 1);
   CHECK(rays_a_task({.computer = {.node_count = 2}, .watching = {.heat = &heat}}) == 1);
 }
+
+}  // namespace dataflow_run_test

@@ -4,7 +4,7 @@
 
 #include "core/base/counts.h"
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::counters_test {
 
 TEST_CASE("traffic is packets, and bytes with their headers, summed kind by kind") {
   TrafficByKind sum{}, more{};
@@ -20,4 +20,4 @@ TEST_CASE("traffic is packets, and bytes with their headers, summed kind by kind
   CHECK(total(sum).bytes == 3 * sizeof(PacketHeader) + 108);
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::counters_test

@@ -7,7 +7,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::layout_test {
 namespace {
 
 /// Of a program.
@@ -54,4 +54,4 @@ TEST_CASE("no room takes nothing, and a second one is not in the plan") {
   CHECK_THROWS_AS(room.in(memory), core::InternalError);
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::layout_test

@@ -16,7 +16,7 @@
 
 #include "tests/style/sources.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::layers_test {
 
 namespace {
 
@@ -394,4 +394,4 @@ TEST_CASE("what is allowed is not found") {
   CHECK(violations_in("core/picture/film.cpp", "// #include of nothing\n#include <sys/stat.h>").empty());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::layers_test

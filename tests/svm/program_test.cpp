@@ -9,6 +9,8 @@
 #include "svm/run.h"
 #include "tests/support/small_machine.h"
 
+namespace svm_program_test {
+
 using namespace dmpc;
 using namespace dmpc::tests;
 
@@ -199,3 +201,5 @@ TEST_CASE("progress ends with every pixel") {
   CHECK(grew);
   CHECK(last == side * side);
 }
+
+}  // namespace svm_program_test

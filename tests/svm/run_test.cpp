@@ -12,6 +12,8 @@
 #include "tests/support/built_scene.h"
 #include "tests/support/references.h"
 
+namespace svm_run_test {
+
 using namespace dmpc;
 using tests::BuiltScene;
 
@@ -397,3 +399,5 @@ TEST_CASE("heat maps, references, distinct pages and modelled machines have rays
   nodes::HeatMap heat(256, kinds);
   CHECK(bundles({.computer = {.node_count = 2}, .watching = {.heat = &heat}}) == 1);
 }
+
+}  // namespace svm_run_test

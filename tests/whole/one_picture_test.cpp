@@ -21,6 +21,8 @@
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
+namespace one_picture_test {
+
 namespace {
 
 using namespace dmpc;
@@ -256,3 +258,5 @@ TEST_CASE("films keep their bits from build to build, compiler to compiler and m
     CHECK(Subject(tests::built_in(known.name), {32, 32}).outcome().film_hash == known.hash);
   }
 }
+
+}  // namespace one_picture_test

@@ -14,7 +14,7 @@
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::watch_test {
 namespace {
 
 constexpr std::uint32_t watchers_nodes = 3;
@@ -68,4 +68,4 @@ TEST_CASE("onlookers see every fetch, by threads, in virtual time and under chao
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::watch_test

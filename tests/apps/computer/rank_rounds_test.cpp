@@ -13,7 +13,7 @@
 #include "apps/edge/ranks/parts.h"
 #include "tests/support/loopback_ranks.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::rank_rounds_test {
 
 namespace {
 
@@ -145,4 +145,4 @@ TEST_CASE("one rank alone agrees with itself") {
   CHECK(results[0].failure_text() == "");
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::rank_rounds_test

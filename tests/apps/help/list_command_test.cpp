@@ -12,7 +12,7 @@
 #include "apps/scene/load_scene.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::list_command_test {
 
 namespace {
 
@@ -73,4 +73,4 @@ TEST_CASE("a list as JSON has a row a word") {
   CHECK(tests::contains(json["rows"][0]["meaning"].get<std::string>(), "Intel iPSC/2"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::list_command_test

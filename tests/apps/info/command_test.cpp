@@ -17,7 +17,7 @@
 #include "tests/support/painted_square.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::info_command_test {
 
 using tests::contains;
 using Json = nlohmann::ordered_json;
@@ -191,4 +191,4 @@ TEST_CASE("what 256 nodes would take of a texture is told without taking it") {
 }
 #endif
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::info_command_test

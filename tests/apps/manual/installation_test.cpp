@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::installation_test {
 
 namespace {
 
@@ -162,4 +162,4 @@ TEST_CASE("the Debian packages say what they need, MPI and a compiler for one of
   CHECK(files_below(folder / "mpi") == std::vector<fs::path>{module});
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::installation_test

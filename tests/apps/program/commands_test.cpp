@@ -15,7 +15,7 @@
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::commands_test {
 
 using namespace core;
 
@@ -127,4 +127,4 @@ TEST_CASE("a wrong line is told of options that only other commands have") {
   CHECK(contains(command_complaint({"render", "study", "-o", "a.png", "--page=4"}), "--page is no option of dmpc render"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::commands_test

@@ -30,7 +30,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::storage_test {
 
 namespace {
 
@@ -309,4 +309,4 @@ TEST_CASE("storage: a disk that fails to read is told from a file that is damage
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::storage_test

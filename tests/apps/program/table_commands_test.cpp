@@ -21,7 +21,7 @@
 #include "tests/support/text.h"
 #include "tests/support/unwritable.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::table_commands_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -170,4 +170,4 @@ TEST_CASE("no command's output replaces a file that its scene is read from") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::table_commands_test

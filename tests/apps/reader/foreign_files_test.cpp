@@ -28,7 +28,7 @@
 #include "tests/support/forked_process.h"
 #include "tests/support/hostile_files.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::foreign_files_test {
 
 namespace {
 
@@ -363,4 +363,4 @@ TEST_CASE("a scene may come through a pipe, however slowly") {
   CHECK(apps::read_nff_file(pipe).view.width == 8);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::foreign_files_test

@@ -22,7 +22,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::checkpoint_forgery_test {
 
 using tests::contains;
 using tests::file_text;
@@ -179,4 +179,4 @@ TEST_CASE("a fact that a checkpoint says twice is damage") {
                        core::InputError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::checkpoint_forgery_test

@@ -20,6 +20,8 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
+namespace render_over_test {
+
 namespace {
 
 using namespace dmpc;
@@ -211,3 +213,5 @@ TEST_CASE("what ranks cannot do is refused with the line") {
 }
 
 }  // namespace
+
+}  // namespace render_over_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::tests {
+namespace dmpc::tests::self_test_test {
 
 // Literal numbers, since it is other computers and builds that have to agree with this one.
 TEST_CASE("databases and pictures of the self-test have the same bits on every computer and in every build") {
@@ -11,4 +11,4 @@ TEST_CASE("databases and pictures of the self-test have the same bits on every c
   CHECK(test.pictures == 0xc77b1f6f7407a4a1U);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::self_test_test

@@ -11,7 +11,7 @@
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::checkpoint_options_test {
 
 using tests::contains;
 using tests::render_usage_complaint;
@@ -62,4 +62,4 @@ TEST_CASE("what was done before is neither on a heat map nor in virtual time") {
   CHECK(parse({"--checkpoint=a", "--heatmap=rays:b.png"}).file == "a");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::checkpoint_options_test

@@ -13,7 +13,7 @@
 #include "tests/apps/show/rendered.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::run_strategy_test {
 
 using core::operator""_KiB;
 
@@ -188,4 +188,4 @@ TEST_CASE("a run that is stopped before it starts reports that it was interrupte
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::run_strategy_test

@@ -12,7 +12,7 @@
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::trace_options_test {
 
 using tests::contains;
 using tests::render_usage_complaint;
@@ -80,4 +80,4 @@ TEST_CASE("a trace has one of two formats, and what chooses from it needs one") 
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::trace_options_test

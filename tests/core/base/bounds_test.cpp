@@ -4,6 +4,8 @@
 
 #include "apps/lab/bench/stability/random.h"
 
+namespace bounds_test {
+
 using namespace dmpc::core;
 
 TEST_CASE("rounding brings a number no farther than to the next float") {
@@ -39,3 +41,5 @@ TEST_CASE("bounds grow, are cut off, and know their surface") {
   CHECK(part.low == std::array<float, 4>{1, 1, 1, 0});
   CHECK(part.high == std::array<float, 4>{2, 1, 1, 0});
 }
+
+}  // namespace bounds_test

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace dmpc::core {
+namespace dmpc::core::counts_test {
 namespace {
 
 struct Pair {
@@ -62,4 +62,4 @@ TEST_CASE("the total of nothing is nothing, of some the sum of a part of each") 
   CHECK(total_of(items, [](const Several& item) { return item.pair; }).right == 6);
 }
 
-}  // namespace dmpc::core
+}  // namespace dmpc::core::counts_test

@@ -4,6 +4,8 @@
 
 #include "apps/lab/bench/stability/random.h"
 
+namespace interval_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -63,3 +65,5 @@ TEST_CASE("an interval holds what doubles make of any numbers in its operands") 
 }
 
 }  // namespace
+
+}  // namespace interval_test

@@ -6,6 +6,8 @@
 
 #include "apps/lab/bench/stability/random.h"
 
+namespace address_map_test {
+
 using namespace dmpc::core;
 
 TEST_CASE("an address keeps the place that it was given, among thousands") {
@@ -25,3 +27,5 @@ TEST_CASE("an address keeps the place that it was given, among thousands") {
   }
   CHECK(map.size() == twin.size());
 }
+
+}  // namespace address_map_test

@@ -12,6 +12,8 @@
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
+namespace brick_builder_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -148,3 +150,5 @@ TEST_CASE("more primitives in one place than bricks hold have no room, and the m
                        RoomError);
   CHECK_THROWS_AS(tree_of(of_three_kinds(500, 12), 3), RoomError);
 }
+
+}  // namespace brick_builder_test

@@ -4,6 +4,8 @@
 
 #include "core/record/records.h"
 
+namespace brick_tree_test {
+
 using namespace dmpc::core;
 
 TEST_CASE("a brick comes before its blocks, and these before its bricks, each where its parent says") {
@@ -35,3 +37,5 @@ TEST_CASE("a brick comes before its blocks, and these before its bricks, each wh
   CHECK(read<std::uint32_t>(block + sizeof(BlockHeader) + 4 * 10) == 0);
   CHECK(read<ShadingReference>(block + sizeof(BlockHeader) + 4 * 12).material() == 7);
 }
+
+}  // namespace brick_tree_test

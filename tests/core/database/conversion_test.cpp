@@ -6,6 +6,8 @@
 
 #include "tests/support/small_scenes.h"
 
+namespace conversion_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -60,3 +62,5 @@ TEST_CASE("the bounds of a scene hold what is finite in it") {
   CHECK(box.low == Vec3d{0, 0, 0});
   CHECK(box.high == Vec3d{4, 2.5, 3.5});
 }
+
+}  // namespace conversion_test

@@ -15,7 +15,7 @@
 #include "tests/support/shooting.h"
 #include "tests/support/small_scenes.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::coplanar_test {
 namespace {
 
 using apps::Random;
@@ -204,4 +204,4 @@ TEST_CASE("the threads that build do not change what is shared") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::coplanar_test

@@ -8,6 +8,8 @@
 
 #include "apps/lab/bench/stability/random.h"
 
+namespace cut_tree_test {
+
 using namespace dmpc::core;
 using dmpc::apps::Random;
 
@@ -190,3 +192,5 @@ TEST_CASE("a tree is the same on any number of threads") {
   CHECK(std::equal(blocks.begin(), blocks.end(), others.begin(),
                    [](const Group& a, const Group& b) { return a.first == b.first && a.last == b.last; }));
 }
+
+}  // namespace cut_tree_test

@@ -8,6 +8,8 @@
 #include "apps/lab/bench/stability/random.h"
 #include "tests/support/ids.h"
 
+namespace cutter_test {
+
 using namespace dmpc::core;
 using dmpc::tests::are_all;
 
@@ -131,3 +133,5 @@ TEST_CASE("primitives in one place are cut all the same") {
   Cutter cutter = in_a_row(std::vector<double>(500, 0.0));
   CHECK(are_all(cut_up(cutter, cutter.group(PrimitiveKind::sphere, 0, 500), false), 500));
 }
+
+}  // namespace cutter_test

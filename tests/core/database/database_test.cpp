@@ -12,6 +12,8 @@
 #include "tests/support/shooting.h"
 #include "tests/support/small_scenes.h"
 
+namespace database_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -228,3 +230,5 @@ TEST_CASE("the progress of a build ends with all its references, and changes not
   const Database plain = build_database(scene, {});
   CHECK(std::equal(told.bytes().begin(), told.bytes().end(), plain.bytes().begin(), plain.bytes().end()));
 }
+
+}  // namespace database_test

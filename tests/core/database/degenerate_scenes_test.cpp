@@ -6,6 +6,8 @@
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
+namespace degenerate_scenes_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -149,3 +151,5 @@ TEST_CASE("a view from far away makes a database slower, not larger") {
   CHECK(far.bytes().size() < 4 * near.bytes().size());
   CHECK(differences(far, scaled(200)) == 0);
 }
+
+}  // namespace degenerate_scenes_test

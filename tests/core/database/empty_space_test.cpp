@@ -6,6 +6,8 @@
 
 #include "core/record/directory.h"
 
+namespace empty_space_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -55,3 +57,5 @@ TEST_CASE("diagonal neighbours are as near as any") {
   CHECK(radius(2, 1, 0) == 2);
   CHECK(radius(2, 2, 2) == 2);
 }
+
+}  // namespace empty_space_test

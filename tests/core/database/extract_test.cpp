@@ -12,6 +12,8 @@
 #include "tests/support/border_scene.h"
 #include "tests/support/small_scenes.h"
 
+namespace extract_test {
+
 namespace {
 
 using namespace dmpc;
@@ -233,3 +235,5 @@ TEST_CASE("a part of several regions answers in each of them as that region's ow
   CHECK(core::measure_part(database, some).record_bytes == joint.record_bytes);
   CHECK(core::measure_part(database, some).holds == joint.holds);
 }
+
+}  // namespace extract_test

@@ -7,6 +7,8 @@
 #include "core/scene/frame.h"
 #include "tests/support/small_scenes.h"
 
+namespace grid_axes_test {
+
 namespace {
 
 using namespace dmpc;
@@ -51,3 +53,5 @@ TEST_CASE("a grid along the screen's axes gives the same picture to rounding") {
   }
   CHECK(far_apart <= 3);  // of 2,304 pixels: silhouettes
 }
+
+}  // namespace grid_axes_test

@@ -10,6 +10,8 @@
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
+namespace insertion_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -130,3 +132,5 @@ TEST_CASE("nearly upright cylinders reach as far as they should") {
   }
   check_listed(scene, scaled(1000));
 }
+
+}  // namespace insertion_test

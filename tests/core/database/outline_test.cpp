@@ -10,6 +10,8 @@
 #include "core/trace/traversal.h"
 #include "tests/support/small_scenes.h"
 
+namespace outline_test {
+
 using namespace dmpc;
 
 namespace {
@@ -96,3 +98,5 @@ TEST_CASE("no ray hits anything before the first block of any outline, and what 
   CHECK(misses_known > misses_known_coarsely);
   CHECK(misses_known_coarsely > 100);
 }
+
+}  // namespace outline_test

@@ -7,6 +7,8 @@
 #include "apps/lab/bench/stability/random.h"
 #include "tests/support/scaled.h"
 
+namespace overlap_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -112,3 +114,5 @@ TEST_CASE("bounds are as tight as the primitive") {
   CHECK(upright.low == Vec3d{-1, -1, 0});
   CHECK(upright.high == Vec3d{1, 1, 2});
 }
+
+}  // namespace overlap_test

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+namespace parallel_test {
+
 using namespace dmpc::core;
 
 TEST_CASE("every part is done once, whatever the number of threads") {
@@ -55,3 +57,5 @@ TEST_CASE("what a part throws arrives") {
     CHECK_THROWS_AS(parallel.for_each(10, part), std::runtime_error);
   }
 }
+
+}  // namespace parallel_test

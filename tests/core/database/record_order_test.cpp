@@ -12,6 +12,8 @@
 #include "core/families/scenes.h"
 #include "tests/support/subject.h"
 
+namespace record_order_test {
+
 namespace {
 
 using namespace dmpc;
@@ -79,3 +81,5 @@ TEST_CASE("scattered records are the same bytes whenever they are built") {
   const core::Scene scene = core::built_in_scene(core::parse_scene_name("tetra-4"));
   CHECK(std::ranges::equal(core::build_database(scene, scattered()).bytes(), core::build_database(scene, scattered()).bytes()));
 }
+
+}  // namespace record_order_test

@@ -4,6 +4,8 @@
 
 #include "apps/lab/bench/stability/random.h"
 
+namespace record_writer_test {
+
 using namespace dmpc::apps;
 using namespace dmpc::core;
 using dmpc::apps::Random;
@@ -74,3 +76,5 @@ TEST_CASE("more than 16 GiB are refused as bad input") {
   RecordWriter writer(65536);
   CHECK_THROWS_AS(writer.allocate_array<LightRecord>(std::size_t{1} << 30U), InputError);
 }
+
+}  // namespace record_writer_test

@@ -13,6 +13,8 @@
 #include "core/record/records.h"
 #include "tests/support/small_scenes.h"
 
+namespace structure_test {
+
 namespace {
 
 using namespace dmpc;
@@ -148,3 +150,5 @@ TEST_CASE("a scene without objects, and one tree whose records are scattered, ha
       core::build_database(scene, {.record_order = core::RecordOrder::scattered, .structure = Structure::extents});
   CHECK(scattered.forest_page_count() == 0);
 }
+
+}  // namespace structure_test

@@ -14,7 +14,7 @@
 #include "tests/support/noise_texture.h"
 #include "tests/support/shown_texture.h"
 
-namespace dmpc::core {
+namespace dmpc::core::texture_records_test {
 
 namespace {
 
@@ -99,4 +99,4 @@ TEST_CASE("a texture that is too large for its records is refused, with its name
   CHECK(reference_to(texture, writer).width == 65535);
 }
 
-}  // namespace dmpc::core
+}  // namespace dmpc::core::texture_records_test

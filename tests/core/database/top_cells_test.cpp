@@ -6,6 +6,8 @@
 
 #include "core/base/morton.h"
 
+namespace top_cells_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -70,3 +72,5 @@ TEST_CASE("lists that would be long are not made") {
   single.resolution = {1, 1, 1};
   CHECK(TopCells::list(everywhere, single, 0.01, Parallel(1)).has_value());
 }
+
+}  // namespace top_cells_test

@@ -12,6 +12,8 @@
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
 
+namespace picture_background_test {
+
 using namespace dmpc::core;
 using namespace dmpc::tests;
 
@@ -185,3 +187,5 @@ TEST_CASE("no tile is empty by default or where a camera's angle leaves it open"
   scene.view.angle_degrees = 179.9999;
   CHECK(Looked(scene, 32, 32).tiles().count() == 0);
 }
+
+}  // namespace picture_background_test

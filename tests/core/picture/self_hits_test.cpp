@@ -10,6 +10,8 @@
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
+namespace self_hits_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -192,3 +194,5 @@ TEST_CASE("two sheets a ten-thousandth apart stay separate") {
   CHECK(blocked_above == 0);
   CHECK(between == 2 * scaled(20'000));
 }
+
+}  // namespace self_hits_test

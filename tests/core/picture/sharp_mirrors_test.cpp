@@ -11,6 +11,8 @@
 #include "core/scene/frame.h"
 #include "tests/support/scaled.h"
 
+namespace sharp_mirrors_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -75,3 +77,5 @@ TEST_CASE("no ray gets out of a tetrahedron of mirrors, however near to its edge
     CHECK(bounces.escapes == 0);
   }
 }
+
+}  // namespace sharp_mirrors_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace dmpc::core {
+namespace dmpc::core::texture_footprint_test {
 
 namespace {
 
@@ -122,4 +122,4 @@ TEST_CASE("no cone and no ellipse are a point") {
   }
 }
 
-}  // namespace dmpc::core
+}  // namespace dmpc::core::texture_footprint_test

@@ -6,6 +6,8 @@
 
 #include "apps/lab/bench/stability/random.h"
 
+namespace frame_test {
+
 using namespace dmpc::apps;
 using namespace dmpc::core;
 using dmpc::apps::Random;
@@ -114,3 +116,5 @@ TEST_CASE("the insertion pad grows with the distance of the rays and never vanis
   CHECK(insertion_pad(frame, 1000) >= 1000 * 0x1p-21 * 0.5);
   CHECK(insertion_pad(frame, 1000) > insertion_pad(frame, 100));
 }
+
+}  // namespace frame_test

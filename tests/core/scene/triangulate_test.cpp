@@ -14,6 +14,8 @@
 #include "core/scene/ear_clipper.h"
 #include "core/scene/flat_polygon.h"
 
+namespace triangulate_test {
+
 using namespace dmpc::apps;
 using namespace dmpc::core;
 using dmpc::apps::Random;
@@ -312,3 +314,5 @@ TEST_CASE("polygons that cross themselves come to an end") {
     CHECK(triangulate(vertices).size() <= 18);
   }
 }
+
+}  // namespace triangulate_test

@@ -10,6 +10,8 @@
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
+namespace agreement_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -140,3 +142,5 @@ TEST_CASE("pages of every size hold the same hits") {
     CHECK(differences == 0);
   }
 }
+
+}  // namespace agreement_test

@@ -7,6 +7,8 @@
 #include "core/picture/camera.h"
 #include "tests/support/small_scenes.h"
 
+namespace below_test {
+
 namespace {
 
 using namespace dmpc;
@@ -104,3 +106,5 @@ TEST_CASE("rays whose walks below the forest others do meet what they would alon
     CHECK(shared.skipped.any_hit == alone.skipped.any_hit);
   }
 }
+
+}  // namespace below_test

@@ -18,6 +18,8 @@
 #include "tests/support/shooting.h"
 #include "tests/support/small_scenes.h"
 
+namespace bundle_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -403,3 +405,5 @@ TEST_CASE("a hit that is nearer than a candidate read elsewhere takes its place,
   });
   CHECK(hits > 5);
 }
+
+}  // namespace bundle_test

@@ -10,6 +10,8 @@
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
+namespace hostile_numbers_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -133,3 +135,5 @@ TEST_CASE("scenes of any numbers are built and rendered to the end") {
     render_small(database, scene.view);
   }
 }
+
+}  // namespace hostile_numbers_test

@@ -14,6 +14,8 @@
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
+namespace kernel_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -304,3 +306,5 @@ TEST_CASE("the kernel has a name") {
   const std::string name = simd_name();
   CHECK((name == "AVX3" || name == "AVX2" || name == "scalar"));
 }
+
+}  // namespace kernel_test

@@ -11,6 +11,8 @@
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
+namespace leaks_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -142,3 +144,5 @@ TEST_CASE("rays along the axes with zeros of both signs leave no closed mesh") {
   }
   CHECK(leaked == 0);
 }
+
+}  // namespace leaks_test

@@ -9,6 +9,8 @@
 #include "tests/support/border_scene.h"
 #include "tests/support/shooting.h"
 
+namespace traversal_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -192,3 +194,5 @@ TEST_CASE("a ray through the edge where four regions meet crosses the planes in 
     }
   }
 }
+
+}  // namespace traversal_test

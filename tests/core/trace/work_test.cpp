@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::tests {
+namespace dmpc::tests::trace_work_test {
 
 TEST_CASE("no operation is no work") { CHECK(core::work_of({}) == 0); }
 
@@ -37,4 +37,4 @@ TEST_CASE("every kind of work has a price") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::trace_work_test

@@ -8,6 +8,8 @@
 
 #include "tests/dataflow/part_bench.h"
 
+namespace rays_bundle_task_test {
+
 using namespace dmpc;
 using dataflow::BundleTask;
 using dataflow::RayMessage;
@@ -211,3 +213,5 @@ TEST_CASE("a bundle's task refuses a seventeenth ray, another finder's hit, and 
   CHECK_THROWS_AS(bench.task.enter(foreign), core::InternalError);
   CHECK_THROWS_AS(bench.task.resume_hit(foreign), core::InternalError);
 }
+
+}  // namespace rays_bundle_task_test

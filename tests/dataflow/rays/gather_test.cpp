@@ -8,6 +8,8 @@
 #include "nodes/threads/threads_runner.h"
 #include "tests/support/shuffled_machine.h"
 
+namespace gather_test {
+
 using namespace dmpc;
 using dataflow::Gather;
 using dataflow::Kind;
@@ -241,3 +243,5 @@ TEST_CASE("no ray leaves for its own node or for the host") {
   CHECK_THROWS_AS(sender.add(1, 1), core::InternalError);
   CHECK_THROWS_AS(sender.add(3, 1), core::InternalError);
 }
+
+}  // namespace gather_test

@@ -4,6 +4,8 @@
 
 #include "core/base/expect.h"
 
+namespace kept_rays_test {
+
 using namespace dmpc;
 using dataflow::KeptRays;
 
@@ -67,3 +69,5 @@ TEST_CASE("the host keeps as many rays as come") {
     CHECK(kept.take((i - 1) % 2).ray.pixel == i - 1);
   }
 }
+
+}  // namespace kept_rays_test

@@ -13,6 +13,8 @@
 #include "tests/support/small_scenes.h"
 #include "tests/support/surroundings.h"
 
+namespace next_stop_test {
+
 using namespace dmpc;
 using core::Traced;
 using dataflow::next_stop;
@@ -208,3 +210,5 @@ TEST_CASE("a candidate that lies in an empty region is proved there") {
   }
   CHECK(proved > 0);
 }
+
+}  // namespace next_stop_test

@@ -9,6 +9,8 @@
 #include "dataflow/regions/balance.h"
 #include "tests/support/small_scenes.h"
 
+namespace primaries_test {
+
 using namespace dmpc;
 using dataflow::Primaries;
 using dataflow::PrimaryRun;
@@ -111,3 +113,5 @@ TEST_CASE("rays of pixels that show the background are shared out by pixel numbe
   settings.skips.background = false;
   CHECK(dataflow::deal_primaries(settings, bsp, settings.first_pass(), done)[0].size() > 1);
 }
+
+}  // namespace primaries_test

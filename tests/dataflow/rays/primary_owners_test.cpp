@@ -15,6 +15,8 @@
 #include "tests/support/small_scenes.h"
 #include "tests/support/surroundings.h"
 
+namespace primary_owners_test {
+
 using namespace dmpc;
 using dataflow::Bsp;
 
@@ -155,3 +157,5 @@ TEST_CASE("where no region holds anything the sky is everybody's") {
   }
   CHECK(owners == std::vector<int>{0, 0, 0, 1, 1, 2, 2, 2, 3, 3});
 }
+
+}  // namespace primary_owners_test

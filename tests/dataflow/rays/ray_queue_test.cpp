@@ -8,6 +8,8 @@
 
 #include "core/base/expect.h"
 
+namespace ray_queue_test {
+
 using namespace dmpc;
 using dataflow::RayMessage;
 using dataflow::RayQueue;
@@ -151,3 +153,5 @@ TEST_CASE("with kinds apart the deepest comes first, then all that are as deep a
   }
   CHECK(backlog.queue.empty());
 }
+
+}  // namespace ray_queue_test

@@ -8,6 +8,8 @@
 #include "core/trace/traversal.h"
 #include "tests/dataflow/part_bench.h"
 
+namespace ray_task_test {
+
 using namespace dmpc;
 using dataflow::RayMessage;
 using dataflow::RayTask;
@@ -239,3 +241,5 @@ TEST_CASE("a ray that starts is traced where it starts in the region, and has le
   CHECK(seen[static_cast<std::size_t>(core::Traced::hit)] > 0);
   CHECK(seen[static_cast<std::size_t>(core::Traced::left)] > 0);
 }
+
+}  // namespace ray_task_test

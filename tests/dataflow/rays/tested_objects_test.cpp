@@ -4,6 +4,8 @@
 
 #include "dataflow/packets.h"
 
+namespace tested_objects_test {
+
 using namespace dmpc;
 using dataflow::TestedObjects;
 
@@ -38,3 +40,5 @@ TEST_CASE("each name on a ray's list lengthens its message by four bytes") {
   CHECK(dataflow::rays_in(dataflow::packet_bytes, 0) == 8);
   CHECK(dataflow::rays_in(dataflow::packet_bytes, 8) == 6);
 }
+
+}  // namespace tested_objects_test

@@ -6,6 +6,8 @@
 
 #include "core/base/expect.h"
 
+namespace undealt_test {
+
 using namespace dmpc;
 using core::PixelMask;
 using dataflow::DealtPrimaries;
@@ -111,3 +113,5 @@ TEST_CASE("a node without rays is dealt none, and what is held back is not relea
   CHECK_THROWS_AS(undealt.release(), core::InternalError);
   CHECK_THROWS_AS(Undealt(1, 0), core::InternalError);
 }
+
+}  // namespace undealt_test

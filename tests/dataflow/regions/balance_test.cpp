@@ -14,7 +14,7 @@
 #include "dataflow/regions/charged_picture.h"
 #include "tests/support/small_scenes.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::regions_balance_test {
 
 namespace {
 
@@ -202,4 +202,4 @@ TEST_CASE("a balance with options out of range is wrong usage") {
   CHECK_THROWS_AS(balance(stage.database, stage.settings, 0, {}), core::UsageError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::regions_balance_test

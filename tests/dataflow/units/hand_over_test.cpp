@@ -8,7 +8,7 @@
 #include "tests/dataflow/state_explorer.h"
 #include "tests/dataflow/units/hand_over_model.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::hand_over_test {
 namespace {
 
 template <class Rules = HandOverRules>
@@ -143,4 +143,4 @@ TEST_CASE("a node that believes old news answers for a unit that is another's") 
   check_found<BelievingOldNews>({.rays = {0, 1, 0}, .questions = 2}, "one node answers");
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::hand_over_test

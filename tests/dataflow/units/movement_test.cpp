@@ -13,7 +13,7 @@
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::movement_test {
 namespace {
 
 const Subject& crowded() {
@@ -156,4 +156,4 @@ TEST_CASE("a modelled machine takes its time for units' pages, and for the recor
   CHECK(movement.records_walked >= movement.pages_sent);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::movement_test

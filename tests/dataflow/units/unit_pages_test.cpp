@@ -11,7 +11,7 @@
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::unit_pages_test {
 namespace {
 
 using dataflow::UnitPages;
@@ -112,4 +112,4 @@ TEST_CASE("a node without units has no pages, and takes no memory for them") {
   CHECK(nodes::MemoryPlan(UnitPages::layout({})).total() == 0);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::unit_pages_test

@@ -7,7 +7,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::unit_primaries_test {
 namespace {
 
 using dataflow::DealtPrimaries;
@@ -124,4 +124,4 @@ TEST_CASE("runs that are nobody's, or more than there is room for, are a fault")
   CHECK_THROWS_AS(UnitPrimariesBench(3, {{0, 1}, {5, 1}, {9, 1}}, {1, 1, 1}), core::InternalError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::unit_primaries_test

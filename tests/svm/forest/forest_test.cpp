@@ -18,6 +18,8 @@
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
+namespace forest_test {
+
 using namespace dmpc;
 using tests::LoneNode;
 using tests::outcome_of;
@@ -203,3 +205,5 @@ TEST_CASE("with forest nodes that do not render answer those that do") {
     CHECK(report.nodes[node].program.questions.rays_answered > 0);
   }
 }
+
+}  // namespace forest_test

@@ -12,6 +12,8 @@
 #include "core/base/expect.h"
 #include "tests/support/small_pages.h"
 
+namespace pages_cache_test {
+
 using namespace dmpc;
 using svm::Cache;
 using svm::CacheShape;
@@ -174,3 +176,5 @@ TEST_CASE("a cache takes exactly the memory that it says it needs") {
     }
   }
 }
+
+}  // namespace pages_cache_test

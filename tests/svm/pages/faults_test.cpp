@@ -6,6 +6,8 @@
 
 #include "core/base/expect.h"
 
+namespace faults_test {
+
 using namespace dmpc;
 using svm::Faults;
 using svm::PageId;
@@ -84,3 +86,5 @@ TEST_CASE("refused requests to a home come back oldest first") {
   CHECK(small.faults.oldest_refused(1)->page == PageId{3});
   CHECK(small.faults.oldest_refused(2) == nullptr);
 }
+
+}  // namespace faults_test

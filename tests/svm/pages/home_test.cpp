@@ -5,6 +5,8 @@
 #include <random>
 #include <vector>
 
+namespace home_test {
+
 using namespace dmpc;
 using svm::Homes;
 using svm::PageId;
@@ -63,3 +65,5 @@ TEST_CASE("a machine without nodes, or with too many, is refused") {
   CHECK_THROWS_AS(Homes(0), core::InternalError);
   CHECK_THROWS_AS(Homes(65536), core::InternalError);
 }
+
+}  // namespace home_test

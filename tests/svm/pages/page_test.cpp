@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+namespace pages_page_test {
+
 using namespace dmpc;
 
 TEST_CASE("a page is a power of two from 512 B to 64 KiB") {
@@ -30,3 +32,5 @@ TEST_CASE("the last record of the address space is found") {
   CHECK(svm::index_of(geometry.page_of(core::Address{0xfffffffeU})) == 0x3ffffffU);
   CHECK(geometry.offset_of(core::Address{0xfffffffeU}) == 496);
 }
+
+}  // namespace pages_page_test

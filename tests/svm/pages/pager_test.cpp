@@ -10,6 +10,8 @@
 #include "tests/support/small_machine.h"
 #include "tests/support/small_pages.h"
 
+namespace pager_test {
+
 using namespace dmpc;
 using namespace dmpc::tests;
 using svm::Kind;
@@ -241,3 +243,5 @@ TEST_CASE("bytes behind the last home page and the last frame are readable") {
     std::memcpy(beyond.data(), bytes + page_size, beyond.size());
   }
 }
+
+}  // namespace pager_test

@@ -12,6 +12,8 @@
 #include "core/base/expect.h"
 #include "nodes/local_memory.h"
 
+namespace replacement_test {
+
 using namespace dmpc;
 using svm::Replacement;
 
@@ -190,3 +192,5 @@ TEST_CASE("a policy whose name is taken, or that cannot be made, is a broken inv
   CHECK_THROWS_AS(svm::add_policy({"none", "cannot be made", false, layout, nullptr}), core::InternalError);
   CHECK_THROWS_AS(svm::name_of(static_cast<Replacement>(200)), core::InternalError);
 }
+
+}  // namespace replacement_test

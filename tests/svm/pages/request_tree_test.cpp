@@ -6,6 +6,8 @@
 
 #include "core/base/expect.h"
 
+namespace request_tree_test {
+
 using namespace dmpc;
 using svm::RequestTree;
 
@@ -62,3 +64,5 @@ TEST_CASE("a tree without nodes or children is refused") {
   CHECK_THROWS_AS(RequestTree(0, 3), core::InternalError);
   CHECK_THROWS_AS(RequestTree(3, 0), core::InternalError);
 }
+
+}  // namespace request_tree_test

@@ -12,7 +12,7 @@
 #include "svm/pages/watch/policy_misses.h"
 #include "tests/svm/pages/page_rank.h"
 
-namespace dmpc::svm {
+namespace dmpc::svm::run_tasks_test {
 
 namespace {
 
@@ -183,4 +183,4 @@ TEST_CASE("a plan's memory is what a node takes, to the byte") {
   }
 }
 
-}  // namespace dmpc::svm
+}  // namespace dmpc::svm::run_tasks_test

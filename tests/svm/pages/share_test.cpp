@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace dmpc::svm {
+namespace dmpc::svm::share_test {
 
 namespace {
 
@@ -43,4 +43,4 @@ TEST_CASE("no small key is in every share") {
   CHECK(keys_in(share, 1'000'000).empty());
 }
 
-}  // namespace dmpc::svm
+}  // namespace dmpc::svm::share_test

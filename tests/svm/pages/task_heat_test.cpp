@@ -8,7 +8,7 @@
 #include "svm/pages/run_tasks.h"
 #include "tests/svm/pages/page_rank.h"
 
-namespace dmpc::svm {
+namespace dmpc::svm::task_heat_test {
 
 namespace {
 
@@ -81,4 +81,4 @@ TEST_CASE("heat without a place for each task is a mistake") {
                   core::InternalError);
 }
 
-}  // namespace dmpc::svm
+}  // namespace dmpc::svm::task_heat_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::glossary_test {
 
 TEST_CASE("the glossary is in order, has no word twice, and ends its sentences") {
   const auto words = glossary();
@@ -46,4 +46,4 @@ TEST_CASE("the glossary as text says every word once, on lines that fit a termin
   CHECK(tests::contains(text, "work item        A few pixels, 3x3 as a rule"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::glossary_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace dmpc::apps {
+namespace dmpc::apps::amount_test {
 
 namespace {
 
@@ -45,4 +45,4 @@ TEST_CASE("the place of a tick is in the unit that was counted in") {
   CHECK(amount_ticks(0, 0, false, "bytes").size() == 1);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::amount_test

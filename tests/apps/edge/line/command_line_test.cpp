@@ -8,7 +8,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::command_line_test {
 
 namespace {
 
@@ -121,4 +121,4 @@ TEST_CASE("help shows values, ranges and defaults") {
   CHECK(std::get<HelpText>(Line().parse({"--version"})).text == "painter 1\n");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::command_line_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::apps {
+namespace dmpc::apps::folded_text_test {
 
 TEST_CASE("a text is folded between words, and what is longer than a line stands alone") {
   CHECK(folded("one two three", 7, "  ") == "one two\n  three");
@@ -16,4 +16,4 @@ TEST_CASE("no folded line begins with what Markdown takes for a mark") {
   CHECK(folded("ends at 12. Next", 8, "  ") == "ends\n  at 12.\n  Next");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::folded_text_test

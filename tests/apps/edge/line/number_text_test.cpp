@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::apps {
+namespace dmpc::apps::number_text_test {
 
 TEST_CASE("large numbers are grouped by threes") {
   CHECK(grouped(0) == "0");
@@ -60,4 +60,4 @@ TEST_CASE("numbers are short") {
   CHECK(legend_number(1500000) == "1.5e+06");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::number_text_test

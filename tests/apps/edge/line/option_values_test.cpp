@@ -10,7 +10,7 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::option_values_test {
 
 using core::UsageError;
 using core::operator""_MiB;
@@ -73,4 +73,4 @@ TEST_CASE("numbers are whole, from 1 to the most that there may be, with commas 
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::option_values_test

@@ -6,7 +6,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::scale_test {
 
 using Numbers = std::vector<double>;
 
@@ -54,4 +54,4 @@ TEST_CASE("ticks are round numbers within the scale") {
   CHECK(small.back() == doctest::Approx(0.3));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::scale_test

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-namespace dmpc::apps {
+namespace dmpc::apps::shown_text_test {
 
 TEST_CASE("what steers a terminal is shown, and not obeyed") {
   CHECK(shown("a\x1b[31mb") == "a\\x1b[31mb");
@@ -70,4 +70,4 @@ TEST_CASE("a text of strangers becomes a part of a line of a length that one can
   CHECK(apps::clipped("\xc3\xa4\xc3\xa4", 3) == "\xc3\xa4\\xc3 ... (4 bytes)");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::shown_text_test

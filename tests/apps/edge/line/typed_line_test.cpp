@@ -13,7 +13,7 @@
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::typed_line_test {
 
 namespace {
 
@@ -193,4 +193,4 @@ TEST_CASE("help about a command is what the command says of itself, and about wo
   CHECK(tests::contains(text("help glossary"), "work item"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::typed_line_test

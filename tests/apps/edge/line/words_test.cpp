@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+namespace words_test {
+
 using dmpc::apps::words_between_commas;
 
 TEST_CASE("words stand between commas") {
@@ -17,3 +19,5 @@ TEST_CASE("an empty word in a list is refused, wherever it stands") {
   }
   CHECK_THROWS_WITH_AS(words_between_commas("one,", "--x"), doctest::Contains("--x=one,: "), dmpc::core::UsageError);
 }
+
+}  // namespace words_test

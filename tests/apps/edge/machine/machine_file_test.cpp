@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::machine_file_test {
 
 using tests::contains;
 
@@ -242,4 +242,4 @@ TEST_CASE("what is neither a machine nor a file that can be read is named with t
   CHECK_THROWS_WITH_AS(load_machine("/dev/zero"), doctest::Contains("it is a device or the like"), core::InputError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::machine_file_test

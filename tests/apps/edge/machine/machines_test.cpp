@@ -9,7 +9,7 @@
 #include "core/trace/charge.h"
 #include "core/trace/work.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::machines_test {
 
 namespace {
 
@@ -146,4 +146,4 @@ TEST_CASE("the iPSC/860 computes seven times as fast as the iPSC/2, and nothing 
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::machines_test

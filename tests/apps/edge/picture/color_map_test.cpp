@@ -8,7 +8,7 @@
 
 #include "core/base/srgb.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::picture_color_map_test {
 
 namespace {
 
@@ -57,4 +57,4 @@ TEST_CASE("positions beyond the ends are the ends, and what is no number the low
   CHECK(color_map(std::numeric_limits<double>::quiet_NaN()) == color_map(0));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::picture_color_map_test

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::indexed_png_test {
 
 namespace {
 
@@ -48,4 +48,4 @@ TEST_CASE("a pixel without a colour and a picture without pixels are mistakes") 
   CHECK_THROWS_AS(indexed_png(0, 0, Bytes{}, red_and_white), core::InternalError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::indexed_png_test

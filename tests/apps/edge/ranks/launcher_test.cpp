@@ -9,7 +9,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::launcher_test {
 
 namespace {
 
@@ -110,4 +110,4 @@ TEST_CASE("one process under a launcher, and what does nothing, are as without")
   CHECK(dmpc_with({"OMPI_COMM_WORLD_SIZE=3", "OMPI_COMM_WORLD_RANK=0"}, {"--version"}).status == 0);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::launcher_test

@@ -8,7 +8,7 @@
 #include "apps/render/self_test.h"
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::likeness_test {
 
 namespace {
 
@@ -58,4 +58,4 @@ TEST_CASE("a rank that has less to say differs") {
         std::string::npos);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::likeness_test

@@ -6,7 +6,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::processors_test {
 
 namespace {
 
@@ -54,4 +54,4 @@ TEST_CASE("where nobody says a communicating thread spins on a processor of its 
   CHECK(apps::default_idle(apps::share_of_processors(three, 0), 2) == nodes::Idle::spin);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::processors_test

@@ -4,7 +4,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::computer_room_test {
 
 namespace {
 
@@ -39,4 +39,4 @@ TEST_CASE("network memory is told with what it is for") {
   CHECK(network_text({.outbox_bytes = 1, .arrived_bytes = 2}) == "3 B of network memory: outbox 1 B, frames that have come 2 B");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::computer_room_test

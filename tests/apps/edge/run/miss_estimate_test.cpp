@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace dmpc::apps {
+namespace dmpc::apps::miss_estimate_test {
 
 namespace {
 
@@ -46,4 +46,4 @@ TEST_CASE("each node keeps its part of the references, and not too few") {
   CHECK(references_of_node(1000, 8192) == 1024);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::miss_estimate_test

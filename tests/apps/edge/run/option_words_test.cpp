@@ -6,7 +6,7 @@
 
 #include "svm/plan.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::option_words_test {
 
 TEST_CASE("what a plan says of its fields is said of the options that set them") {
   CHECK(apps::in_options("node_count=5000: from 1 to 4096 nodes") == "--nodes=5000: from 1 to 4096 nodes");
@@ -26,4 +26,4 @@ TEST_CASE("a plan that is refused is refused in the words of the command line, a
   CHECK_THROWS_WITH_AS(refused(small), doctest::Contains("--node-memory=1B is too small for --nodes=8"), core::RoomError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::option_words_test

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-namespace dmpc::apps {
+namespace dmpc::apps::time_parts_test {
 
 namespace {
 
@@ -75,4 +75,4 @@ TEST_CASE("the figures of a line add up although they are rounded") {
   CHECK(parts_text(thirds, waits) == "computing 33.3 %, stolen 33.4 %, lent 33.3 %");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::time_parts_test

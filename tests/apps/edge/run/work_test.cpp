@@ -6,7 +6,7 @@
 
 #include "core/trace/charge.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::run_work_test {
 
 namespace {
 
@@ -51,4 +51,4 @@ TEST_CASE("a span counts as what it was charged for, or as messages or pages of 
   CHECK(work(Activity::take_over, {}) == Work::messages);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::run_work_test

@@ -9,7 +9,7 @@
 #include "apps/edge/system/surroundings.h"
 #include "core/base/expect.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::attempts_test {
 
 TEST_CASE("what fails is said, a line each, and keeps nothing that follows from its turn") {
   std::ostringstream messages;
@@ -68,4 +68,4 @@ TEST_CASE("an interruption ends all") {
   CHECK_THROWS_AS(attempts.make([] { throw Interrupted{}; }), Interrupted);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::attempts_test

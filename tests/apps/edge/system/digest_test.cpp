@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace dmpc::apps {
+namespace dmpc::apps::digest_test {
 
 namespace {
 
@@ -33,4 +33,4 @@ TEST_CASE("a digest tells numbers apart by their bits") {
   CHECK(zero.value() != minus_zero.value());
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::digest_test

@@ -7,7 +7,7 @@
 #include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::distinct_files_test {
 
 namespace {
 
@@ -75,4 +75,4 @@ TEST_CASE("the message names both files as the command line does") {
                        "--stats ./a.nff: this is the same file as SCENE a.nff, give another name", core::UsageError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::distinct_files_test

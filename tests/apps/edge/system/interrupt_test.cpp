@@ -13,7 +13,7 @@
 #include "tests/support/forked_process.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::interrupt_test {
 
 namespace {
 
@@ -176,4 +176,4 @@ TEST_CASE("what an interruption means for the outputs can be said, and is nothin
   CHECK(std::string(interrupt.consequence()) == "half");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::interrupt_test

@@ -10,7 +10,7 @@
 #include "apps/edge/line/exit_status.h"
 #include "tests/support/forked_process.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::last_words_test {
 
 #if !defined(__SANITIZE_ADDRESS__)  // which tells of crashes itself
 TEST_CASE("a crash where memory has run out is a want of memory") {
@@ -38,4 +38,4 @@ TEST_CASE("a crash that another process sends is no want of memory, whatever was
 }
 #endif
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::last_words_test

@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::memory_room_test {
 
 using tests::contains;
 using tests::TemporaryFolder;
@@ -107,4 +107,4 @@ TEST_CASE("a render with less memory than its nodes take is refused before it be
 }
 #endif
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::memory_room_test

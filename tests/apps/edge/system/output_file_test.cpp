@@ -15,7 +15,7 @@
 #include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::output_file_test {
 
 using tests::file_text;
 using tests::TemporaryFolder;
@@ -244,4 +244,4 @@ TEST_CASE("a write that fails says so, with the option, and leaves nothing") {
   CHECK(folder.entry_count() == 0);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::output_file_test

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-namespace dmpc::apps {
+namespace dmpc::apps::progress_test {
 
 TEST_CASE("a progress line at the start knows no speed yet") {
   CHECK(progress_line(0, 100, 0) == "  0 % [>                             ]");
@@ -66,4 +66,4 @@ TEST_CASE("a label that is not shown is not written") {
   CHECK(output.str().empty());
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::progress_test

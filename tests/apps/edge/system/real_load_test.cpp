@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace dmpc::tests {
+namespace dmpc::tests::real_load_test {
 
 TEST_CASE("the machine has a core and no load below nothing") {
   CHECK(apps::core_count() >= 1);
@@ -17,4 +17,4 @@ TEST_CASE("the note on the load has that of before, that of now, and the cores")
   CHECK(note.ends_with(" after."));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::real_load_test

@@ -10,7 +10,7 @@
 #include "tests/support/forked_process.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::scratch_folder_test {
 
 TEST_CASE("a scratch folder is there while it lives and goes with its files") {
   std::filesystem::path file;
@@ -40,4 +40,4 @@ TEST_CASE("a scratch folder goes with its files when the process is ended at onc
   CHECK(place.entry_count() == 0);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::scratch_folder_test

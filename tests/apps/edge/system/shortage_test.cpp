@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::shortage_test {
 
 namespace {
 
@@ -83,4 +83,4 @@ TEST_CASE("readers that may start no process or no thread are this computer's sh
 }
 #endif
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::shortage_test

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
-namespace dmpc::tests {
+namespace dmpc::tests::stopwatch_test {
 
 namespace {
 
@@ -33,4 +33,4 @@ TEST_CASE("work takes both, and a lap begins where the last one ended") {
   CHECK(stopwatch.lap().processor_seconds < 0.01);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::stopwatch_test

@@ -6,7 +6,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::watched_process_test {
 
 TEST_CASE("anonymous memory is read from a process's status") {
   CHECK(apps::anonymous_bytes_in("VmHWM:\t    9 kB\nRssAnon:\t   12 kB\nRssFile:\t 7 kB\n") == 12 * 1024);
@@ -38,4 +38,4 @@ TEST_CASE("more complaints than a pipe holds do not block a watched process") {
   CHECK(watched.complaint.size() == 200'000);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::watched_process_test

@@ -6,7 +6,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::averages_test {
 
 using apps::geometric_mean;
 using apps::median;
@@ -24,4 +24,4 @@ TEST_CASE("a median is the number in the middle or the mean of two") {
   CHECK_THROWS_AS(median({}), core::InternalError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::averages_test

@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::plot_folder_test {
 
 using apps::Attempts;
 using apps::PlotFolder;
@@ -48,4 +48,4 @@ TEST_CASE("a folder that is not there is a failed attempt") {
   CHECK(attempts.status() == 1);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::plot_folder_test

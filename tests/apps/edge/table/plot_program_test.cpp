@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::plot_program_test {
 
 using namespace apps;
 
@@ -144,4 +144,4 @@ TEST_CASE("a folder that is not there is bad input") {
   CHECK_THROWS_AS(draw(small_plot(), two_times(), folder / "none", "t.csv"), core::InputError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::plot_program_test

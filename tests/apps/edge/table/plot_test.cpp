@@ -13,7 +13,7 @@
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::plot_test {
 
 using namespace apps;
 
@@ -285,4 +285,4 @@ TEST_CASE("people who lack one kind of cones can tell the colours of plots apart
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::plot_test

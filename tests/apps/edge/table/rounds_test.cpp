@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace dmpc::tests {
+namespace dmpc::tests::rounds_test {
 
 TEST_CASE("every round visits all settings before the next begins") {
   std::vector<std::pair<std::size_t, std::size_t>> visits;
@@ -20,4 +20,4 @@ TEST_CASE("without rounds or settings nothing is visited") {
   apps::round_by_round(3, 0, fail);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::rounds_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::shown_rows_test {
 
 namespace {
 
@@ -51,4 +51,4 @@ TEST_CASE("no row is shown where nobody waits for it") {
   CHECK_FALSE(apps::shows_rows({.file = "table.md"}, false));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::shown_rows_test

@@ -13,7 +13,7 @@
 #include "tests/support/text.h"
 #include "tests/support/unwritable.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::table_files_test {
 
 using apps::Attempts;
 using apps::TableFiles;
@@ -117,4 +117,4 @@ TEST_CASE("no output of a table falls on an input, on another output, or on anot
   CHECK(file_text(folder / "scene.nff") == "mine");
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::table_files_test

@@ -11,7 +11,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::table_table_test {
 
 namespace {
 
@@ -158,4 +158,4 @@ TEST_CASE("rows of another length, numbers that are none, and columns of one nam
   CHECK_THROWS_AS(Table("title", {{"a"}, {"a"}}), core::InternalError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::table_table_test

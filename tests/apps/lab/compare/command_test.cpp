@@ -13,7 +13,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::compare_command_test {
 
 using tests::gray;
 
@@ -145,4 +145,4 @@ TEST_CASE("figures that cannot be printed are an error") {
   CHECK_THROWS_AS(compare_command({folder / "a.exr", folder / "a.exr"}, interrupt, full), core::InputError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::compare_command_test

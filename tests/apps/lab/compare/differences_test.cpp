@@ -6,7 +6,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::differences_test {
 
 namespace {
 
@@ -109,4 +109,4 @@ TEST_CASE("a tolerance is typed as keys, a colon and a share") {
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::differences_test

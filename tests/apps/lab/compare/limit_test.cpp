@@ -7,7 +7,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::limit_test {
 
 namespace {
 
@@ -52,4 +52,4 @@ TEST_CASE("limits that are none say what is expected, and which measure was mean
   CHECK_THROWS_WITH_AS(parse_limit("rsme:0.1"), doctest::Contains("Did you mean rmse?"), core::UsageError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::limit_test

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace dmpc::apps {
+namespace dmpc::apps::side_by_side_test {
 
 TEST_CASE("no work, no call") {
   side_by_side(0, [](std::size_t) -> std::function<void()> { throw std::runtime_error("called"); });
@@ -70,4 +70,4 @@ TEST_CASE("what pieces have made is gone when an exception comes out") {
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::side_by_side_test

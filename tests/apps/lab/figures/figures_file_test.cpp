@@ -7,7 +7,7 @@
 #include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::figures_file_test {
 
 namespace {
 
@@ -72,4 +72,4 @@ TEST_CASE("a figure stands within its own key, within one above it, and within o
   CHECK_FALSE(is_within("nodes.3.work.pixels", "nodes.*.pages"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::figures_file_test

@@ -7,7 +7,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::known_figures_test {
 
 namespace {
 
@@ -58,4 +58,4 @@ TEST_CASE("what may be any of several is refused with all of them, and what is n
   CHECK_THROWS_WITH_AS(meant("jugglery"), doctest::Contains("there is no such figure"), core::UsageError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::known_figures_test

@@ -4,7 +4,7 @@
 
 #include "tests/apps/lab/oracle/primitives.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::curved_test {
 namespace {
 
 double distance_to(const core::PrimitiveValues& values, const core::Ray& from) {
@@ -68,4 +68,4 @@ TEST_CASE("the box of a primitive holds its whole surface") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::curved_test

@@ -8,7 +8,7 @@
 #include "core/trace/primitive.h"
 #include "tests/apps/lab/oracle/primitives.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::encounter_test {
 namespace {
 
 using apps::Encounter;
@@ -151,4 +151,4 @@ TEST_CASE("our own kernel never errs beyond its bound on random rays at edges, v
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::encounter_test

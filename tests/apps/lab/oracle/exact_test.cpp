@@ -10,7 +10,7 @@
 #include "core/trace/primitive.h"
 #include "tests/apps/lab/oracle/primitives.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::exact_test {
 namespace {
 
 using apps::CertificateFault;
@@ -174,4 +174,4 @@ TEST_CASE("counts of certified hits keep medians and worst") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::exact_test

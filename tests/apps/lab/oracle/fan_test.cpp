@@ -4,7 +4,7 @@
 
 #include "tests/apps/lab/oracle/primitives.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::fan_test {
 namespace {
 
 using Primitives = std::vector<core::PrimitiveValues>;
@@ -55,4 +55,4 @@ TEST_CASE("a fan whose border lies within rounding of the ray does not close up"
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::fan_test

@@ -9,7 +9,7 @@
 #include "apps/lab/oracle/referee.h"
 #include "tests/apps/lab/oracle/primitives.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::oracle_test {
 namespace {
 
 using apps::EmbreeMode;
@@ -114,4 +114,4 @@ TEST_CASE("oracle and referee agree on random rays through a cloud of all kinds"
 TEST_CASE("the linked version of Embree is named") { CHECK(std::string_view(apps::embree_version()).size() >= 5); }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::oracle_test

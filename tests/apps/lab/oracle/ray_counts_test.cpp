@@ -14,7 +14,7 @@
 #include "apps/lab/check/inspection.h"
 #include "core/families/scenes.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::ray_counts_test {
 namespace {
 
 using core::Convention;
@@ -109,6 +109,6 @@ TEST_CASE("every ray of the remaining families at full size is explained") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::ray_counts_test
 
 #endif

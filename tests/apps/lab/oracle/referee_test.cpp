@@ -6,7 +6,7 @@
 
 #include "tests/apps/lab/oracle/primitives.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::referee_test {
 namespace {
 
 using apps::Answer;
@@ -127,4 +127,4 @@ TEST_CASE("rays that are not finite miss") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::referee_test

@@ -7,7 +7,7 @@
 #include "dataflow/regions/mapping.h"
 #include "tests/support/study_subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::study_balance_test {
 
 namespace {
 
@@ -121,4 +121,4 @@ TEST_CASE("the article's figures stand below its scene alone") {
   CHECK_FALSE(mentions_article("./rings-3-t1.nff"));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::study_balance_test

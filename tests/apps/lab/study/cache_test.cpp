@@ -11,7 +11,7 @@
 #include "svm/packets.h"
 #include "tests/support/study_subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::study_cache_test {
 
 namespace {
 
@@ -153,4 +153,4 @@ TEST_CASE("what the article found stands below its own scenes only") {
   CHECK(study.notes("tetra-9").back().find("Tetra9") != std::string::npos);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::study_cache_test

@@ -17,7 +17,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::study_command_test {
 
 namespace {
 
@@ -228,4 +228,4 @@ TEST_CASE("Ctrl-C before the first row is finished ends a study with status 130 
   CHECK(process.output().empty());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::study_command_test

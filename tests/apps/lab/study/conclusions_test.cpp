@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::apps {
+namespace dmpc::apps::study_conclusions_test {
 
 namespace {
 
@@ -85,4 +85,4 @@ TEST_CASE("systems are concluded with the fastest that does not hold the whole s
         "Of the systems whose nodes do not hold the whole scene forest is the fastest: 2.00 s on 8 nodes, memory 5%.");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::study_conclusions_test

@@ -6,7 +6,7 @@
 #include "core/base/expect.h"
 #include "tests/support/study_subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::memory_rule_test {
 
 namespace {
 
@@ -75,4 +75,4 @@ TEST_CASE("a share allows a node its part and the share, in whole pages") {
   CHECK(MemoryRule{}.allows(100 * count * page, database, 4));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::memory_rule_test

@@ -11,7 +11,7 @@
 #include "core/base/expect.h"
 #include "tests/support/usage.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::study_options_test {
 
 using tests::usage_complaint;
 
@@ -190,4 +190,4 @@ TEST_CASE("systems and rules of memory are chosen by name, and each system has i
   CHECK_THROWS_WITH_AS(chosen({"--structure=extents"}), doctest::Contains("each system has its own"), core::UsageError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::study_options_test

@@ -12,7 +12,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/study_subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::study_runs_test {
 
 namespace {
 
@@ -180,4 +180,4 @@ TEST_CASE("a run that cannot be planned is not counted") {
   CHECK_FALSE(subject.runs.film_hash());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::study_runs_test

@@ -15,7 +15,7 @@
 #include "tests/support/study_subject.h"
 #include "tests/support/table_cells.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::speedup_test {
 
 namespace {
 
@@ -125,4 +125,4 @@ TEST_CASE("the notes say what ran") {
   CHECK(study.notes("tetra-3").front().find("regions by the subsampled picture") != std::string::npos);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::speedup_test

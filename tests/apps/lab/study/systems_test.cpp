@@ -10,7 +10,7 @@
 #include "core/base/expect.h"
 #include "tests/support/study_subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::systems_test {
 
 namespace {
 
@@ -143,4 +143,4 @@ TEST_CASE("a system that does not exist is bad usage that lists those there are"
                        core::UsageError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::systems_test

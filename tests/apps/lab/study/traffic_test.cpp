@@ -5,7 +5,7 @@
 #include "dataflow/packets.h"
 #include "tests/support/study_subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::study_traffic_test {
 
 namespace {
 
@@ -71,4 +71,4 @@ TEST_CASE("no node count, no run") {
   CHECK(subject.runs.count() == 0);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::study_traffic_test

@@ -12,6 +12,8 @@
 #include "svm/pages/cache.h"
 #include "tests/support/small_pages.h"
 
+namespace adaptive_policies_test {
+
 using namespace dmpc;
 using svm::Replacement;
 
@@ -300,3 +302,5 @@ TEST_CASE("references in a row are one, and those in turn with others are hits")
   CHECK(small.refer(4) == Step{.evicted = 3});
   CHECK(small.refer(1) == Step{.is_hit = true});
 }
+
+}  // namespace adaptive_policies_test

@@ -8,7 +8,7 @@
 
 #include "svm/packets.h"
 
-namespace dmpc::svm {
+namespace dmpc::svm::fetch_watch_test {
 
 namespace {
 
@@ -199,4 +199,4 @@ TEST_CASE("fetches between ranks are those of one watch, at whichever ends they 
   }
 }
 
-}  // namespace dmpc::svm
+}  // namespace dmpc::svm::fetch_watch_test

@@ -4,6 +4,8 @@
 
 #include "tests/support/references.h"
 
+namespace miss_curve_test {
+
 using namespace dmpc;
 using namespace dmpc::tests;
 using svm::MissCurve;
@@ -84,3 +86,5 @@ TEST_CASE("the curve of several nodes is the sum of theirs, and the node with mo
     }
   }
 }
+
+}  // namespace miss_curve_test

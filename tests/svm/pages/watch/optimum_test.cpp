@@ -10,6 +10,8 @@
 #include "svm/pages/watch/miss_curve.h"
 #include "tests/support/references.h"
 
+namespace optimum_test {
+
 using namespace dmpc;
 using namespace dmpc::tests;
 using svm::Optimum;
@@ -120,3 +122,5 @@ TEST_CASE("the optimum never misses more than lru, nor more with more frames, no
     CHECK(optimum.misses(page_count) == lru.cold_misses());
   }
 }
+
+}  // namespace optimum_test

@@ -10,6 +10,8 @@
 #include "tests/support/small_machine.h"
 #include "tests/support/small_pages.h"
 
+namespace recording_pager_test {
+
 using namespace dmpc;
 using namespace dmpc::tests;
 using svm::PageId;
@@ -72,3 +74,5 @@ TEST_CASE("the references recorded miss as often as the pager did") {
   CHECK(svm::MissCurve(small.log.pages()).misses(2) == small.pager.counters().misses);
   CHECK(small.pager.counters().misses > 100);
 }
+
+}  // namespace recording_pager_test

@@ -11,7 +11,7 @@
 #include "svm/pages/watch/miss_curve.h"
 #include "tests/support/references.h"
 
-namespace dmpc::svm {
+namespace dmpc::svm::reference_log_test {
 
 namespace {
 
@@ -95,4 +95,4 @@ TEST_CASE("logs of the same share keep the same pages, whenever they were thinne
   CHECK(std::equal(late.pages().begin(), late.pages().end(), early.pages().begin(), early.pages().end()));
 }
 
-}  // namespace dmpc::svm
+}  // namespace dmpc::svm::reference_log_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/text.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::charts_test {
 
 using tests::contains;
 
@@ -56,4 +56,4 @@ TEST_CASE("what is black is light where the page is dark") {
   CHECK(themed("nothing").find("style") == std::string::npos);
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::charts_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::data_url_test {
 
 TEST_CASE("bytes are written as RFC 4648 has them") {
   const auto base64 = [](std::string_view bytes) { return data_url("", bytes).substr(std::string("data:;base64,").size()); };
@@ -14,4 +14,4 @@ TEST_CASE("bytes are written as RFC 4648 has them") {
   CHECK(base64(std::string_view("\xFF\x00\xFB", 3)) == "/wD7");
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::data_url_test

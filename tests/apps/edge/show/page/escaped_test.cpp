@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::escaped_test {
 
 TEST_CASE("what means something to HTML is shown as it is") {
   CHECK(escaped("<b class=\"x\">a & b's</b>") == "&lt;b class=&quot;x&quot;&gt;a &amp; b&#39;s&lt;/b&gt;");
@@ -31,4 +31,4 @@ TEST_CASE("control characters become spaces, but line ends and tabs stay") {
   CHECK(escaped("a\n\tb") == "a\n\tb");
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::escaped_test

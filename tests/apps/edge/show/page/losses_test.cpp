@@ -6,7 +6,7 @@
 
 #include "apps/edge/table/table.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::page_losses_test {
 
 namespace {
 
@@ -50,4 +50,4 @@ TEST_CASE("threads compute, sleep and wait for a core, and clocks that disagree 
   CHECK(loss_conclusion(wall_losses(std::vector<nodes::NodeCounters>(1))) == "No time passed.");
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::page_losses_test

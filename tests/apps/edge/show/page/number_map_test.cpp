@@ -7,7 +7,7 @@
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::number_map_test {
 
 using tests::contains;
 
@@ -75,4 +75,4 @@ TEST_CASE("nothing but zeros is a map, and nothing at all is a mistake") {
   CHECK_THROWS_AS(svg_of(map), core::InternalError);
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::number_map_test

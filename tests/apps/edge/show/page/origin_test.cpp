@@ -9,7 +9,7 @@
 #include "apps/scene/load_scene.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::origin_test {
 
 TEST_CASE("a command is as a shell takes it, without the program's folder") {
   CHECK(command_text(std::vector<std::string>{"/usr/bin/dmpc", "render", "my scene.nff", "--nodes=8", "it's", "", "$(x)"}) ==
@@ -47,4 +47,4 @@ TEST_CASE("scenes that differ in one number have digests that differ") {
   CHECK(scene_digest(seen) != scene_digest(scene));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::origin_test

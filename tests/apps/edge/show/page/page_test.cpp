@@ -7,7 +7,7 @@
 #include "apps/edge/show/page/data_url.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::page_page_test {
 
 using tests::contains;
 
@@ -171,4 +171,4 @@ TEST_CASE("words that occur on a page are explained at its end, and no others") 
   CHECK_FALSE(contains(text, "<dt>lent</dt>"));
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::page_page_test

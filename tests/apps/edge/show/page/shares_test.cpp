@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::shares_test {
 
 TEST_CASE("a node that did more than the mean is named with how much more") {
   CHECK(evenness(std::vector<double>{1, 1, 4, 2}, "did") == "Node 2 did 2.00 times the mean");
@@ -27,4 +27,4 @@ TEST_CASE("the largest tenth of few values is the largest of them") {
   CHECK(top_tenth_share({0}) == 0);
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::shares_test

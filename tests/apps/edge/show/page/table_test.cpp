@@ -7,7 +7,7 @@
 
 #include "tests/support/text.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::page_table_test {
 
 using tests::contains;
 
@@ -55,4 +55,4 @@ TEST_CASE("the words of a table are its title, columns, texts and notes") {
   CHECK(words_of(table) == "Title\ncolumn\ncell\nnote");
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::page_table_test

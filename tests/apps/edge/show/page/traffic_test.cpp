@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::page_traffic_test {
 
 namespace {
 
@@ -36,4 +36,4 @@ TEST_CASE("messages pass so many links on average, and none no link") {
   CHECK(way_text({}) == "0 messages from one node to another passed 0.00 links each, on average.");
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::page_traffic_test

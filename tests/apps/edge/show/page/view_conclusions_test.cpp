@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::view_conclusions_test {
 
 namespace {
 
@@ -70,4 +70,4 @@ TEST_CASE("a cache is concluded with what twice as many pages would do") {
   CHECK(cache_conclusion({}, 2, 100).empty());
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::view_conclusions_test

@@ -6,7 +6,7 @@
 
 #include "tests/apps/show/watched.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::view_tables_test {
 
 namespace {
 
@@ -114,4 +114,4 @@ TEST_CASE("a table of misses has the run's own cache among ever larger ones") {
   CHECK(own_rows == 1);
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::view_tables_test

@@ -11,7 +11,7 @@
 #include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::reference_file_test {
 
 namespace {
 
@@ -88,4 +88,4 @@ TEST_CASE("a file that there is not, or a folder, is refused by name") {
                        core::InputError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::reference_file_test

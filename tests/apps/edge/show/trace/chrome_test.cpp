@@ -14,7 +14,7 @@
 #include "tests/apps/show/trace/traced.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::chrome_test {
 
 using tests::contains;
 
@@ -153,4 +153,4 @@ TEST_CASE("a trace of nothing is whole, too") {
   CHECK(trace["traceEvents"][3]["args"]["name"] == "host");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::chrome_test

@@ -10,7 +10,7 @@
 #include "tests/apps/show/trace/traced.h"
 #include "tests/support/child_process.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::paje_test {
 
 namespace {
 
@@ -96,4 +96,4 @@ TEST_CASE("pajeng refuses a Paje trace that lacks a line") {
   CHECK(dump(text).substr(0, 2) != "0\n");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::paje_test

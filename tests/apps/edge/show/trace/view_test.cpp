@@ -9,7 +9,7 @@
 #include "core/trace/charge.h"
 #include "svm/packets.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::view_test {
 
 namespace {
 
@@ -91,4 +91,4 @@ TEST_CASE("every span has two moments, and every message") {
   CHECK(items_of({}, {}).empty());
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::view_test

@@ -16,7 +16,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::error_command_test {
 
 using apps::ErrorOptions;
 
@@ -151,4 +151,4 @@ TEST_CASE("bench error refuses what makes no sense before it begins") {
   CHECK_NOTHROW(error_options({"rings-2", "--knobs=tessellation"}));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::error_command_test

@@ -7,7 +7,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::curve_test {
 
 using apps::cost_at;
 using apps::CostPoint;
@@ -58,4 +58,4 @@ TEST_CASE("nothing is known of the cost at an error outside the curve") {
   CHECK_FALSE(cost_at(std::vector<CostPoint>{{0, 2}, {400, 1}, {9, 0}}, 1.5));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::curve_test

@@ -9,7 +9,7 @@
 #include "apps/lab/bench/error/table.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::findings_test {
 
 using apps::Knob;
 using apps::Measurement;
@@ -128,4 +128,4 @@ TEST_CASE("a table of errors has the rows that are measured and marks fronts and
   CHECK(apps::plotted_table(result).rows().size() == 3);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::findings_test

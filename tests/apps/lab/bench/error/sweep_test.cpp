@@ -10,7 +10,7 @@
 #include "apps/scene/picture_options.h"
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::sweep_test {
 
 using apps::Knob;
 using apps::Point;
@@ -102,4 +102,4 @@ TEST_CASE("knobs are listed by name and bring those that are turned together") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::sweep_test

@@ -22,7 +22,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::speed_command_test {
 
 using apps::Comparison;
 using apps::SpeedOptions;
@@ -293,4 +293,4 @@ TEST_CASE("a plot of a part has a bar for each pair, the mean over what was trac
   CHECK(plotted_table(SpeedPart::build, results).rows().empty());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::speed_command_test

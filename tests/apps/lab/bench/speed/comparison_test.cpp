@@ -6,7 +6,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::comparison_test {
 
 using apps::Comparison;
 using apps::ratio_of;
@@ -44,4 +44,4 @@ TEST_CASE("what is timed is compared by the wall clock and by processor time") {
   CHECK(results[0].rounds() == 0);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::comparison_test

@@ -16,7 +16,7 @@
 #include "apps/lab/bench/speed/warm_pager.h"
 #include "tests/support/small_subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::contenders_test {
 
 using apps::Coherence;
 using apps::Contender;
@@ -150,4 +150,4 @@ TEST_CASE("an exception on a crew's thread comes back when all are over") {
   CHECK(others == 2);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::contenders_test

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace dmpc::tests {
+namespace dmpc::tests::kernel_means_test {
 
 using apps::Comparison;
 using apps::SpeedPart;
@@ -36,4 +36,4 @@ TEST_CASE("what is no kernel or not measured has no part in the kernel's means")
   CHECK(apps::kernel_means({}).empty());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::kernel_means_test

@@ -8,7 +8,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::part_test {
 
 using apps::SpeedPart;
 using apps::SpeedSettings;
@@ -75,4 +75,4 @@ TEST_CASE("rounds and pixels are the part's unless they are given") {
   CHECK(settings.picture_of(SpeedPart::emulation, "tetra-2").resolution->height == 4);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::part_test

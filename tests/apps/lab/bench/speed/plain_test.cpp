@@ -14,7 +14,7 @@
 #include "tests/support/small_subject.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::plain_test {
 
 using apps::Comparison;
 using apps::PlainPicture;
@@ -135,4 +135,4 @@ TEST_CASE("without part plain its table is empty, and nothing is said of it") {
   CHECK(apps::plain_notes(others).empty());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::plain_test

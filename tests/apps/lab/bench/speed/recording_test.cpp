@@ -14,7 +14,7 @@
 #include "apps/scene/subject.h"
 #include "core/picture/render.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::recording_test {
 
 using apps::BundleSample;
 using apps::RayClass;
@@ -201,4 +201,4 @@ TEST_CASE("bounces leave a wall on the ray's side, by the cosine, and ignore the
   CHECK(std::fabs(sum / count - 2.0 / 3) < 0.02);  // the mean cosine of directions that the cosine weighs
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::recording_test

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace dmpc::tests {
+namespace dmpc::tests::target_test {
 
 using apps::Comparison;
 using apps::SpeedPart;
@@ -116,4 +116,4 @@ TEST_CASE("the build's target is that of a million triangles over the robust tre
   CHECK(sentence_of(build).empty());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::target_test

@@ -7,7 +7,7 @@
 #include "apps/lab/bench/speed/ablation_table.h"
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::verdict_test {
 
 using apps::Ablation;
 using apps::Effect;
@@ -114,4 +114,4 @@ TEST_CASE("a picture of skips has a bar of counted work for each skip at each sc
   CHECK(plot_of_ablation(table, "name").series.size() == 2);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::verdict_test

@@ -6,7 +6,7 @@
 
 #include "apps/lab/bench/stability/mesh.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::bodies_test {
 
 using namespace dmpc::apps;
 
@@ -42,4 +42,4 @@ TEST_CASE("a scene is scaled first, then moved, then rounded") {
   CHECK(moved.spheres[0].radius == 8);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::bodies_test

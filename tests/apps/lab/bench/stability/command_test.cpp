@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::stability_command_test {
 
 using apps::StabilityOptions;
 
@@ -69,4 +69,4 @@ TEST_CASE("bench stability refuses a test that is none") {
   CHECK_THROWS_WITH_AS(stability_options({"--tests=R1,"}), doctest::Contains("--tests=R1,: a word is missing"), core::UsageError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::stability_command_test

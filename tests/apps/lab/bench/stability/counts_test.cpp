@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::tests {
+namespace dmpc::tests::counts_test {
 
 using apps::failure_rate_bound;
 using apps::StabilityCounts;
@@ -36,4 +36,4 @@ TEST_CASE("sums keep the worst error and add the rest, in any order") {
   CHECK(forward == backward);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::counts_test

@@ -6,7 +6,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::stability_run_test {
 
 using apps::index_of;
 using apps::KernelCounts;
@@ -104,4 +104,4 @@ TEST_CASE("a stability test that is none is refused with those that there are") 
   CHECK_THROWS_AS(apps::stability_cases({100}, {""}), core::UsageError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::stability_run_test

@@ -7,7 +7,7 @@
 #include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::state_test {
 
 using apps::StabilityState;
 
@@ -70,4 +70,4 @@ TEST_CASE("a file that is no state or a damaged one is refused") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::state_test

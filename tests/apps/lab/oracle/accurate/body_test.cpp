@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dmpc::tests {
+namespace dmpc::tests::body_test {
 namespace {
 
 using apps::AccurateBody;
@@ -129,4 +129,4 @@ TEST_CASE("bounds enclose the body") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::body_test

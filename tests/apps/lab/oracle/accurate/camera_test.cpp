@@ -7,7 +7,7 @@
 #include "core/base/expect.h"
 #include "core/picture/camera.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::accurate_camera_test {
 namespace {
 
 using core::Vec3d;
@@ -42,4 +42,4 @@ TEST_CASE("a picture of one pixel looks straight ahead and one of none is refuse
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::accurate_camera_test

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace dmpc::tests {
+namespace dmpc::tests::disturbance_test {
 namespace {
 
 using apps::AccurateBody;
@@ -91,4 +91,4 @@ TEST_CASE("a small triangle turns by more than a large one") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::disturbance_test

@@ -7,7 +7,7 @@
 #include "core/base/sampling.h"
 #include "tests/support/small_scenes.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::finder_test {
 namespace {
 
 using apps::AccurateFinder;
@@ -133,4 +133,4 @@ TEST_CASE("an empty scene is missed") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::finder_test

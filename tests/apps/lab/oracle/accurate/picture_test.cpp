@@ -13,7 +13,7 @@
 #include "core/record/records.h"
 #include "tests/support/small_scenes.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::accurate_picture_test {
 namespace {
 
 using apps::AccuratePicture;
@@ -88,4 +88,4 @@ TEST_CASE("a stop ends the picture") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::accurate_picture_test

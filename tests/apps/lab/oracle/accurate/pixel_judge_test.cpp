@@ -10,7 +10,7 @@
 #include "tests/support/checked_floor.h"
 #include "tests/support/small_scenes.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::pixel_judge_test {
 namespace {
 
 using apps::PixelCause;
@@ -97,4 +97,4 @@ TEST_CASE("every cause has a name of its own") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::pixel_judge_test

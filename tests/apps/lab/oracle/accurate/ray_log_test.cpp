@@ -11,7 +11,7 @@
 #include "tests/apps/lab/oracle/accurate/workbench.h"
 #include "tests/support/small_scenes.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::ray_log_test {
 namespace {
 
 using apps::LoggedRay;
@@ -121,4 +121,4 @@ TEST_CASE("a triangle that only double precision can see is no primitive, and th
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::ray_log_test

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace dmpc::tests {
+namespace dmpc::tests::samples_test {
 namespace {
 
 using apps::SamplePattern;
@@ -52,4 +52,4 @@ TEST_CASE("other seeds and other pixels give other samples") {
 TEST_CASE("a pattern without samples is refused") { CHECK_THROWS_AS(SamplePattern::stratified(0, 2, 1), core::InternalError); }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::samples_test

@@ -7,7 +7,7 @@
 #include "core/database/database.h"
 #include "tests/support/small_scenes.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::accurate_scene_test {
 namespace {
 
 TEST_CASE("bodies stand in the order of the product's primitives") {
@@ -51,4 +51,4 @@ TEST_CASE("what cannot be hit is left out") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::accurate_scene_test

@@ -8,7 +8,7 @@
 #include "tests/support/small_scenes.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::step_audit_test {
 namespace {
 
 using apps::Audit;
@@ -137,4 +137,4 @@ TEST_CASE("a ray that misses everything is right") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::step_audit_test

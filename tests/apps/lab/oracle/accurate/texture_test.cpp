@@ -13,7 +13,7 @@
 #include "tests/support/noise_texture.h"
 #include "tests/support/shown_texture.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::accurate_texture_test {
 namespace {
 
 using core::TextureWrap;
@@ -89,4 +89,4 @@ TEST_CASE("a cone covers in double what it covers by the records but for roundin
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::accurate_texture_test

@@ -7,7 +7,7 @@
 
 #include "core/scene/scene.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::tracer_test {
 namespace {
 
 using apps::AccurateHit;
@@ -177,4 +177,4 @@ TEST_CASE("smooth normals blend between a triangle's corners") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::tracer_test

@@ -8,7 +8,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::check_command_test {
 namespace {
 
 /// What a command prints to stdout, and its status.
@@ -73,4 +73,4 @@ TEST_CASE("check of a scene that does not exist is bad input") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::check_command_test

@@ -9,7 +9,7 @@
 #include "core/picture/render.h"
 #include "core/record/records.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::inspection_test {
 namespace {
 
 /// A built-in scene, its database and how it is looked at: `side` x `side` pixels.
@@ -145,4 +145,4 @@ TEST_CASE("with Embree naming the primitives the picture has the grid's bits") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::inspection_test

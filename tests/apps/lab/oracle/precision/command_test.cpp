@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::precision_command_test {
 namespace {
 
 using apps::PrecisionOptions;
@@ -80,4 +80,4 @@ TEST_CASE("bench precision refuses a scene that is none and an output over its s
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::precision_command_test

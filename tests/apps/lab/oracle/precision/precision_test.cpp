@@ -11,7 +11,7 @@
 #include "tests/support/covering_faces.h"
 #include "tests/support/small_scenes.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::precision_test {
 namespace {
 
 apps::PictureOptions sized(int side) {
@@ -150,4 +150,4 @@ TEST_CASE("a stop ends the measurement") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::precision_test

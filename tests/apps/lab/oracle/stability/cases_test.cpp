@@ -4,7 +4,7 @@
 #include "apps/lab/bench/stability/run.h"
 #include "tests/support/scaled.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::cases_test {
 
 TEST_CASE("our grid fails no stress test of numerical stability") {
   const apps::StabilityRun run(apps::stability_cases({ray_count(500)}, {}), 7);
@@ -20,4 +20,4 @@ TEST_CASE("our grid fails no stress test of numerical stability") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::cases_test

@@ -8,7 +8,7 @@
 #include "apps/lab/bench/stability/rays.h"
 #include "core/scene/frame.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::judge_test {
 
 using namespace dmpc::apps;
 using core::Hit;
@@ -104,4 +104,4 @@ TEST_CASE("bits that are expected are held against all our kernels") {
   CHECK(failures(counts_of(inside.cube, inside.at_face, answers, {.bits = &expected})) == 5);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::judge_test

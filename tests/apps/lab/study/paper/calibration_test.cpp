@@ -11,7 +11,7 @@
 #include "tests/support/paper_results.h"
 #include "tests/support/table_cells.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::calibration_test {
 
 using namespace apps;
 
@@ -134,4 +134,4 @@ TEST_CASE("the preset is calibrated: a sixteenth of Mountain's pixels takes abou
   CHECK(16 * found.two == doctest::Approx(calibration_scene.seconds[1]).epsilon(0.02));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::calibration_test

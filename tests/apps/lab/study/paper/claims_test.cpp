@@ -9,7 +9,7 @@
 
 #include "tests/support/paper_results.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::claims_test {
 
 using namespace apps;
 
@@ -300,4 +300,4 @@ TEST_CASE("pages of a small scene that cost a twentieth of the time are not negl
   CHECK(claimed.verdict("small scene") == "not held");
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::claims_test

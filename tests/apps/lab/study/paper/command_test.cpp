@@ -15,7 +15,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::paper_command_test {
 
 namespace {
 
@@ -124,4 +124,4 @@ TEST_CASE("Ctrl-C ends the study of the article with status 130 and a folder of 
   CHECK(contains(file_text(folder / "paper" / "sensitivity.json"), "Unfinished: 32 of 32 rows are missing."));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::paper_command_test

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace dmpc::apps {
+namespace dmpc::apps::paper_conclusions_test {
 
 namespace {
 
@@ -79,4 +79,4 @@ TEST_CASE("other tables of the article are concluded from their columns") {
   CHECK(paper_conclusion("against_law", errors) == "Over all we are nearer: 2.0 points off in the mean, against 3.0 points.");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::paper_conclusions_test

@@ -7,7 +7,7 @@
 #include "core/record/records.h"
 #include "svm/packets.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::hot_spots_test {
 
 using namespace apps;
 
@@ -52,4 +52,4 @@ TEST_CASE("the flood of pages is that of the node that sends most") {
   CHECK(page_flood(report) == doctest::Approx(1.5));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::hot_spots_test

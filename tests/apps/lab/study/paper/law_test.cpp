@@ -11,7 +11,7 @@
 #include "tests/support/paper_results.h"
 #include "tests/support/table_cells.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::law_test {
 
 using namespace apps;
 
@@ -104,4 +104,4 @@ TEST_CASE("without results the comparison is empty and says what is missing") {
                     [](const std::string& note) { return note == "Unfinished: 18 of 19 rows are missing."; }));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::law_test

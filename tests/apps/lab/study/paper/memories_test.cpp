@@ -10,7 +10,7 @@
 #include "tests/support/paper_results.h"
 #include "tests/support/table_cells.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::memories_test {
 
 using namespace apps;
 
@@ -133,4 +133,4 @@ TEST_CASE("a cell of which one kind of memory is missing is left out of all") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::memories_test

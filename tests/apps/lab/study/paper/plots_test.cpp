@@ -13,7 +13,7 @@
 #include "tests/support/paper_results.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::plots_test {
 
 using namespace apps;
 
@@ -93,4 +93,4 @@ TEST_CASE("the losses of Table 3 are stacked, a bar a cell") {
   CHECK(count(script, " with boxes") == 7);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::plots_test

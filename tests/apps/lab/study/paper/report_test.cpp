@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::paper_report_test {
 
 using namespace apps;
 
@@ -121,4 +121,4 @@ TEST_CASE("an unfinished report says so, and empty tables have no picture") {
   CHECK(folder.entry_count() == 3);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::paper_report_test

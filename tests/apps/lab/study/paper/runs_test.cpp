@@ -10,7 +10,7 @@
 #include "core/families/scenes.h"
 #include "tests/support/paper_results.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::paper_runs_test {
 
 using namespace apps;
 
@@ -93,4 +93,4 @@ TEST_CASE("results without a place for each run are an error") {
   CHECK_THROWS_AS(carry_out(runs, paper_subjects(runs), interrupt, too_few), core::InternalError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::paper_runs_test

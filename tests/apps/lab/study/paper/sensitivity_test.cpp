@@ -10,7 +10,7 @@
 #include "core/trace/charge.h"
 #include "tests/support/paper_results.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::sensitivity_test {
 
 using namespace apps;
 
@@ -137,4 +137,4 @@ TEST_CASE("variations whose runs are missing are left out, and the table says ho
   CHECK(sensitivity(catalogue, results, varied).rows().empty());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::sensitivity_test

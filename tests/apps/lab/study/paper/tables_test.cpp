@@ -15,7 +15,7 @@
 #include "tests/support/paper_results.h"
 #include "tests/support/table_cells.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::tables_test {
 
 using namespace apps;
 
@@ -213,4 +213,4 @@ TEST_CASE("rows whose runs are missing are left out, and so is what rests on the
   CHECK(claims(catalogue, PaperResults(catalogue.runs.size())).rows().empty());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::tables_test

@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::references_command_test {
 
 namespace {
 
@@ -59,4 +59,4 @@ TEST_CASE("without sizes there are those from one page to all") {
 
 TEST_CASE("a file that cannot be read leaves no table") { CHECK_THROWS_AS(output_of("x\n", {}), core::InputError); }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::references_command_test

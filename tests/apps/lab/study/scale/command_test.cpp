@@ -18,7 +18,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::scale_command_test {
 
 using apps::ScaleMethod;
 using apps::ScaleOptions;
@@ -209,4 +209,4 @@ TEST_CASE("Ctrl-C ends the study of scale with status 130 and the rows finished 
   FAIL("no row was finished");
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::scale_command_test

@@ -7,7 +7,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::figures_test {
 
 using apps::ScaleFigure;
 using apps::ScaleFigures;
@@ -81,4 +81,4 @@ TEST_CASE("of several rounds the middle counts, and they give one film") {
   CHECK_THROWS_AS(apps::median_figures({round_of(3), round_of(3, "b")}), core::InternalError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::figures_test

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace dmpc::tests {
+namespace dmpc::tests::growth_test {
 
 using Points = std::vector<std::pair<double, double>>;
 
@@ -49,4 +49,4 @@ TEST_CASE("without two different places there is no growth") {
   CHECK(apps::growth_exponent(Points{{3, 4.1}, {4, 4.1}, {9, 4.1}}) == 0);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::growth_test

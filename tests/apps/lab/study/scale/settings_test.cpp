@@ -8,7 +8,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::scale_settings_test {
 
 using apps::ScaleMethod;
 using apps::ScalePart;
@@ -113,4 +113,4 @@ TEST_CASE("parts and methods are words") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::scale_settings_test

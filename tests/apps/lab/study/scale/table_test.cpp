@@ -11,7 +11,7 @@
 
 #include "tests/support/table_cells.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::scale_table_test {
 
 using apps::ScaleFigure;
 using apps::ScaleFigures;
@@ -114,4 +114,4 @@ TEST_CASE("the table of scale is concluded with how the first method's time and 
   CHECK(text.ends_with("rendering takes nodes to the power of 0.50."));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::scale_table_test

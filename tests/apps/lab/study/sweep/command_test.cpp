@@ -13,7 +13,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::sweep_command_test {
 
 using apps::StudySweepOptions;
 using Words = std::vector<std::string>;
@@ -159,4 +159,4 @@ TEST_CASE("a run that fails ends the sweep with the combination, and the rows be
   CHECK(count(output.str(), "\n") == 2);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::sweep_command_test

@@ -8,7 +8,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::sweep_settings_test {
 
 using apps::parse_variation;
 using apps::SweepRun;
@@ -95,4 +95,4 @@ TEST_CASE("an option that is given and varied, or varied twice, is refused, and 
                        core::UsageError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::sweep_settings_test

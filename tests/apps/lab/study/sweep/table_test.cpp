@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace dmpc::tests {
+namespace dmpc::tests::sweep_table_test {
 
 using apps::Figure;
 using apps::SweepResult;
@@ -90,4 +90,4 @@ TEST_CASE("the table of a sweep can be drawn by gnuplot's scripts") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::sweep_table_test
