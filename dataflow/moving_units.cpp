@@ -12,10 +12,9 @@ MovingUnits::MovingUnits(nodes::Node& node, const Plan& plan, const NodeDeal& de
   pages_.begin_with(deal.pages, deal.records);
 }
 
-void MovingUnits::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
-  UnitPages::add_needs(memory, plan.pages_of_node(index));
-  UnitPrimaries::add_needs(memory, plan.primaries_of_node(index));
-  Movement::add_needs(memory, plan);
+nodes::MemoryPlan MovingUnits::layout(const Plan& plan, std::uint32_t index) {
+  return UnitPages::layout(plan.pages_of_node(index)) + UnitPrimaries::layout(plan.primaries_of_node(index)) +
+         Movement::layout(plan);
 }
 
 void MovingUnits::receive(const nodes::Packet& packet, Termination& termination) {

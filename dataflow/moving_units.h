@@ -24,8 +24,8 @@ class MovingUnits {
   MovingUnits(nodes::Node& node, const Plan& plan, const NodeDeal& deal, const core::DatabaseHeader& header, Regions& regions);
   MovingUnits(const MovingUnits&) = delete;
   MovingUnits& operator=(const MovingUnits&) = delete;
-  /// Adds to `memory` exactly what the constructor takes at node `index`.
-  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index);
+  /// What the constructor takes at node `index`.
+  static nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index);
 
   PartRecords records() const { return {{}, &pages_}; }
   /// Those of the primary rays dealt before the start that are of no unit.

@@ -16,6 +16,7 @@
 #include "dataflow/termination.h"
 #include "dataflow/units/movement.h"
 #include "dataflow/units/unit_pages.h"
+#include "nodes/layout.h"
 #include "nodes/node.h"
 
 namespace dmpc::dataflow {
@@ -25,12 +26,11 @@ class NoUnits {
  public:
   NoUnits(nodes::Node& node, const Plan& /*plan*/, const NodeDeal& deal, const core::DatabaseHeader& /*header*/,
           Regions& /*regions*/)
-      : part_(node.memory().allocate<std::byte>(core::MemoryUse::home_pages, deal.records.size_bytes())) {
+      : part_(room(deal.records.size_bytes()).in(node.memory())) {
     deal.records.copy(0, part_);
   }
-  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
-    memory[core::MemoryUse::home_pages] +=
-        nodes::LocalMemory::bytes_for<std::byte>(plan.request.shares[index].part_bytes + core::overread_bytes);
+  static nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index) {
+    return room(plan.request.shares[index].part_bytes + core::overread_bytes);
   }
 
   PartRecords records() const { return {part_, nullptr}; }
@@ -58,6 +58,8 @@ class NoUnits {
   void add_charges(nodes::Charges& /*charges*/) const {}
 
  private:
+  static nodes::Room<std::byte> room(std::size_t bytes) { return {core::MemoryUse::home_pages, bytes}; }
+
   std::span<std::byte> part_;
 };
 

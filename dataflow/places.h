@@ -8,6 +8,7 @@
 
 #include "core/base/expect.h"
 #include "dataflow/flow_control.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "nodes/node_id.h"
 
@@ -30,12 +31,10 @@ class Places {
 
   /// All places are free.
   Places(nodes::LocalMemory& memory, const Capacity& capacity)
-      : capacity_(capacity),
-        asking_(memory.allocate<std::uint16_t>(nodes::Category::queues, capacity.ring_size())),
-        free_(capacity.shared) {}
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
-    plan[nodes::Category::queues] += nodes::LocalMemory::bytes_for<std::uint16_t>(capacity.ring_size());
+      : capacity_(capacity), asking_(layout(capacity).in(memory)), free_(capacity.shared) {}
+  /// What the constructor takes.
+  static nodes::Room<std::uint16_t> layout(const Capacity& capacity) {
+    return {nodes::Category::queues, capacity.ring_size()};
   }
 
   std::uint32_t account_of(nodes::NodeId sender) const {

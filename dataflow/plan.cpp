@@ -21,8 +21,6 @@
 namespace dmpc::dataflow {
 namespace {
 
-using nodes::Category;
-using nodes::LocalMemory;
 using nodes::size_text;
 
 /// One packet travelling, one being worked off, and twice that so that neither waits for the other's credit. Eight send a tenth
@@ -272,12 +270,8 @@ void note_reductions(Plan& plan) {
 std::uint32_t Plan::dealing_credits() const { return request.is_dealt() ? dealt_packets : 0; }
 
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
-  nodes::MemoryPlan plan;
-  NodeProgram::add_needs(plan, *this, index);
-  plan[Category::mailbox] += node_mailbox.bytes();
-  plan[Category::queues] += nodes::credit_table_bytes(node_count() + 1) + held_bytes;
-  plan[Category::reserve] += request.computer.stack_reserve_bytes;
-  return plan;
+  return nodes::memory_beside_program(node_mailbox, node_count() + 1, held_bytes, request.computer.stack_reserve_bytes) +
+         NodeProgram::layout(*this, index);
 }
 
 std::size_t Plan::unit_packet_bytes() const {
@@ -311,12 +305,7 @@ std::uint32_t Plan::largest_node() const {
 }
 
 nodes::MemoryPlan Plan::host_memory() const {
-  nodes::MemoryPlan plan;
-  HostProgram::add_needs(plan, *this);
-  plan[Category::mailbox] += host_mailbox.bytes();
-  plan[Category::queues] += nodes::credit_table_bytes(node_count() + 1) + held_bytes;
-  plan[Category::reserve] += host_stack_bytes;
-  return plan;
+  return nodes::memory_beside_program(host_mailbox, node_count() + 1, held_bytes, host_stack_bytes) + HostProgram::layout(*this);
 }
 
 std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return smallest_plan(request).node_memory_max_bytes(); }

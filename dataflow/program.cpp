@@ -17,17 +17,18 @@ namespace {
 
 using nodes::Category;
 using nodes::LocalMemory;
+using Bytes = nodes::Room<std::byte>;
 
 /// Copies `value`, which has no default, into local memory.
 template <class T>
 T* keep(LocalMemory& memory, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
-  const std::span<std::byte> bytes = memory.allocate<std::byte>(core::MemoryUse::constants, sizeof(T));
+  const std::span<std::byte> bytes = Bytes{core::MemoryUse::constants, sizeof(T)}.in(memory);
   return std::construct_at(reinterpret_cast<T*>(bytes.data()), value);
 }
 
 std::span<std::byte> keep_records(LocalMemory& memory, Category category, const nodes::ByteSource& records) {
-  const std::span<std::byte> bytes = memory.allocate<std::byte>(category, records.size_bytes());
+  const std::span<std::byte> bytes = Bytes{category, records.size_bytes()}.in(memory);
   records.copy(0, bytes);
   return bytes;
 }
@@ -37,23 +38,6 @@ core::RenderSettings settings_for(const NodeDeal& deal) {
   settings.header = deal.header;
   return settings;
 }
-
-}  // namespace
-
-RayCounters& operator+=(RayCounters& sum, const RayCounters& more) {
-  for (std::size_t kind = 0; kind < core::ray_kind_count; ++kind) {
-    sum.in[kind] += more.in[kind];
-    sum.out[kind] += more.out[kind];
-  }
-  sum.ended += more.ended;
-  sum.hits_sent_back += more.hits_sent_back;
-  sum.rests += more.rests;
-  sum.holds += more.holds;
-  sum.tests_avoided += more.tests_avoided;
-  return sum;
-}
-
-namespace {
 
 Places::Capacity places_of(const Plan& plan) {
   return {.node_count = plan.node_count(),
@@ -121,17 +105,20 @@ RayProgram<RaysTask, Units>::RayProgram(nodes::Node& node, const Plan& plan, con
   core::expect(RaysTask::rays_max == plan.rays_a_task, "a node's task is that of the plan");
 }
 
-void NodeProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index) {
+nodes::MemoryPlan NodeProgram::layout(const Plan& plan, std::uint32_t index) {
   const Share& share = plan.request.shares[index];
-  memory[core::MemoryUse::constants] +=
-      LocalMemory::bytes_for<std::byte>(sizeof(Constants)) + LocalMemory::bytes_for<std::byte>(share.outline_bytes);
-  (plan.is_moving() ? MovingUnits::add_needs : NoUnits::add_needs)(memory, plan, index);
-  Primaries::add_needs(memory, plan.is_moving() ? 0 : share.primary_runs, plan.request.is_dealt());
-  RayQueue::add_needs(memory, backlog_capacity(plan));
-  Places::add_needs(memory, places_of(plan));
-  (plan.rays_a_task > 1 ? BundleTask::add_needs : RayTask::add_needs)(memory, plan.request.depth_max);
-  Gather::add_needs(memory, gather_capacity(plan));
-  FilmGather::add_needs(memory);
+  nodes::MemoryPlan memory = Bytes{core::MemoryUse::constants, sizeof(Constants)} +
+                             Bytes{core::MemoryUse::constants, share.outline_bytes} +
+                             (plan.is_moving() ? MovingUnits::layout(plan, index) : NoUnits::layout(plan, index)) +
+                             Primaries::layout(plan.is_moving() ? 0 : share.primary_runs, plan.request.is_dealt()) +
+                             RayQueue::layout(backlog_capacity(plan)) + Places::layout(places_of(plan)) +
+                             Gather::layout(gather_capacity(plan)) + FilmGather::layout();
+  if (plan.rays_a_task > 1) {
+    memory += BundleTask::layout(plan.request.depth_max);
+  } else {
+    memory += RayTask::layout(plan.request.depth_max);
+  }
+  return memory;
 }
 
 template <class RaysTask, class Units>
@@ -628,13 +615,13 @@ std::string RayProgram<RaysTask, Units>::describe() const {
 
 template <class RaysTask, class Units>
 ProgramReport RayProgram<RaysTask, Units>::report() const {
-  ProgramReport report{.operations = operations_,
-                       .rays = counters_,
-                       .gather = gather_.counters(),
-                       .film = film_.counters(),
-                       .movement = units_.counters(),
-                       .backlog_high_water = backlog_.high_water(),
-                       .pairs = gather_.pairs()};
+  ProgramReport report{{.operations = operations_,
+                        .rays = counters_,
+                        .gather = gather_.counters(),
+                        .film = film_.counters(),
+                        .movement = units_.counters(),
+                        .backlog_high_water = backlog_.high_water()},
+                       gather_.pairs()};
   report.rays.holds = backpressure_.count();
   if constexpr (RaysTask::rays_max == 1) {
     report.rays.tests_avoided = task_.tests_avoided();

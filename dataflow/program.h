@@ -19,6 +19,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/trace/operations.h"
@@ -54,24 +55,28 @@ struct RayCounters {
   std::uint64_t tests_avoided = 0;  ///< lanes that rays had tested where they came from (RayOptions::tested_objects)
   std::uint64_t holds = 0;          ///< times that it asked the others to hold primary rays back
 };
-RayCounters& operator+=(RayCounters& sum, const RayCounters& more);
 
-/// All that a program counted.
-struct ProgramReport {
+/// A value.
+struct ProgramCounts {
   core::Operations operations;
   RayCounters rays;
   Gather::Counters gather;
   FilmGather::Counters film;
   MovementCounters movement;
   std::uint32_t backlog_high_water = 0;  ///< the most rays in the backlog at once
-  std::vector<PairCounters> pairs;       ///< by owner
+};
+static_assert(std::is_trivially_copyable_v<ProgramCounts>, "it travels as bytes to the host's rank");
+
+/// All that a program counted.
+struct ProgramReport : ProgramCounts {
+  std::vector<PairCounters> pairs;  ///< by owner
 };
 
 /// What all node programs of dataflow are, whatever their rays share.
 class NodeProgram : public nodes::Program {
  public:
-  /// Adds to `memory` exactly what the program of the plan takes at node `index`.
-  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index);
+  /// What the program of the plan takes at node `index`.
+  static nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index);
   /// Call it only while the program is not running.
   virtual ProgramReport report() const = 0;
 

@@ -8,6 +8,7 @@
 
 #include "core/base/expect.h"
 #include "nodes/byte_source.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::nodes {
@@ -29,10 +30,11 @@ class LastingPieces {
       room_ = memory.allocate<std::byte>(category, room_bytes);
     }
   }
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(MemoryPlan& plan, Category category, std::size_t room_bytes) {
-    plan[category] += LocalMemory::bytes_for<std::byte>(room_bytes);
-    plan.lasting_bytes += LocalMemory::bytes_for<std::byte>(room_bytes);
+  /// What the constructor takes.
+  static MemoryPlan layout(Category category, std::size_t room_bytes) {
+    MemoryPlan plan = Room<std::byte>{category, room_bytes};
+    plan.lasting_bytes = plan[category];
+    return plan;
   }
 
   /// `piece` is now at `index`, in place of what was there.

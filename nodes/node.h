@@ -9,6 +9,7 @@
 
 #include "core/base/expect.h"
 #include "nodes/counters.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "nodes/node_id.h"
 #include "nodes/packet.h"
@@ -41,13 +42,13 @@ class Network {
   }
 };
 
-/// The bytes that a Node's own table of credits takes of Category::queues.
-std::size_t credit_table_bytes(std::uint32_t peer_count);
+/// What a Node's own table of credits takes.
+inline Room<std::uint16_t> credit_table(std::uint32_t peer_count) { return {Category::queues, peer_count * channel_count}; }
 
 /// One processor. Not thread-safe: belongs to the thread that runs its program.
 class Node {
  public:
-  /// `peer_count` = nodes + host. The table of credits (peer_count * channel_count * 2 bytes) is taken from `memory`.
+  /// `peer_count` = nodes + host. credit_table() is taken from `memory`.
   Node(NodeId id, std::uint32_t peer_count, LocalMemory& memory, Network& network);
 
   /// Its own name.

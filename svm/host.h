@@ -49,8 +49,8 @@ class HostProgram final : public nodes::Program {
   /// `progress` may be empty.
   HostProgram(nodes::Node& node, const HostShape& shape, core::Film& film, nodes::Progress progress,
               const core::Continuation& continuation = {});
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, const HostShape& shape);
+  /// What the constructor takes.
+  static nodes::MemoryPlan layout(const HostShape& shape);
 
   void receive(const nodes::Packet& packet) override;
   bool work() override { return false; }

@@ -21,8 +21,6 @@
 namespace dmpc::svm {
 namespace {
 
-using nodes::Category;
-using nodes::LocalMemory;
 using nodes::size_text;
 
 /// A node whose task waits for a page has others to go on with.
@@ -430,29 +428,26 @@ HostShape Plan::host() const {
 nodes::Patience Plan::patience() const { return nodes::patience_of(number_of(Kind::film_sums), film_credits); }
 
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
-  nodes::MemoryPlan plan;
+  nodes::MemoryPlan plan = nodes::memory_beside_program(node_mailbox, request.computer.node_count + 1, held_bytes,
+                                                        request.computer.stack_reserve_bytes) +
+                           nodes::LastingPieces::layout(core::MemoryUse::constants, sizeof(core::RenderSettings)) +
+                           FilmGather::layout(film()) + WorkSource::layout(work(), index);
   if (request.strategy == Strategy::svm) {
-    Pager::add_needs(plan, pages(), index);
+    plan += Pager::layout(pages(), index);
   } else if (request.strategy == Strategy::forest) {
-    Forest::add_needs(plan, pages(), index);
+    plan += Forest::layout(pages(), index);
   } else {
-    LocalCopy::add_needs(plan, pages().database_bytes());
+    plan += LocalCopy::layout(pages().database_bytes());
   }
   if (request.pages.count_pages) {
-    CountingPager::add_needs(plan, pages());
+    plan += CountingPager::own_layout(pages());
   }
   const auto depth_max = static_cast<std::uint32_t>(request.depth_max);
   if (pixels_a_task > 1) {
-    Slots<core::BundleTask>::add_needs(plan, task_count(), depth_max);
+    plan += Slots<core::BundleTask>::layout(task_count(), depth_max);
   } else {
-    Slots<core::PixelTask>::add_needs(plan, task_count(), depth_max);
+    plan += Slots<core::PixelTask>::layout(task_count(), depth_max);
   }
-  FilmGather::add_needs(plan, film());
-  WorkSource::add_needs(plan, work(), index);
-  nodes::LastingPieces::add_needs(plan, core::MemoryUse::constants, sizeof(core::RenderSettings));
-  plan[Category::mailbox] += node_mailbox.bytes();
-  plan[Category::queues] += nodes::credit_table_bytes(request.computer.node_count + 1) + held_bytes;
-  plan[Category::reserve] += request.computer.stack_reserve_bytes;
   return plan;
 }
 
@@ -465,12 +460,8 @@ std::size_t Plan::node_memory_max_bytes() const {
 }
 
 nodes::MemoryPlan Plan::host_memory() const {
-  nodes::MemoryPlan plan;
-  HostProgram::add_needs(plan, host());
-  plan[Category::mailbox] += host_mailbox.bytes();
-  plan[Category::queues] += nodes::credit_table_bytes(request.computer.node_count + 1) + held_bytes;
-  plan[Category::reserve] += host_stack_bytes;
-  return plan;
+  return nodes::memory_beside_program(host_mailbox, request.computer.node_count + 1, held_bytes, host_stack_bytes) +
+         HostProgram::layout(host());
 }
 
 std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return bytes_with(request, frames_min(request), 1); }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/picture/partial_picture.h"
+#include "nodes/layout.h"
 #include "nodes/node.h"
 #include "svm/packets.h"
 #include "svm/pages/node_program.h"
@@ -48,8 +49,8 @@ class WorkSource {
  public:
   /// In the first pass all samples are wanted that shape.start lacks.
   WorkSource(nodes::Node& node, const WorkShape& shape, bool passes_over_idle = true);
-  /// Adds to `memory` exactly what the constructor takes at node `index`.
-  static void add_needs(nodes::MemoryPlan& memory, const WorkShape& shape, std::uint32_t index);
+  /// What the constructor takes at node `index`.
+  static nodes::Layout<core::SampleStep, WorkRequest> layout(const WorkShape& shape, std::uint32_t index);
 
   /// A pixel of the current item, of the share, or of an item received is left.
   bool has_pixel() const { return !scan_.empty() || !items_.empty(); }

@@ -72,13 +72,4 @@ class HostedProgram final : public nodes::Program {
   std::unique_ptr<dmpc::Program> program_;
 };
 
-/// The host's, which has nothing to do.
-class IdleProgram final : public nodes::Program {
- public:
-  void receive(const nodes::Packet& /*packet*/) override {}
-  bool work() override { return false; }
-  bool finished() const override { return true; }
-  std::string describe() const override { return "nothing to do"; }
-};
-
 }  // namespace dmpc::apps

@@ -7,6 +7,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/run/time_parts.h"
 #include "apps/edge/show/trace/view.h"
+#include "core/base/counts.h"
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "svm/pages/packets.h"
@@ -33,7 +34,7 @@ void add_ranks(std::vector<nodes::RankFigures>& sums, const std::vector<nodes::R
 }  // namespace
 
 PagedNode& PagedNode::operator+=(const PagedNode& more) {
-  pages += more.pages;
+  core::add_counts(pages, more.pages);
   charges += more.charges;
   requests += more.requests;
   replies += more.replies;

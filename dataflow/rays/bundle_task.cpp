@@ -8,15 +8,14 @@
 
 namespace dmpc::dataflow {
 
-using nodes::LocalMemory;
+BundleTask::BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max) : self_(self) {
+  std::span<Flights> flights;
+  std::tie(flights, stack_) = layout(depth_max).in(memory);
+  flights_ = flights.data();
+}
 
-BundleTask::BundleTask(LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max)
-    : self_(self),
-      flights_(memory.allocate<Flights>(core::MemoryUse::ray_stacks, 1).data()),
-      stack_(memory.allocate<core::BundleHit>(core::MemoryUse::ray_stacks, depth_max)) {}
-
-void BundleTask::add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max) {
-  plan[core::MemoryUse::ray_stacks] += LocalMemory::bytes_for<Flights>(1) + LocalMemory::bytes_for<core::BundleHit>(depth_max);
+nodes::Layout<BundleTask::Flights, core::BundleHit> BundleTask::layout(std::uint32_t depth_max) {
+  return {{core::MemoryUse::ray_stacks, 1}, {core::MemoryUse::ray_stacks, depth_max}};
 }
 
 void BundleTask::shoot(const core::Ray& ray) {

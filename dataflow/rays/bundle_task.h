@@ -9,6 +9,7 @@
 #include "core/trace/bundle.h"
 #include "dataflow/packets.h"
 #include "dataflow/rays/ray_task.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "nodes/node_id.h"
 
@@ -19,13 +20,15 @@ namespace dmpc::dataflow {
 /// most the hits of one bundle a depth. A ray that has been seen to may go on in this region, and is then traced again with
 /// others. Thread safety: belongs to one node.
 class BundleTask {
+  struct Flights;
+
  public:
   static constexpr std::uint32_t rays_max = core::bundle_rays_max;
 
   /// Nothing under way. A stack of `depth_max` bundles of hits.
   BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max);
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max);
+  /// What the constructor takes.
+  static nodes::Layout<Flights, core::BundleHit> layout(std::uint32_t depth_max);
 
   /// Rays are to be traced, once those that have ended are seen to.
   bool has_rays() const { return count_ + waiting_ > 0; }

@@ -4,31 +4,18 @@
 #include <bit>
 #include <cstring>
 
+#include "core/base/counts.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 
 namespace dmpc::dataflow {
 
 using nodes::Category;
-using nodes::LocalMemory;
 using nodes::NodeId;
 
-namespace {
-
-std::size_t packet_bytes_of(const Gather::Capacity& capacity) {
-  return ray_packet_bytes(capacity.ray_batch, capacity.tested_objects);
-}
-
-}  // namespace
-
 Gather::Counters& Gather::Counters::operator+=(const Counters& more) {
-  packets += more.packets;
-  rays += more.rays;
-  packets_overflowed += more.packets_overflowed;
-  rays_overflowed += more.rays_overflowed;
-  packets_flushed += more.packets_flushed;
-  packets_queued += more.packets_queued;
-  queue_high_water = std::max(queue_high_water, more.queue_high_water);
+  const std::uint64_t high_water = std::max(queue_high_water, more.queue_high_water);
+  core::add_counts(*this, more).queue_high_water = high_water;
   return *this;
 }
 
@@ -40,10 +27,8 @@ Gather::Gather(nodes::Node& node, const Capacity& capacity)
       tested_objects_(capacity.tested_objects),
       open_packets_max_(capacity.open_packets_max()),
       shares_places_(capacity.shares_places),
-      are_nodes_joined_(capacity.shares_places || capacity.ray_credits > 0),
-      room_(node.memory().allocate<std::byte>(Category::queues, capacity.packets() * stride_bytes(packet_bytes_of(capacity)))),
-      slots_(node.memory().allocate<Slot>(Category::queues, capacity.packets())),
-      owners_(node.memory().allocate<Owner>(Category::queues, capacity.node_count)) {
+      are_nodes_joined_(capacity.shares_places || capacity.ray_credits > 0) {
+  std::tie(room_, slots_, owners_) = layout(capacity).in(node.memory());
   for (std::size_t slot = capacity.packets(); slot > 0; --slot) {
     release(static_cast<std::uint16_t>(slot - 1));
   }
@@ -53,12 +38,14 @@ Gather::Gather(nodes::Node& node, const Capacity& capacity)
   node.grant(host_, ray_channel, capacity.host_credits);
 }
 
-void Gather::add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
-  plan[Category::queues] += LocalMemory::bytes_for<std::byte>(capacity.packets() * stride_bytes(packet_bytes_of(capacity))) +
-                            LocalMemory::bytes_for<Slot>(capacity.packets()) + LocalMemory::bytes_for<Owner>(capacity.node_count);
+nodes::Layout<std::byte, Gather::Slot, Gather::Owner> Gather::layout(const Capacity& capacity) {
+  const std::size_t stride = stride_bytes(ray_packet_bytes(capacity.ray_batch, capacity.tested_objects));
+  return {{Category::queues, capacity.packets() * stride},
+          {Category::queues, capacity.packets()},
+          {Category::queues, capacity.node_count}};
 }
 
-std::size_t Gather::stride_bytes(std::size_t bytes) { return core::round_up(bytes, LocalMemory::alignment); }
+std::size_t Gather::stride_bytes(std::size_t bytes) { return core::round_up(bytes, nodes::LocalMemory::alignment); }
 
 std::uint32_t Gather::credits_returned(NodeId receiver, std::uint32_t count) {
   node_->grant(receiver, ray_channel, count);
@@ -196,7 +183,7 @@ void Gather::enqueue(NodeId owner) {
   slots_[target.open].next = none;
   (target.first == none ? target.first : slots_[target.last].next) = target.open;
   target.last = target.open;
-  counters_.queue_high_water = std::max(counters_.queue_high_water, ++queued_);
+  counters_.queue_high_water = std::max<std::uint64_t>(counters_.queue_high_water, ++queued_);
   ++counters_.packets_queued;
 }
 

@@ -11,6 +11,7 @@
 
 #include "dataflow/flow_control.h"
 #include "dataflow/packets.h"
+#include "nodes/layout.h"
 #include "nodes/node.h"
 
 namespace dmpc::dataflow {
@@ -28,6 +29,9 @@ struct PairCounters {
 /// owners. At most one closed packet finds no room there either, and while it waits nothing may be added. Keeps account of the
 /// node's credits for rays, and asks for them where owners share their places. Thread safety: belongs to one node.
 class Gather {
+  struct Slot;
+  struct Owner;
+
  public:
   struct Capacity {
     std::uint32_t node_count = 1;
@@ -52,8 +56,9 @@ class Gather {
     std::uint64_t rays_overflowed = 0;
     std::uint64_t packets_flushed = 0;   ///< of them, closed before they were full
     std::uint64_t packets_queued = 0;    ///< of them, after a time in the queue
-    std::uint32_t queue_high_water = 0;  ///< the most packets in the queue at once
+    std::uint64_t queue_high_water = 0;  ///< the most packets in the queue at once
 
+    /// Sums, but for the high water, of which the higher one stays.
     Counters& operator+=(const Counters& more);
     /// Mean rays in a packet over `ray_batch`, those in a full one, in (0, 1]; 1 without packets.
     double mean_fill(std::uint32_t ray_batch) const {
@@ -63,8 +68,8 @@ class Gather {
 
   /// Takes the credits.
   Gather(nodes::Node& node, const Capacity& capacity);
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, const Capacity& capacity);
+  /// What the constructor takes.
+  static nodes::Layout<std::byte, Slot, Owner> layout(const Capacity& capacity);
 
   /// The receiver has taken up `count` packets, or grants a place. Sends it the queued ones that these credits allow, or a
   /// granted one back, and says how many packets on the channel of rays that made.

@@ -93,23 +93,18 @@ std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSetti
   return counts;
 }
 
-std::size_t Primaries::capacity(std::size_t run_count, bool is_dealt) {
-  return std::max(run_count, is_dealt ? dealt_packets * std::tuple_size_v<decltype(DealtPrimaries::runs)> : 0);
+nodes::Room<PrimaryRun> Primaries::layout(std::size_t run_count, bool is_dealt) {
+  return {nodes::Category::queues,
+          std::max(run_count, is_dealt ? dealt_packets * std::tuple_size_v<decltype(DealtPrimaries::runs)> : 0)};
 }
 
 Primaries::Primaries(nodes::LocalMemory& memory, std::span<const PrimaryRun> runs, const core::SampleRange& samples,
                      bool is_dealt)
-    : runs_(memory.allocate<PrimaryRun>(nodes::Category::queues, capacity(runs.size(), is_dealt))),
-      count_(runs.size()),
-      samples_(samples) {
+    : runs_(layout(runs.size(), is_dealt).in(memory)), count_(runs.size()), samples_(samples) {
   std::copy(runs.begin(), runs.end(), runs_.begin());
   for (const PrimaryRun& run : runs) {
     left_ += run.count;
   }
-}
-
-void Primaries::add_needs(nodes::MemoryPlan& plan, std::size_t run_count, bool is_dealt) {
-  plan[nodes::Category::queues] += nodes::LocalMemory::bytes_for<PrimaryRun>(capacity(run_count, is_dealt));
 }
 
 std::uint64_t Primaries::take() {

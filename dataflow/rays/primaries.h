@@ -11,6 +11,7 @@
 #include "core/picture/sample_pass.h"
 #include "dataflow/packets.h"
 #include "dataflow/regions/regions.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::dataflow {
@@ -41,8 +42,8 @@ class Primaries {
  public:
   /// Copies `runs`, which are of the first pass. With `is_dealt` there is room for dealt_packets afterwards.
   Primaries(nodes::LocalMemory& memory, std::span<const PrimaryRun> runs, const core::SampleRange& samples, bool is_dealt);
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::size_t run_count, bool is_dealt);
+  /// What the constructor takes.
+  static nodes::Room<PrimaryRun> layout(std::size_t run_count, bool is_dealt);
 
   bool empty() const { return left_ == 0; }
   /// Rays that have not started.
@@ -57,8 +58,6 @@ class Primaries {
   std::uint32_t packets_worked_off();
 
  private:
-  static std::size_t capacity(std::size_t run_count, bool is_dealt);
-
   std::span<PrimaryRun> runs_;  ///< a ring
   std::size_t first_ = 0, count_ = 0;
   std::uint64_t started_of_run_ = 0;

@@ -10,6 +10,7 @@
 #include "core/base/expect.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/packets.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::dataflow {
@@ -20,6 +21,9 @@ namespace dmpc::dataflow {
 /// come from a sender, as many stay withheld as the rays of it that are still here would fill; the others are owed to it. Thread
 /// safety: belongs to one node.
 class RayQueue {
+  struct Entry;
+  struct Sender;
+
  public:
   struct Capacity {
     std::uint32_t sender_count = 0;    ///< senders have indices below this
@@ -39,11 +43,8 @@ class RayQueue {
       : packets_each_(capacity.packets_each),
         ray_batch_(capacity.ray_batch),
         lists_a_depth_(capacity.are_kinds_apart ? 2 : 1),
-        message_bytes_(ray_message_bytes(capacity.tested_objects)),
-        rays_(memory.allocate<std::byte>(nodes::Category::queues, capacity.rays() * message_bytes_)),
-        entries_(memory.allocate<Entry>(nodes::Category::queues, capacity.rays())),
-        newest_(memory.allocate<std::uint32_t>(nodes::Category::queues, capacity.lists())),
-        senders_(memory.allocate<Sender>(nodes::Category::queues, capacity.sender_count)) {
+        message_bytes_(ray_message_bytes(capacity.tested_objects)) {
+    std::tie(rays_, entries_, newest_, senders_) = layout(capacity).in(memory);
     for (std::uint32_t& newest : newest_) {
       newest = none;
     }
@@ -52,13 +53,13 @@ class RayQueue {
       free_ = i - 1;
     }
   }
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
-    using nodes::LocalMemory;
-    plan[nodes::Category::queues] +=
-        LocalMemory::bytes_for<std::byte>(capacity.rays() * ray_message_bytes(capacity.tested_objects)) +
-        LocalMemory::bytes_for<Entry>(capacity.rays()) + LocalMemory::bytes_for<std::uint32_t>(capacity.lists()) +
-        LocalMemory::bytes_for<Sender>(capacity.sender_count);
+  /// What the constructor takes.
+  static nodes::Layout<std::byte, Entry, std::uint32_t, Sender> layout(const Capacity& capacity) {
+    using nodes::Category;
+    return {{Category::queues, capacity.rays() * ray_message_bytes(capacity.tested_objects)},
+            {Category::queues, capacity.rays()},
+            {Category::queues, capacity.lists()},
+            {Category::queues, capacity.sender_count}};
   }
 
   /// A packet with `ray_count` rays from `sender` has come; put() them next.

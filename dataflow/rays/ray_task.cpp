@@ -6,16 +6,15 @@
 
 namespace dmpc::dataflow {
 
-using nodes::LocalMemory;
+RayTask::RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max, std::uint32_t tested_objects)
+    : self_(self), tested_(tested_objects) {
+  std::span<Flight> flight;
+  std::tie(flight, stack_) = layout(depth_max).in(memory);
+  flight_ = flight.data();
+}
 
-RayTask::RayTask(LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max, std::uint32_t tested_objects)
-    : self_(self),
-      tested_(tested_objects),
-      flight_(memory.allocate<Flight>(core::MemoryUse::ray_stacks, 1).data()),
-      stack_(memory.allocate<core::HitState>(core::MemoryUse::ray_stacks, depth_max)) {}
-
-void RayTask::add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max) {
-  plan[core::MemoryUse::ray_stacks] += LocalMemory::bytes_for<Flight>(1) + LocalMemory::bytes_for<core::HitState>(depth_max);
+nodes::Layout<RayTask::Flight, core::HitState> RayTask::layout(std::uint32_t depth_max) {
+  return {{core::MemoryUse::ray_stacks, 1}, {core::MemoryUse::ray_stacks, depth_max}};
 }
 
 void RayTask::shoot(const core::Ray& ray) {

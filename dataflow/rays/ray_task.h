@@ -7,6 +7,7 @@
 #include "core/picture/pixel_task.h"
 #include "dataflow/packets.h"
 #include "dataflow/rays/part_tracer.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "nodes/node_id.h"
 
@@ -16,14 +17,16 @@ namespace dmpc::dataflow {
 /// and so on, before the next is made; so the stack holds at most one hit a depth, whatever the number of lights. A child that
 /// leaves is the caller's to send on; it leaves nothing behind. Thread safety: belongs to one node.
 class RayTask {
+  struct Flight;
+
  public:
   static constexpr std::uint32_t rays_max = 1;
 
   /// Nothing under way. A stack of `depth_max` hits.
   /// With `tested_objects` rays remember so many blocks that they have tested.
   RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max, std::uint32_t tested_objects = 0);
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t depth_max);
+  /// What the constructor takes.
+  static nodes::Layout<Flight, core::HitState> layout(std::uint32_t depth_max);
 
   /// A ray is to be traced.
   bool has_rays() const { return stage_ == Stage::shot || stage_ == Stage::entered; }

@@ -7,43 +7,18 @@
 #include "core/picture/memory_use.h"
 
 namespace dmpc::dataflow {
-namespace {
 
-using nodes::Category;
-using nodes::LocalMemory;
-
-}  // namespace
-
-MovementCounters& MovementCounters::operator+=(const MovementCounters& more) {
-  units_given += more.units_given;
-  units_taken += more.units_taken;
-  pages_sent += more.pages_sent;
-  pages_installed += more.pages_installed;
-  records_walked += more.records_walked;
-  primaries_given += more.primaries_given;
-  primaries_taken += more.primaries_taken;
-  asks += more.asks;
-  refusals += more.refusals;
-  rays_sent_on += more.rays_sent_on;
-  units += more.units;
-  return *this;
-}
-
-Movement::Movement(nodes::Node& node, const Plan& plan, const Units& units)
-    : node_(&node),
-      units_(units),
-      version_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.unit_count())),
-      pages_of_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.unit_count())),
-      rays_told_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.node_count())),
-      stale_(node.memory().allocate<std::uint32_t>(core::MemoryUse::page_table, plan.node_count())),
-      packet_(node.memory().allocate<std::byte>(Category::queues, plan.unit_packet_bytes())) {
+Movement::Movement(nodes::Node& node, const Plan& plan, const Units& units) : node_(&node), units_(units) {
+  std::tie(version_, pages_of_, rays_told_, stale_, packet_) = layout(plan).in(node.memory());
   std::fill(stale_.begin(), stale_.end(), none);
 }
 
-void Movement::add_needs(nodes::MemoryPlan& memory, const Plan& plan) {
-  memory[core::MemoryUse::page_table] +=
-      2 * LocalMemory::bytes_for<std::uint32_t>(plan.unit_count()) + 2 * LocalMemory::bytes_for<std::uint32_t>(plan.node_count());
-  memory[Category::queues] += LocalMemory::bytes_for<std::byte>(plan.unit_packet_bytes());
+nodes::Layout<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, std::byte> Movement::layout(const Plan& plan) {
+  return {{core::MemoryUse::page_table, plan.unit_count()},
+          {core::MemoryUse::page_table, plan.unit_count()},
+          {core::MemoryUse::page_table, plan.node_count()},
+          {core::MemoryUse::page_table, plan.node_count()},
+          {nodes::Category::queues, plan.unit_packet_bytes()}};
 }
 
 void Movement::tell_news(nodes::NodeId sender) {

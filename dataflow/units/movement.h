@@ -20,6 +20,7 @@
 #include "dataflow/units/unit_pages.h"
 #include "dataflow/units/unit_primaries.h"
 #include "nodes/charge.h"
+#include "nodes/layout.h"
 #include "nodes/node.h"
 
 namespace dmpc::dataflow {
@@ -32,9 +33,7 @@ struct MovementCounters {
   std::uint64_t primaries_given = 0, primaries_taken = 0;  ///< rays that had not started, with units
   std::uint64_t asks = 0, refusals = 0;                    ///< of this node, and how many of these were refused
   std::uint64_t rays_sent_on = 0;                          ///< that came though another answered for their unit by then
-  std::uint32_t units = 0;                                 ///< that it answers for
-
-  MovementCounters& operator+=(const MovementCounters& more);
+  std::uint64_t units = 0;                                 ///< that it answers for
 };
 
 /// Thread safety: belongs to one node.
@@ -49,8 +48,8 @@ class Movement {
   };
 
   Movement(nodes::Node& node, const Plan& plan, const Units& units);
-  /// Adds to `memory` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan);
+  /// What the constructor takes.
+  static nodes::Layout<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, std::byte> layout(const Plan& plan);
 
   /// The node answers for a unit by what it knows.
   bool answers_for(std::uint32_t unit) const { return units_.regions->owner_at(unit) == node_->id(); }

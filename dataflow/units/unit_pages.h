@@ -17,6 +17,7 @@
 #include "core/picture/memory_use.h"
 #include "core/record/records.h"
 #include "nodes/byte_source.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::dataflow {
@@ -32,19 +33,15 @@ class UnitPages {
     std::uint32_t frames = 0;
   };
 
-  UnitPages(nodes::LocalMemory& memory, const Capacity& capacity)
-      : page_bytes_(capacity.page_bytes),
-        bytes_(memory.allocate<std::byte>(core::MemoryUse::home_pages, frame_bytes(capacity))),
-        page_(memory.allocate<std::uint32_t>(core::MemoryUse::page_table, capacity.frames)),
-        slot_(memory.allocate<std::uint32_t>(core::MemoryUse::page_table, slots_of(capacity))),
-        marks_(memory.allocate<std::uint64_t>(core::MemoryUse::page_table, words_of(capacity))) {}
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
-    using nodes::LocalMemory;
-    plan[core::MemoryUse::home_pages] += LocalMemory::bytes_for<std::byte>(frame_bytes(capacity));
-    plan[core::MemoryUse::page_table] += LocalMemory::bytes_for<std::uint32_t>(capacity.frames) +
-                                         LocalMemory::bytes_for<std::uint32_t>(slots_of(capacity)) +
-                                         LocalMemory::bytes_for<std::uint64_t>(words_of(capacity));
+  UnitPages(nodes::LocalMemory& memory, const Capacity& capacity) : page_bytes_(capacity.page_bytes) {
+    std::tie(bytes_, page_, slot_, marks_) = layout(capacity).in(memory);
+  }
+  /// What the constructor takes.
+  static nodes::Layout<std::byte, std::uint32_t, std::uint32_t, std::uint64_t> layout(const Capacity& capacity) {
+    return {{core::MemoryUse::home_pages, frame_bytes(capacity)},
+            {core::MemoryUse::page_table, capacity.frames},
+            {core::MemoryUse::page_table, slots_of(capacity)},
+            {core::MemoryUse::page_table, core::ceil_divide<std::size_t>(capacity.frames, 64)}};
   }
 
   std::size_t page_bytes() const { return page_bytes_; }
@@ -89,7 +86,6 @@ class UnitPages {
   static std::size_t slots_of(const Capacity& capacity) {
     return capacity.frames == 0 ? 0 : std::bit_ceil(std::size_t{capacity.frames} * 2);
   }
-  static std::size_t words_of(const Capacity& capacity) { return core::ceil_divide<std::size_t>(capacity.frames, 64); }
   /// Where a page is entered, or would be: linear probing (Knuth, The Art of Computer Programming, 6.4), by multiplication.
   std::size_t place_of(std::uint32_t page) const {
     std::size_t place = (page * std::uint64_t{0x9e3779b97f4a7c15} >> 32) & (slot_.size() - 1);

@@ -6,14 +6,10 @@
 
 namespace dmpc::dataflow {
 
-using nodes::Category;
-using nodes::LocalMemory;
-
-UnitPrimaries::UnitPrimaries(LocalMemory& memory, const Capacity& capacity, std::span<const PrimaryRun> runs,
+UnitPrimaries::UnitPrimaries(nodes::LocalMemory& memory, const Capacity& capacity, std::span<const PrimaryRun> runs,
                              std::span<const std::uint32_t> runs_of_unit, const core::SampleRange& samples)
-    : runs_(memory.allocate<PrimaryRun>(Category::queues, capacity.runs)),
-      lists_(memory.allocate<List>(Category::queues, capacity.units)),
-      samples_(samples) {
+    : samples_(samples) {
+  std::tie(runs_, lists_) = layout(capacity).in(memory);
   core::expect(runs.size() <= runs_.size(), "there is room for a node's own runs");
   std::copy(runs.begin(), runs.end(), runs_.begin());
   std::uint32_t first = 0;
@@ -33,8 +29,8 @@ UnitPrimaries::UnitPrimaries(LocalMemory& memory, const Capacity& capacity, std:
   core::expect(first == runs.size(), "every run is a unit's");
 }
 
-void UnitPrimaries::add_needs(nodes::MemoryPlan& plan, const Capacity& capacity) {
-  plan[Category::queues] += LocalMemory::bytes_for<PrimaryRun>(capacity.runs) + LocalMemory::bytes_for<List>(capacity.units);
+nodes::Layout<PrimaryRun, UnitPrimaries::List> UnitPrimaries::layout(const Capacity& capacity) {
+  return {{nodes::Category::queues, capacity.runs}, {nodes::Category::queues, capacity.units}};
 }
 
 /// Its rays; nullptr if it has none.

@@ -7,6 +7,7 @@
 
 #include "dataflow/packets.h"
 #include "dataflow/regions/primary_run.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::dataflow {
@@ -14,6 +15,8 @@ namespace dmpc::dataflow {
 /// They start in the order of the picture, whatever their unit, as those of all other nodes do: so neighbours, whose rays meet,
 /// are as far. Thread safety: belongs to one node.
 class UnitPrimaries {
+  struct List;
+
  public:
   struct Capacity {
     std::size_t units = 0;  ///< with rays at one time; 0: regions do not move, nothing is held
@@ -23,8 +26,8 @@ class UnitPrimaries {
   /// Copies `runs`, those of one unit after the other, of which unit u has runs_of_unit[u].
   UnitPrimaries(nodes::LocalMemory& memory, const Capacity& capacity, std::span<const PrimaryRun> runs,
                 std::span<const std::uint32_t> runs_of_unit, const core::SampleRange& samples);
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, const Capacity& capacity);
+  /// What the constructor takes.
+  static nodes::Layout<PrimaryRun, List> layout(const Capacity& capacity);
 
   bool empty() const { return left_ == 0; }
   /// Rays.

@@ -9,7 +9,6 @@ namespace dmpc::svm {
 namespace {
 
 using nodes::Category;
-using nodes::LocalMemory;
 
 constexpr std::size_t question_bytes(QuestionKind kind) {
   return sizeof(QuestionHeader) + (kind == QuestionKind::below ? sizeof(core::Below) : sizeof(core::Address));
@@ -63,12 +62,16 @@ std::size_t question_packet_bytes(std::uint32_t questions) {
   return std::max(questions * question_bytes(QuestionKind::below), answer_bytes_max(QuestionKind::block));
 }
 
-void Forest::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
-  nodes::LastingPieces::add_needs(memory, core::MemoryUse::home_pages, capacity.forest_bytes() + core::overread_bytes);
-  HomePages::add_needs(memory, capacity, index);
-  memory[Category::queues] +=
-      LocalMemory::bytes_for<Question>(capacity.in_flight) + LocalMemory::bytes_for<Queue>(capacity.node_count) +
-      LocalMemory::bytes_for<std::byte>(capacity.question_bytes) + LocalMemory::bytes_for<std::byte>(lent_bytes);
+nodes::Layout<Forest::Question, Forest::Queue, std::byte, std::byte> Forest::own_layout(const PageCapacity& capacity) {
+  return {{Category::queues, capacity.in_flight},
+          {Category::queues, capacity.node_count},
+          {Category::queues, capacity.question_bytes},
+          {Category::queues, lent_bytes}};
+}
+
+nodes::MemoryPlan Forest::layout(const PageCapacity& capacity, std::uint32_t index) {
+  return nodes::LastingPieces::layout(core::MemoryUse::home_pages, capacity.forest_bytes() + core::overread_bytes) +
+         HomePages::layout(capacity, index) + own_layout(capacity);
 }
 
 Forest::Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
@@ -76,11 +79,8 @@ Forest::Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::Byt
       forest_(nodes::kept(node.memory(), core::MemoryUse::home_pages, database, capacity.forest_bytes(), core::overread_bytes)),
       homes_(node, capacity, database),
       self_(nodes::index_of(node.id())),
-      node_(&node),
-      asked_(node.memory().allocate<Question>(Category::queues, capacity.in_flight)),
-      queues_(node.memory().allocate<Queue>(Category::queues, capacity.node_count)),
-      packet_(node.memory().allocate<std::byte>(Category::queues, capacity.question_bytes)),
-      lent_(node.memory().allocate<std::byte>(Category::queues, lent_bytes)) {
+      node_(&node) {
+  std::tie(asked_, queues_, packet_, lent_) = own_layout(capacity).in(node.memory());
   grant_requests(node, capacity);
 }
 

@@ -17,6 +17,7 @@
 #include "core/trace/below.h"
 #include "core/trace/operations.h"
 #include "nodes/lasting_pieces.h"
+#include "nodes/layout.h"
 #include "nodes/node.h"
 #include "svm/packets.h"
 #include "svm/pages/faults.h"
@@ -42,8 +43,8 @@ class Forest {
   /// Puts the forest and the node's home pages, from `database`, into its local memory (nodes/lasting_pieces.h), and takes the
   /// credits for its questions.
   Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
-  /// Adds to `memory` exactly what the constructor takes at node `index`.
-  static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
+  /// What the constructor takes at node `index`.
+  static nodes::MemoryPlan layout(const PageCapacity& capacity, std::uint32_t index);
 
   /// The pointer is valid until the next packet of answers is taken.
   const std::byte* find(core::Address address) {
@@ -105,6 +106,7 @@ class Forest {
     std::uint32_t count = 0;
   };
 
+  static nodes::Layout<Question, Queue, std::byte, std::byte> own_layout(const PageCapacity& capacity);
   const std::byte* find_below(core::Address address);
   void add(std::uint32_t slot, core::Address address);
   bool send(std::uint32_t owner);

@@ -7,29 +7,29 @@
 namespace dmpc::svm {
 namespace {
 
-using nodes::LocalMemory;
-
 std::size_t frame_bytes(const CacheShape& shape) {
   return shape.frame_count == 0 ? 0 : shape.frame_count * shape.page_size_bytes + core::overread_bytes;
 }
 
-}  // namespace
-
-void Cache::add_needs(nodes::MemoryPlan& plan, const CacheShape& shape) {
-  nodes::LastingPieces::add_needs(plan, core::MemoryUse::cache_frames, frame_bytes(shape));
-  PageTable::add_needs(plan, shape.frame_count);
-  plan[core::MemoryUse::page_table] += LocalMemory::bytes_for<std::uint64_t>(shape.frame_count);
-  plan[core::MemoryUse::page_table] += LocalMemory::bytes_for<PageId>(shape.frame_count);
-  kind_of(shape.replacement).add_needs(plan, shape.frame_count);
+/// Beside frames, table and policy.
+nodes::Layout<std::uint64_t, PageId> own_layout(const CacheShape& shape) {
+  return {{core::MemoryUse::page_table, shape.frame_count}, {core::MemoryUse::page_table, shape.frame_count}};
 }
 
-Cache::Cache(LocalMemory& memory, const CacheShape& shape, std::uint32_t seed)
+}  // namespace
+
+nodes::MemoryPlan Cache::layout(const CacheShape& shape) {
+  return nodes::LastingPieces::layout(core::MemoryUse::cache_frames, frame_bytes(shape)) + PageTable::layout(shape.frame_count) +
+         own_layout(shape) + kind_of(shape.replacement).layout(shape.frame_count);
+}
+
+Cache::Cache(nodes::LocalMemory& memory, const CacheShape& shape, std::uint32_t seed)
     : hears_hits_(kind_of(shape.replacement).hears_hits),
       frames_(memory, core::MemoryUse::cache_frames, frame_bytes(shape), shape.page_size_bytes),
-      table_(memory, shape.frame_count),
-      stamps_(memory.allocate<std::uint64_t>(core::MemoryUse::page_table, shape.frame_count)),
-      pages_(memory.allocate<PageId>(core::MemoryUse::page_table, shape.frame_count)),
-      policy_(kind_of(shape.replacement).make({memory, stamps_, pages_, seed})) {}
+      table_(memory, shape.frame_count) {
+  std::tie(stamps_, pages_) = own_layout(shape).in(memory);
+  policy_ = kind_of(shape.replacement).make({memory, stamps_, pages_, seed});
+}
 
 PageId Cache::install(PageId page, std::span<const std::byte> bytes) {
   return install_by(page, [&](std::uint32_t frame) { frames_.put(frame, bytes); });

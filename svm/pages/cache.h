@@ -32,8 +32,8 @@ class Cache {
  public:
   /// `seed` is the node's own number, for the policy random.
   Cache(nodes::LocalMemory& memory, const CacheShape& shape, std::uint32_t seed);
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, const CacheShape& shape);
+  /// What the constructor takes.
+  static nodes::MemoryPlan layout(const CacheShape& shape);
 
   static constexpr std::uint32_t no_frame = PageTable::nowhere;
 

@@ -7,15 +7,13 @@
 namespace dmpc::svm {
 
 using nodes::Category;
-using nodes::LocalMemory;
 
-Faults::Faults(LocalMemory& memory, std::uint32_t slot_count, std::uint32_t faults_max)
-    : faults_(memory.allocate<Fault>(Category::queues, faults_max)),
-      next_(memory.allocate<std::uint32_t>(Category::queues, slot_count)) {}
+Faults::Faults(nodes::LocalMemory& memory, std::uint32_t slot_count, std::uint32_t faults_max) {
+  std::tie(faults_, next_) = layout(slot_count, faults_max).in(memory);
+}
 
-void Faults::add_needs(nodes::MemoryPlan& plan, std::uint32_t slot_count, std::uint32_t faults_max) {
-  plan[Category::queues] += LocalMemory::bytes_for<Fault>(faults_max);
-  plan[Category::queues] += LocalMemory::bytes_for<std::uint32_t>(slot_count);
+nodes::Layout<Faults::Fault, std::uint32_t> Faults::layout(std::uint32_t slot_count, std::uint32_t faults_max) {
+  return {{Category::queues, faults_max}, {Category::queues, slot_count}};
 }
 
 Faults::Fault* Faults::park(std::uint32_t slot, PageId page, std::uint32_t home) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "svm/pages/page.h"
 
@@ -27,8 +28,8 @@ class Faults {
 
   /// Room for slots 0 .. slot_count - 1, which wait for up to `faults_max` pages.
   Faults(nodes::LocalMemory& memory, std::uint32_t slot_count, std::uint32_t faults_max);
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t slot_count, std::uint32_t faults_max);
+  /// What the constructor takes.
+  static nodes::Layout<Fault, std::uint32_t> layout(std::uint32_t slot_count, std::uint32_t faults_max);
 
   /// `slot` waits for `page`. Returns the new fault if nobody waited for that page before, else nullptr.
   Fault* park(std::uint32_t slot, PageId page, std::uint32_t home);

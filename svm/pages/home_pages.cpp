@@ -25,8 +25,8 @@ HomePages::HomePages(nodes::Node& node, const PageCapacity& capacity, const node
   for_each_page(capacity, self_, [&](std::size_t offset_bytes) { pages_.put(slot++, database, offset_bytes); });
 }
 
-void HomePages::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
-  nodes::LastingPieces::add_needs(memory, core::MemoryUse::home_pages, room_bytes(capacity, index));
+nodes::MemoryPlan HomePages::layout(const PageCapacity& capacity, std::uint32_t index) {
+  return nodes::LastingPieces::layout(core::MemoryUse::home_pages, room_bytes(capacity, index));
 }
 
 void grant_requests(nodes::Node& node, const PageCapacity& capacity) {

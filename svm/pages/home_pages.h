@@ -19,8 +19,8 @@ class HomePages {
  public:
   /// Puts the node's pages, from `database`, into its local memory (nodes/lasting_pieces.h).
   HomePages(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
-  /// Adds to `memory` exactly what the constructor takes at node `index`.
-  static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
+  /// What the constructor takes at node `index`.
+  static nodes::MemoryPlan layout(const PageCapacity& capacity, std::uint32_t index);
   /// Calls visit(offset in bytes) for each page that the constructor reads at node `index`, in its order.
   template <class Visit>
   static void for_each_page(const PageCapacity& capacity, std::uint32_t index, const Visit& visit) {

@@ -20,7 +20,6 @@ struct PageCounters {
   std::uint64_t served = 0;          ///< replies to other nodes' requests
   std::uint64_t distinct_pages = 0;  ///< different pages that a pixel referenced, summed over pixels; 0 unless asked for
 };
-PageCounters& operator+=(PageCounters& sum, const PageCounters& more);
 
 struct WorkCounters {
   std::uint64_t pixels_rendered = 0;
@@ -28,7 +27,6 @@ struct WorkCounters {
   std::uint64_t items_taken = 0;  ///< items received from other nodes
   std::uint64_t items_given = 0;  ///< items given to other nodes
 };
-WorkCounters& operator+=(WorkCounters& sum, const WorkCounters& more);
 
 /// Questions of nodes that hold a forest, and what became of them.
 struct QuestionCounters {
@@ -38,7 +36,6 @@ struct QuestionCounters {
   std::uint64_t records_answered = 0;  ///< of other nodes
   std::uint64_t answers = 0;           ///< received, to either
 };
-QuestionCounters& operator+=(QuestionCounters& sum, const QuestionCounters& more);
 
 /// All that a program counted.
 struct ProgramReport {

@@ -3,23 +3,14 @@
 #include "core/base/expect.h"
 
 namespace dmpc::svm {
-namespace {
-
-using nodes::Category;
-
-std::size_t reply_bytes(const PageCapacity& capacity, std::uint32_t index) {
-  return capacity.is_asked(index) ? page_reply_bytes(capacity.page_size_bytes()) : 0;
-}
-
-}  // namespace
 
 PageServer::PageServer(nodes::Node& node, const PageCapacity& capacity)
     : node_(&node),
       page_size_bytes_(capacity.page_size_bytes()),
-      reply_(node.memory().allocate<std::byte>(Category::queues, reply_bytes(capacity, nodes::index_of(node.id())))) {}
+      reply_(layout(capacity, nodes::index_of(node.id())).in(node.memory())) {}
 
-void PageServer::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
-  memory[Category::queues] += nodes::LocalMemory::bytes_for<std::byte>(reply_bytes(capacity, index));
+nodes::Room<std::byte> PageServer::layout(const PageCapacity& capacity, std::uint32_t index) {
+  return {nodes::Category::queues, capacity.is_asked(index) ? page_reply_bytes(capacity.page_size_bytes()) : 0};
 }
 
 void PageServer::reply(const PassedRequest& request, const std::byte* bytes) {

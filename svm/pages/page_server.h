@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "nodes/layout.h"
 #include "nodes/node.h"
 #include "svm/pages/packets.h"
 #include "svm/pages/page_capacity.h"
@@ -15,8 +16,8 @@ namespace dmpc::svm {
 class PageServer {
  public:
   PageServer(nodes::Node& node, const PageCapacity& capacity);
-  /// Adds to `memory` exactly what the constructor takes at node `index`, or at the host.
-  static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
+  /// What the constructor takes at node `index`, or at the host.
+  static nodes::Room<std::byte> layout(const PageCapacity& capacity, std::uint32_t index);
 
   /// Replies at once, with the page's bytes: the request has reserved the reply's place.
   void reply(const PassedRequest& request, const std::byte* bytes);

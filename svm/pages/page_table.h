@@ -9,6 +9,7 @@
 
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "svm/pages/page.h"
 
@@ -17,17 +18,17 @@ namespace dmpc::svm {
 /// A table with open addressing, at most half full, so that a search ends soon. It lies in the node's local memory. Thread
 /// safety: none; belongs to one node.
 class PageTable {
+  struct Entry;
+
  public:
   static constexpr std::uint32_t nowhere = 0xffffffffU;
 
   /// For up to `page_count` pages.
   PageTable(nodes::LocalMemory& memory, std::uint32_t page_count)
       : hash_shift_(32U - static_cast<std::uint32_t>(std::countr_zero(size_for(page_count)))),
-        entries_(memory.allocate<Entry>(core::MemoryUse::page_table, size_for(page_count))) {}
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t page_count) {
-    plan[core::MemoryUse::page_table] += nodes::LocalMemory::bytes_for<Entry>(size_for(page_count));
-  }
+        entries_(layout(page_count).in(memory)) {}
+  /// What the constructor takes.
+  static nodes::Room<Entry> layout(std::uint32_t page_count) { return {core::MemoryUse::page_table, size_for(page_count)}; }
 
   /// nowhere if the page is not in the table.
   std::uint32_t find(PageId page) const {

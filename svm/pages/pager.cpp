@@ -3,28 +3,19 @@
 #include <cstring>
 
 #include "core/base/expect.h"
-#include "core/picture/memory_use.h"
 #include "svm/pages/packets.h"
 
 namespace dmpc::svm {
-namespace {
 
-using nodes::LocalMemory;
-
-}  // namespace
-
-void Pager::add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index) {
-  HomePages::add_needs(memory, capacity, index);
-  PageServer::add_needs(memory, capacity, index);
-  memory[core::MemoryUse::page_table] += LocalMemory::bytes_for<Translation>(translation_count);
-  Cache::add_needs(memory, capacity.resident_shape());
-  Cache::add_needs(memory, capacity.cache);
-  Faults::add_needs(memory, capacity.in_flight, capacity.faults_max);
+nodes::MemoryPlan Pager::layout(const PageCapacity& capacity, std::uint32_t index) {
+  return own_layout() + HomePages::layout(capacity, index) + Cache::layout(capacity.resident_shape()) +
+         Cache::layout(capacity.cache) + Faults::layout(capacity.in_flight, capacity.faults_max) +
+         PageServer::layout(capacity, index);
 }
 
 Pager::Pager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
     : geometry_(capacity.page_size_bytes()),
-      translations_(node.memory().allocate<Translation>(core::MemoryUse::page_table, translation_count)),
+      translations_(own_layout().in(node.memory())),
       homes_(node, capacity, database),
       resident_(node.memory(), capacity.resident_shape(), 0),
       cache_(node.memory(), capacity.cache, nodes::index_of(node.id())),

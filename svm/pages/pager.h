@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "core/picture/memory_use.h"
 #include "core/record/records.h"
 #include "nodes/node.h"
 #include "svm/pages/cache.h"
@@ -30,8 +31,8 @@ class Pager {
   /// Puts the node's home pages, from `database`, into its local memory (nodes::LastingPieces) and takes the credits for its
   /// requests.
   Pager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
-  /// Adds to `memory` exactly what the constructor takes at node `index`.
-  static void add_needs(nodes::MemoryPlan& memory, const PageCapacity& capacity, std::uint32_t index);
+  /// What the constructor takes at node `index`.
+  static nodes::MemoryPlan layout(const PageCapacity& capacity, std::uint32_t index);
 
   /// One reference. The pointer is valid until the next call of install(). Repeated references of one page, the usual case,
   /// do not change the order of use, so they cost a comparison.
@@ -75,6 +76,7 @@ class Pager {
     const std::byte* bytes = nullptr;
   };
   static constexpr std::size_t translation_count = 256;
+  static nodes::Room<Translation> own_layout() { return {core::MemoryUse::page_table, translation_count}; }
 
   Translation& translation_of(PageId page) { return translations_[index_of(page) % translation_count]; }
   bool translate(PageId page, Translation& translation) const;

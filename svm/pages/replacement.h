@@ -19,8 +19,8 @@ struct PolicyKind {
   std::string_view name;     ///< as the command line has it; lasts as long as the program
   std::string_view meaning;  ///< which page makes room, in some words; likewise
   bool hears_hits = false;   ///< without this the time stamps tell it all that it wants to know, and hits cost nothing more
-  /// Adds to the plan, for a cache of so many frames, none included, exactly what make() takes.
-  void (*add_needs)(nodes::MemoryPlan& plan, std::uint32_t frame_count) = nullptr;
+  /// What make() takes for a cache of so many frames, none included.
+  nodes::MemoryPlan (*layout)(std::uint32_t frame_count) = nullptr;
   std::unique_ptr<ReplacementPolicy> (*make)(const PolicySite& site) = nullptr;
 };
 

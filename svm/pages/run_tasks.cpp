@@ -1,10 +1,13 @@
 #include "svm/pages/run_tasks.h"
 
+#include <functional>
 #include <memory>
 #include <utility>
 
+#include "core/base/counts.h"
 #include "core/base/expect.h"
-#include "nodes/flat_bytes.h"
+#include "nodes/gathering.h"
+#include "nodes/idle_program.h"
 #include "nodes/ranks/rank_memory.h"
 #include "svm/pages/packets.h"
 #include "svm/pages/task_program.h"
@@ -14,14 +17,6 @@ namespace {
 
 /// Makes the program of node `index`.
 using MakeTaskProgram = std::function<std::unique_ptr<AnyTaskProgram>(std::uint32_t index, nodes::Node& node)>;
-
-class IdleHost final : public nodes::Program {
- public:
-  void receive(const nodes::Packet& /*packet*/) override { core::expect(false, "nobody sends the host anything"); }
-  bool work() override { return false; }
-  bool finished() const override { return true; }
-  std::string describe() const override { return "nothing to do"; }
-};
 
 template <class Records>
 std::unique_ptr<TaskProgram<Records>> make_task_program(nodes::Node& node, const TaskPlan& plan,
@@ -45,42 +40,29 @@ std::vector<nodes::NodeSpecification> task_specifications(const TaskPlan& plan, 
   }
   all.push_back({.plan = plan.host_memory(),
                  .mailbox = {},
-                 .make_program = [](nodes::Node&) { return std::make_unique<IdleHost>(); },
+                 .make_program = [](nodes::Node&) { return std::make_unique<nodes::IdleProgram>(); },
                  .held_bytes = plan.held_bytes()});
   return all;
 }
 
-/// What a node tells of its run, before its results.
-struct ToldTasks {
-  PageCounters pages;
-  nodes::NodeCounters counters;
-  nodes::Charges charges;
-};
-
-std::string told_tasks(nodes::Runner& runner, std::size_t index) {
-  const auto& program = dynamic_cast<const AnyTaskProgram&>(runner.program(index));
-  const std::span<const std::byte> results = program.results();
-  nodes::FlatWriter flat;
-  flat.put(ToldTasks{program.report().pages, runner.node(index).counters(), program.charges()});
-  flat.put_bytes({reinterpret_cast<const char*>(results.data()), results.size()});
-  return flat.take();
-}
-
 /// Of the nodes that are here and, on rank 0, of all.
 void gather_tasks(nodes::Runner& runner, const TaskPlan& plan, const TakeResults& take, TaskFigures& figures) {
-  const std::vector<std::string> told =
-      runner.gather([&](std::size_t index) { return index == plan.node_count() ? std::string() : told_tasks(runner, index); });
-  for (std::uint32_t index = 0; index < plan.node_count(); ++index) {
-    if (told[index].empty()) {
-      continue;  // on another rank
-    }
-    nodes::FlatReader flat(told[index]);
-    const auto node = flat.take<ToldTasks>();
-    figures.pages[index] = node.pages;
-    figures.counters[index] = node.counters;
-    figures.charges[index] = node.charges;
-    take(plan.first_task(index), flat.take_bytes());
-  }
+  nodes::gather_nodes(
+      runner, plan.node_count(),
+      [&](std::size_t index, nodes::FlatWriter& told) {
+        const auto& program = dynamic_cast<const AnyTaskProgram&>(runner.program(index));
+        const std::span<const std::byte> results = program.results();
+        told.put(program.report().pages);
+        told.put(runner.node(index).counters());
+        told.put(program.charges());
+        told.put_bytes({reinterpret_cast<const char*>(results.data()), results.size()});
+      },
+      [&](std::uint32_t index, nodes::FlatReader& told) {
+        figures.pages[index] = told.take<PageCounters>();
+        figures.counters[index] = told.take<nodes::NodeCounters>();
+        figures.charges[index] = told.take<nodes::Charges>();
+        take(plan.first_task(index), told.take_bytes());
+      });
 }
 
 void run_and_gather(nodes::Runner& runner, const TaskPlan& plan, std::stop_token stop, const TakeResults& take,
@@ -92,16 +74,6 @@ void run_and_gather(nodes::Runner& runner, const TaskPlan& plan, std::stop_token
   }
 }
 
-void gather_from_ranks(nodes::Runner& runner, std::span<const nodes::PeerMemory> peers, const nodes::RankLinks& links,
-                       const TaskWatching& watching, TaskFigures& figures) {
-  const std::vector<nodes::RankReport> told = runner.gather_ranks(watching.seen());
-  if (watching.add) {
-    nodes::add_seen(told, watching.add);
-  }
-  figures.ranks = nodes::rank_figures(peers, links, told);
-  nodes::expect_nothing_lost(figures.ranks);
-}
-
 void check_pages(const TaskFigures& figures) {
   const PageCounters pages = figures.all_pages();
   core::expect(pages.references == pages.home_hits + pages.cache_hits + pages.misses && pages.misses >= pages.faults,
@@ -111,13 +83,7 @@ void check_pages(const TaskFigures& figures) {
 
 }  // namespace
 
-PageCounters TaskFigures::all_pages() const {
-  PageCounters sum;
-  for (const PageCounters& node : pages) {
-    sum += node;
-  }
-  return sum;
-}
+PageCounters TaskFigures::all_pages() const { return core::total_of(pages, std::identity()); }
 
 TaskFigures run_tasks_of_kind(const TaskKinds& kinds, const TaskPlan& plan, std::span<const std::byte> database,
                               const TaskWatching& watching, std::stop_token stop, const TakeResults& take) {
@@ -146,7 +112,8 @@ TaskFigures run_tasks_of_kind(const TaskKinds& kinds, const TaskPlan& plan, std:
     watching.communicate([&] {
       run_and_gather(*runner, plan, std::move(stop), take, figures);
       if (figures.end == nodes::RunEnd::finished) {
-        gather_from_ranks(*runner, nodes::peers_of(specifications), *links, watching, figures);
+        figures.ranks = nodes::gather_rank_figures(*runner, specifications, links, watching.add, watching.seen);
+        nodes::expect_nothing_lost(figures.ranks);
       }
     });
   }

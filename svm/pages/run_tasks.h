@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "nodes/observer.h"
-#include "nodes/ranks/clock_drift.h"
 #include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
+#include "nodes/watch/watching.h"
 #include "svm/pages/node_program.h"
 #include "svm/pages/task_heat.h"
 #include "svm/pages/task_kind.h"
@@ -54,7 +54,7 @@ struct TaskWatching {
   std::function<void(const std::function<void()>& run)> communicate = [](const auto& run) { run(); };
   /// Likewise, after a regular end: what was seen here, and, on rank 0, what was seen on another rank.
   std::function<std::string()> seen = [] { return std::string(); };
-  std::function<void(std::string_view seen, const nodes::ClockDrift& clock)> add = {};
+  nodes::AddSeen add = {};
 };
 
 /// Tasks for a program that notes references, and for one that does not.

@@ -18,7 +18,6 @@ namespace dmpc::svm {
 namespace {
 
 using nodes::Category;
-using nodes::LocalMemory;
 
 constexpr std::uint32_t task_cache_pages_min = 64;
 /// More requests to one home than this wait no shorter: it serves them one after another.
@@ -83,23 +82,23 @@ void TaskPlan::check() const {
   nodes::check_ranks(options_.computer);
 }
 
-nodes::MemoryPlan TaskPlan::node_memory(std::uint32_t node) const {
-  nodes::MemoryPlan plan = host_memory();
-  plan[Category::mailbox] = mailbox_.bytes();
-  Pager::add_needs(plan, pages_, node);
-  plan[core::MemoryUse::ray_stacks] += LocalMemory::bytes_for<std::byte>(in_flight_ * sizes_.task_bytes);
-  plan[Category::queues] +=
-      3 * LocalMemory::bytes_for<std::uint32_t>(in_flight_);  // numbers of tasks, those runnable, free places
-  plan[core::MemoryUse::film_tiles] += LocalMemory::bytes_for<std::byte>(tasks_at(node) * sizes_.result_bytes);
-  return plan;
+nodes::Layout<std::byte, std::uint32_t, std::uint32_t, std::uint32_t, std::byte> TaskPlan::program_layout(
+    std::uint32_t node) const {
+  return {{core::MemoryUse::ray_stacks, in_flight_ * sizes_.task_bytes},
+          {Category::queues, in_flight_},
+          {Category::queues, in_flight_},
+          {Category::queues, in_flight_},
+          {core::MemoryUse::film_tiles, tasks_at(node) * sizes_.result_bytes}};
 }
 
-nodes::MemoryPlan TaskPlan::host_memory() const {
-  nodes::MemoryPlan plan;
-  plan[Category::mailbox] = nodes::MailboxCapacity{}.bytes();
-  plan[Category::queues] = nodes::credit_table_bytes(node_count() + 1) + held_bytes_;
-  plan[Category::reserve] = options_.computer.stack_reserve_bytes;
-  return plan;
+nodes::MemoryPlan TaskPlan::node_memory(std::uint32_t node) const {
+  return memory_beside_program(mailbox_) + Pager::layout(pages_, node) + program_layout(node);
+}
+
+nodes::MemoryPlan TaskPlan::host_memory() const { return memory_beside_program({}); }
+
+nodes::MemoryPlan TaskPlan::memory_beside_program(const nodes::MailboxCapacity& mailbox) const {
+  return nodes::memory_beside_program(mailbox, node_count() + 1, held_bytes_, options_.computer.stack_reserve_bytes);
 }
 
 void TaskPlan::check_memory() const {

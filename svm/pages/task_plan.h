@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "nodes/computer_request.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "nodes/mailbox.h"
 #include "svm/pages/page_capacity.h"
@@ -47,12 +48,15 @@ class TaskPlan {
   const nodes::MailboxCapacity& mailbox() const { return mailbox_; }
   std::size_t held_bytes() const { return held_bytes_; }
 
+  /// What a node's program takes beside its pages: tasks; their numbers, those runnable, free places; results.
+  nodes::Layout<std::byte, std::uint32_t, std::uint32_t, std::uint32_t, std::byte> program_layout(std::uint32_t node) const;
   /// Exactly what a node takes.
   nodes::MemoryPlan node_memory(std::uint32_t node) const;
   /// Of the host, which has nothing to do.
   nodes::MemoryPlan host_memory() const;
 
  private:
+  nodes::MemoryPlan memory_beside_program(const nodes::MailboxCapacity& mailbox) const;
   void check() const;
   void check_memory() const;
 

@@ -41,12 +41,8 @@ class TaskProgram final : public AnyTaskProgram {
         kind_(kind),
         next_(plan.first_task(nodes::index_of(node.id()))),
         first_(next_),
-        count_(plan.tasks_at(nodes::index_of(node.id()))),
-        tasks_(node.memory().allocate<std::byte>(core::MemoryUse::ray_stacks, plan.in_flight() * kind.sizes.task_bytes)),
-        numbers_(node.memory().allocate<std::uint32_t>(nodes::Category::queues, plan.in_flight())),
-        runnable_(node.memory().allocate<std::uint32_t>(nodes::Category::queues, plan.in_flight())),
-        free_(node.memory().allocate<std::uint32_t>(nodes::Category::queues, plan.in_flight())),
-        results_(node.memory().allocate<std::byte>(core::MemoryUse::film_tiles, count_ * kind.sizes.result_bytes)) {
+        count_(plan.tasks_at(nodes::index_of(node.id()))) {
+    std::tie(tasks_, numbers_, runnable_, free_, results_) = plan.program_layout(nodes::index_of(node.id())).in(node.memory());
     for (std::uint32_t place = 0; place < free_.size(); ++place) {
       free_[free_count_++] = static_cast<std::uint32_t>(free_.size()) - 1 - place;
     }

@@ -105,7 +105,7 @@ TEST_CASE("every kind of packet has a number and a name of its own") {
 
 TEST_CASE("control is sent whatever credits there are, and spends none") {
   nodes::MemoryPlan plan;
-  plan[nodes::Category::queues] = nodes::credit_table_bytes(3);
+  plan += nodes::credit_table(3);
   tests::SingleNode single(plan, 0, 3);
   const nodes::NodeId target{2};
   dataflow::send_control(single.node, target, Kind::credits, dataflow::Credits{5});

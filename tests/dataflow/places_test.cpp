@@ -14,13 +14,7 @@ namespace {
 
 /// An owner's account in a memory of its own that fits exactly.
 struct Owner {
-  explicit Owner(const Places::Capacity& capacity) : memory(plan_for(capacity)), places(memory, capacity) {}
-
-  static nodes::MemoryPlan plan_for(const Places::Capacity& capacity) {
-    nodes::MemoryPlan plan;
-    Places::add_needs(plan, capacity);
-    return plan;
-  }
+  explicit Owner(const Places::Capacity& capacity) : memory(Places::layout(capacity)), places(memory, capacity) {}
 
   nodes::LocalMemory memory;
   Places places;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/counts.h"
 #include "core/picture/render.h"
 #include "dataflow/distribution.h"
 #include "dataflow/host.h"
@@ -273,8 +274,8 @@ void run_shuffled(const Stage& stage, std::uint64_t seed) {
   dataflow::RayCounters rays;
   for (std::uint32_t i = 0; i < stage.plan.node_count(); ++i) {
     const auto report = dynamic_cast<const dataflow::NodeProgram&>(computer.program(i)).report();
-    operations += report.operations;
-    rays += report.rays;
+    core::add_counts(operations, report.operations);
+    core::add_counts(rays, report.rays);
     CHECK(computer.node(i).credits(stage.plan.host(), dataflow::ray_channel) == stage.plan.host_credits);
   }
   CHECK(operations.rays == expected.rays);

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "core/base/counts.h"
+
 namespace dmpc::nodes::counters_test {
 
 TEST_CASE("traffic is packets, and bytes with their headers, summed kind by kind") {
@@ -9,7 +11,7 @@ TEST_CASE("traffic is packets, and bytes with their headers, summed kind by kind
   sum[1].add(8);
   more[1].add(100);
   more[packet_kind_count - 1].add(0);
-  sum += more;
+  core::add_counts(sum, more);
   CHECK(sum[0].packets == 0);
   CHECK(sum[1].packets == 2);
   CHECK(sum[1].bytes == 2 * sizeof(PacketHeader) + 108);

@@ -11,12 +11,7 @@ using namespace dmpc;
 namespace {
 
 struct SmallSlots {
-  explicit SmallSlots(std::uint32_t count) : memory(needs(count)), slots(memory, count, 5) {}
-  static nodes::MemoryPlan needs(std::uint32_t count) {
-    nodes::MemoryPlan plan;
-    svm::Slots<core::PixelTask>::add_needs(plan, count, 5);
-    return plan;
-  }
+  explicit SmallSlots(std::uint32_t count) : memory(svm::Slots<core::PixelTask>::layout(count, 5)), slots(memory, count, 5) {}
   nodes::LocalMemory memory;
   svm::Slots<core::PixelTask> slots;
 };

@@ -34,13 +34,6 @@ bool spans_an_area(const std::vector<Vec3d>& corners) {
 
 }  // namespace
 
-GeometrySize& GeometrySize::operator+=(const GeometrySize& other) {
-  triangles += other.triangles;
-  faces += other.faces;
-  corners += other.corners;
-  return *this;
-}
-
 GeometrySize size_of(const aiMesh& mesh) {
   GeometrySize size;
   for (std::size_t i = 0; i < mesh.mNumFaces; ++i) {

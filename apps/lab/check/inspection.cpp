@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/base/counts.h"
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "core/picture/render.h"
@@ -120,7 +121,7 @@ struct Harvest {
   Draw draw, hits;
 
   void join(const Harvest& right) {
-    operations += right.operations;
+    core::add_counts(operations, right.operations);
     differences.insert(differences.end(), right.differences.begin(), right.differences.end());
     draw.join(right.draw);
     hits.join(right.hits);

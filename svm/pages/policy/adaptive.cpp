@@ -5,9 +5,8 @@
 
 namespace dmpc::svm {
 
-void AdaptiveReplacement::add_needs(nodes::MemoryPlan& plan, std::uint32_t frame_count) {
-  IndexLists::add_needs(plan, frame_count);
-  Ghosts::add_needs(plan, frame_count);
+nodes::MemoryPlan AdaptiveReplacement::layout(std::uint32_t frame_count) {
+  return IndexLists::layout(frame_count) + Ghosts::layout(frame_count);
 }
 
 AdaptiveReplacement::AdaptiveReplacement(const PolicySite& site)

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/picture/memory_use.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "svm/pages/page.h"
 #include "svm/pages/page_table.h"
@@ -18,21 +19,15 @@ class Ghosts {
  public:
   static constexpr unsigned only_list = 0;  ///< for who needs but one
 
-  Ghosts(nodes::LocalMemory& memory, std::uint32_t capacity)
-      : lists_(memory, capacity),
-        table_(memory, capacity),
-        pages_(memory.allocate<PageId>(core::MemoryUse::page_table, capacity)),
-        free_(memory.allocate<std::uint32_t>(core::MemoryUse::page_table, capacity)) {
+  Ghosts(nodes::LocalMemory& memory, std::uint32_t capacity) : lists_(memory, capacity), table_(memory, capacity) {
+    std::tie(pages_, free_) = own_layout(capacity).in(memory);
     for (; free_count_ < capacity; ++free_count_) {
       free_[free_count_] = free_count_;
     }
   }
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t capacity) {
-    IndexLists::add_needs(plan, capacity);
-    PageTable::add_needs(plan, capacity);
-    plan[core::MemoryUse::page_table] += nodes::LocalMemory::bytes_for<PageId>(capacity);
-    plan[core::MemoryUse::page_table] += nodes::LocalMemory::bytes_for<std::uint32_t>(capacity);
+  /// What the constructor takes.
+  static nodes::MemoryPlan layout(std::uint32_t capacity) {
+    return IndexLists::layout(capacity) + PageTable::layout(capacity) + own_layout(capacity);
   }
 
   /// The list that it was in, if it was remembered; it is no longer.
@@ -66,6 +61,9 @@ class Ghosts {
   std::uint32_t size(unsigned list) const { return lists_.size(list); }
 
  private:
+  static nodes::Layout<PageId, std::uint32_t> own_layout(std::uint32_t capacity) {
+    return {{core::MemoryUse::page_table, capacity}, {core::MemoryUse::page_table, capacity}};
+  }
   void release(std::uint32_t index) {
     table_.erase(pages_[index]);
     free_[free_count_++] = index;

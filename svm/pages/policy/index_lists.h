@@ -8,6 +8,7 @@
 
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::svm {
@@ -15,13 +16,12 @@ namespace dmpc::svm {
 /// Two doubly linked lists of the numbers below a count, each in one of them or in neither. In the node's local memory. Thread
 /// safety: none.
 class IndexLists {
+  struct Link;
+
  public:
-  IndexLists(nodes::LocalMemory& memory, std::uint32_t count)
-      : links_(memory.allocate<Link>(core::MemoryUse::page_table, count)) {}
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t count) {
-    plan[core::MemoryUse::page_table] += nodes::LocalMemory::bytes_for<Link>(count);
-  }
+  IndexLists(nodes::LocalMemory& memory, std::uint32_t count) : links_(layout(count).in(memory)) {}
+  /// What the constructor takes.
+  static nodes::Room<Link> layout(std::uint32_t count) { return {core::MemoryUse::page_table, count}; }
 
   /// `index` is in neither list.
   void push(unsigned list, std::uint32_t index) {

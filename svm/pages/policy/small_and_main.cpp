@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::uint8_t hits_max = 3;
 
+nodes::Room<std::uint8_t> hits_layout(std::uint32_t frame_count) { return {core::MemoryUse::page_table, frame_count}; }
+
 }  // namespace
 
 std::uint32_t SmallAndMain::small_frames(std::uint32_t frame_count) { return std::max(frame_count / 10, 1U); }
@@ -17,10 +19,8 @@ std::uint32_t SmallAndMain::ghost_capacity(std::uint32_t frame_count) {
   return frame_count == 0 ? 0 : std::max(frame_count - small_frames(frame_count), 1U);
 }
 
-void SmallAndMain::add_needs(nodes::MemoryPlan& plan, std::uint32_t frame_count) {
-  IndexLists::add_needs(plan, frame_count);
-  Ghosts::add_needs(plan, ghost_capacity(frame_count));
-  plan[core::MemoryUse::page_table] += nodes::LocalMemory::bytes_for<std::uint8_t>(frame_count);
+nodes::MemoryPlan SmallAndMain::layout(std::uint32_t frame_count) {
+  return IndexLists::layout(frame_count) + Ghosts::layout(ghost_capacity(frame_count)) + hits_layout(frame_count);
 }
 
 SmallAndMain::SmallAndMain(const PolicySite& site)
@@ -29,7 +29,7 @@ SmallAndMain::SmallAndMain(const PolicySite& site)
       main_max_(site.frame_count() - std::min(site.frame_count(), small_max_)),
       frames_(site.memory, site.frame_count()),
       ghosts_(site.memory, ghost_capacity(site.frame_count())),
-      hits_(site.memory.allocate<std::uint8_t>(core::MemoryUse::page_table, site.frame_count())) {}
+      hits_(hits_layout(site.frame_count()).in(site.memory)) {}
 
 void SmallAndMain::hit(PageId /*page*/, std::uint32_t frame) {
   hits_[frame] = static_cast<std::uint8_t>(std::min<unsigned>(hits_[frame] + 1U, hits_max));

@@ -8,8 +8,6 @@
 namespace dmpc::svm {
 namespace {
 
-using nodes::LocalMemory;
-
 /// More would make a search dearer, fewer would make searches more frequent.
 constexpr std::uint32_t candidate_count_max = 64;
 
@@ -17,17 +15,12 @@ std::uint32_t after(std::uint32_t frame, std::size_t frame_count) { return frame
 
 }  // namespace
 
-std::size_t LeastRecentlyUsed::candidate_capacity(std::uint32_t frame_count) {
-  return std::min(frame_count, candidate_count_max);
-}
-
-void LeastRecentlyUsed::add_needs(nodes::MemoryPlan& plan, std::uint32_t frame_count) {
-  plan[core::MemoryUse::page_table] += LocalMemory::bytes_for<Candidate>(candidate_capacity(frame_count));
+nodes::Room<LeastRecentlyUsed::Candidate> LeastRecentlyUsed::layout(std::uint32_t frame_count) {
+  return {core::MemoryUse::page_table, std::min(frame_count, candidate_count_max)};
 }
 
 LeastRecentlyUsed::LeastRecentlyUsed(const PolicySite& site)
-    : stamps_(site.stamps),
-      candidates_(site.memory.allocate<Candidate>(core::MemoryUse::page_table, candidate_capacity(site.frame_count()))) {}
+    : stamps_(site.stamps), candidates_(layout(site.frame_count()).in(site.memory)) {}
 
 std::uint32_t LeastRecentlyUsed::victim(PageId /*incoming*/) {
   while (true) {

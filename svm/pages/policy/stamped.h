@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "svm/pages/policy/policy.h"
 
@@ -14,9 +15,11 @@ namespace dmpc::svm {
 /// stamps have not changed they are the frames with the least stamps of all, for stamps only grow, so a frame that was not among
 /// the oldest cannot become older than one that was.
 class LeastRecentlyUsed final : public ReplacementPolicy {
+  struct Candidate;
+
  public:
   explicit LeastRecentlyUsed(const PolicySite& site);
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t frame_count);
+  static nodes::Room<Candidate> layout(std::uint32_t frame_count);
   std::uint32_t victim(PageId incoming) override;
 
  private:
@@ -25,7 +28,6 @@ class LeastRecentlyUsed final : public ReplacementPolicy {
     std::uint32_t frame = 0;
     std::uint32_t padding = 0;
   };
-  static std::size_t candidate_capacity(std::uint32_t frame_count);
   void seek_candidates();
 
   Stamps stamps_;

@@ -8,9 +8,8 @@ std::uint32_t TwoQueues::ghost_capacity(std::uint32_t frame_count) {
   return frame_count == 0 ? 0 : std::max(frame_count / 2, 1U);
 }
 
-void TwoQueues::add_needs(nodes::MemoryPlan& plan, std::uint32_t frame_count) {
-  IndexLists::add_needs(plan, frame_count);
-  Ghosts::add_needs(plan, ghost_capacity(frame_count));
+nodes::MemoryPlan TwoQueues::layout(std::uint32_t frame_count) {
+  return IndexLists::layout(frame_count) + Ghosts::layout(ghost_capacity(frame_count));
 }
 
 TwoQueues::TwoQueues(const PolicySite& site)

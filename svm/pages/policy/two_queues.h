@@ -16,7 +16,7 @@ namespace dmpc::svm {
 class TwoQueues final : public ReplacementPolicy {
  public:
   explicit TwoQueues(const PolicySite& site);
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t frame_count);
+  static nodes::MemoryPlan layout(std::uint32_t frame_count);
 
   void hit(PageId page, std::uint32_t frame) override;
   void insert(PageId page, std::uint32_t frame) override;

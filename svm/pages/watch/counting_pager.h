@@ -20,11 +20,10 @@ class CountingPager : public Pager {
       : Pager(node, capacity, database),
         geometry_(capacity.page_size_bytes()),
         words_per_slot_(words_for(capacity.page_count)),
-        seen_(node.memory().allocate<std::uint64_t>(nodes::Category::queues, capacity.in_flight * words_per_slot_)) {}
-  /// Adds to `plan` exactly what the constructor takes beside Pager's.
-  static void add_needs(nodes::MemoryPlan& plan, const PageCapacity& capacity) {
-    plan[nodes::Category::queues] +=
-        nodes::LocalMemory::bytes_for<std::uint64_t>(capacity.in_flight * words_for(capacity.page_count));
+        seen_(own_layout(capacity).in(node.memory())) {}
+  /// What the constructor takes beside Pager's.
+  static nodes::Room<std::uint64_t> own_layout(const PageCapacity& capacity) {
+    return {nodes::Category::queues, capacity.in_flight * words_for(capacity.page_count)};
   }
 
   /// Hides Pager's: counts the page, then looks it up.

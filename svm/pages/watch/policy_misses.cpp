@@ -15,9 +15,7 @@ std::uint64_t policy_misses(Replacement replacement, std::span<const PageId> ref
   }
   constexpr std::array<std::byte, 1> page_bytes{};
   const CacheShape shape{cache_pages, page_bytes.size(), replacement};
-  nodes::MemoryPlan plan;
-  Cache::add_needs(plan, shape);
-  nodes::LocalMemory memory(plan);
+  nodes::LocalMemory memory(Cache::layout(shape));
   Cache cache(memory, shape, seed);
   std::uint64_t misses = 0;
   for (const PageId page : references) {

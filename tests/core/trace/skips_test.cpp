@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/base/counts.h"
+
 namespace trace_skips_test {
 
 using namespace dmpc::core;
@@ -34,7 +36,7 @@ TEST_CASE("all skips are on by default, all but one without it, none with all of
 
 TEST_CASE("work left out is summed one by one") {
   SkippedWork sum{.empty_space = 1, .unlit = 2};
-  sum += {.empty_space = 3, .background = 4};
+  add_counts(sum, {.empty_space = 3, .background = 4});
   CHECK(sum.empty_space == 4);
   CHECK(sum.unlit == 2);
   CHECK(sum.background == 4);

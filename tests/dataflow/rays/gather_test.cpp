@@ -26,10 +26,7 @@ struct RaySender {
       : single(plan_for(capacity), 1, capacity.node_count + 1), gather(single.node, capacity) {}
 
   static nodes::MemoryPlan plan_for(const Gather::Capacity& capacity) {
-    nodes::MemoryPlan plan;
-    Gather::add_needs(plan, capacity);
-    plan[nodes::Category::queues] += nodes::credit_table_bytes(capacity.node_count + 1);
-    return plan;
+    return Gather::layout(capacity) + nodes::credit_table(capacity.node_count + 1);
   }
   void add(std::uint32_t owner, std::uint32_t pixel) {
     RayMessage message;

@@ -17,9 +17,7 @@ using dataflow::PrimaryRun;
 
 TEST_CASE("a node starts the rays of its runs, in order, once") {
   const std::vector<PrimaryRun> runs = {{3, 2}, {10, 1}, {20, 3}};
-  nodes::MemoryPlan plan;
-  Primaries::add_needs(plan, runs.size(), false);
-  nodes::LocalMemory memory(plan);
+  nodes::LocalMemory memory(Primaries::layout(runs.size(), false));
   Primaries primaries(memory, runs, {}, false);
   CHECK(primaries.left() == 6);
   for (const std::uint64_t number : {3U, 4U, 10U, 20U, 21U, 22U}) {
@@ -30,16 +28,12 @@ TEST_CASE("a node starts the rays of its runs, in order, once") {
 }
 
 TEST_CASE("a node may have no primary ray") {
-  nodes::MemoryPlan plan;
-  Primaries::add_needs(plan, 0, false);
-  nodes::LocalMemory memory(plan);
+  nodes::LocalMemory memory(Primaries::layout(0, false));
   CHECK(Primaries(memory, {}, {}, false).empty());
 }
 
 TEST_CASE("rays of later passes come packet by packet, and each makes room for another when it is worked off") {
-  nodes::MemoryPlan plan;
-  Primaries::add_needs(plan, 1, true);
-  nodes::LocalMemory memory(plan);
+  nodes::LocalMemory memory(Primaries::layout(1, true));
   Primaries primaries(memory, std::vector<PrimaryRun>{{0, 1}}, {0, 2}, true);
   CHECK(primaries.take() == 0);
   CHECK(primaries.packets_worked_off() == 0);

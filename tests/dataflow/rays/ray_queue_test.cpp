@@ -18,13 +18,8 @@ namespace {
 
 /// A queue in a memory of its own that fits exactly.
 struct Backlog {
-  explicit Backlog(const RayQueue::Capacity& capacity) : memory(plan_for(capacity)), queue(memory, capacity) {}
+  explicit Backlog(const RayQueue::Capacity& capacity) : memory(RayQueue::layout(capacity)), queue(memory, capacity) {}
 
-  static nodes::MemoryPlan plan_for(const RayQueue::Capacity& capacity) {
-    nodes::MemoryPlan plan;
-    RayQueue::add_needs(plan, capacity);
-    return plan;
-  }
   void receive(std::uint32_t sender, const std::vector<std::uint8_t>& depths) {
     queue.accept_packet(sender, static_cast<std::uint32_t>(depths.size()));
     for (const std::uint8_t depth : depths) {

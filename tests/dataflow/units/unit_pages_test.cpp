@@ -45,9 +45,7 @@ struct UnitPagesBench {
     return {.page_bytes = gears().page_size(), .frames = static_cast<std::uint32_t>(numbers.size()) + spare};
   }
   static nodes::MemoryPlan needs(const std::vector<std::uint32_t>& numbers, std::uint32_t spare) {
-    nodes::MemoryPlan plan;
-    UnitPages::add_needs(plan, capacity(numbers, spare));
-    return plan;
+    return UnitPages::layout(capacity(numbers, spare));
   }
 
   nodes::LocalMemory memory;
@@ -111,9 +109,7 @@ TEST_CASE("the pages of a unit are marked, each once, and are those that its ray
 }
 
 TEST_CASE("a node without units has no pages, and takes no memory for them") {
-  nodes::MemoryPlan plan;
-  UnitPages::add_needs(plan, {});
-  CHECK(plan.total() == 0);
+  CHECK(nodes::MemoryPlan(UnitPages::layout({})).total() == 0);
 }
 
 }  // namespace dmpc::tests::unit_pages_test

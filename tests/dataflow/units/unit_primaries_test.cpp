@@ -17,13 +17,9 @@ using dataflow::UnitPrimaries;
 /// A node with room for so many runs, of two units at a time.
 struct UnitPrimariesBench {
   UnitPrimariesBench(std::size_t room, const std::vector<PrimaryRun>& runs, const std::vector<std::uint32_t>& runs_of_unit)
-      : memory(needs(room)), primaries(memory, {.units = 2, .runs = room}, runs, runs_of_unit, {0, 1}) {}
+      : memory(UnitPrimaries::layout({.units = 2, .runs = room})),
+        primaries(memory, {.units = 2, .runs = room}, runs, runs_of_unit, {0, 1}) {}
 
-  static nodes::MemoryPlan needs(std::size_t room) {
-    nodes::MemoryPlan plan;
-    UnitPrimaries::add_needs(plan, {.units = 2, .runs = room});
-    return plan;
-  }
   std::vector<std::uint64_t> take_all() {
     std::vector<std::uint64_t> numbers;
     while (!primaries.empty()) {
@@ -39,8 +35,7 @@ struct UnitPrimariesBench {
 }  // namespace
 
 TEST_CASE("a node without units has no primary rays of units, and takes no memory for them") {
-  nodes::MemoryPlan plan;
-  UnitPrimaries::add_needs(plan, {});
+  const nodes::MemoryPlan plan = UnitPrimaries::layout({});
   CHECK(plan.total() == 0);
   nodes::LocalMemory memory(plan);
   UnitPrimaries primaries(memory, {}, {}, {}, {});

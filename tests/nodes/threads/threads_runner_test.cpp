@@ -316,7 +316,7 @@ TEST_CASE("nodes compute alike, however the thread that starts them flushes to z
 TEST_CASE("a memory is sealed before the run begins") {
   ThreadsRunner runner(equal_nodes(2, {}, making<ToyProgram>()));
   CHECK(runner.node(0).memory().sealed());
-  CHECK(runner.node(0).memory().used()[Category::queues] == credit_table_bytes(2));
+  CHECK(runner.node(0).memory().used()[Category::queues] == MemoryPlan(credit_table(2)).total());
 }
 
 TEST_CASE("a runner runs once") {

@@ -30,12 +30,7 @@ constexpr auto all_policies = {Replacement::lru,        Replacement::clock,    R
 struct SmallCache {
   explicit SmallCache(std::uint32_t frames, Replacement replacement = Replacement::lru, std::uint32_t seed = 0)
       : SmallCache(CacheShape{frames, page_size, replacement}, seed) {}
-  SmallCache(const CacheShape& shape, std::uint32_t seed) : memory(needs(shape)), cache(memory, shape, seed) {}
-  static nodes::MemoryPlan needs(const CacheShape& shape) {
-    nodes::MemoryPlan plan;
-    Cache::add_needs(plan, shape);
-    return plan;
-  }
+  SmallCache(const CacheShape& shape, std::uint32_t seed) : memory(Cache::layout(shape)), cache(memory, shape, seed) {}
   PageId install(std::uint32_t page) { return cache.install(PageId{page}, bytes_of(page)); }
   bool refer(std::uint32_t page) {
     const std::uint32_t frame = cache.frame_of(PageId{page});

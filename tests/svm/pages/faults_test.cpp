@@ -15,12 +15,7 @@ using svm::PageId;
 namespace {
 
 struct SmallFaults {
-  explicit SmallFaults(std::uint32_t slots) : memory(needs(slots)), faults(memory, slots, slots) {}
-  static nodes::MemoryPlan needs(std::uint32_t slots) {
-    nodes::MemoryPlan plan;
-    Faults::add_needs(plan, slots, slots);
-    return plan;
-  }
+  explicit SmallFaults(std::uint32_t slots) : memory(Faults::layout(slots, slots)), faults(memory, slots, slots) {}
   /// Parks and requests; returns whether the fault is new.
   bool park(std::uint32_t slot, std::uint32_t page) {
     Faults::Fault* fault = faults.park(slot, PageId{page}, page % 2);

@@ -34,16 +34,11 @@ std::vector<Replacement> all_policies() {
 struct Frames {
   Frames(Replacement replacement, std::uint32_t count, std::uint32_t seed = 0)
       : kind(svm::kind_of(replacement)),
-        memory(needs(replacement, count)),
+        memory(kind.layout(count)),
         stamps(count),
         pages(count, empty),
         names(count),
         policy(kind.make({memory, stamps, names, seed})) {}
-  static nodes::MemoryPlan needs(Replacement replacement, std::uint32_t count) {
-    nodes::MemoryPlan plan;
-    svm::kind_of(replacement).add_needs(plan, count);
-    return plan;
-  }
   /// Returns whether it was a page hit.
   bool refer(std::uint32_t page) {
     auto place = std::find(pages.begin(), pages.end(), page);
@@ -141,11 +136,11 @@ TEST_CASE("every policy has one frame to choose from where there is one") {
 TEST_CASE("a policy takes exactly the memory that it says it needs, and clock, fifo and random none") {
   for (const Replacement replacement : all_policies()) {
     for (const std::uint32_t frames : {0U, 1U, 64U, 1000U}) {
-      CHECK(Frames(replacement, frames).memory.used().bytes == Frames::needs(replacement, frames).bytes);
+      CHECK(Frames(replacement, frames).memory.used().bytes == svm::kind_of(replacement).layout(frames).bytes);
       const bool takes_none =
           replacement == Replacement::clock || replacement == Replacement::fifo || replacement == Replacement::random;
-      CHECK((takes_none || frames == 0 || Frames::needs(replacement, frames).total() > 0));
-      CHECK((!takes_none || Frames::needs(replacement, frames).total() == 0));
+      CHECK((takes_none || frames == 0 || svm::kind_of(replacement).layout(frames).total() > 0));
+      CHECK((!takes_none || svm::kind_of(replacement).layout(frames).total() == 0));
     }
   }
 }
@@ -167,7 +162,7 @@ class MostRecentlyUsed final : public svm::ReplacementPolicy {
 /// Added once, whatever tests run.
 Replacement most_recently_used() {
   static const Replacement added = svm::add_policy({"mru", "the page that was looked up most recently", false,
-                                                    [](nodes::MemoryPlan& /*plan*/, std::uint32_t /*frames*/) {},
+                                                    [](std::uint32_t /*frames*/) { return nodes::MemoryPlan(); },
                                                     [](const svm::PolicySite& site) -> std::unique_ptr<svm::ReplacementPolicy> {
                                                       return std::make_unique<MostRecentlyUsed>(site);
                                                     }});
@@ -192,9 +187,9 @@ TEST_CASE("a policy whose name is taken, or that cannot be made, is a broken inv
   const auto make = [](const svm::PolicySite& site) -> std::unique_ptr<svm::ReplacementPolicy> {
     return std::make_unique<MostRecentlyUsed>(site);
   };
-  const auto needs = [](nodes::MemoryPlan& /*plan*/, std::uint32_t /*frames*/) {};
-  CHECK_THROWS_AS(svm::add_policy({"lru", "a second one", false, needs, make}), core::InternalError);
-  CHECK_THROWS_AS(svm::add_policy({"none", "cannot be made", false, needs, nullptr}), core::InternalError);
+  const auto layout = [](std::uint32_t /*frames*/) { return nodes::MemoryPlan(); };
+  CHECK_THROWS_AS(svm::add_policy({"lru", "a second one", false, layout, make}), core::InternalError);
+  CHECK_THROWS_AS(svm::add_policy({"none", "cannot be made", false, layout, nullptr}), core::InternalError);
   CHECK_THROWS_AS(svm::name_of(static_cast<Replacement>(200)), core::InternalError);
 }
 

@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counts.h"
+
 namespace dmpc::apps {
 
 StabilityCounts& operator+=(StabilityCounts& sum, const StabilityCounts& more) {
-  sum.tried += more.tried;
-  sum.leaks += more.leaks;
-  sum.wrong_hits += more.wrong_hits;
-  sum.double_claims += more.double_claims;
-  sum.unexplained += more.unexplained;
-  sum.explained += more.explained;
-  sum.error_milliulp = std::max(sum.error_milliulp, more.error_milliulp);
+  const std::uint64_t worst = std::max(sum.error_milliulp, more.error_milliulp);
+  core::add_counts(sum, more).error_milliulp = worst;
   return sum;
 }
 

@@ -210,12 +210,7 @@ std::unique_ptr<Model> model_of(Replacement replacement, std::size_t frames) {
 /// A cache in a memory of exactly the size that it says it needs.
 struct SmallCache {
   SmallCache(Replacement replacement, std::uint32_t frames)
-      : shape{frames, tests::page_size, replacement}, memory(needs(shape)), cache(memory, shape, 0) {}
-  static nodes::MemoryPlan needs(const svm::CacheShape& shape) {
-    nodes::MemoryPlan plan;
-    svm::Cache::add_needs(plan, shape);
-    return plan;
-  }
+      : shape{frames, tests::page_size, replacement}, memory(svm::Cache::layout(shape)), cache(memory, shape, 0) {}
   Step refer(Page page) {
     const std::uint32_t frame = cache.frame_of(svm::PageId{page});
     if (frame != svm::Cache::no_frame) {
