@@ -1,7 +1,6 @@
 #include "apps/bench/speed/command.h"
 
 #include <algorithm>
-#include <exception>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -25,7 +24,7 @@
 #include "apps/effort/effort.h"
 #include "apps/oracle/oracle.h"
 #include "apps/scene/load_scene.h"
-#include "apps/system/attempts.h"
+#include "apps/study/engine/tabled_job.h"
 #include "apps/system/real_load.h"
 #include "apps/table/shown_rows.h"
 #include "apps/table/table_files.h"
@@ -94,20 +93,13 @@ void show_rows(const SpeedOptions& options, const Results& results, ShownRows& s
   }
 }
 
-/// What ended it before its time, if anything did.
-std::exception_ptr measure_all(const SpeedOptions& options, const TableFiles& files, const Interrupt& interrupt,
-                               Results& results) {
+void measure_all(const SpeedOptions& options, const TableFiles& files, const Interrupt& interrupt, Results& results) {
   SpeedSettings settings = options.settings;
   settings.outputs = files.names();
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
-  try {
-    for (const SpeedPart part : options.parts) {
-      measure_part(part, settings, interrupt, results);
-      show_rows(options, results, shown);
-    }
-    return nullptr;
-  } catch (...) {
-    return std::current_exception();
+  for (const SpeedPart part : options.parts) {
+    measure_part(part, settings, interrupt, results);
+    show_rows(options, results, shown);
   }
 }
 
@@ -296,18 +288,16 @@ int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::
   announce("bench speed", effort_of(options), options.quiet, std::cerr);
   const double load = machine_load();
   Results results;
-  const std::exception_ptr failure = measure_all(options, files, interrupt, results);
-  Attempts attempts(std::cerr);
-  if (!failure || results.has_figures()) {
-    interrupt.set_consequence("the table has what was measured before");
+  const auto write = [&](bool is_whole, Attempts& attempts) {
     files.write(
-        {.text = text_of_all(options, results, load, !failure), .plotted = [&] { return plotted_tables(options, results); }},
+        {.text = text_of_all(options, results, load, is_whole), .plotted = [&] { return plotted_tables(options, results); }},
         output, std::cerr, attempts);
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
-  return attempts.status();
+  };
+  return run_tabled({.measure = [&] { measure_all(options, files, interrupt, results); },
+                     .has_findings = [&] { return results.has_figures(); },
+                     .consequence = "the table has what was measured before",
+                     .write = write},
+                    interrupt);
 }
 
 }  // namespace dmpc::apps
