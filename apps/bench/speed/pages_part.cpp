@@ -1,10 +1,9 @@
-#include "apps/bench/speed/pages_part.h"
-
 #include <algorithm>
 #include <iostream>
 #include <string>
 #include <variant>
 
+#include "apps/bench/speed/parts.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
 #include "apps/study/paper/data.h"
@@ -37,7 +36,6 @@ Comparison comparison(const std::string& scene, const char* what, const char* un
   return {.part = SpeedPart::pages,
           .scene = scene,
           .what = what,
-          .detail = "",
           .threads = 0,
           .subject = "here",
           .rival = "article of 1994",

@@ -1,10 +1,9 @@
-#include "apps/bench/speed/picture_part.h"
-
 #include <array>
 #include <iostream>
 #include <string>
 
 #include "apps/bench/speed/on_nodes.h"
+#include "apps/bench/speed/parts.h"
 #include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
 #include "apps/picture/image_file.h"
@@ -57,7 +56,6 @@ void add_comparisons(const std::string& scene, std::vector<Comparison>& results)
     add_timed({.part = SpeedPart::picture,
                .scene = scene,
                .what = phase,
-               .detail = "",
                .threads = picture_node_count,
                .subject = "svm",
                .rival = "replicated with Embree",
@@ -77,9 +75,8 @@ void measure_picture(const SpeedSettings& settings, const Interrupt& interrupt, 
   }
   open_embree();  // which is no part of a render
   Progress progress(std::cerr, stderr_is_terminal(), "pictures:", "renders");
-  round_by_round(rounds, count, [&](std::size_t round, std::size_t index) {
+  round_by_round(rounds, count, progress, [&](std::size_t index) {
     interrupt.check();
-    progress.update(round * count + index, rounds * count);
     const bool is_rival = index % 2 == 1;
     const Phases phases = render_whole(scenes[index / 2], settings, strategy_of(is_rival), folder / "picture.png", interrupt);
     for (std::size_t phase = 0; phase < phases.size(); ++phase) {

@@ -14,8 +14,7 @@
 
 #include "apps/bench/speed/ablation.h"
 #include "apps/bench/speed/command.h"
-#include "apps/bench/speed/emulation_part.h"
-#include "apps/bench/speed/kernel_part.h"
+#include "apps/bench/speed/parts.h"
 #include "apps/bench/speed/table.h"
 #include "apps/commands.h"
 #include "core/base/expect.h"
