@@ -1,14 +1,12 @@
 #include "apps/study/runs.h"
 
-#include <exception>
-#include <memory>
 #include <mutex>
 #include <utility>
 
 #include "apps/run/run_strategy.h"
+#include "apps/study/engine/measure_each.h"
 #include "apps/system/memory_room.h"
 #include "apps/system/progress.h"
-#include "apps/system/side_by_side.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -111,30 +109,22 @@ void StudyRuns::run_side_by_side(std::span<const StudyRun> runs, const Take& tak
   Progress line(progress_.output, progress_.is_shown, "runs " + numbers(runs.size()) + ", side by side: ");
   CommonProgress progress(line, runs.size(), settings_.camera.pixel_count());
   std::vector<std::string> misfits;
-  side_by_side(runs.size(), [&](std::size_t index) -> std::function<void()> {
-    if (interrupt_.requested()) {
-      return [] {};
-    }
+  const auto measure = [&](std::size_t index) {
     const auto update = [&progress, index](std::uint32_t done, std::uint32_t) { progress.update(index, done); };
-    std::shared_ptr<const std::optional<StudyOutcome>> outcome;
-    try {
-      outcome = std::make_shared<const std::optional<StudyOutcome>>(outcome_of(runs[index], update));
-    } catch (...) {
-      return [error = std::current_exception()] { std::rethrow_exception(error); };  // when it is this run's turn
+    return interrupt_.requested() ? std::nullopt : outcome_of(runs[index], update);
+  };
+  measure_each(runs.size(), Turns::side_by_side, measure, [&](std::size_t index, const std::optional<StudyOutcome>& outcome) {
+    if (!outcome) {
+      return;
     }
-    if (!*outcome) {
-      return [] {};
+    if (outcome->report) {
+      compare(account_of(*outcome->report).film);
+      ++count_;
+    } else {
+      misfits.push_back(outcome->misfit);
     }
-    return [&, index, outcome] {
-      if ((*outcome)->report) {
-        compare(account_of(*(*outcome)->report).film);
-        ++count_;
-      } else {
-        misfits.push_back((*outcome)->misfit);
-      }
-      take(index, **outcome);
-      progress.finish(index);
-    };
+    take(index, *outcome);
+    progress.finish(index);
   });
   if (!runs.empty() && misfits.size() == runs.size()) {
     throw NothingFits(misfits.front());
