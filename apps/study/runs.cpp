@@ -3,6 +3,8 @@
 #include <mutex>
 #include <utility>
 
+#include "apps/machine/machines.h"
+#include "apps/run/render_record.h"
 #include "apps/run/run_strategy.h"
 #include "apps/study/engine/measure_each.h"
 #include "apps/system/memory_room.h"
@@ -129,6 +131,16 @@ void StudyRuns::run_side_by_side(std::span<const StudyRun> runs, const Take& tak
   if (!runs.empty() && misfits.size() == runs.size()) {
     throw NothingFits(misfits.front());
   }
+}
+
+StrategyOptions on_usual_machine() {
+  StrategyOptions options;
+  choose_machine(options, find_machine_preset("ipsc2")->machine);
+  return options;
+}
+
+std::string machine_text(const nodes::Machine& machine) {
+  return "Machine " + name_with_links(machine) + " (machine_digest " + hash_text(machine.digest()) + ")";
 }
 
 void StudyRuns::compare(const core::Film& film) {

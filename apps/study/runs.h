@@ -43,6 +43,11 @@ struct StudyRun {
   const core::RenderSettings* settings;
 };
 
+/// All else by default, on the ipsc2: what studies that model a machine begin from.
+StrategyOptions on_usual_machine();
+/// "Machine ipsc2, ... (machine_digest 0123...)", for a note.
+std::string machine_text(const nodes::Machine& machine);
+
 /// The scene fits none of the computers that were to render it: the message is the first one's misfit.
 struct NothingFits : core::RoomError {
   using core::RoomError::RoomError;

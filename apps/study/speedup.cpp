@@ -84,17 +84,7 @@ std::string rays_text(const dataflow::RayOptions& rays) {
          (rays.balance.bsp.order == dataflow::CutOrder::alternating ? " and alternating cuts" : "") + ", mapped onto the machine";
 }
 
-std::string machine_text(const nodes::Machine& machine) {
-  return "Machine " + name_with_links(machine) + " (machine_digest " + hash_text(machine.digest()) + ")";
-}
-
 }  // namespace
-
-StrategyOptions SpeedupStudy::standard_run() {
-  StrategyOptions run;
-  choose_machine(run, find_machine_preset("ipsc2")->machine);
-  return run;
-}
 
 std::vector<Column> SpeedupStudy::columns() const {
   std::vector<Column> columns = {{"nodes"}, {"virtual time", "s", 3}, {"speedup", "", 2}, {"efficiency", "%", 1}};

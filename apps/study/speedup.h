@@ -22,10 +22,7 @@ struct SpeedupStudy {
 
   std::vector<std::uint32_t> node_counts = {1, 2, 4, 8, 16, 32, 64};
   /// What all runs have in common, their machine included; its node count is without meaning.
-  StrategyOptions run = standard_run();
-
-  /// svm on the ipsc2.
-  static StrategyOptions standard_run();
+  StrategyOptions run = on_usual_machine();
 
   std::vector<Column> columns() const;
   /// Pictures of such a table.

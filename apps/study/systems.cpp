@@ -225,12 +225,6 @@ std::vector<System> SystemsStudy::all_systems() {
   return all;
 }
 
-StrategyOptions SystemsStudy::standard_machine() {
-  StrategyOptions run;
-  choose_machine(run, find_machine_preset("ipsc2")->machine);
-  return run;
-}
-
 std::vector<Column> SystemsStudy::columns() const {
   std::vector<Column> columns = {{"system"},
                                  {"memory"},
@@ -293,8 +287,7 @@ void SystemsStudy::measure(StudyRuns& runs, Table& table) const {
 }
 
 std::vector<std::string> SystemsStudy::notes(const std::string&) const {
-  std::vector<std::string> notes = {"Machine " + name_with_links(*machine.computer.machine) + " (machine_digest " +
-                                    hash_text(machine.computer.machine->digest()) + "). One pixel in flight, forest 16."};
+  std::vector<std::string> notes = {machine_text(*machine.computer.machine) + ". One pixel in flight, forest 16."};
   for (const SystemDescription& description : systems()) {
     if (std::find(chosen.begin(), chosen.end(), description.system) != chosen.end()) {
       notes.push_back(std::string(description.name) + ": " + description.meaning + ".");

@@ -25,8 +25,10 @@ struct TabledJob {
   std::function<void(bool is_whole, Attempts& attempts)> write;        ///< what was found, all of it or what there is
 };
 
-/// Measures, and writes what was found whatever ended that. What cannot be written is said on stderr and keeps nothing else from
-/// being written. Returns the exit status, 0 or that of the first such output; rethrows what ended the measuring before its time.
+/// Measures, and writes what was found whatever ended that: a table to the file asked for (whole or not at all), else to the
+/// standard output, then the page and the plots asked for. Progress goes to stderr if that is a terminal. What cannot be written
+/// is said on stderr and keeps nothing else from being written. Returns the exit status, 0 or that of the first such output;
+/// rethrows what ended the measuring before its time, Interrupted after a signal.
 int run_tabled(const TabledJob& job, Interrupt& interrupt);
 
 /// One table with its plots, and what its page tells beside them.
