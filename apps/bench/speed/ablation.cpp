@@ -7,7 +7,6 @@
 #include <iostream>
 #include <utility>
 
-#include "apps/bench/speed/on_nodes.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
 #include "apps/system/progress.h"
@@ -42,7 +41,8 @@ struct Variant {
 bool is_of_rays(const Skip& skip) { return skip.is_on == &Skips::empty_regions; }
 
 StrategyOptions strategy_of(const Variant& variant) {
-  return on_nodes(variant.strategy, variant.strategy == Strategy::dataflow ? ray_nodes : page_nodes);
+  return {.strategy = variant.strategy,
+          .computer = {.node_count = variant.strategy == Strategy::dataflow ? ray_nodes : page_nodes}};
 }
 
 double error_between(const core::Film& film, const core::Film& other) {

@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "apps/bench/speed/on_nodes.h"
 #include "apps/bench/speed/parts.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
@@ -46,7 +45,7 @@ constexpr std::array<Pairing, 6> pairings = {{{2, 0, "nodes", "svm on 64 nodes",
                                               {5, 1, "cache", "5 %", "100 %"}}};
 
 StrategyOptions strategy_of(const Computer& computer, const core::Database& database) {
-  StrategyOptions options = on_nodes(computer.strategy, computer.node_count);
+  StrategyOptions options{.strategy = computer.strategy, .computer = {.node_count = computer.node_count}};
   if (computer.strategy == Strategy::svm) {
     const auto pages = std::ceil(static_cast<double>(database.page_count()) * computer.cache_share);
     options.pages.cache_pages = static_cast<std::uint32_t>(std::max(pages, 1.0));

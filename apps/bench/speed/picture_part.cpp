@@ -2,7 +2,6 @@
 #include <iostream>
 #include <string>
 
-#include "apps/bench/speed/on_nodes.h"
 #include "apps/bench/speed/parts.h"
 #include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
@@ -22,9 +21,9 @@ constexpr std::array<const char*, 6> phase_names = {"load", "build", "prepare", 
 using Phases = std::array<Times, phase_names.size()>;
 
 StrategyOptions strategy_of(bool is_rival) {
-  StrategyOptions options = on_nodes(is_rival ? Strategy::replicated : Strategy::svm, picture_node_count);
-  options.tracer = is_rival ? TracerChoice::embree : TracerChoice::grid;
-  return options;
+  return {.strategy = is_rival ? Strategy::replicated : Strategy::svm,
+          .computer = {.node_count = picture_node_count},
+          .tracer = is_rival ? TracerChoice::embree : TracerChoice::grid};
 }
 
 /// Times of each phase, and in the end of all.

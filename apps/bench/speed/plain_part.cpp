@@ -2,7 +2,6 @@
 #include <iostream>
 #include <optional>
 
-#include "apps/bench/speed/on_nodes.h"
 #include "apps/bench/speed/parts.h"
 #include "apps/bench/speed/plain_renderer.h"
 #include "apps/run/run_strategy.h"
@@ -38,7 +37,7 @@ constexpr std::array<Contender, 10> contenders = {{{rival_name, rival_threads},
                                                    {"svm on 64 nodes, virtual", 64, Strategy::svm, RunnerKind::virtual_time}}};
 
 StrategyOptions strategy_of(const Contender& contender) {
-  StrategyOptions options = on_nodes(*contender.strategy, contender.count);
+  StrategyOptions options{.strategy = *contender.strategy, .computer = {.node_count = contender.count}};
   options.runner.kind = contender.runner;
   if (contender.runner == RunnerKind::virtual_time) {
     choose_machine(options);
