@@ -3,8 +3,8 @@
 #include <mutex>
 #include <utility>
 
+#include "apps/line/number_text.h"
 #include "apps/machine/machines.h"
-#include "apps/run/render_record.h"
 #include "apps/run/run_strategy.h"
 #include "apps/study/engine/measure_each.h"
 #include "apps/system/memory_room.h"
@@ -130,6 +130,15 @@ void StudyRuns::run_side_by_side(std::span<const StudyRun> runs, const Take& tak
   });
   if (!runs.empty() && misfits.size() == runs.size()) {
     throw NothingFits(misfits.front());
+  }
+}
+
+void add_notes(const std::string& who, const StudyOutcome& outcome, Table& table) {
+  for (const std::string& note : outcome.notes) {
+    table.add_note(who + ": " + note + ".");
+  }
+  if (!outcome.report) {
+    table.add_note(who + ": the scene does not fit. " + outcome.misfit + ".");
   }
 }
 

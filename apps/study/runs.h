@@ -13,6 +13,7 @@
 #include "apps/run/report.h"
 #include "apps/run/strategy_options.h"
 #include "apps/system/interrupt.h"
+#include "apps/table/table.h"
 #include "core/base/expect.h"
 #include "core/build/database.h"
 #include "core/picture/film.h"
@@ -35,6 +36,9 @@ struct StudyOutcome {
   std::string misfit;              ///< without one: why the scene does not fit, naming the memory and what would do
   std::vector<std::string> notes;  ///< what had to be reduced to fit: sentences
 };
+
+/// Notes of `who`, such as "8 nodes", what was reduced to fit, or why the scene does not.
+void add_notes(const std::string& who, const StudyOutcome& outcome, Table& table);
 
 /// A run on a modelled machine, and what it renders: the study's scene, maybe in another structure. That outlives the run.
 struct StudyRun {

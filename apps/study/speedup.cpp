@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "apps/line/number_text.h"
-#include "apps/run/render_record.h"
 #include "apps/run/report.h"
 #include "apps/run/run_strategy.h"
 #include "apps/run/time_parts.h"
@@ -22,14 +21,10 @@ class Rows {
   explicit Rows(Table& table) : table_(table) {}
 
   void add(std::uint32_t node_count, const StudyOutcome& outcome) {
-    const std::string nodes_text = counted(node_count, "node") + ": ";
-    for (const std::string& note : outcome.notes) {
-      table_.add_note(nodes_text + note + ".");
-    }
+    add_notes(counted(node_count, "node"), outcome, table_);
     if (outcome.report) {
       return add(node_count, account_of(*outcome.report));
     }
-    table_.add_note(nodes_text + "the scene does not fit. " + outcome.misfit + ".");
     std::vector<Cell> row = {std::uint64_t{node_count}};
     row.resize(table_.columns().size());
     table_.add_row(std::move(row));

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/machine/machines.h"
 #include "apps/run/strategy_options.h"
 #include "apps/study/runs.h"
 #include "apps/table/plot.h"
@@ -25,9 +24,7 @@ struct SpeedupStudy {
   StrategyOptions run = on_usual_machine();
 
   std::vector<Column> columns() const;
-  /// Pictures of such a table.
   std::vector<Plot> plots() const;
-  /// How many times measure() renders.
   std::uint32_t run_count() const { return static_cast<std::uint32_t>(node_counts.size()); }
   /// Adds to `table`, which has columns(), a row for each node count, those that were finished after a signal; and notes: why a
   /// row is empty (the scene does not fit so many nodes), and what was reduced to fit. Throws as StudyRuns does:

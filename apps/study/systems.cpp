@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "apps/line/number_text.h"
-#include "apps/machine/machines.h"
-#include "apps/run/render_record.h"
 #include "apps/run/report.h"
 #include "apps/run/run_strategy.h"
 #include "apps/run/time_parts.h"
@@ -155,15 +153,10 @@ class SystemRows {
 
   void take(std::size_t run, const StudyOutcome& outcome) {
     const SystemRun& done = plan_.runs[run];
-    const std::string who =
-        std::string(name_of(done.system)) + " on " + counted(done.node_count, "node") + ", memory " + done.memory->text() + ": ";
-    for (const std::string& note : outcome.notes) {
-      table_.add_note(who + note + ".");
-    }
+    add_notes(std::string(name_of(done.system)) + " on " + counted(done.node_count, "node") + ", memory " + done.memory->text(),
+              outcome, table_);
     if (outcome.report) {
       figures_[run] = figures_of(account_of(*outcome.report));
-    } else {
-      table_.add_note(who + "the scene does not fit. " + outcome.misfit + ".");
     }
     is_done_[run] = true;
     for (; next_ < plan_.rows.size() && is_done_[plan_.rows[next_].run]; ++next_) {

@@ -37,9 +37,7 @@ struct SystemsStudy {
 
   static std::vector<System> all_systems();
   std::vector<Column> columns() const;
-  /// Pictures of such a table.
   std::vector<Plot> plots() const;
-  /// How many times measure() renders.
   std::uint32_t run_count() const;
   /// Adds to `table`, which has columns(), the rows; notes: why a system does not fit, and which of the expectations that were
   /// written down before the first of these runs have held. A system that memory does not change has one run for all rules.

@@ -1,4 +1,4 @@
-#include "apps/study/paper/memories.h"
+#include "apps/study/paper/tables.h"
 
 #include <doctest/doctest.h>
 
