@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "apps/bench/speed/comparison.h"
-#include "apps/bench/speed/part.h"
-#include "apps/system/interrupt.h"
+#include "apps/edge/system/interrupt.h"
+#include "apps/lab/bench/speed/comparison.h"
+#include "apps/lab/bench/speed/part.h"
 
 namespace dmpc::apps {
 

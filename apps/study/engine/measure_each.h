@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "apps/system/side_by_side.h"
+#include "apps/lab/crowd/side_by_side.h"
 
 namespace dmpc::apps {
 

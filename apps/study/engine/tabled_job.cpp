@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "apps/show/page/origin.h"
+#include "apps/edge/show/page/origin.h"
 #include "apps/show/page/sweep_page.h"
 
 namespace dmpc::apps {

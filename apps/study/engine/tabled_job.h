@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/show/page/page.h"
-#include "apps/system/attempts.h"
-#include "apps/system/interrupt.h"
-#include "apps/table/plot.h"
-#include "apps/table/table_files.h"
+#include "apps/edge/show/page/page.h"
+#include "apps/edge/system/attempts.h"
+#include "apps/edge/system/interrupt.h"
+#include "apps/edge/table/plot.h"
+#include "apps/edge/table/table_files.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
