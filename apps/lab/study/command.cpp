@@ -17,12 +17,12 @@
 #include "apps/effort/effort.h"
 #include "apps/lab/study/conclusions.h"
 #include "apps/lab/study/effort.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/runs.h"
 #include "apps/render/picture_identity.h"
 #include "apps/run/render_record.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
-#include "apps/study/engine/tabled_job.h"
 #include "core/families/scenes.h"
 
 namespace dmpc::apps {

@@ -7,8 +7,8 @@
 #include "apps/edge/machine/machines.h"
 #include "apps/edge/system/memory_room.h"
 #include "apps/edge/system/progress.h"
+#include "apps/lab/study/engine/measure_each.h"
 #include "apps/run/run_strategy.h"
-#include "apps/study/engine/measure_each.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

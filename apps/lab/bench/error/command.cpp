@@ -14,8 +14,8 @@
 #include "apps/edge/table/table_files.h"
 #include "apps/lab/bench/error/findings.h"
 #include "apps/lab/bench/error/table.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/scene/load_scene.h"
-#include "apps/study/engine/tabled_job.h"
 #include "core/base/expect.h"
 #include "svm/plan.h"
 

@@ -9,8 +9,8 @@
 #include "apps/edge/table/table_files.h"
 #include "apps/effort/effort.h"
 #include "apps/lab/bench/precision/precision.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/scene/load_scene.h"
-#include "apps/study/engine/tabled_job.h"
 #include "core/families/scenes.h"
 
 namespace dmpc::apps {

@@ -3,10 +3,10 @@
 #include <iostream>
 #include <string>
 
-#include "apps/bench/speed/parts.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/edge/table/rounds.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/rival.h"
 #include "core/database/database.h"
 

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "apps/bench/speed/parts.h"
 #include "apps/edge/system/real_load.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
@@ -17,12 +16,13 @@
 #include "apps/lab/bench/speed/comparison.h"
 #include "apps/lab/bench/speed/headline.h"
 #include "apps/lab/bench/speed/kernel_means.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/plain_table.h"
 #include "apps/lab/bench/speed/table.h"
 #include "apps/lab/bench/speed/target.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/oracle/oracle.h"
 #include "apps/scene/load_scene.h"
-#include "apps/study/engine/tabled_job.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "apps/bench/speed/parts.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/edge/table/rounds.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"

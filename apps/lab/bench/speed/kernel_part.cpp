@@ -5,10 +5,10 @@
 #include <iostream>
 #include <string>
 
-#include "apps/bench/speed/parts.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/table/rounds.h"
 #include "apps/lab/bench/speed/kernel_arena.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

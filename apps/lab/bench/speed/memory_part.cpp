@@ -1,11 +1,11 @@
 #include <iostream>
 #include <string>
 
-#include "apps/bench/speed/parts.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/scratch_folder.h"
 #include "apps/edge/system/watched_process.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/scene/subject.h"
 #include "svm/run.h"
 

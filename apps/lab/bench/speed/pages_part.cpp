@@ -3,8 +3,8 @@
 #include <string>
 #include <variant>
 
-#include "apps/bench/speed/parts.h"
 #include "apps/edge/system/progress.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/study/paper/data.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"

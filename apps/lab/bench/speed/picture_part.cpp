@@ -2,11 +2,11 @@
 #include <iostream>
 #include <string>
 
-#include "apps/bench/speed/parts.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/scratch_folder.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/edge/table/rounds.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
 #include "apps/picture/image_file.h"

@@ -2,10 +2,10 @@
 #include <iostream>
 #include <optional>
 
-#include "apps/bench/speed/parts.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/edge/table/rounds.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/plain_renderer.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"

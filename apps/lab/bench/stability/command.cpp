@@ -12,7 +12,7 @@
 #include "apps/lab/bench/stability/run.h"
 #include "apps/lab/bench/stability/state.h"
 #include "apps/lab/bench/stability/table.h"
-#include "apps/study/engine/tabled_job.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -14,6 +14,7 @@
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_options.h"
 #include "apps/effort/effort.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/paper/calibration.h"
 #include "apps/lab/study/paper/catalogue.h"
 #include "apps/lab/study/paper/law.h"
@@ -21,7 +22,6 @@
 #include "apps/lab/study/paper/runs.h"
 #include "apps/lab/study/paper/sensitivity.h"
 #include "apps/lab/study/paper/tables.h"
-#include "apps/study/engine/tabled_job.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

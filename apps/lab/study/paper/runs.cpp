@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "apps/edge/system/progress.h"
+#include "apps/lab/study/engine/measure_each.h"
 #include "apps/lab/study/paper/hot_spots.h"
 #include "apps/run/report.h"
 #include "apps/scene/load_scene.h"
-#include "apps/study/engine/measure_each.h"
 #include "core/base/expect.h"
 #include "dataflow/regions/bsp.h"
 #include "dataflow/run.h"

@@ -12,7 +12,7 @@
 #include "apps/edge/table/geometric_sizes.h"
 #include "apps/edge/table/table_files.h"
 #include "apps/lab/study/cache_curves.h"
-#include "apps/study/engine/tabled_job.h"
+#include "apps/lab/study/engine/tabled_job.h"
 
 namespace dmpc::apps {
 namespace {

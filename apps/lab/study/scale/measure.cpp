@@ -11,8 +11,8 @@
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/scratch_folder.h"
 #include "apps/edge/system/watched_process.h"
+#include "apps/lab/study/engine/measure_each.h"
 #include "apps/lab/study/render_process.h"
-#include "apps/study/engine/measure_each.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -10,10 +10,10 @@
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
 #include "apps/lab/figures/known_figures.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/sweep/measure.h"
 #include "apps/lab/study/sweep/table.h"
 #include "apps/scene/load_scene.h"
-#include "apps/study/engine/tabled_job.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "apps/bench/speed/parts.h"
 #include "apps/lab/bench/speed/ablation.h"
 #include "apps/lab/bench/speed/command.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/table.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"

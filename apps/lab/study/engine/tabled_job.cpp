@@ -1,4 +1,4 @@
-#include "apps/study/engine/tabled_job.h"
+#include "apps/lab/study/engine/tabled_job.h"
 
 #include <exception>
 #include <iostream>
