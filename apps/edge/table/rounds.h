@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "apps/edge/system/progress.h"
+
 namespace dmpc::apps {
 
 /// Calls visit(round, index) for every index below `count` before the next round, so that a busy minute of the machine hits all
@@ -14,6 +16,15 @@ void round_by_round(std::size_t rounds, std::size_t count, const Visit& visit) {
       visit(round, index);
     }
   }
+}
+
+/// The same of visit(index), and shows how many there have been.
+template <class Visit>
+void round_by_round(std::size_t rounds, std::size_t count, Progress& progress, const Visit& visit) {
+  round_by_round(rounds, count, [&](std::size_t round, std::size_t index) {
+    progress.update(round * count + index, rounds * count);
+    visit(index);
+  });
 }
 
 }  // namespace dmpc::apps

@@ -41,15 +41,6 @@ OutputSet<TableResult> files_of(const TableOutput& asked, const std::vector<Plot
 
 }  // namespace
 
-TableResult table_result(const Table& table, TableFormat format, std::function<std::string()> page, std::string data_file,
-                         std::vector<Plot> plots) {
-  return {.text = text_of(table, format),
-          .page = std::move(page),
-          .plotted = [&table, data_file = std::move(data_file), plots = std::move(plots)] {
-            return std::vector<PlottedTable>{{table, data_file, plots}};
-          }};
-}
-
 PlottedNames names_of(const std::string& data_file, const std::vector<Plot>& plots) {
   PlottedNames names{data_file, {}};
   for (const Plot& plot : plots) {

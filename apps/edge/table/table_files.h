@@ -35,10 +35,6 @@ struct TableResult {
   std::function<std::vector<PlottedTable>()> plotted = {};
 };
 
-/// Of one table, which outlives it: its data lie in `data_file` beside what is drawn of it.
-TableResult table_result(const Table& table, TableFormat format, std::function<std::string()> page, std::string data_file,
-                         std::vector<Plot> plots);
-
 /// Files of a command that are none of its table's.
 struct OtherFiles {
   std::vector<NamedFile> inputs = {};

@@ -30,13 +30,9 @@ struct BalanceStudy {
   bool per_node = false;  ///< below each row one more for each node, with its share of the work
 
   std::vector<Column> columns() const;
-  /// Pictures of such a table.
   std::vector<Plot> plots() const;
-  /// How many times measure() renders.
   std::uint32_t run_count() const { return static_cast<std::uint32_t>(ways) * static_cast<std::uint32_t>(node_counts.size()); }
-  /// Adds to `table`, which has columns(), row after row as the runs end. Throws as StudyRuns::run() does.
   void measure(StudyRuns& runs, Table& table) const;
-  /// What the columns mean, and what the 1994 paper found if `scene`, as on the command line, is one of its scenes.
   std::vector<std::string> notes(const std::string& scene) const;
 };
 

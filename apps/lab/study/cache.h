@@ -24,13 +24,9 @@ struct CacheStudy {
   std::optional<nodes::Machine> machine;   ///< without it nothing is timed
 
   std::vector<Column> columns() const;
-  /// Pictures of such a table.
   std::vector<Plot> plots() const;
-  /// Not known before the first run: 0.
   std::uint32_t run_count() const { return 0; }
-  /// Adds to `table`, which has columns(), row after row as the runs end. Throws as StudyRuns::run() does.
   void measure(StudyRuns& runs, Table& table) const;
-  /// What the columns mean, and what the 1994 paper found if `scene`, as on the command line, is one of its scenes.
   std::vector<std::string> notes(const std::string& scene) const;
 };
 

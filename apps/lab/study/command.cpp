@@ -11,20 +11,18 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/machine/machines.h"
-#include "apps/edge/show/page/origin.h"
-#include "apps/edge/system/attempts.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
 #include "apps/effort/effort.h"
 #include "apps/lab/study/conclusions.h"
 #include "apps/lab/study/effort.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/runs.h"
 #include "apps/render/picture_identity.h"
 #include "apps/run/render_record.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
-#include "apps/show/page/sweep_page.h"
 #include "core/families/scenes.h"
 
 namespace dmpc::apps {
@@ -92,20 +90,16 @@ struct Marks {
   std::optional<std::uint64_t> film_hash;
 };
 
-/// For --report.
-template <class OneStudy>
-std::string page_of(const OneStudy& study, const Table& table, const StudyOptions& options, const Marks& marks) {
-  const html::SweepPart part{"", table, study.plots(), conclusion_of(study, table)};
-  const html::Facts results = marks.film_hash ? html::Facts{{"film", hash_text(*marks.film_hash)}} : html::Facts{};
-  return html::sweep_page({"Study " + std::string(OneStudy::name) + " of " + options.picture.scene, {}, {part}, results},
-                          this_origin(marks.scene_digest), std::cerr);
-}
-
 template <class OneStudy>
 TableResult result_of(const OneStudy& study, const Table& table, const Marks& marks, const StudyOptions& options) {
-  return table_result(
-      table, options.table.format, [&] { return page_of(study, table, options, marks); }, data_file_of(OneStudy::name),
-      study.plots());
+  return study_result({.title = "Study " + std::string(OneStudy::name) + " of " + options.picture.scene,
+                       .table = table,
+                       .data_file = data_file_of(OneStudy::name),
+                       .plots = study.plots(),
+                       .conclusion = conclusion_of(study, table),
+                       .facts = marks.film_hash ? html::Facts{{"film", hash_text(*marks.film_hash)}} : html::Facts{},
+                       .scene_digest = marks.scene_digest},
+                      options.table.format);
 }
 
 template <class OneStudy>
@@ -117,20 +111,19 @@ Table empty_table(const OneStudy& study, const StudyOptions& options, const Subj
   return table;
 }
 
-/// What ended it before its time, if anything did; the rows finished before are in the table, and a note that others are missing.
+/// If something ends it before its time, the table has the rows finished before, and a note that others are missing.
 template <class OneStudy>
-std::exception_ptr measure(const OneStudy& study, StudyRuns& runs, Table& table) {
+void measure(const OneStudy& study, StudyRuns& runs, Table& table) {
   try {
     study.measure(runs, table);
-    return nullptr;
   } catch (const Interrupted&) {
     table.add_note("Interrupted: rows are missing.");
-    return std::current_exception();
+    throw;
   } catch (const NothingFits&) {
-    return std::current_exception();
+    throw;
   } catch (const std::exception&) {
     table.add_note("Ended by an error: rows are missing.");
-    return std::current_exception();
+    throw;
   }
 }
 
@@ -166,23 +159,18 @@ int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& fil
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   table.set_listener([&shown](const Table& rows) { shown.show(rows); });
   StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal(), study.run_count()}, interrupt);
-  const std::exception_ptr failure = measure(study, runs, table);
-  Attempts attempts(std::cerr);
-  if (!failure || !table.rows().empty()) {
-    interrupt.set_consequence(failure              ? "the table has the rows finished before"
-                              : options.table.file ? "nothing was written"
-                                                   : "the table is incomplete");
+  const auto write = [&](bool is_whole, Attempts& attempts) {
     table.add_note(film_note(runs));
     std::optional<Interrupt::EndAtOnce> end_at_once;
-    if (!failure) {
+    if (is_whole) {
+      interrupt.set_consequence(options.table.file ? "nothing was written" : "the table is incomplete");
       end_at_once.emplace(interrupt);
     }
     files.write(result_of(study, table, {digest, runs.film_hash()}, options), output, std::cerr, attempts);
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
-  return attempts.status();
+  };
+  return run_tabled(
+      {.measure = [&] { measure(study, runs, table); }, .has_findings = [&] { return !table.rows().empty(); }, .write = write},
+      interrupt);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/option_values.h"
+#include "apps/edge/line/words.h"
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
 #include "nodes/size_text.h"
@@ -68,10 +69,8 @@ std::size_t held_bytes(const nodes::MemoryPlan& plan) {
 
 std::vector<MemoryRule> parse_memory_rules(const std::string& text) {
   std::vector<MemoryRule> rules;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    rules.push_back(parse_rule(std::string_view(text).substr(begin, end - begin)));
-    begin = end + 1;
+  for (const std::string& word : words_between(text, ',')) {
+    rules.push_back(parse_rule(word));
   }
   return rules;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/edge/line/option_values.h"
+#include "apps/edge/line/words.h"
 #include "apps/edge/machine/machine_file.h"
 #include "apps/edge/machine/machines.h"
 #include "apps/edge/table/table_options.h"
@@ -46,13 +47,10 @@ void finish(const OptionSet& set, SpeedupStudy& study, DatabaseOptions& database
 /// "svm,forest", in that order, each once.
 std::vector<System> parse_systems(const std::string& text) {
   std::vector<System> chosen;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const System system = find_system(text.substr(begin, end - begin));
-    if (std::find(chosen.begin(), chosen.end(), system) == chosen.end()) {
+  for (const std::string& word : words_between(text, ',')) {
+    if (const System system = find_system(word); std::find(chosen.begin(), chosen.end(), system) == chosen.end()) {
       chosen.push_back(system);
     }
-    begin = end + 1;
   }
   return chosen;
 }

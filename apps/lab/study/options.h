@@ -16,8 +16,10 @@
 
 namespace dmpc::apps {
 
-/// One study. Each has a `name` (the word on the command line) and a `description`, and says what its table's columns() and its
-/// plots() are, how many runs it takes, what to note below for a scene, and how to measure() row after row.
+/// One study. Each has a `name` (the word on the command line) and a `description`, its table's columns(), and plots() of such a
+/// table; run_count() is how many times it renders, 0 where that is not known before the first run; notes() say what the columns
+/// mean, and what the 1994 article found if the scene, as on the command line, is one of its own. measure() adds row after row to
+/// a table that has columns(), as the runs end, and throws as StudyRuns does.
 using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy, SpeedupStudy, SystemsStudy>;
 
 struct StudyOptions {

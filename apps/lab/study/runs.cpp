@@ -1,13 +1,13 @@
 #include "apps/lab/study/runs.h"
 
-#include <exception>
-#include <memory>
 #include <mutex>
 #include <utility>
 
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/machine/machines.h"
 #include "apps/edge/system/memory_room.h"
 #include "apps/edge/system/progress.h"
-#include "apps/lab/crowd/side_by_side.h"
+#include "apps/lab/study/engine/measure_each.h"
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"
 
@@ -111,34 +111,45 @@ void StudyRuns::run_side_by_side(std::span<const StudyRun> runs, const Take& tak
   Progress line(progress_.output, progress_.is_shown, "runs " + numbers(runs.size()) + ", side by side: ");
   CommonProgress progress(line, runs.size(), settings_.camera.pixel_count());
   std::vector<std::string> misfits;
-  side_by_side(runs.size(), [&](std::size_t index) -> std::function<void()> {
-    if (interrupt_.requested()) {
-      return [] {};
-    }
+  const auto measure = [&](std::size_t index) {
     const auto update = [&progress, index](std::uint32_t done, std::uint32_t) { progress.update(index, done); };
-    std::shared_ptr<const std::optional<StudyOutcome>> outcome;
-    try {
-      outcome = std::make_shared<const std::optional<StudyOutcome>>(outcome_of(runs[index], update));
-    } catch (...) {
-      return [error = std::current_exception()] { std::rethrow_exception(error); };  // when it is this run's turn
+    return interrupt_.requested() ? std::nullopt : outcome_of(runs[index], update);
+  };
+  measure_each(runs.size(), Turns::side_by_side, measure, [&](std::size_t index, const std::optional<StudyOutcome>& outcome) {
+    if (!outcome) {
+      return;
     }
-    if (!*outcome) {
-      return [] {};
+    if (outcome->report) {
+      compare(account_of(*outcome->report).film);
+      ++count_;
+    } else {
+      misfits.push_back(outcome->misfit);
     }
-    return [&, index, outcome] {
-      if ((*outcome)->report) {
-        compare(account_of(*(*outcome)->report).film);
-        ++count_;
-      } else {
-        misfits.push_back((*outcome)->misfit);
-      }
-      take(index, **outcome);
-      progress.finish(index);
-    };
+    take(index, *outcome);
+    progress.finish(index);
   });
   if (!runs.empty() && misfits.size() == runs.size()) {
     throw NothingFits(misfits.front());
   }
+}
+
+void add_notes(const std::string& who, const StudyOutcome& outcome, Table& table) {
+  for (const std::string& note : outcome.notes) {
+    table.add_note(who + ": " + note + ".");
+  }
+  if (!outcome.report) {
+    table.add_note(who + ": the scene does not fit. " + outcome.misfit + ".");
+  }
+}
+
+StrategyOptions on_usual_machine() {
+  StrategyOptions options;
+  choose_machine(options, find_machine_preset("ipsc2")->machine);
+  return options;
+}
+
+std::string machine_text(const nodes::Machine& machine) {
+  return "Machine " + name_with_links(machine) + " (machine_digest " + hash_text(machine.digest()) + ")";
 }
 
 void StudyRuns::compare(const core::Film& film) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/edge/system/interrupt.h"
+#include "apps/edge/table/table.h"
 #include "apps/run/report.h"
 #include "apps/run/strategy_options.h"
 #include "core/base/expect.h"
@@ -36,12 +37,20 @@ struct StudyOutcome {
   std::vector<std::string> notes;  ///< what had to be reduced to fit: sentences
 };
 
+/// Notes of `who`, such as "8 nodes", what was reduced to fit, or why the scene does not.
+void add_notes(const std::string& who, const StudyOutcome& outcome, Table& table);
+
 /// A run on a modelled machine, and what it renders: the study's scene, maybe in another structure. That outlives the run.
 struct StudyRun {
   StrategyOptions options;
   const core::Database* database;
   const core::RenderSettings* settings;
 };
+
+/// All else by default, on the ipsc2: what studies that model a machine begin from.
+StrategyOptions on_usual_machine();
+/// "Machine ipsc2, ... (machine_digest 0123...)", for a note.
+std::string machine_text(const nodes::Machine& machine);
 
 /// The scene fits none of the computers that were to render it: the message is the first one's misfit.
 struct NothingFits : core::RoomError {

@@ -6,7 +6,6 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/run/time_parts.h"
-#include "apps/run/render_record.h"
 #include "apps/run/report.h"
 #include "apps/run/run_strategy.h"
 #include "nodes/size_text.h"
@@ -22,14 +21,10 @@ class Rows {
   explicit Rows(Table& table) : table_(table) {}
 
   void add(std::uint32_t node_count, const StudyOutcome& outcome) {
-    const std::string nodes_text = counted(node_count, "node") + ": ";
-    for (const std::string& note : outcome.notes) {
-      table_.add_note(nodes_text + note + ".");
-    }
+    add_notes(counted(node_count, "node"), outcome, table_);
     if (outcome.report) {
       return add(node_count, account_of(*outcome.report));
     }
-    table_.add_note(nodes_text + "the scene does not fit. " + outcome.misfit + ".");
     std::vector<Cell> row = {std::uint64_t{node_count}};
     row.resize(table_.columns().size());
     table_.add_row(std::move(row));
@@ -84,17 +79,7 @@ std::string rays_text(const dataflow::RayOptions& rays) {
          (rays.balance.bsp.order == dataflow::CutOrder::alternating ? " and alternating cuts" : "") + ", mapped onto the machine";
 }
 
-std::string machine_text(const nodes::Machine& machine) {
-  return "Machine " + name_with_links(machine) + " (machine_digest " + hash_text(machine.digest()) + ")";
-}
-
 }  // namespace
-
-StrategyOptions SpeedupStudy::standard_run() {
-  StrategyOptions run;
-  choose_machine(run, find_machine_preset("ipsc2")->machine);
-  return run;
-}
 
 std::vector<Column> SpeedupStudy::columns() const {
   std::vector<Column> columns = {{"nodes"}, {"virtual time", "s", 3}, {"speedup", "", 2}, {"efficiency", "%", 1}};

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/machine/machines.h"
 #include "apps/edge/table/plot.h"
 #include "apps/edge/table/table.h"
 #include "apps/lab/study/runs.h"
@@ -22,15 +21,10 @@ struct SpeedupStudy {
 
   std::vector<std::uint32_t> node_counts = {1, 2, 4, 8, 16, 32, 64};
   /// What all runs have in common, their machine included; its node count is without meaning.
-  StrategyOptions run = standard_run();
-
-  /// svm on the ipsc2.
-  static StrategyOptions standard_run();
+  StrategyOptions run = on_usual_machine();
 
   std::vector<Column> columns() const;
-  /// Pictures of such a table.
   std::vector<Plot> plots() const;
-  /// How many times measure() renders.
   std::uint32_t run_count() const { return static_cast<std::uint32_t>(node_counts.size()); }
   /// Adds to `table`, which has columns(), a row for each node count, those that were finished after a signal; and notes: why a
   /// row is empty (the scene does not fit so many nodes), and what was reduced to fit. Throws as StudyRuns does:

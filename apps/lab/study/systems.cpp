@@ -8,9 +8,7 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
-#include "apps/edge/machine/machines.h"
 #include "apps/edge/run/time_parts.h"
-#include "apps/run/render_record.h"
 #include "apps/run/report.h"
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"
@@ -155,15 +153,10 @@ class SystemRows {
 
   void take(std::size_t run, const StudyOutcome& outcome) {
     const SystemRun& done = plan_.runs[run];
-    const std::string who =
-        std::string(name_of(done.system)) + " on " + counted(done.node_count, "node") + ", memory " + done.memory->text() + ": ";
-    for (const std::string& note : outcome.notes) {
-      table_.add_note(who + note + ".");
-    }
+    add_notes(std::string(name_of(done.system)) + " on " + counted(done.node_count, "node") + ", memory " + done.memory->text(),
+              outcome, table_);
     if (outcome.report) {
       figures_[run] = figures_of(account_of(*outcome.report));
-    } else {
-      table_.add_note(who + "the scene does not fit. " + outcome.misfit + ".");
     }
     is_done_[run] = true;
     for (; next_ < plan_.rows.size() && is_done_[plan_.rows[next_].run]; ++next_) {
@@ -223,12 +216,6 @@ std::vector<System> SystemsStudy::all_systems() {
     all.push_back(description.system);
   }
   return all;
-}
-
-StrategyOptions SystemsStudy::standard_machine() {
-  StrategyOptions run;
-  choose_machine(run, find_machine_preset("ipsc2")->machine);
-  return run;
 }
 
 std::vector<Column> SystemsStudy::columns() const {
@@ -293,8 +280,7 @@ void SystemsStudy::measure(StudyRuns& runs, Table& table) const {
 }
 
 std::vector<std::string> SystemsStudy::notes(const std::string&) const {
-  std::vector<std::string> notes = {"Machine " + name_with_links(*machine.computer.machine) + " (machine_digest " +
-                                    hash_text(machine.computer.machine->digest()) + "). One pixel in flight, forest 16."};
+  std::vector<std::string> notes = {machine_text(*machine.computer.machine) + ". One pixel in flight, forest 16."};
   for (const SystemDescription& description : systems()) {
     if (std::find(chosen.begin(), chosen.end(), description.system) != chosen.end()) {
       notes.push_back(std::string(description.name) + ": " + description.meaning + ".");

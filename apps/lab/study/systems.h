@@ -32,17 +32,12 @@ struct SystemsStudy {
   std::vector<System> chosen = all_systems();
   std::vector<std::uint32_t> node_counts = {64};
   std::vector<MemoryRule> memories = {{}, {.share = 0.25}, {.share = 0.05}, {.share = 0.01}};
-  StrategyOptions machine = standard_machine();  ///< of the runs, with its runner options; the rest is without meaning
+  StrategyOptions machine = on_usual_machine();  ///< of the runs, with its runner options; the rest is without meaning
   Build build;                                   ///< must be there to measure()
 
   static std::vector<System> all_systems();
-  /// ipsc2.
-  static StrategyOptions standard_machine();
-
   std::vector<Column> columns() const;
-  /// Pictures of such a table.
   std::vector<Plot> plots() const;
-  /// How many times measure() renders.
   std::uint32_t run_count() const;
   /// Adds to `table`, which has columns(), the rows; notes: why a system does not fit, and which of the expectations that were
   /// written down before the first of these runs have held. A system that memory does not change has one run for all rules.

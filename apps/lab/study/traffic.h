@@ -19,13 +19,9 @@ struct TrafficStudy {
   std::vector<std::uint32_t> node_counts = {1, 2, 4, 8, 16, 32, 64};
 
   std::vector<Column> columns() const;
-  /// Pictures of such a table.
   std::vector<Plot> plots() const;
-  /// How many times measure() renders.
   std::uint32_t run_count() const { return 3 * static_cast<std::uint32_t>(node_counts.size()); }
-  /// Adds to `table`, which has columns(), row after row as the runs end. Throws as StudyRuns::run() does.
   void measure(StudyRuns& runs, Table& table) const;
-  /// What the columns mean, for any scene.
   std::vector<std::string> notes(const std::string& scene) const;
 };
 

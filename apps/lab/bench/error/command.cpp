@@ -2,20 +2,19 @@
 
 #include <algorithm>
 #include <charconv>
-#include <exception>
 #include <iostream>
 #include <set>
 #include <span>
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
-#include "apps/edge/system/attempts.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/system/real_load.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
 #include "apps/lab/bench/error/findings.h"
 #include "apps/lab/bench/error/table.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "svm/plan.h"
@@ -93,7 +92,7 @@ const std::vector<std::string>& explanations() {
   return sentences;
 }
 
-Table finished_table(const ErrorOptions& options, std::span<const SceneResult> results, double load) {
+Table finished_table(const ErrorOptions& options, std::span<const SceneResult> results, double load, bool is_whole) {
   Table table = table_of(results, title_of(options));
   for (const std::string& sentence : explanations()) {
     table.add_note(sentence);
@@ -110,6 +109,9 @@ Table finished_table(const ErrorOptions& options, std::span<const SceneResult> r
     table.add_note(std::move(sentence));
   }
   table.add_note(load_note(load));
+  if (!is_whole) {
+    table.add_note("Ended before its time: points or rounds are missing.");
+  }
   return table;
 }
 
@@ -129,20 +131,14 @@ void show_rows(const SceneResult& result, ShownRows& shown) {
   }
 }
 
-/// What ended it before its time, if anything did.
-std::exception_ptr measure_all(const ErrorOptions& options, const TableFiles& files, const Interrupt& interrupt,
-                               std::vector<SceneResult>& results) {
+void measure_all(const ErrorOptions& options, const TableFiles& files, const Interrupt& interrupt,
+                 std::vector<SceneResult>& results) {
   MeasureOptions measure = options.measure;
   measure.outputs = files.names();
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   measure.told = [&](const SceneResult& result) { show_rows(result, shown); };
-  try {
-    for (const std::string& scene : options.scenes) {
-      measure_scene(scene, measure, interrupt, results.emplace_back());
-    }
-    return nullptr;
-  } catch (...) {
-    return std::current_exception();
+  for (const std::string& scene : options.scenes) {
+    measure_scene(scene, measure, interrupt, results.emplace_back());
   }
 }
 
@@ -228,21 +224,16 @@ int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::
   const TableFiles files = files_of(options);
   const double load = machine_load();
   std::vector<SceneResult> results;
-  const std::exception_ptr failure = measure_all(options, files, interrupt, results);
-  Attempts attempts(std::cerr);
-  if (!failure || std::any_of(results.begin(), results.end(), has_measurements)) {
-    interrupt.set_consequence("the table has the points measured before");
-    Table table = finished_table(options, results, load);
-    if (failure) {
-      table.add_note("Ended before its time: points or rounds are missing.");
-    }
-    files.write({.text = text_of(table, options.table.format), .plotted = [&] { return plotted_tables(results); }}, output,
-                std::cerr, attempts);
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
-  return attempts.status();
+  const auto write = [&](bool is_whole, Attempts& attempts) {
+    files.write({.text = text_of(finished_table(options, results, load, is_whole), options.table.format),
+                 .plotted = [&] { return plotted_tables(results); }},
+                output, std::cerr, attempts);
+  };
+  return run_tabled({.measure = [&] { measure_all(options, files, interrupt, results); },
+                     .has_findings = [&] { return std::any_of(results.begin(), results.end(), has_measurements); },
+                     .consequence = "the table has the points measured before",
+                     .write = write},
+                    interrupt);
 }
 
 }  // namespace dmpc::apps

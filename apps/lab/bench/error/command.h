@@ -25,10 +25,8 @@ struct ErrorOptions {
 /// Declares them.
 void add_options(OptionSet set, ErrorOptions& options);
 
-/// Writes the table to the file asked for (whole or not at all), else to `output`, with the plots and pictures asked for;
-/// progress goes to stderr if that is a terminal. After a signal the points that are measured are written before Interrupted goes
-/// on. What cannot be written is said on stderr and keeps nothing else from being written. Returns the exit status, 1 then.
-/// Throws core::UsageError for outputs that clash, core::InputError for a scene that will not do or outputs that cannot be made.
+/// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for a scene that
+/// will not do or outputs that cannot be made.
 int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -113,12 +113,9 @@ class Bench {
     find_reference();
     find_accurate();
     plan();
-    const std::size_t count = result_.measurements.size();
     Progress progress(std::cerr, stderr_is_terminal(), result_.scene + ":", "renders");
-    round_by_round(options_.rounds, count, [&](std::size_t round, std::size_t index) {
-      progress.update(round * count + index, options_.rounds * count);
-      measure(result_.measurements[index]);
-    });
+    round_by_round(options_.rounds, result_.measurements.size(), progress,
+                   [&](std::size_t index) { measure(result_.measurements[index]); });
   }
 
  private:

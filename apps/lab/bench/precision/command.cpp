@@ -1,7 +1,6 @@
 #include "apps/lab/bench/precision/command.h"
 
 #include <algorithm>
-#include <exception>
 #include <iostream>
 #include <ostream>
 
@@ -10,6 +9,7 @@
 #include "apps/edge/table/table_files.h"
 #include "apps/effort/effort.h"
 #include "apps/lab/bench/precision/precision.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/scene/load_scene.h"
 #include "core/families/scenes.h"
 
@@ -102,20 +102,15 @@ Precision measure(const PrecisionOptions& options, const std::string& name, cons
       {.progress = [&](std::uint64_t done, std::uint64_t rows) { progress.update(done, rows); }, .stop = interrupt.token()});
 }
 
-/// What ended it before its time, if anything did. `is_explained` becomes false if a pixel is not.
-std::exception_ptr measure_all(const PrecisionOptions& options, const std::vector<std::string>& scenes, const TableFiles& files,
-                               Interrupt& interrupt, Table& table, bool& is_explained) {
-  try {
-    for (const std::string& scene : scenes) {
-      interrupt.check();
-      const Precision precision = measure(options, scene, files, interrupt);
-      table.add_row(row_of(scene, precision));
-      describe_errors(scene, precision, table);
-      is_explained = is_explained && precision.errors.empty();
-    }
-    return nullptr;
-  } catch (...) {
-    return std::current_exception();
+/// `is_explained` becomes false if a pixel is not.
+void measure_all(const PrecisionOptions& options, const std::vector<std::string>& scenes, const TableFiles& files,
+                 Interrupt& interrupt, Table& table, bool& is_explained) {
+  for (const std::string& scene : scenes) {
+    interrupt.check();
+    const Precision precision = measure(options, scene, files, interrupt);
+    table.add_row(row_of(scene, precision));
+    describe_errors(scene, precision, table);
+    is_explained = is_explained && precision.errors.empty();
   }
 }
 
@@ -155,17 +150,16 @@ int bench_precision_command(const PrecisionOptions& options, Interrupt& interrup
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   table.set_listener([&shown](const Table& rows) { shown.show(rows); });
   bool is_explained = true;
-  const std::exception_ptr failure = measure_all(options, scenes, files, interrupt, table, is_explained);
-  Attempts attempts(std::cerr);
-  if (!failure || !table.rows().empty()) {
-    interrupt.set_consequence("the table has the scenes measured before");
-    table.add_note(verdict_of(!failure, is_explained));
+  const auto write = [&](bool is_whole, Attempts& attempts) {
+    table.add_note(verdict_of(is_whole, is_explained));
     files.write({.text = text_of(table, options.table.format)}, output, std::cerr, attempts);
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
-  return is_explained ? attempts.status() : unexplained_status;
+  };
+  const int status = run_tabled({.measure = [&] { measure_all(options, scenes, files, interrupt, table, is_explained); },
+                                 .has_findings = [&] { return !table.rows().empty(); },
+                                 .consequence = "the table has the scenes measured before",
+                                 .write = write},
+                                interrupt);
+  return is_explained ? status : unexplained_status;
 }
 
 }  // namespace dmpc::apps

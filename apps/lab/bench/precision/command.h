@@ -24,11 +24,9 @@ struct PrecisionOptions {
 /// Declares them.
 void add_options(OptionSet set, PrecisionOptions& options);
 
-/// Writes the table to the file asked for (whole or not at all), else to `output`; progress goes to stderr if that is a terminal.
-/// After a signal or an error it has the scenes measured before. Returns the exit status: 3 if a pixel that differs is not
-/// explained, 1 if the table could not be written, which is said on stderr, else 0. Throws core::InputError for a scene that
-/// cannot be read or a table that cannot be made, core::UsageError for an output that is a file the scene is read from, and
-/// Interrupted after a signal.
+/// Measures and writes as run_tabled() does. The exit status is 3 if a pixel that differs is not explained. Throws
+/// core::InputError for a scene that cannot be read or a table that cannot be made, core::UsageError for an output that is a file
+/// the scene is read from.
 int bench_precision_command(const PrecisionOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -10,7 +10,6 @@
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/edge/table/rounds.h"
-#include "apps/lab/bench/speed/on_nodes.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
@@ -42,7 +41,8 @@ struct Variant {
 bool is_of_rays(const Skip& skip) { return skip.is_on == &Skips::empty_regions; }
 
 StrategyOptions strategy_of(const Variant& variant) {
-  return on_nodes(variant.strategy, variant.strategy == Strategy::dataflow ? ray_nodes : page_nodes);
+  return {.strategy = variant.strategy,
+          .computer = {.node_count = variant.strategy == Strategy::dataflow ? ray_nodes : page_nodes}};
 }
 
 double error_between(const core::Film& film, const core::Film& other) {
@@ -59,7 +59,7 @@ double error_between(const core::Film& film, const core::Film& other) {
 class AblationBench {
  public:
   AblationBench(const std::string& scene, const SpeedSettings& settings, const Interrupt& interrupt)
-      : scene_(scene), interrupt_(interrupt), subject_(subject_of(scene, settings)) {
+      : scene_(scene), interrupt_(interrupt), subject_(settings.subject_of(SpeedPart::ablation, scene)) {
     by_pages_ = add_variant({});
     by_rays_ = add_variant({.strategy = Strategy::dataflow});
     rows_.push_back({"all", nullptr, add_variant({.skips = core::no_skips()}), by_pages_});
@@ -168,11 +168,6 @@ class AblationBench {
 
   static double work_of(const Render& render) { return static_cast<double>(core::work_of(render.operations)); }
 
-  static Subject subject_of(const std::string& scene, const SpeedSettings& settings) {
-    const PictureOptions picture = settings.picture_of(SpeedPart::ablation, scene);
-    return build_subject(settings.load(picture), picture);
-  }
-
   std::size_t add_variant(const Variant& variant) {
     renders_.push_back({variant});
     return renders_.size() - 1;
@@ -203,8 +198,7 @@ void measure_ablation(const SpeedSettings& settings, const Interrupt& interrupt,
     Progress progress(std::cerr, stderr_is_terminal(), scene + " without skips:", "renders");
     AblationBench bench(scene, settings, interrupt);
     const std::size_t count = bench.variant_count(), first = results.size();
-    round_by_round(rounds, count, [&](std::size_t round, std::size_t index) {
-      progress.update(round * count + index, rounds * count);
+    round_by_round(rounds, count, progress, [&](std::size_t index) {
       bench.render(index);
       if (index + 1 == count) {
         const std::vector<Ablation> rows = bench.results();

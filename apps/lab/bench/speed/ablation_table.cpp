@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "apps/edge/table/averages.h"
+#include "apps/lab/bench/speed/table.h"
 #include "apps/lab/bench/speed/verdict.h"
 
 namespace dmpc::apps {
@@ -73,20 +74,13 @@ Table plotted_table(std::span<const Ablation> ablations) {
 }
 
 Plot plot_of_ablation(const Table& plotted, const std::string& name) {
-  Plot plot{.name = name,
-            .title = "Counted work without a skip, over that with it",
-            .places = {"scene"},
-            .x = {},
-            .y = {.label = "ratio (above 1 the skip wins)", .least = 0},
-            .series = {}};
-  for (const auto& row : plotted.rows()) {
-    const auto& skip = std::get<std::string>(row[1]);
-    const auto is_same = [&](const PlotSeries& series) { return series.title == skip; };
-    if (std::none_of(plot.series.begin(), plot.series.end(), is_same)) {
-      plot.series.push_back({skip, "work", {{"skip", skip}}, PlotMark::bars, plot.series.size() % 8});
-    }
-  }
-  return plot;
+  return with_bars("work", 1, plotted,
+                   {.name = name,
+                    .title = "Counted work without a skip, over that with it",
+                    .places = {"scene"},
+                    .x = {},
+                    .y = {.label = "ratio (above 1 the skip wins)", .least = 0},
+                    .series = {}});
 }
 
 }  // namespace dmpc::apps

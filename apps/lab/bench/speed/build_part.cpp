@@ -1,5 +1,3 @@
-#include "apps/lab/bench/speed/build_part.h"
-
 #include <algorithm>
 #include <deque>
 #include <iostream>
@@ -8,6 +6,7 @@
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/edge/table/rounds.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/rival.h"
 #include "core/database/database.h"
 
@@ -34,9 +33,8 @@ class BuildBench {
     prepare();
     const std::size_t count = matches_.size() * builder_count, rounds = settings_.rounds_of(SpeedPart::build);
     Progress progress(std::cerr, stderr_is_terminal(), "databases:", "builds");
-    round_by_round(rounds, count, [&](std::size_t round, std::size_t index) {
+    round_by_round(rounds, count, progress, [&](std::size_t index) {
       interrupt_.check();
-      progress.update(round * count + index, rounds * count);
       time(matches_[index / builder_count], index % builder_count);
     });
   }
@@ -59,7 +57,6 @@ class BuildBench {
     results_.push_back({.part = SpeedPart::build,
                         .scene = scene,
                         .what = "build",
-                        .detail = "",
                         .threads = threads,
                         .subject = "database",
                         .rival = rival,

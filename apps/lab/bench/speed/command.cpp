@@ -1,32 +1,26 @@
 #include "apps/lab/bench/speed/command.h"
 
 #include <algorithm>
-#include <exception>
+#include <array>
 #include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "apps/edge/system/attempts.h"
 #include "apps/edge/system/real_load.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
 #include "apps/effort/effort.h"
 #include "apps/lab/bench/speed/ablation.h"
 #include "apps/lab/bench/speed/ablation_table.h"
-#include "apps/lab/bench/speed/build_part.h"
 #include "apps/lab/bench/speed/comparison.h"
-#include "apps/lab/bench/speed/emulation_part.h"
 #include "apps/lab/bench/speed/headline.h"
 #include "apps/lab/bench/speed/kernel_means.h"
-#include "apps/lab/bench/speed/kernel_part.h"
-#include "apps/lab/bench/speed/memory_part.h"
-#include "apps/lab/bench/speed/pages_part.h"
-#include "apps/lab/bench/speed/picture_part.h"
-#include "apps/lab/bench/speed/plain_part.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/plain_table.h"
 #include "apps/lab/bench/speed/table.h"
 #include "apps/lab/bench/speed/target.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/oracle/oracle.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
@@ -45,6 +39,63 @@ struct Results {
   }
 };
 
+/// How a part is measured, and how its figures come about.
+struct PartRow {
+  MeasurePart* measure;  ///< nullptr for the ablation, whose results are of their own
+  const char* explanation;
+};
+/// By number.
+constexpr std::array part_rows = {
+    PartRow{
+        .measure = measure_plain,
+        .explanation =
+            "plain: the phase render of each, of the same rays. The plain renderer is recursive, in single precision, over one "
+            "Embree tree (robust, high quality) in memory that its threads share; it asks for one ray at a time and emulates "
+            "nothing. Ours are as `render` has them by default; nodes share the same cores, and a ray's time is a picture's "
+            "over "
+            "all its rays, whatever the number of threads."},
+    PartRow{
+        .measure = measure_kernel,
+        .explanation =
+            "kernel: rays of one render, up to so many a class, and bounces at random from what the eye sees; all contenders "
+            "trace the same rays as closest and as any hit, in the processor time of the busiest thread. Bundles are those of "
+            "a render in tiles of 4x4 pixels: up to 16 rays that walk together; grids take their rays one by one, in the same "
+            "order. Embree is asked by rtcIntersect1 and rtcOccluded1, for packets, which are the same bundles, by "
+            "rtcIntersect16 and rtcOccluded16, told that all but bounces are coherent, without filters, its trees are of high "
+            "quality. The pager is that of a node of eight, all other nodes' pages in its cache. Targets of all rays leave "
+            "bounces out: a path tracer shoots them."},
+    PartRow{
+        .measure = measure_picture,
+        .explanation =
+            "picture: what `render` does, on 2 nodes. Embree's tree is built within its phase render; the whole is the sum of "
+            "the phases."},
+    PartRow{
+        .measure = measure_emulation,
+        .explanation =
+            "emulation: seconds of the phase render, setting the nodes' memories aside and dealing out the database included; "
+            "the nodes share the same cores."},
+    PartRow{
+        .measure = measure_build,
+        .explanation =
+            "build: our database from the scene to the pages; Embree's robust tree, and its fast one of high quality (spatial "
+            "splits, which robust trees have not), from vertices that lie ready; on as many threads, on one in processor time."},
+    PartRow{.measure = measure_memory,
+            .explanation =
+                "memory: the most anonymous memory of a process that renders on 8 nodes, above that of one which renders a "
+                "triangle, against the sum of the nodes' local memories."},
+    PartRow{
+        .measure = measure_pages,
+        .explanation =
+            "pages: our databases and the distinct pages of a pixel against Table 2 of the article, with its counting of rays."},
+    PartRow{.measure = nullptr,
+            .explanation =
+                "ablation: processor time of the phase render, with what a skip takes to prepare. A skip is kept if it wins 3 % "
+                "somewhere and loses 1 % nowhere: by time if all rounds say so clearly, else by counted operations and their "
+                "prices, "
+                "in which messages do not count."},
+};
+const PartRow& row_of(SpeedPart part) { return part_rows[static_cast<std::size_t>(part)]; }
+
 std::string plot_name_of(SpeedPart part) { return std::string("speed_") + name_of(part); }
 std::string data_file_of(SpeedPart part) { return plot_name_of(part) + ".csv"; }
 
@@ -60,27 +111,6 @@ TableFiles files_of(const SpeedOptions& options) {
   return {options.table, plotted, others};
 }
 
-void measure_part(SpeedPart part, const SpeedSettings& settings, const Interrupt& interrupt, Results& results) {
-  switch (part) {
-    case SpeedPart::plain:
-      return measure_plain(settings, interrupt, results.comparisons);
-    case SpeedPart::kernel:
-      return measure_kernel(settings, interrupt, results.comparisons);
-    case SpeedPart::picture:
-      return measure_picture(settings, interrupt, results.comparisons);
-    case SpeedPart::emulation:
-      return measure_emulation(settings, interrupt, results.comparisons);
-    case SpeedPart::build:
-      return measure_build(settings, interrupt, results.comparisons);
-    case SpeedPart::memory:
-      return measure_memory(settings, interrupt, results.comparisons);
-    case SpeedPart::pages:
-      return measure_pages(settings, interrupt, results.comparisons);
-    case SpeedPart::ablation:
-      return measure_ablation(settings, interrupt, results.ablations);
-  }
-}
-
 /// The one of both tables that part plain has its rows in, or all others.
 Table rows_of(const Results& results) {
   Table others = headline_of(results.comparisons, "");
@@ -94,61 +124,18 @@ void show_rows(const SpeedOptions& options, const Results& results, ShownRows& s
   }
 }
 
-/// What ended it before its time, if anything did.
-std::exception_ptr measure_all(const SpeedOptions& options, const TableFiles& files, const Interrupt& interrupt,
-                               Results& results) {
+void measure_all(const SpeedOptions& options, const TableFiles& files, const Interrupt& interrupt, Results& results) {
   SpeedSettings settings = options.settings;
   settings.outputs = files.names();
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
-  try {
-    for (const SpeedPart part : options.parts) {
-      measure_part(part, settings, interrupt, results);
-      show_rows(options, results, shown);
+  for (const SpeedPart part : options.parts) {
+    if (const auto measure = row_of(part).measure) {
+      measure(settings, interrupt, results.comparisons);
+    } else {
+      measure_ablation(settings, interrupt, results.ablations);
     }
-    return nullptr;
-  } catch (...) {
-    return std::current_exception();
+    show_rows(options, results, shown);
   }
-}
-
-/// How each part's figures come about.
-const char* explanation_of(SpeedPart part) {
-  switch (part) {
-    case SpeedPart::plain:
-      return "plain: the phase render of each, of the same rays. The plain renderer is recursive, in single precision, over one "
-             "Embree tree (robust, high quality) in memory that its threads share; it asks for one ray at a time and emulates "
-             "nothing. Ours are as `render` has them by default; nodes share the same cores, and a ray's time is a picture's "
-             "over "
-             "all its rays, whatever the number of threads.";
-    case SpeedPart::kernel:
-      return "kernel: rays of one render, up to so many a class, and bounces at random from what the eye sees; all contenders "
-             "trace the same rays as closest and as any hit, in the processor time of the busiest thread. Bundles are those of "
-             "a render in tiles of 4x4 pixels: up to 16 rays that walk together; grids take their rays one by one, in the same "
-             "order. Embree is asked by rtcIntersect1 and rtcOccluded1, for packets, which are the same bundles, by "
-             "rtcIntersect16 and rtcOccluded16, told that all but bounces are coherent, without filters, its trees are of high "
-             "quality. The pager is that of a node of eight, all other nodes' pages in its cache. Targets of all rays leave "
-             "bounces out: a path tracer shoots them.";
-    case SpeedPart::picture:
-      return "picture: what `render` does, on 2 nodes. Embree's tree is built within its phase render; the whole is the sum of "
-             "the phases.";
-    case SpeedPart::emulation:
-      return "emulation: seconds of the phase render, setting the nodes' memories aside and dealing out the database included; "
-             "the nodes share the same cores.";
-    case SpeedPart::build:
-      return "build: our database from the scene to the pages; Embree's robust tree, and its fast one of high quality (spatial "
-             "splits, which robust trees have not), from vertices that lie ready; on as many threads, on one in processor time.";
-    case SpeedPart::memory:
-      return "memory: the most anonymous memory of a process that renders on 8 nodes, above that of one which renders a "
-             "triangle, against the sum of the nodes' local memories.";
-    case SpeedPart::pages:
-      return "pages: our databases and the distinct pages of a pixel against Table 2 of the article, with its counting of rays.";
-    case SpeedPart::ablation:
-      return "ablation: processor time of the phase render, with what a skip takes to prepare. A skip is kept if it wins 3 % "
-             "somewhere and loses 1 % nowhere: by time if all rounds say so clearly, else by counted operations and their "
-             "prices, "
-             "in which messages do not count.";
-  }
-  return "";
 }
 
 std::string title() {
@@ -158,7 +145,7 @@ std::string title() {
 
 void add_notes(const SpeedOptions& options, const Results& results, double load, bool is_whole, Table& table) {
   for (const SpeedPart part : options.parts) {
-    table.add_note(explanation_of(part));
+    table.add_note(row_of(part).explanation);
   }
   for (const Target& target : speed_targets()) {
     if (std::optional<std::string> sentence = sentence_on(target, results.comparisons)) {
@@ -296,18 +283,16 @@ int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::
   announce("bench speed", effort_of(options), options.quiet, std::cerr);
   const double load = machine_load();
   Results results;
-  const std::exception_ptr failure = measure_all(options, files, interrupt, results);
-  Attempts attempts(std::cerr);
-  if (!failure || results.has_figures()) {
-    interrupt.set_consequence("the table has what was measured before");
+  const auto write = [&](bool is_whole, Attempts& attempts) {
     files.write(
-        {.text = text_of_all(options, results, load, !failure), .plotted = [&] { return plotted_tables(options, results); }},
+        {.text = text_of_all(options, results, load, is_whole), .plotted = [&] { return plotted_tables(options, results); }},
         output, std::cerr, attempts);
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
-  return attempts.status();
+  };
+  return run_tabled({.measure = [&] { measure_all(options, files, interrupt, results); },
+                     .has_findings = [&] { return results.has_figures(); },
+                     .consequence = "the table has what was measured before",
+                     .write = write},
+                    interrupt);
 }
 
 }  // namespace dmpc::apps

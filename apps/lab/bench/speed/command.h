@@ -23,11 +23,8 @@ struct SpeedOptions {
 /// Declares them.
 void add_options(OptionSet set, SpeedOptions& options);
 
-/// Measures part by part, and writes the table to the file asked for (whole or not at all), else to `output`, with the plots
-/// asked for; progress goes to stderr if that is a terminal. After a signal or an error what is measured is written before it
-/// goes on. What cannot be written is said on stderr and keeps nothing else from being written. Returns the exit status, 1 then,
-/// and else 0 whatever the figures are. Throws core::UsageError for outputs that clash, core::InputError for a scene that will
-/// not do or outputs that cannot be made, Interrupted after a signal.
+/// Measures part by part and writes as run_tabled() does; the exit status does not hang on the figures. Throws core::UsageError
+/// for outputs that clash, core::InputError for a scene that will not do or outputs that cannot be made.
 int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

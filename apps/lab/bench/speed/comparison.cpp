@@ -20,6 +20,35 @@ RatioSpread ratio_of(const Comparison& comparison) {
   return {median(ratios), *least, *most};
 }
 
+Comparisons measured(std::span<const Comparison> comparisons, const std::function<bool(const Comparison&)>& is_meant) {
+  Comparisons chosen;
+  for (const Comparison& comparison : comparisons) {
+    if (comparison.rounds() > 0 && is_meant(comparison)) {
+      chosen.push_back(&comparison);
+    }
+  }
+  return chosen;
+}
+
+std::vector<Comparisons> grouped(const Comparisons& comparisons,
+                                 const std::function<bool(const Comparison&, const Comparison&)>& are_alike) {
+  std::vector<Comparisons> groups;
+  for (const Comparison* const comparison : comparisons) {
+    const auto found = std::find_if(groups.begin(), groups.end(),
+                                    [&](const Comparisons& group) { return are_alike(*group.front(), *comparison); });
+    (found == groups.end() ? groups.emplace_back() : *found).push_back(comparison);
+  }
+  return groups;
+}
+
+std::vector<double> ratios_of(const Comparisons& comparisons) {
+  std::vector<double> ratios;
+  for (const Comparison* const comparison : comparisons) {
+    ratios.push_back(ratio_of(*comparison).median);
+  }
+  return ratios;
+}
+
 void add_timed(Comparison comparison, std::vector<Comparison>& results) {
   for (const char* clock : {"wall clock", "processor time"}) {
     comparison.detail = clock;

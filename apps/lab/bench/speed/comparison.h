@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,7 +18,7 @@ struct Comparison {
   SpeedPart part{};
   std::string scene;
   std::string what;            ///< "closest hit", "whole picture"
-  std::string detail;          ///< a kind of `what`, such as the class of rays; may be empty
+  std::string detail = {};     ///< a kind of `what`, such as the class of rays; may be empty
   std::uint32_t threads = 0;   ///< that worked, or nodes that rendered; 0: does not matter
   std::string subject, rival;  ///< whose figures they are
   std::string unit;            ///< of the figures: "Mray/s", "s"
@@ -33,6 +35,16 @@ struct RatioSpread {
 };
 /// Requires a round.
 RatioSpread ratio_of(const Comparison& comparison);
+
+/// Some of what was measured, each outliving this.
+using Comparisons = std::vector<const Comparison*>;
+/// Those that are meant and have a round.
+Comparisons measured(std::span<const Comparison> comparisons, const std::function<bool(const Comparison&)>& is_meant);
+/// In groups of such as are alike, in the order in which the first of each comes.
+std::vector<Comparisons> grouped(const Comparisons& comparisons,
+                                 const std::function<bool(const Comparison&, const Comparison&)>& are_alike);
+/// The median one of each.
+std::vector<double> ratios_of(const Comparisons& comparisons);
 
 /// Adds the comparison twice: its detail "wall clock", then "processor time".
 void add_timed(Comparison comparison, std::vector<Comparison>& results);

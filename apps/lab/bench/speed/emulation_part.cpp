@@ -1,5 +1,3 @@
-#include "apps/lab/bench/speed/emulation_part.h"
-
 #include <array>
 #include <cmath>
 #include <iostream>
@@ -9,7 +7,7 @@
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/edge/table/rounds.h"
-#include "apps/lab/bench/speed/on_nodes.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
@@ -47,7 +45,7 @@ constexpr std::array<Pairing, 6> pairings = {{{2, 0, "nodes", "svm on 64 nodes",
                                               {5, 1, "cache", "5 %", "100 %"}}};
 
 StrategyOptions strategy_of(const Computer& computer, const core::Database& database) {
-  StrategyOptions options = on_nodes(computer.strategy, computer.node_count);
+  StrategyOptions options{.strategy = computer.strategy, .computer = {.node_count = computer.node_count}};
   if (computer.strategy == Strategy::svm) {
     const auto pages = std::ceil(static_cast<double>(database.page_count()) * computer.cache_share);
     options.pages.cache_pages = static_cast<std::uint32_t>(std::max(pages, 1.0));
@@ -60,12 +58,14 @@ class EmulationBench {
  public:
   EmulationBench(const std::string& scene, const SpeedSettings& settings, const Interrupt& interrupt,
                  std::vector<Comparison>& results)
-      : interrupt_(interrupt), results_(results), first_(results.size()), subject_(subject_of(scene, settings)) {
+      : interrupt_(interrupt),
+        results_(results),
+        first_(results.size()),
+        subject_(settings.subject_of(SpeedPart::emulation, scene)) {
     for (const Pairing& pairing : pairings) {
       add_timed({.part = SpeedPart::emulation,
                  .scene = scene,
                  .what = pairing.what,
-                 .detail = "",
                  .threads = computers[pairing.subject].node_count,
                  .subject = pairing.subject_name,
                  .rival = pairing.rival_name,
@@ -84,11 +84,6 @@ class EmulationBench {
   }
 
  private:
-  static Subject subject_of(const std::string& scene, const SpeedSettings& settings) {
-    const PictureOptions picture = settings.picture_of(SpeedPart::emulation, scene);
-    return build_subject(settings.load(picture), picture);
-  }
-
   Times render(const Computer& computer) {
     const ReadyRun run =
         make_ready(strategy_of(computer, subject_.database), subject_.database, subject_.settings, interrupt_.token());
@@ -117,10 +112,7 @@ void measure_emulation(const SpeedSettings& settings, const Interrupt& interrupt
   for (const std::string& scene : settings.scenes_of(SpeedPart::emulation)) {
     Progress progress(std::cerr, stderr_is_terminal(), scene + " emulated:", "renders");
     EmulationBench bench(scene, settings, interrupt, results);
-    round_by_round(rounds, computers.size(), [&](std::size_t round, std::size_t index) {
-      progress.update(round * computers.size() + index, rounds * computers.size());
-      bench.measure(index);
-    });
+    round_by_round(rounds, computers.size(), progress, [&](std::size_t index) { bench.measure(index); });
   }
 }
 

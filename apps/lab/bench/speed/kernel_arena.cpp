@@ -13,11 +13,6 @@ namespace {
 /// Threads take turns at pieces of so many bundles: no thread gets the hard part of a picture.
 constexpr std::size_t piece_bundles = 32;
 
-Subject subject_of(const std::string& scene, const SpeedSettings& settings) {
-  const PictureOptions picture = settings.picture_of(SpeedPart::kernel, scene);
-  return build_subject(settings.load(picture), picture);
-}
-
 /// As a renderer would tell Embree.
 Coherence coherence_of(RayClass ray_class) { return ray_class == RayClass::bounce ? Coherence::incoherent : Coherence::coherent; }
 
@@ -62,7 +57,7 @@ const char* name_of(Contender contender) {
 
 KernelArena::KernelArena(const std::string& scene, const SpeedSettings& settings)
     : name_(scene),
-      subject_(subject_of(scene, settings)),
+      subject_(settings.subject_of(SpeedPart::kernel, scene)),
       recording_(record_rays(subject_.database, subject_.settings, settings.rays_max())),
       robust_(subject_.database.primitives(), EmbreeMode::robust, EmbreeQuality::high),
       fast_(subject_.database.primitives(), EmbreeMode::fast, EmbreeQuality::high) {

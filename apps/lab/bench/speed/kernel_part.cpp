@@ -1,5 +1,3 @@
-#include "apps/lab/bench/speed/kernel_part.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "apps/edge/system/progress.h"
 #include "apps/edge/table/rounds.h"
 #include "apps/lab/bench/speed/kernel_arena.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -55,9 +54,8 @@ class KernelBench {
     prepare();
     const std::size_t count = matches_.size() * contender_count, rounds = settings_.rounds_of(SpeedPart::kernel);
     Progress progress(std::cerr, stderr_is_terminal(), "kernel:", "measurements");
-    round_by_round(rounds, count, [&](std::size_t round, std::size_t index) {
+    round_by_round(rounds, count, progress, [&](std::size_t index) {
       interrupt_.check();
-      progress.update(round * count + index, rounds * count);
       time(matches_[index / contender_count], Contender{static_cast<std::uint8_t>(index % contender_count)});
     });
     std::for_each(matches_.begin(), matches_.end(), check_hits);

@@ -1,5 +1,3 @@
-#include "apps/lab/bench/speed/memory_part.h"
-
 #include <iostream>
 #include <string>
 
@@ -7,6 +5,7 @@
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/scratch_folder.h"
 #include "apps/edge/system/watched_process.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/scene/subject.h"
 #include "svm/run.h"
 
@@ -31,8 +30,7 @@ std::size_t peak_of(const std::string& scene, const SpeedSettings& settings, con
 
 /// What the nodes of that render have together.
 std::size_t local_bytes(const std::string& scene, const SpeedSettings& settings) {
-  const PictureOptions picture = settings.picture_of(SpeedPart::memory, scene);
-  const Subject subject = build_subject(settings.load(picture), picture);
+  const Subject subject = settings.subject_of(SpeedPart::memory, scene);
   const svm::Plan plan =
       svm::plan_of(svm::Strategy::svm, subject.database, subject.settings, {.computer = {.node_count = memory_node_count}});
   std::size_t sum = 0;
@@ -59,7 +57,6 @@ void measure_memory(const SpeedSettings& settings, const Interrupt& interrupt, s
     results.push_back({.part = SpeedPart::memory,
                        .scene = scenes[i],
                        .what = "anonymous memory",
-                       .detail = "",
                        .threads = memory_node_count,
                        .subject = "process above that of one triangle",
                        .rival = "local memories",

@@ -1,11 +1,10 @@
-#include "apps/lab/bench/speed/pages_part.h"
-
 #include <algorithm>
 #include <iostream>
 #include <string>
 #include <variant>
 
 #include "apps/edge/system/progress.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/study/paper/data.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
@@ -37,7 +36,6 @@ Comparison comparison(const std::string& scene, const char* what, const char* un
   return {.part = SpeedPart::pages,
           .scene = scene,
           .what = what,
-          .detail = "",
           .threads = 0,
           .subject = "here",
           .rival = "article of 1994",

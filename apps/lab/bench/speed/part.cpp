@@ -113,6 +113,11 @@ PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scen
   return picture;
 }
 
+Subject SpeedSettings::subject_of(SpeedPart part, const std::string& scene) const {
+  const PictureOptions picture = picture_of(part, scene);
+  return build_subject(load(picture), picture);
+}
+
 core::Scene SpeedSettings::load(const PictureOptions& picture) const { return load_scene_beside(picture, outputs); }
 
 std::vector<std::uint32_t> parse_thread_counts(const std::string& text) {

@@ -11,6 +11,7 @@
 
 #include "apps/edge/system/distinct_files.h"
 #include "apps/scene/picture_options.h"
+#include "apps/scene/subject.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
@@ -44,6 +45,8 @@ struct SpeedSettings {
   PictureOptions picture_of(SpeedPart part, const std::string& scene) const;
   /// Throws as load_scene_beside().
   core::Scene load(const PictureOptions& picture) const;
+  /// The part's picture of it, ready to be rendered. Throws as load().
+  Subject subject_of(SpeedPart part, const std::string& scene) const;
   /// Of each class of rays in the kernel's part.
   std::size_t rays_max() const { return is_quick ? 20'000 : 200'000; }
 };

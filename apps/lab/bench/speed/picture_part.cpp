@@ -1,5 +1,3 @@
-#include "apps/lab/bench/speed/picture_part.h"
-
 #include <array>
 #include <iostream>
 #include <string>
@@ -8,7 +6,7 @@
 #include "apps/edge/system/scratch_folder.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/edge/table/rounds.h"
-#include "apps/lab/bench/speed/on_nodes.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
 #include "apps/picture/image_file.h"
@@ -23,9 +21,9 @@ constexpr std::array<const char*, 6> phase_names = {"load", "build", "prepare", 
 using Phases = std::array<Times, phase_names.size()>;
 
 StrategyOptions strategy_of(bool is_rival) {
-  StrategyOptions options = on_nodes(is_rival ? Strategy::replicated : Strategy::svm, picture_node_count);
-  options.tracer = is_rival ? TracerChoice::embree : TracerChoice::grid;
-  return options;
+  return {.strategy = is_rival ? Strategy::replicated : Strategy::svm,
+          .computer = {.node_count = picture_node_count},
+          .tracer = is_rival ? TracerChoice::embree : TracerChoice::grid};
 }
 
 /// Times of each phase, and in the end of all.
@@ -57,7 +55,6 @@ void add_comparisons(const std::string& scene, std::vector<Comparison>& results)
     add_timed({.part = SpeedPart::picture,
                .scene = scene,
                .what = phase,
-               .detail = "",
                .threads = picture_node_count,
                .subject = "svm",
                .rival = "replicated with Embree",
@@ -77,9 +74,8 @@ void measure_picture(const SpeedSettings& settings, const Interrupt& interrupt, 
   }
   open_embree();  // which is no part of a render
   Progress progress(std::cerr, stderr_is_terminal(), "pictures:", "renders");
-  round_by_round(rounds, count, [&](std::size_t round, std::size_t index) {
+  round_by_round(rounds, count, progress, [&](std::size_t index) {
     interrupt.check();
-    progress.update(round * count + index, rounds * count);
     const bool is_rival = index % 2 == 1;
     const Phases phases = render_whole(scenes[index / 2], settings, strategy_of(is_rival), folder / "picture.png", interrupt);
     for (std::size_t phase = 0; phase < phases.size(); ++phase) {

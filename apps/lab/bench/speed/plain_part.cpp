@@ -1,15 +1,11 @@
-#include "apps/lab/bench/speed/plain_part.h"
-
 #include <array>
-#include <cmath>
 #include <iostream>
 #include <optional>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/edge/table/rounds.h"
-#include "apps/lab/bench/speed/on_nodes.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/plain_renderer.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
@@ -41,7 +37,7 @@ constexpr std::array<Contender, 10> contenders = {{{rival_name, rival_threads},
                                                    {"svm on 64 nodes, virtual", 64, Strategy::svm, RunnerKind::virtual_time}}};
 
 StrategyOptions strategy_of(const Contender& contender) {
-  StrategyOptions options = on_nodes(*contender.strategy, contender.count);
+  StrategyOptions options{.strategy = *contender.strategy, .computer = {.node_count = contender.count}};
   options.runner.kind = contender.runner;
   if (contender.runner == RunnerKind::virtual_time) {
     choose_machine(options);
@@ -115,7 +111,6 @@ class PlainBench {
     return {.part = SpeedPart::plain,
             .scene = scene_,
             .what = what,
-            .detail = "",
             .threads = count,
             .subject = subject,
             .rival = rival,
@@ -158,20 +153,6 @@ class PlainBench {
 
 }  // namespace
 
-double distance_to_ours(const PlainPicture& picture, const core::Film& film, const std::string& scene) {
-  double sum = 0;
-  for (std::uint32_t pixel = 0; pixel < picture.pixels.size(); ++pixel) {
-    const core::Vec3d apart = core::Vec3d(picture.pixels[pixel]) - film.radiance(pixel);
-    sum += dot(apart, apart);
-  }
-  const double distance = std::sqrt(sum / (3.0 * static_cast<double>(picture.pixels.size())));
-  if (!(distance <= plain_error_max)) {
-    throw core::InternalError("the plain renderer's picture of " + scene + " is " + fixed(255 * distance, 2) +
-                              "/255 from ours, root mean square: expected 1/255 at most");
-  }
-  return distance;
-}
-
 void measure_plain(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
   const std::size_t rounds = settings.rounds_of(SpeedPart::plain);
   for (const std::string& scene : settings.scenes_of(SpeedPart::plain)) {
@@ -183,10 +164,7 @@ void measure_plain(const SpeedSettings& settings, const Interrupt& interrupt, st
     }
     bench.prepare();
     Progress progress(std::cerr, stderr_is_terminal(), scene + " beside a plain renderer:", "renders");
-    round_by_round(rounds, contenders.size(), [&](std::size_t round, std::size_t index) {
-      progress.update(round * contenders.size() + index, rounds * contenders.size());
-      bench.measure(index);
-    });
+    round_by_round(rounds, contenders.size(), progress, [&](std::size_t index) { bench.measure(index); });
     bench.compare();
   }
 }

@@ -7,8 +7,10 @@
 #include <numeric>
 #include <span>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/lab/bench/speed/crew.h"
 #include "apps/lab/bench/speed/embree_tree.h"
+#include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/picture/hit_geometry.h"
 
@@ -251,6 +253,20 @@ PlainPicture PlainRenderer::render(std::uint32_t thread_count) const {
   });
   picture.rays = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
   return picture;
+}
+
+double distance_to_ours(const PlainPicture& picture, const core::Film& film, const std::string& scene) {
+  double sum = 0;
+  for (std::uint32_t pixel = 0; pixel < picture.pixels.size(); ++pixel) {
+    const core::Vec3d apart = core::Vec3d(picture.pixels[pixel]) - film.radiance(pixel);
+    sum += dot(apart, apart);
+  }
+  const double distance = std::sqrt(sum / (3.0 * static_cast<double>(picture.pixels.size())));
+  if (!(distance <= plain_error_max)) {
+    throw core::InternalError("the plain renderer's picture of " + scene + " is " + fixed(255 * distance, 2) +
+                              "/255 from ours, root mean square: expected 1/255 at most");
+  }
+  return distance;
 }
 
 }  // namespace dmpc::apps

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "apps/edge/system/stopwatch.h"
 #include "apps/scene/subject.h"
 #include "core/base/vec.h"
 #include "core/base/zeroed_array.h"
+#include "core/picture/film.h"
 
 namespace dmpc::apps {
 
@@ -39,5 +41,11 @@ class PlainRenderer {
   class Painter;
   std::unique_ptr<Stage> stage_;
 };
+
+/// The most, root mean square, that a picture of the plain renderer may lie from ours, in linear radiance.
+inline constexpr double plain_error_max = 1.0 / 255;
+
+/// How far it lies from our film of `scene`. Throws core::InternalError if that is more than plain_error_max.
+double distance_to_ours(const PlainPicture& picture, const core::Film& film, const std::string& scene);
 
 }  // namespace dmpc::apps

@@ -67,13 +67,7 @@ std::string spread_of(const std::vector<double>& ratios) {
 
 /// Of the comparisons of `what`.
 std::vector<double> ratios_of(std::span<const Comparison> comparisons, const std::string& what) {
-  std::vector<double> ratios;
-  for (const Comparison& comparison : comparisons) {
-    if (is_plain(comparison, what)) {
-      ratios.push_back(ratio_of(comparison).median);
-    }
-  }
-  return ratios;
+  return ratios_of(measured(comparisons, [&](const Comparison& one) { return is_plain(one, what); }));
 }
 
 }  // namespace

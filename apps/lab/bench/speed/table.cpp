@@ -48,68 +48,54 @@ std::vector<Cell> row_of(const Comparison& comparison) {
           std::uint64_t{rounds}};
 }
 
-/// One bar, and what its height is the mean of.
-struct Bar {
-  std::string scene, what, pair;
-  std::vector<double> ratios;
-};
-
 std::string pair_named_in(const Comparison& comparison) {
   const bool is_threaded = comparison.part == SpeedPart::kernel || comparison.part == SpeedPart::build;
   const std::string threads = is_threaded ? " x" + std::to_string(comparison.threads) : "";
   return comparison.subject + " / " + comparison.rival + threads;
 }
 
-std::vector<Bar> bars_of(SpeedPart part, std::span<const Comparison> comparisons) {
-  std::vector<Bar> bars;
-  for (const Comparison& comparison : comparisons) {
-    const bool is_timed = comparison.part == SpeedPart::picture || comparison.part == SpeedPart::emulation;
-    if (comparison.part != part || comparison.rounds() == 0 || (is_timed && !comparison.is_by_wall_clock())) {
-      continue;
-    }
-    const std::string pair = pair_named_in(comparison);
-    const auto is_same = [&](const Bar& bar) {
-      return bar.scene == comparison.scene && bar.what == comparison.what && bar.pair == pair;
-    };
-    auto found = std::find_if(bars.begin(), bars.end(), is_same);
-    found = found == bars.end() ? bars.insert(found, {comparison.scene, comparison.what, pair, {}}) : found;
-    found->ratios.push_back(ratio_of(comparison).median);
-  }
-  return bars;
+/// What a bar's height is the mean of.
+bool are_of_one_bar(const Comparison& a, const Comparison& b) {
+  return a.scene == b.scene && a.what == b.what && pair_named_in(a) == pair_named_in(b);
 }
 
 }  // namespace
 
 Table table_of(std::span<const Comparison> comparisons, const std::string& title) {
   Table table(title, columns());
-  for (const Comparison& comparison : comparisons) {
-    if (comparison.rounds() > 0) {
-      table.add_row(row_of(comparison));
-    }
+  for (const Comparison* const comparison : measured(comparisons, [](const Comparison&) { return true; })) {
+    table.add_row(row_of(*comparison));
   }
   return table;
 }
 
 Table plotted_table(SpeedPart part, std::span<const Comparison> comparisons) {
+  const bool is_timed = part == SpeedPart::picture || part == SpeedPart::emulation;
+  const auto is_meant = [&](const Comparison& one) { return one.part == part && (!is_timed || one.is_by_wall_clock()); };
   Table table(name_of(part), {{"scene"}, {"what"}, {"pair"}, {"ratio"}});
-  for (const Bar& bar : bars_of(part, comparisons)) {
-    table.add_row({bar.scene, bar.what, bar.pair, *geometric_mean(bar.ratios)});
+  for (const Comparisons& bar : grouped(measured(comparisons, is_meant), are_of_one_bar)) {
+    const Comparison& one = *bar.front();
+    table.add_row({one.scene, one.what, pair_named_in(one), *geometric_mean(ratios_of(bar))});
   }
   return table;
 }
 
 Plot plot_of(SpeedPart part, const Table& plotted, const std::string& name) {
-  Plot plot{.name = name,
-            .title = std::string("Speed: ") + name_of(part),
-            .places = {"scene", "what"},
-            .x = {},
-            .y = {.label = part == SpeedPart::kernel ? "ratio (more is better)" : "ratio (less is better)", .least = 0},
-            .series = {}};
-  for (const auto& row : plotted.rows()) {
-    const auto& pair = std::get<std::string>(row[2]);
-    const auto is_same = [&](const PlotSeries& series) { return series.title == pair; };
+  return with_bars("ratio", 2, plotted,
+                   {.name = name,
+                    .title = std::string("Speed: ") + name_of(part),
+                    .places = {"scene", "what"},
+                    .x = {},
+                    .y = {.label = part == SpeedPart::kernel ? "ratio (more is better)" : "ratio (less is better)", .least = 0},
+                    .series = {}});
+}
+
+Plot with_bars(const std::string& height, std::size_t kind, const Table& table, Plot plot) {
+  for (const auto& row : table.rows()) {
+    const auto& text = std::get<std::string>(row[kind]);
+    const auto is_same = [&](const PlotSeries& series) { return series.title == text; };
     if (std::none_of(plot.series.begin(), plot.series.end(), is_same)) {
-      plot.series.push_back({pair, "ratio", {{"pair", pair}}, PlotMark::bars, plot.series.size() % 8});
+      plot.series.push_back({text, height, {{table.columns()[kind].name, text}}, PlotMark::bars, plot.series.size() % 8});
     }
   }
   return plot;

@@ -21,4 +21,7 @@ Table plotted_table(SpeedPart part, std::span<const Comparison> comparisons);
 /// Bars of the ratios in a part's plotted table, side by side at each scene and what is compared.
 Plot plot_of(SpeedPart part, const Table& plotted, const std::string& name);
 
+/// `plot` with a series of bars for each text of the column number `kind`, in their order, as high as `height`.
+Plot with_bars(const std::string& height, std::size_t kind, const Table& table, Plot plot);
+
 }  // namespace dmpc::apps

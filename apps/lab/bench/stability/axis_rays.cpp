@@ -20,15 +20,11 @@ core::Vec3f any_direction(Random& random) {
 
 ShootRays axis_rays(double extents_back) {
   const auto subject = std::make_shared<const StabilitySubject>(seen_from(crowded_scene(), extents_back), crowded_options);
-  return [subject, extents_back](Random& random, std::uint64_t, std::uint64_t count) {
-    KernelCounts counts{};
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const core::Vec3f at = awkward_point(subject->database, random), direction = any_direction(random);
-      const core::Ray ray = ray_from(at - direction * static_cast<float>(extents_back), direction);
-      judge(*subject, ray, ask_kernels(*subject, ray), {.to_referee = true}, counts);
-    }
-    return counts;
-  };
+  return each_ray([subject, extents_back](Random& random, std::uint64_t, KernelCounts& counts) {
+    const core::Vec3f at = awkward_point(subject->database, random), direction = any_direction(random);
+    const core::Ray ray = ray_from(at - direction * static_cast<float>(extents_back), direction);
+    judge(*subject, ray, ask_kernels(*subject, ray), {.to_referee = true}, counts);
+  });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/lab/bench/stability/counts.h"
@@ -13,6 +14,18 @@ namespace dmpc::apps {
 
 /// Tries the rays from `first` on, as many as `count`, drawing from `random`. Thread-safe; a pure function of its arguments.
 using ShootRays = std::function<KernelCounts(Random& random, std::uint64_t first, std::uint64_t count)>;
+
+/// Ray after ray: shoot_one(random, number, counts).
+template <class ShootOne>
+ShootRays each_ray(ShootOne shoot_one) {
+  return [shoot_one = std::move(shoot_one)](Random& random, std::uint64_t first, std::uint64_t count) {
+    KernelCounts counts{};
+    for (std::uint64_t i = first; i < first + count; ++i) {
+      shoot_one(random, i, counts);
+    }
+    return counts;
+  };
+}
 
 struct StabilityCase {
   std::string row;                     ///< the table's row that it counts for: "R1 closed meshes". Its first word is the test

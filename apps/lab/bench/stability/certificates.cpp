@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 #include "apps/lab/bench/stability/case.h"
@@ -92,7 +93,7 @@ Vec3d any_target(const PrimitiveValues& triangle, Random& random) {
 struct Meeting {
   PrimitiveValues values;
   Ray ray;
-  float t;
+  float t = 0;
 };
 
 Meeting triangle_met(Random& random) {
@@ -114,32 +115,23 @@ Meeting cone_met(Random& random) {
 }
 
 /// As many hits as asked for: what misses is drawn again.
-ShootRays hits_of(Meeting (*meet)(Random&)) {
-  return [meet](Random& random, std::uint64_t, std::uint64_t count) {
-    KernelCounts counts{};
-    StabilityCounts& sum = counts[index_of(StabilityKernel::certified)];
-    while (sum.tried < count) {
-      if (const Meeting met = meet(random); met.t > 0) {
-        count_hit(met.ray, met.values, met.t, sum);
-      }
-    }
-    return counts;
-  };
+ShootRays hits_of(const std::function<Meeting(Random&)>& meet) {
+  return each_ray([meet](Random& random, std::uint64_t, KernelCounts& counts) {
+    Meeting met;
+    do {
+      met = meet(random);
+    } while (!(met.t > 0));
+    count_hit(met.ray, met.values, met.t, counts[index_of(StabilityKernel::certified)]);
+  });
 }
 
 ShootRays grazing_hits() {
   const auto database = std::make_shared<const core::Database>(core::build_database(mixed_scene(), {}));
-  return [database](Random& random, std::uint64_t, std::uint64_t count) {
-    KernelCounts counts{};
-    StabilityCounts& sum = counts[index_of(StabilityKernel::certified)];
-    while (sum.tried < count) {
-      const Ray ray = grazing_ray(*database, random);
-      if (const core::Hit hit = shoot(*database, ray); hit.found()) {
-        count_hit(ray, database->primitives()[hit.primitive], hit.t, sum);
-      }
-    }
-    return counts;
-  };
+  return hits_of([database](Random& random) -> Meeting {
+    const Ray ray = grazing_ray(*database, random);
+    const core::Hit hit = shoot(*database, ray);
+    return hit.found() ? Meeting{database->primitives()[hit.primitive], ray, hit.t} : Meeting{};
+  });
 }
 
 }  // namespace

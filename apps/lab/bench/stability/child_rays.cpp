@@ -130,14 +130,9 @@ Ray ray_onto(const core::Database& database, Random& random) {
 
 ShootRays children_in(const Scene& scene) {
   const auto subject = std::make_shared<const StabilitySubject>(scene);
-  return [subject](Random& random, std::uint64_t, std::uint64_t count) {
-    KernelCounts counts{};
-    ChildJudge judge(*subject, counts);
-    for (std::uint64_t i = 0; i < count; ++i) {
-      judge.judge_children(ray_onto(subject->database, random));
-    }
-    return counts;
-  };
+  return each_ray([subject](Random& random, std::uint64_t, KernelCounts& counts) {
+    ChildJudge(*subject, counts).judge_children(ray_onto(subject->database, random));
+  });
 }
 
 /// A mirror under eight lights that surround it.
@@ -190,19 +185,15 @@ Scene two_sheets() {
 /// Between the sheets every child is caught; above them none is.
 ShootRays children_of_sheets(double scale) {
   const auto subject = std::make_shared<const StabilitySubject>(transformed(two_sheets(), scale, {}));
-  return [subject, scale](Random& random, std::uint64_t first, std::uint64_t count) {
-    KernelCounts counts{};
-    for (std::uint64_t i = first; i < first + count; ++i) {
-      const Vec3d at{random.between(-0.45, 0.45), random.between(-0.45, 0.45), 5e-5};
-      const bool between = i % 2 == 0;
-      const Vec3d from = between ? at : Vec3d{at.x, at.y, 1}, to = between ? Vec3d{at.x, at.y, -1} : at;
-      const Ray parent = ray_through(to_local(subject->frame(), from * scale), to_local(subject->frame(), to * scale));
-      for (const Ray& child : children_of(subject->database, parent, shoot(subject->database, parent))) {
-        judge(*subject, child, ask_kernels(*subject, child), {between ? Must::hit : Must::miss}, counts);
-      }
+  return each_ray([subject, scale](Random& random, std::uint64_t i, KernelCounts& counts) {
+    const Vec3d at{random.between(-0.45, 0.45), random.between(-0.45, 0.45), 5e-5};
+    const bool between = i % 2 == 0;
+    const Vec3d from = between ? at : Vec3d{at.x, at.y, 1}, to = between ? Vec3d{at.x, at.y, -1} : at;
+    const Ray parent = ray_through(to_local(subject->frame(), from * scale), to_local(subject->frame(), to * scale));
+    for (const Ray& child : children_of(subject->database, parent, shoot(subject->database, parent))) {
+      judge(*subject, child, ask_kernels(*subject, child), {between ? Must::hit : Must::miss}, counts);
     }
-    return counts;
-  };
+  });
 }
 
 void add_sheets(const StabilityAmount& amount, StabilityCases& cases) {

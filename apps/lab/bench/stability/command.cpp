@@ -12,6 +12,7 @@
 #include "apps/lab/bench/stability/run.h"
 #include "apps/lab/bench/stability/state.h"
 #include "apps/lab/bench/stability/table.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -50,7 +51,9 @@ class KeptRun {
     }
   }
 
-  const StabilityState& finish(Interrupt& interrupt) {
+  const StabilityState& state() const { return state_; }
+
+  void finish(Interrupt& interrupt) {
     Progress progress(std::cerr, stderr_is_terminal(), "", "rays");
     try {
       run_.go_on(state_, [&] {
@@ -64,7 +67,6 @@ class KeptRun {
       throw;
     }
     save();
-    return state_;
   }
 
  private:
@@ -131,10 +133,12 @@ int bench_stability_command(const StabilityOptions& options, Interrupt& interrup
   announce("bench stability", effort_of(options), options.quiet, std::cerr);
   const StabilityRun run(stability_cases({options.rays}, options.tests), options.seed);
   KeptRun kept(options, run);
-  const StabilityState& state = kept.finish(interrupt);
-  Attempts attempts(std::cerr);
-  files.write({.text = text_of(table_of(state, options.seed), options.table.format)}, output, std::cerr, attempts);
-  return state.own_failures() == 0 ? attempts.status() : failed_status;
+  const auto write = [&](bool, Attempts& attempts) {
+    files.write({.text = text_of(table_of(kept.state(), options.seed), options.table.format)}, output, std::cerr, attempts);
+  };
+  const int status =
+      run_tabled({.measure = [&] { kept.finish(interrupt); }, .consequence = "nothing was written", .write = write}, interrupt);
+  return kept.state().own_failures() == 0 ? status : failed_status;
 }
 
 }  // namespace dmpc::apps

@@ -29,10 +29,9 @@ struct StabilityOptions {
 /// Declares them.
 void add_options(OptionSet set, StabilityOptions& options);
 
-/// Writes the table to the file asked for (whole or not at all), else to `output`; progress goes to stderr if that is a terminal.
-/// With --resume the state is written about once a minute, after a signal and in the end. Returns the exit status: 0 if none of
-/// our kernels failed and the table is written, 1 otherwise, whatever Embree did. Throws core::UsageError for a test that is
-/// none, core::InputError for files that cannot be written or another run's state, and Interrupted after a signal.
+/// Measures and writes as run_tabled() does. With --resume the state is written about once a minute, after a signal and in the
+/// end. The exit status is 1, too, if one of our kernels failed, whatever Embree did. Throws core::UsageError for a test that is
+/// none, core::InputError for files that cannot be written or another run's state.
 int bench_stability_command(const StabilityOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

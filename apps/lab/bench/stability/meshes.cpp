@@ -55,14 +55,10 @@ Ray ray_in_turn(const Placed& placed, std::uint64_t index, Random& random) {
 
 template <class MakeRay>
 ShootRays held_rays(const std::shared_ptr<const Placed>& placed, std::uint64_t interval, const MakeRay& make_ray) {
-  return [placed, interval, make_ray, must = placed->must()](Random& random, std::uint64_t first, std::uint64_t count) {
-    KernelCounts counts{};
-    for (std::uint64_t i = first; i < first + count; ++i) {
-      const Ray ray = make_ray(*placed, i, random);
-      judge(placed->subject, ray, ask_kernels(placed->subject, ray), {must, i % interval == 0}, counts);
-    }
-    return counts;
-  };
+  return each_ray([placed, interval, make_ray, must = placed->must()](Random& random, std::uint64_t i, KernelCounts& counts) {
+    const Ray ray = make_ray(*placed, i, random);
+    judge(placed->subject, ray, ask_kernels(placed->subject, ray), {must, i % interval == 0}, counts);
+  });
 }
 
 void add_closed_meshes(const StabilityAmount& amount, StabilityCases& cases) {
@@ -103,16 +99,12 @@ void add_interior_rays(const StabilityAmount& amount, StabilityCases& cases) {
 ShootRays scaled_rays(const ClosedBody& body, int exponent) {
   const auto plain = std::make_shared<const Placed>(body);
   const auto scaled = std::make_shared<const Placed>(body, std::ldexp(1.0, exponent));
-  return [plain, scaled](Random& random, std::uint64_t first, std::uint64_t count) {
-    KernelCounts counts{};
-    for (std::uint64_t i = first; i < first + count; ++i) {
-      Random same = random;
-      const core::Hit expected = shoot(plain->subject.database, ray_in_turn(*plain, i, same));
-      const Ray ray = ray_in_turn(*scaled, i, random);
-      judge(scaled->subject, ray, ask_kernels(scaled->subject, ray), {Must::hit, i % referee_interval == 0, &expected}, counts);
-    }
-    return counts;
-  };
+  return each_ray([plain, scaled](Random& random, std::uint64_t i, KernelCounts& counts) {
+    Random same = random;
+    const core::Hit expected = shoot(plain->subject.database, ray_in_turn(*plain, i, same));
+    const Ray ray = ray_in_turn(*scaled, i, random);
+    judge(scaled->subject, ray, ask_kernels(scaled->subject, ray), {Must::hit, i % referee_interval == 0, &expected}, counts);
+  });
 }
 
 void add_scales(const StabilityAmount& amount, StabilityCases& cases) {

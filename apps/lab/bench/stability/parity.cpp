@@ -57,19 +57,15 @@ void judge_parity(const StabilitySubject& subject, const Ray& ray, bool inside, 
 
 ShootRays crossing_rays(const ClosedBody& body) {
   const auto subject = std::make_shared<const StabilitySubject>(body.scene);
-  return [subject, body](Random& random, std::uint64_t first, std::uint64_t count) {
-    KernelCounts counts{};
-    for (std::uint64_t i = first; i < first + count; ++i) {
-      const bool inside = i % 2 == 0;
-      const Vec3d from = inside ? body.inside(random) : ClosedBody::outside(random);
-      const Vec3d to = inside ? from + random.direction() : random.in_box(-1, 1);
-      const Ray ray = ray_through(to_local(subject->frame(), from), to_local(subject->frame(), to));
-      judge_parity(*subject, ray, inside, {core::meet_children, core::hit_triangles}, counts[index_of(StabilityKernel::grid)]);
-      judge_parity(*subject, ray, inside, {core::meet_children_scalar, core::hit_triangles_scalar},
-                   counts[index_of(StabilityKernel::scalar)]);
-    }
-    return counts;
-  };
+  return each_ray([subject, body](Random& random, std::uint64_t i, KernelCounts& counts) {
+    const bool inside = i % 2 == 0;
+    const Vec3d from = inside ? body.inside(random) : ClosedBody::outside(random);
+    const Vec3d to = inside ? from + random.direction() : random.in_box(-1, 1);
+    const Ray ray = ray_through(to_local(subject->frame(), from), to_local(subject->frame(), to));
+    judge_parity(*subject, ray, inside, {core::meet_children, core::hit_triangles}, counts[index_of(StabilityKernel::grid)]);
+    judge_parity(*subject, ray, inside, {core::meet_children_scalar, core::hit_triangles_scalar},
+                 counts[index_of(StabilityKernel::scalar)]);
+  });
 }
 
 }  // namespace

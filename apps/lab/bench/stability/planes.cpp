@@ -86,17 +86,13 @@ class Sequence {
 
 ShootRays plane_rays() {
   const auto database = std::make_shared<const core::Database>(core::build_database(fine_sphere().scene, {}));
-  return [database](Random& random, std::uint64_t, std::uint64_t count) {
+  return each_ray([database](Random& random, std::uint64_t, KernelCounts& counts) {
     const core::GridFrame& frame = database->header().frame;
     const Sequence sequence(frame, database->pad());
-    KernelCounts counts{};
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const double reach = random.bits() % 2 == 0 ? 0.9 : 4.0;
-      const Ray ray = ray_through(to_local(frame, random.direction() * reach), to_local(frame, random.in_box(-0.9, 0.9)));
-      sequence.follow(ray, counts[index_of(StabilityKernel::planes)]);
-    }
-    return counts;
-  };
+    const double reach = random.bits() % 2 == 0 ? 0.9 : 4.0;
+    const Ray ray = ray_through(to_local(frame, random.direction() * reach), to_local(frame, random.in_box(-0.9, 0.9)));
+    sequence.follow(ray, counts[index_of(StabilityKernel::planes)]);
+  });
 }
 
 }  // namespace

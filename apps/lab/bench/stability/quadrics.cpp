@@ -121,18 +121,14 @@ Aim grazed_cone(Random& random) {
 }
 
 ShootRays quadric_rays(Aim (*aim)(Random&)) {
-  return [aim](Random& random, std::uint64_t, std::uint64_t count) {
-    KernelCounts counts{};
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const auto [body, ray] = aim(random);
-      const bool sphere = body.kind == PrimitiveKind::sphere;
-      const Roots roots = sphere ? sphere_roots(ray, body) : cone_roots(ray, body);
-      const float t =
-          sphere ? core::intersect_sphere(ray, body.value.data(), 1, 0) : core::intersect_cone(ray, body.value.data(), 1, 0);
-      judge_distance(roots, double{t}, counts[index_of(StabilityKernel::grid)]);
-    }
-    return counts;
-  };
+  return each_ray([aim](Random& random, std::uint64_t, KernelCounts& counts) {
+    const auto [body, ray] = aim(random);
+    const bool sphere = body.kind == PrimitiveKind::sphere;
+    const Roots roots = sphere ? sphere_roots(ray, body) : cone_roots(ray, body);
+    const float t =
+        sphere ? core::intersect_sphere(ray, body.value.data(), 1, 0) : core::intersect_cone(ray, body.value.data(), 1, 0);
+    judge_distance(roots, double{t}, counts[index_of(StabilityKernel::grid)]);
+  });
 }
 
 }  // namespace

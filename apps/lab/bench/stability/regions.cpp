@@ -161,14 +161,10 @@ void judge_claims(const CutScene& cut, const Ray& ray, StabilityCounts& count) {
 
 ShootRays rays_among_owners(std::size_t region_count) {
   const auto cut = std::make_shared<const CutScene>(region_count);
-  return [cut](Random& random, std::uint64_t, std::uint64_t count) {
-    KernelCounts counts{};
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const Ray ray = random.bits() % 2 == 0 ? random_ray(cut->database, random) : grazing_ray(cut->database, random);
-      judge_claims(*cut, ray, counts[index_of(StabilityKernel::regions)]);
-    }
-    return counts;
-  };
+  return each_ray([cut](Random& random, std::uint64_t, KernelCounts& counts) {
+    const Ray ray = random.bits() % 2 == 0 ? random_ray(cut->database, random) : grazing_ray(cut->database, random);
+    judge_claims(*cut, ray, counts[index_of(StabilityKernel::regions)]);
+  });
 }
 
 }  // namespace

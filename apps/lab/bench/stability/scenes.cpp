@@ -24,14 +24,10 @@ using MakeRay = Ray (*)(const StabilitySubject& subject, Random& random);
 
 ShootRays rays_in(const Scene& scene, std::uint64_t referee_interval, MakeRay make_ray) {
   const auto subject = std::make_shared<const StabilitySubject>(scene);
-  return [subject, referee_interval, make_ray](Random& random, std::uint64_t first, std::uint64_t count) {
-    KernelCounts counts{};
-    for (std::uint64_t i = first; i < first + count; ++i) {
-      const Ray ray = make_ray(*subject, random);
-      judge(*subject, ray, ask_kernels(*subject, ray), {.to_referee = i % referee_interval == 0}, counts);
-    }
-    return counts;
-  };
+  return each_ray([subject, referee_interval, make_ray](Random& random, std::uint64_t i, KernelCounts& counts) {
+    const Ray ray = make_ray(*subject, random);
+    judge(*subject, ray, ask_kernels(*subject, ray), {.to_referee = i % referee_interval == 0}, counts);
+  });
 }
 
 /// A place in the grid's box, enlarged by half of it to each side.

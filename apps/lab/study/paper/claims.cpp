@@ -1,5 +1,4 @@
-#include "apps/lab/study/paper/claims.h"
-
+// The claims of the article's text, each held against our runs.
 #include <algorithm>
 #include <functional>
 #include <optional>

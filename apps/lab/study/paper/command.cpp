@@ -14,11 +14,10 @@
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_options.h"
 #include "apps/effort/effort.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/paper/calibration.h"
 #include "apps/lab/study/paper/catalogue.h"
-#include "apps/lab/study/paper/claims.h"
 #include "apps/lab/study/paper/law.h"
-#include "apps/lab/study/paper/memories.h"
 #include "apps/lab/study/paper/report.h"
 #include "apps/lab/study/paper/runs.h"
 #include "apps/lab/study/paper/sensitivity.h"
@@ -70,22 +69,12 @@ PaperReport report_of(const Catalogue& catalogue, const std::vector<VariedRuns>&
   return report;
 }
 
-/// Every table's name, in their order; the last one only where the machine is varied.
-std::vector<std::string> table_names(bool has_sensitivity) {
-  std::vector<std::string> names = {"table_2",    "table_3",  "calibration", "law",        "against_law", "memories", "losses",
-                                    "algorithms", "ray_ways", "work_items",  "page_sizes", "caches",      "claims"};
-  if (has_sensitivity) {
-    names.emplace_back("sensitivity");
-  }
-  return names;
-}
-
 /// Throws core::UsageError or core::InputError unless all outputs can be made, as far as can be known beforehand.
-void check_files(const PaperStudyOptions& options) {
+void check_files(const PaperStudyOptions& options, const PaperReport& empty) {
   std::vector<OutputName> outputs;
   if (options.output) {
     make_output_folder(*options.output, "-o");
-    outputs = report_files(table_names(options.has_sensitivity), *options.output, "-o");
+    outputs = report_files(empty, *options.output, "-o");
   }
   if (options.report) {
     outputs.push_back({{"--report", *options.report}});
@@ -149,9 +138,9 @@ void add_options(OptionSet options, PaperStudyOptions& paper) {
 }
 
 int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, std::ostream& output) {
-  check_files(options);
   Catalogue catalogue = catalogue_of(options.resolution);
   const std::vector<VariedRuns> varied = options.has_sensitivity ? add_variations(catalogue) : std::vector<VariedRuns>();
+  check_files(options, report_of(catalogue, varied, PaperResults(catalogue.runs.size()), {}));
   announce("study paper, " + counted(catalogue.runs.size(), "run"), effort_of(catalogue), options.quiet, std::cerr);
   return study_catalogue(catalogue, varied, options, interrupt, output);
 }
@@ -164,21 +153,23 @@ int study_catalogue(const Catalogue& catalogue, const std::vector<VariedRuns>& v
   }();
   PaperResults results(catalogue.runs.size());
   ShownRows shown(shows_rows({}, options.quiet), std::cerr);
-  Attempts attempts(std::cerr);
-  const auto publish_results = [&] {
+  const auto write = [&](bool, Attempts& attempts) {
     const PaperReport report = report_of(catalogue, varied, results, subjects);
-    interrupt.set_consequence(report.is_complete ? "the report is complete" : "the report has the rows finished before");
+    if (report.is_complete) {
+      interrupt.set_consequence("the report is complete");
+    }
     publish(report, options, output, attempts);
   };
-  try {
+  const auto measure = [&] {
     carry_out(catalogue.runs, subjects, interrupt, results, [&] { show_rows(catalogue, results, shown); });
-  } catch (...) {
-    publish_results();
-    throw;
-  }
-  publish_results();
+  };
+  const int status = run_tabled({.measure = measure,
+                                 .has_findings = [] { return true; },
+                                 .consequence = "the report has the rows finished before",
+                                 .write = write},
+                                interrupt);
   interrupt.check();
-  return attempts.status();
+  return status;
 }
 
 }  // namespace dmpc::apps

@@ -1,5 +1,4 @@
-#include "apps/lab/study/paper/memories.h"
-
+// What Table 3 owes to the sizes of memories and to the order of records.
 #include <array>
 #include <optional>
 #include <string>

@@ -106,14 +106,13 @@ std::string text_with(const PaperReport& report, const Pictures& pictures, const
 
 std::string text_of(const PaperReport& report) { return text_with(report, {}, {}); }
 
-std::vector<OutputName> report_files(const std::vector<std::string>& tables, const std::filesystem::path& folder,
-                                     const std::string& option) {
+std::vector<OutputName> report_files(const PaperReport& report, const std::filesystem::path& folder, const std::string& option) {
   std::vector<OutputName> files;
   const auto add = [&](const std::string& name) { files.push_back({{option, folder / name}}); };
-  for (const std::string& table : tables) {
-    add(table + ".csv");
-    add(table + ".json");
-    for (const Plot& plot : plots_of(table)) {
+  for (const NamedTable& table : report.tables) {
+    add(table.name + ".csv");
+    add(table.name + ".json");
+    for (const Plot& plot : plots_of(table.name)) {
       add(plot.name + ".gnuplot");
       add(plot.name + ".svg");
     }

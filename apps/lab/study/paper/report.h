@@ -28,9 +28,8 @@ struct PaperReport {
 /// In Markdown, without pictures.
 std::string text_of(const PaperReport& report);
 
-/// What write_report() writes of tables with these names, as outputs of `option`.
-std::vector<OutputName> report_files(const std::vector<std::string>& tables, const std::filesystem::path& folder,
-                                     const std::string& option);
+/// What write_report() writes, whatever rows the tables have, as outputs of `option`.
+std::vector<OutputName> report_files(const PaperReport& report, const std::filesystem::path& folder, const std::string& option);
 
 /// Writes to a folder each table as CSV and JSON, a gnuplot script for each picture, the pictures that gnuplot makes of them, and
 /// as report.md the text with links to the pictures. Returns sentences about pictures that could not be drawn, which stand in

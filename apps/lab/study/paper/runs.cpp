@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "apps/edge/system/progress.h"
-#include "apps/lab/crowd/side_by_side.h"
+#include "apps/lab/study/engine/measure_each.h"
 #include "apps/lab/study/paper/hot_spots.h"
 #include "apps/run/report.h"
 #include "apps/scene/load_scene.h"
@@ -124,24 +124,25 @@ void carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> sub
   std::uint64_t done_pixels = 0;
   const std::uint64_t all_pixels = std::accumulate(runs.begin(), runs.end(), std::uint64_t{0},
                                                    [](auto sum, const PaperRun& run) { return sum + pixels_of(run); });
-  side_by_side(runs.size(), [&](std::size_t index) -> std::function<void()> {
+  const auto measure = [&](std::size_t index) -> std::optional<PaperResult> {
     if (interrupt.requested()) {
-      return [] {};
+      return std::nullopt;
     }
     const Subject& subject = subject_of(runs[index], subjects);
     const Report report = report_of(runs[index], subject, interrupt.token());
-    if (account_of(report).end != nodes::RunEnd::finished) {
-      return [] {};
-    }
-    return [&, index, result = result_of(report, subject.database)] {
-      const auto [film, is_first] =
-          films.try_emplace({runs[index].scene, runs[index].resolution, runs[index].has_inner_light}, result.film_hash);
-      core::expect(film->second == result.film_hash, "every run of a scene gives the same film");
+    const bool is_finished = account_of(report).end == nodes::RunEnd::finished;
+    return is_finished ? std::optional(result_of(report, subject.database)) : std::nullopt;
+  };
+  measure_each(runs.size(), Turns::side_by_side, measure, [&](std::size_t index, const std::optional<PaperResult>& result) {
+    if (result) {
+      const PaperRun& run = runs[index];
+      const auto film = films.try_emplace({run.scene, run.resolution, run.has_inner_light}, result->film_hash).first;
+      core::expect(film->second == result->film_hash, "every run of a scene gives the same film");
       results[index] = result;
       told();
-      done_pixels += pixels_of(runs[index]);
+      done_pixels += pixels_of(run);
       progress.update(done_pixels, all_pixels);
-    };
+    }
   });
 }
 

@@ -88,4 +88,12 @@ Table page_sizes(const Catalogue& catalogue, const PaperResults& results);
 /// Figures 8 to 10: what the size of the cache is worth.
 Table caches(const Catalogue& catalogue, const PaperResults& results);
 
+/// Efficiencies of the scenes that miss pages: with caches of the article's share of the database, as in Table 3, the same with
+/// records without an order in space, with the share that the article's Figures 8 to 10 speak for, and with memories of its 4 MB;
+/// each beside what is printed.
+Table memories(const Catalogue& catalogue, const PaperResults& results);
+/// A row a claim of the article's text whose runs have ended: the claim, "held" or "not held", and what was found. Of pictures
+/// that are not of the article's resolution none is judged.
+Table claims(const Catalogue& catalogue, const PaperResults& results);
+
 }  // namespace dmpc::apps

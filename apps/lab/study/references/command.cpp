@@ -2,18 +2,17 @@
 
 #include <iostream>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/option_values.h"
-#include "apps/edge/show/page/origin.h"
 #include "apps/edge/show/references/reference_file.h"
-#include "apps/edge/system/attempts.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/table/geometric_sizes.h"
 #include "apps/edge/table/table_files.h"
 #include "apps/lab/study/cache_curves.h"
-#include "apps/show/page/sweep_page.h"
+#include "apps/lab/study/engine/tabled_job.h"
 
 namespace dmpc::apps {
 namespace {
@@ -68,11 +67,6 @@ Table table_of(const ReferenceTrace& trace, const ReferencesOptions& options, co
   return table;
 }
 
-std::string page_of(const Table& table, const ReferencesOptions& options) {
-  const html::SweepPart part{"", table, {CacheCurves::plot()}};
-  return html::sweep_page({"Study references of " + options.file, {}, {part}}, this_origin(), std::cerr);
-}
-
 }  // namespace
 
 void add_options(OptionSet set, ReferencesOptions& options) {
@@ -100,12 +94,18 @@ int study_references_command(const ReferencesOptions& options, Interrupt& interr
     const Interrupt::EndAtOnce end_at_once(interrupt);
     return read_references(std::filesystem::path(options.file));
   }();
-  const Table table = table_of(trace, options, interrupt);
-  Attempts attempts(std::cerr);
-  const auto page = [&] { return page_of(table, options); };
-  files.write(table_result(table, options.table.format, page, references_data_file, {CacheCurves::plot()}), output, std::cerr,
-              attempts);
-  return attempts.status();
+  std::optional<Table> table;
+  const auto write = [&](bool, Attempts& attempts) {
+    files.write(study_result({.title = "Study references of " + options.file,
+                              .table = *table,
+                              .data_file = references_data_file,
+                              .plots = {CacheCurves::plot()}},
+                             options.table.format),
+                output, std::cerr, attempts);
+  };
+  return run_tabled(
+      {.measure = [&] { table = table_of(trace, options, interrupt); }, .consequence = "nothing was written", .write = write},
+      interrupt);
 }
 
 }  // namespace dmpc::apps

@@ -22,10 +22,8 @@ struct ReferencesOptions {
 /// Declares them.
 void add_options(OptionSet set, ReferencesOptions& options);
 
-/// Writes the table to the file asked for (whole or not at all), else to `output`, with the plots asked for. What cannot be
-/// written is said on stderr and keeps nothing else from being written. Returns the exit status, 1 then. Throws core::UsageError
-/// for outputs that clash, core::InputError for references that cannot be read and outputs that cannot be made, core::RoomError
-/// for more than there is memory for, Interrupted.
+/// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for references that
+/// cannot be read and outputs that cannot be made, core::RoomError for more than there is memory for.
 int study_references_command(const ReferencesOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

@@ -1,7 +1,6 @@
 #include "apps/lab/study/scale/command.h"
 
 #include <algorithm>
-#include <exception>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -9,15 +8,13 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/option_values.h"
-#include "apps/edge/show/page/origin.h"
-#include "apps/edge/system/attempts.h"
 #include "apps/edge/system/real_load.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
 #include "apps/effort/effort.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/scale/measure.h"
 #include "apps/lab/study/scale/table.h"
-#include "apps/show/page/sweep_page.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
 #include "dataflow/regions/bsp.h"
@@ -29,33 +26,19 @@ constexpr const char* data_file = "scale.csv";
 
 TableFiles files_of(const ScaleOptions& options) { return {options.table, {names_of(data_file, scale_plots(options.settings))}}; }
 
-Table finished_table(const std::vector<ScaleResult>& results, bool is_complete, double load, const ScaleOptions& options) {
+TableResult result_of(const std::vector<ScaleResult>& results, const ScaleOptions& options, double load, bool is_whole) {
   Table table = scale_table(results, options.settings);
-  if (!is_complete) {
+  if (!is_whole) {
     table.add_note("Ended before its time: rows are missing.");
   }
   table.add_note(load_note(load));
-  return table;
-}
-
-std::string page_of(const Table& table, const ScaleOptions& options) {
-  const html::SweepPart part{"", table, scale_plots(options.settings), scale_conclusion(table)};
-  return html::sweep_page({"Study scale", {}, {part}}, this_origin(), std::cerr);
-}
-
-TableResult result_of(const Table& table, const ScaleOptions& options) {
-  return table_result(
-      table, options.table.format, [&] { return page_of(table, options); }, data_file, scale_plots(options.settings));
-}
-
-/// Throws core::RoomError if no run found room, core::InputError if there was none.
-void check_any_fits(const std::vector<ScaleResult>& results) {
-  if (std::none_of(results.begin(), results.end(), [](const ScaleResult& result) { return result.figures.has_value(); })) {
-    if (results.empty()) {
-      throw core::InputError("there is nothing to run: part nodes has none of the methods asked for");
-    }
-    throw core::RoomError(results.front().misfit);
-  }
+  std::string conclusion = scale_conclusion(table);
+  return study_result({.title = "Study scale",
+                       .table = std::move(table),
+                       .data_file = data_file,
+                       .plots = scale_plots(options.settings),
+                       .conclusion = std::move(conclusion)},
+                      options.table.format);
 }
 
 std::size_t parse_cache(const std::string& text) {
@@ -149,30 +132,26 @@ void add_options(OptionSet set, ScaleOptions& options) {
 int study_scale_command(const ScaleOptions& options, Interrupt& interrupt, std::ostream& output) {
   const std::vector<ScaleRun> runs = scale_runs(options.settings);
   const TableFiles files = files_of(options);
+  if (runs.empty()) {
+    throw core::InputError("there is nothing to run: part nodes has none of the methods asked for");
+  }
   announce("study scale, " + counted(runs.size(), "run"), effort_of(runs, options.settings), options.quiet, std::cerr);
   const double load = machine_load();
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   std::vector<ScaleResult> results;
-  std::exception_ptr failure;
-  Attempts attempts(std::cerr);
-  try {
-    measure_scale(runs, options.settings, interrupt, [&](ScaleResult result) {
-      results.push_back(std::move(result));
-      shown.show(scale_rows(results, options.settings));
-    });
-  } catch (...) {
-    failure = std::current_exception();
-  }
-  if (!results.empty()) {
-    interrupt.set_consequence("the table has the rows finished before");
-    const Table table = finished_table(results, !failure, load, options);
-    files.write(result_of(table, options), output, std::cerr, attempts);
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
+  const auto take = [&](ScaleResult result) {
+    results.push_back(std::move(result));
+    shown.show(scale_rows(results, options.settings));
+  };
+  const auto write = [&](bool is_whole, Attempts& attempts) {
+    files.write(result_of(results, options, load, is_whole), output, std::cerr, attempts);
+  };
+  const int status = run_tabled({.measure = [&] { measure_scale(runs, options.settings, interrupt, take); },
+                                 .has_findings = [&] { return !results.empty(); },
+                                 .write = write},
+                                interrupt);
   check_any_fits(results);
-  return attempts.status();
+  return status;
 }
 
 }  // namespace dmpc::apps

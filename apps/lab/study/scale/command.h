@@ -19,11 +19,8 @@ struct ScaleOptions {
 /// Declares them.
 void add_options(OptionSet set, ScaleOptions& options);
 
-/// Writes the table to the file asked for (whole or not at all), else to `output`, with the plots asked for. After a signal or an
-/// error it has the rows finished before. What cannot be written is said on stderr and keeps nothing else from being
-/// written. Returns the exit status, 1 then. Throws core::UsageError for outputs that clash, core::InputError for scenes that
-/// there are not, for outputs that cannot be made, or if no run found room (core::RoomError); core::InternalError and Interrupted
-/// as measure_scale().
+/// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for scenes that
+/// there are not, for outputs that cannot be made, or if no run found room (core::RoomError); and as measure_scale().
 int study_scale_command(const ScaleOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

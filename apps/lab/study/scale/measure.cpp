@@ -11,6 +11,7 @@
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/scratch_folder.h"
 #include "apps/edge/system/watched_process.h"
+#include "apps/lab/study/engine/measure_each.h"
 #include "apps/lab/study/render_process.h"
 #include "core/base/expect.h"
 
@@ -118,14 +119,12 @@ std::vector<std::string> render_arguments(const ScaleRun& run, const ScaleSettin
 void measure_scale(const std::vector<ScaleRun>& runs, const ScaleSettings& settings, const Interrupt& interrupt,
                    const std::function<void(ScaleResult)>& take) {
   ScaleBench bench(settings, interrupt);
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    ScaleResult result = [&] {
-      Progress progress(std::cerr, stderr_is_terminal(), label_of(runs[i], settings), "runs");
-      progress.update(i, runs.size());
-      return bench.measure(runs[i]);
-    }();
-    take(std::move(result));
-  }
+  const auto measure = [&](std::size_t i) {
+    Progress progress(std::cerr, stderr_is_terminal(), label_of(runs[i], settings), "runs");
+    progress.update(i, runs.size());
+    return bench.measure(runs[i]);
+  };
+  measure_each(runs.size(), Turns::one_by_one, measure, [&](std::size_t, ScaleResult result) { take(std::move(result)); });
 }
 
 }  // namespace dmpc::apps

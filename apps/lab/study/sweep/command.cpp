@@ -1,22 +1,19 @@
 #include "apps/lab/study/sweep/command.h"
 
 #include <algorithm>
-#include <exception>
 #include <iostream>
 #include <utility>
 #include <vector>
 
 #include "apps/edge/line/words.h"
-#include "apps/edge/show/page/origin.h"
-#include "apps/edge/system/attempts.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
 #include "apps/lab/figures/known_figures.h"
+#include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/sweep/measure.h"
 #include "apps/lab/study/sweep/table.h"
 #include "apps/scene/load_scene.h"
-#include "apps/show/page/sweep_page.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -30,15 +27,17 @@ TableFiles files_of(const StudySweepOptions& options, const std::vector<SweepRun
   return {options.table, {names_of(sweep_data_file, sweep_plots(options.settings, runs))}, others};
 }
 
-std::string page_of(const Table& table, const std::vector<Plot>& plots, const StudySweepOptions& options) {
-  return html::sweep_page({"Study sweep of " + options.settings.scene, {}, {{"", table, plots}}}, this_origin(), std::cerr);
-}
-
-/// Throws core::RoomError if no run found room.
-void check_any_fits(const std::vector<SweepResult>& results) {
-  if (std::none_of(results.begin(), results.end(), [](const SweepResult& result) { return result.figures.has_value(); })) {
-    throw core::RoomError(results.front().misfit);
+TableResult result_of(const StudySweepOptions& options, const std::vector<SweepRun>& runs,
+                      const std::vector<SweepResult>& results, bool is_whole) {
+  Table table = sweep_table(options.settings, runs, results);
+  if (!is_whole) {
+    table.add_note("Ended before its time: rows are missing.");
   }
+  return study_result({.title = "Study sweep of " + options.settings.scene,
+                       .table = std::move(table),
+                       .data_file = sweep_data_file,
+                       .plots = sweep_plots(options.settings, runs)},
+                      options.table.format);
 }
 
 /// Those of `render`, as words to be handed on.
@@ -130,8 +129,7 @@ int study_sweep_command(const StudySweepOptions& options, Interrupt& interrupt, 
   check_not_read(scene, files.names());
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   std::vector<SweepResult> results;
-  std::exception_ptr failure;
-  try {
+  const auto measure = [&] {
     Progress progress(std::cerr, stderr_is_terminal() && !options.quiet, "sweep: ", "runs");
     progress.update(0, runs.size());
     measure_sweep(options.settings, runs, scene, interrupt, [&](SweepResult result) {
@@ -139,25 +137,14 @@ int study_sweep_command(const StudySweepOptions& options, Interrupt& interrupt, 
       shown.show(sweep_table(options.settings, runs, results), options.settings.variations.size());
       progress.update(results.size(), runs.size());
     });
-  } catch (...) {
-    failure = std::current_exception();
-  }
-  Attempts attempts(std::cerr);
-  if (!results.empty()) {
-    interrupt.set_consequence("the table has the rows finished before");
-    Table table = sweep_table(options.settings, runs, results);
-    if (failure) {
-      table.add_note("Ended before its time: rows are missing.");
-    }
-    const std::vector<Plot> plots = sweep_plots(options.settings, runs);
-    const auto page = [&] { return page_of(table, plots, options); };
-    files.write(table_result(table, options.table.format, page, sweep_data_file, plots), output, std::cerr, attempts);
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
+  };
+  const auto write = [&](bool is_whole, Attempts& attempts) {
+    files.write(result_of(options, runs, results, is_whole), output, std::cerr, attempts);
+  };
+  const int status =
+      run_tabled({.measure = measure, .has_findings = [&] { return !results.empty(); }, .write = write}, interrupt);
   check_any_fits(results);
-  return attempts.status();
+  return status;
 }
 
 }  // namespace dmpc::apps

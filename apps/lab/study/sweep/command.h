@@ -22,10 +22,8 @@ struct StudySweepOptions {
 /// Declares its own and all those of `render` that say how it renders.
 void add_options(OptionSet set, StudySweepOptions& options);
 
-/// Writes the table to the file asked for (whole or not at all), else to `output`; progress goes to stderr if that is a terminal.
-/// After a signal or an error the table has the rows finished until then, if there are any. Returns the exit status. Throws
-/// core::UsageError for a combination that `render` would not take, core::InputError for bad input, core::RoomError if no run
-/// found room, Interrupted after a signal.
+/// Measures and writes as run_tabled() does. Throws core::UsageError for a combination that `render` would not take,
+/// core::InputError for bad input, core::RoomError if no run found room.
 int study_sweep_command(const StudySweepOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

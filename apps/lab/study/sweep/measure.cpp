@@ -1,13 +1,11 @@
 #include "apps/lab/study/sweep/measure.h"
 
 #include <algorithm>
-#include <exception>
-#include <memory>
 #include <utility>
 
 #include "apps/edge/system/scratch_folder.h"
 #include "apps/edge/system/watched_process.h"
-#include "apps/lab/crowd/side_by_side.h"
+#include "apps/lab/study/engine/measure_each.h"
 #include "apps/lab/study/render_process.h"
 #include "apps/lab/study/sweep/kept_runs.h"
 #include "core/base/expect.h"
@@ -57,27 +55,16 @@ class SweepBench {
   ScratchFolder folder_;
 };
 
-/// Measures now; what is returned takes the result, or throws what went wrong: in its turn, when the results before are taken.
-std::function<void()> finish_of(const std::function<SweepResult()>& measure, const std::function<void(SweepResult)>& take) {
-  try {
-    return [&take, result = std::make_shared<SweepResult>(measure())] { take(std::move(*result)); };
-  } catch (...) {
-    return [failure = std::current_exception()] { std::rethrow_exception(failure); };
-  }
-}
-
 }  // namespace
 
 void measure_sweep(const SweepSettings& settings, const std::vector<SweepRun>& runs, const OpenedFiles& scene,
                    const Interrupt& interrupt, const std::function<void(SweepResult)>& take) {
   const SweepBench bench(settings, scene, interrupt);
-  if (std::any_of(runs.begin(), runs.end(), [](const SweepRun& run) { return is_timed_by_the_wall(run.options); })) {
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      take(bench.measure(runs[i], i));
-    }
-    return;
-  }
-  side_by_side(runs.size(), [&](std::size_t i) { return finish_of([&] { return bench.measure(runs[i], i); }, take); });
+  const bool is_timed =
+      std::any_of(runs.begin(), runs.end(), [](const SweepRun& run) { return is_timed_by_the_wall(run.options); });
+  measure_each(
+      runs.size(), is_timed ? Turns::one_by_one : Turns::side_by_side, [&](std::size_t i) { return bench.measure(runs[i], i); },
+      [&](std::size_t, SweepResult result) { take(std::move(result)); });
 }
 
 }  // namespace dmpc::apps

@@ -14,8 +14,7 @@
 
 #include "apps/lab/bench/speed/ablation.h"
 #include "apps/lab/bench/speed/command.h"
-#include "apps/lab/bench/speed/emulation_part.h"
-#include "apps/lab/bench/speed/kernel_part.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/table.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/lab/bench/speed/plain_part.h"
+#include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/plain_renderer.h"
 #include "apps/lab/bench/speed/plain_table.h"
 #include "core/base/expect.h"

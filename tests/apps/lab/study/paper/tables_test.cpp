@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "apps/lab/study/paper/claims.h"
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
 #include "tests/support/paper_results.h"
