@@ -69,7 +69,6 @@ const std::vector<Foreign> foreign = {
     {"meshoptimizer.h", {"apps/foreign/gltf/meshopt.cpp", "tests/apps/foreign/"}},
     {"draco/", {"apps/foreign/gltf/draco.cpp", "tests/apps/foreign/"}},
     {"seccomp.h", {"apps/foreign/sandbox.cpp", "tests/apps/reader/foreign_files_test.cpp"}},
-    {"CLI/", {"apps/line/command_line.cpp", "apps/line/command_description.cpp"}},
     {"nlohmann/",
      {"apps/show/stats/", "apps/machine/machine_file.", "apps/table/table.cpp", "apps/compare/report.cpp", "apps/figures/",
       "apps/oracle/accurate/reference_file.cpp", "apps/foreign/gltf/", "apps/info/json.cpp", "apps/computer/stats.cpp",
