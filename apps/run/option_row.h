@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "apps/line/command_line.h"
+#include "apps/edge/line/command_line.h"
 #include "core/base/refusal.h"
 
 namespace dmpc::apps {

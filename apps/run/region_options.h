@@ -1,7 +1,7 @@
 // How space is cut into regions, in the words of the command line.
 #pragma once
 
-#include "apps/line/command_line.h"
+#include "apps/edge/line/command_line.h"
 #include "dataflow/regions/balance.h"
 #include "dataflow/regions/bsp.h"
 

@@ -4,9 +4,10 @@
 #include <optional>
 #include <utility>
 
-#include "apps/machine/machine_file.h"
+#include "apps/edge/machine/machine_file.h"
+#include "apps/edge/run/computer_room.h"
+#include "apps/edge/run/option_words.h"
 #include "apps/oracle/oracle.h"
-#include "apps/run/computer_room.h"
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "core/record/records.h"

@@ -4,8 +4,8 @@
 #include <iterator>
 #include <vector>
 
-#include "apps/line/option_values.h"
-#include "apps/machine/machines.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/machine/machines.h"
 #include "apps/run/region_options.h"
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"

@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "apps/run/region_options.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "dataflow/packets.h"
 
 namespace dmpc::apps {

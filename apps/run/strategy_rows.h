@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/edge/run/option_words.h"
 #include "apps/run/option_row.h"
-#include "apps/run/option_words.h"
 #include "apps/run/strategy_options.h"
 #include "dataflow/plan.h"
 #include "svm/plan.h"

@@ -10,7 +10,7 @@
 #include "tests/style/sources.h"
 #include "tests/support/documents.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::house_test {
 
 namespace {
 
@@ -149,4 +149,4 @@ TEST_CASE("nodes speaks of no pages, rays or pictures") {
   CHECK(programs_words("std::array<Packet> package; // a filmy bricklayer").empty());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::house_test

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-namespace dmpc::tests {
+namespace dmpc::tests::refusal_test {
 
-namespace refusal_test {
+namespace {
 
 struct Shoe {
   std::optional<std::uint32_t> size_mm = std::nullopt;
@@ -20,10 +20,9 @@ struct Hat {
 
 constexpr core::Field size = core::field_of<&Shoe::size_mm>();
 
-}  // namespace refusal_test
+}  // namespace
 
 TEST_CASE("a field is called as the member is, and is that of its own struct alone") {
-  using namespace refusal_test;
   static_assert(size.name() == "size_mm");
   static_assert(core::field_of<&Shoe::colour>() == core::field_of<&Shoe::colour>());
   static_assert(core::field_of<&Shoe::colour>() != core::field_of<&Hat::colour>());
@@ -31,7 +30,6 @@ TEST_CASE("a field is called as the member is, and is that of its own struct alo
 }
 
 TEST_CASE("a refusal says its fields by their own names, and whoever catches it by others") {
-  using namespace refusal_test;
   CHECK_NOTHROW(core::check_use(true, size, "=0"));
   try {
     core::check_use(false, size, "=", 47U, ": from ", 200, " to ", std::uint64_t{330});
@@ -43,4 +41,4 @@ TEST_CASE("a refusal says its fields by their own names, and whoever catches it 
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::refusal_test
