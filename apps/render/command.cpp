@@ -9,6 +9,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -103,7 +104,7 @@ class Rendering {
  private:
   /// Where there are other ranks, they are shown that this one lives while it does something that has nothing to do with them.
   template <class Work>
-  auto apart(const Work& work) {
+  std::invoke_result_t<const Work&> apart(const Work& work) {
     return options_.computer.ranks == nullptr ? work() : nodes::with_life_signs(*options_.computer.ranks, work);
   }
 

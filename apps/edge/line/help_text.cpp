@@ -25,7 +25,7 @@ std::string explained(const std::string& name, const std::string& text) {
   return line + "\n";
 }
 
-std::string name_of(const OptionDescription& option) {
+std::string names_and_value(const OptionDescription& option) {
   std::string text;
   for (const std::string& name : option.names) {
     text += (text.empty() ? "" : ",") + name + (option.has_optional_value ? "{" + option.standard + "}" : "");
@@ -64,7 +64,7 @@ std::string help_text(const CommandDescription& command, const std::string& path
   for (const std::string& group : groups) {
     text += (group == groups.front() ? "\n" : "\n\n") + group + ":\n";
     for (const OptionDescription& option : command.options) {
-      text += option.group == group ? explained(name_of(option), option.text) : "";
+      text += option.group == group ? explained(names_and_value(option), option.text) : "";
     }
   }
   text += command.commands.empty() ? "" : "\nCommands:\n";
