@@ -39,7 +39,7 @@ struct Command {
     return described;
   }
 
-  std::string name, text, examples = "";
+  std::string name, text, examples;
   std::string group = "Options";
   std::vector<Option> options = {};  ///< and arguments, as they were declared
   std::vector<std::unique_ptr<Command>> commands = {};
@@ -96,8 +96,8 @@ CommandDescription described(const Command& command, const Suggestions& known) {
   return all;
 }
 
-std::unique_ptr<Command> make_command(const std::string& name, const std::string& text) {
-  auto command = std::make_unique<Command>(Command{.name = name, .text = text});
+std::unique_ptr<Command> make_command(const std::string& name, const std::string& text, const std::string& examples) {
+  auto command = std::make_unique<Command>(Command{.name = name, .text = text, .examples = examples});
   command->add_flag("-h,--help", "Explain this", [](const std::string&) {});
   return command;
 }
@@ -147,7 +147,7 @@ void take_given(const Command& command) {
 }  // namespace
 
 OptionSet OptionSet::add_command(const std::string& name, const std::string& description) {
-  return OptionSet(*command_->commands.emplace_back(make_command(name, description)));
+  return OptionSet(*command_->commands.emplace_back(make_command(name, description, command_->examples)));
 }
 
 void OptionSet::begin_group(const std::string& title) { command_->group = title; }
@@ -233,15 +233,15 @@ void OptionSet::check_in_the_end(const std::function<void()>& check) { command_-
 
 bool OptionSet::is_given(const std::string& name) const {
   return std::any_of(command_->options.begin(), command_->options.end(), [&](const Command::Option& option) {
-    return is_among(option.described.names, name) && !option.given.empty();
+    return (option.is_argument() ? option.described.value == name : is_among(option.described.names, name)) &&
+           !option.given.empty();
   });
 }
 
 CommandLine::CommandLine(const std::string& description, const std::string& version, const std::string& examples,
                          const std::string& program)
-    : program_(make_command(program, description)), version_(version) {
+    : program_(make_command(program, description, examples)), version_(version) {
   program_->add_flag("--version", "Print the version", [](const std::string&) {});
-  program_->examples = examples;
 }
 
 CommandLine::~CommandLine() = default;

@@ -73,7 +73,7 @@ class OptionSet {
   void add_number(const std::string& name, Field& value, std::int64_t least, std::int64_t most, const std::string& shown_default,
                   const std::string& description);
 
-  /// What help says in the end.
+  /// What help says in the end; without it what it says in the end of the command that has this one.
   void set_examples(const std::string& text);
   /// Called when all options of a line with this command are read, after the checks given before; may throw core::UsageError.
   void check_in_the_end(const std::function<void()>& check);
