@@ -100,9 +100,9 @@ struct Plan {
 /// The smallest number of nodes above the request's that works with the request's memory, if there is one.
 using OtherNodeCount = std::function<std::optional<std::uint32_t>()>;
 
-/// Throws core::UsageError for a value out of range, and core::RoomError if the memory is too small: naming the node that needs
-/// most, what it needs, the smallest node memory that works for this node count, and the node count that `other_node_count` finds
-/// (asked in this case only).
+/// Throws core::Refusal<core::UsageError> for a value out of range, of core::RoomError if the memory is too small: naming the
+/// node that needs most, what it needs, the smallest node memory that works for this node count, and the node count that
+/// `other_node_count` finds (asked in this case only).
 Plan make_plan(const PlanRequest& request, const OtherNodeCount& other_node_count = {});
 
 /// The smallest node memory with which make_plan(request) succeeds, whatever request.node_memory_bytes says.

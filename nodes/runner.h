@@ -42,7 +42,7 @@ static_assert(packet_kind_count <= 32);
 MemoryPlan memory_beside_program(const MailboxCapacity& mailbox, std::uint32_t peer_count, std::size_t held_bytes,
                                  std::size_t stack_bytes);
 
-/// Throws core::UsageError if there are fewer nodes than ranks.
+/// Throws core::Refusal<core::UsageError> if there are fewer nodes than ranks.
 void check_nodes_for(std::uint32_t node_count, std::uint32_t rank_count);
 /// The same of the ranks that are asked for: for plans.
 void check_ranks(const ComputerRequest& computer);

@@ -43,7 +43,7 @@ void choose_nodes(ProgramOptions& options, const RankGroup& group) {
   if (!options.is_node_count_given) {
     options.computer.node_count = std::min(group.default_node_count(), program_nodes_max);
   }
-  with_options_named([&] { nodes::check_nodes_for(options.computer.node_count, group.rank_count()); });
+  with_options_named(computer_words, [&] { nodes::check_nodes_for(options.computer.node_count, group.rank_count()); });
   if (!options.idle) {
     options.idle = group.default_idle(options.computer.node_count);
   }

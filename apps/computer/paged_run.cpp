@@ -150,7 +150,8 @@ class AskedComputer final : public PagedComputer {
   /// On ranks rank 0 alone gets all results.
   void run_kinds(const svm::TaskKinds& kinds, std::span<const std::byte> data, std::uint32_t count,
                  std::span<std::byte> results) {
-    const auto plan = with_options_named([&] { return svm::TaskPlan(options_.tasks, data.size(), count, kinds.plain.sizes); });
+    const auto plan =
+        with_options_named(computer_words, [&] { return svm::TaskPlan(options_.tasks, data.size(), count, kinds.plain.sizes); });
     check_room(plan);
     last_watch_ = std::make_unique<PagedWatch>(options_, record_.operations, plan, count);
     const auto take = [&](std::uint32_t first, std::string_view bytes) {

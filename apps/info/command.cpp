@@ -60,11 +60,9 @@ void add_options(OptionSet options, InfoOptions& info) {
       [&info](const std::string& text) { info.node_counts = parse_different_numbers(text, "--nodes", nodes::node_count_max); },
       "Nodes of the computers whose memory is forecast");
   add_system_option(options, info.system);
-  add_homes_options(options, info.pages.homes, info.pages.tree_arity);
-  add_balance_option(options, info.balance.balance);
-  add_cuts_option(options, info.balance.bsp.order);
-  add_scattered_option(options, info.balance);
-  add_region_options(options, info.balance);
+  add_option(options, core::field_of<&svm::PageOptions::homes>(), info.pages);
+  add_option(options, core::field_of<&svm::PageOptions::tree_arity>(), info.pages);
+  add_balance_options(options, info.balance);
   options.add_choice<InfoFormat>("--format", info.format, {{"text", InfoFormat::text}, {"json", InfoFormat::json}},
                                  "Lines and tables to read, or an object with stable keys");
   options.add_quiet(info.quiet);

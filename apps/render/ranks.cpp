@@ -54,7 +54,7 @@ std::size_t payload_bytes_max(const RenderOptions& options) {
 }
 
 void check_nodes_on_ranks(const RenderOptions& options, std::uint32_t rank_count) {
-  with_options_named([&] { nodes::check_nodes_for(options.computer.node_count, rank_count); });
+  with_options_named(computer_words, [&] { nodes::check_nodes_for(options.computer.node_count, rank_count); });
 }
 
 int render_as_rank(nodes::Fabric& fabric, const RenderOptions& options, const RenderOnRanks& render,

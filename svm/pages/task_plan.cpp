@@ -1,9 +1,8 @@
 #include "svm/pages/task_plan.h"
 
 #include <algorithm>
-#include <string>
 
-#include "core/base/expect.h"
+#include "core/base/refusal.h"
 #include "core/base/units.h"
 #include "core/picture/memory_use.h"
 #include "nodes/node.h"
@@ -23,11 +22,10 @@ constexpr std::uint32_t task_cache_pages_min = 64;
 /// More requests to one home than this wait no shorter: it serves them one after another.
 constexpr std::uint32_t task_requests_max = 4;
 
-void check_range(const char* name, std::uint64_t value, std::uint64_t least, std::uint64_t most) {
-  if (value < least || value > most) {
-    throw core::UsageError(std::string(name) + "=" + std::to_string(value) + ": expected " + std::to_string(least) + " to " +
-                           std::to_string(most));
-  }
+/// `name`: a word or a core::Field.
+template <class Name>
+void check_range(const Name& name, std::uint64_t value, std::uint64_t least, std::uint64_t most) {
+  core::check_use(value >= least && value <= most, name, "=", value, ": expected ", least, " to ", most);
 }
 
 }  // namespace
@@ -35,10 +33,8 @@ void check_range(const char* name, std::uint64_t value, std::uint64_t least, std
 TaskPlan::TaskPlan(const TaskOptions& options, std::size_t database_bytes, std::uint32_t task_count, const Sizes& sizes)
     : options_(options), task_count_(task_count), sizes_(sizes) {
   check();
-  if (database_bytes == 0 || database_bytes % options.page_size_bytes != 0) {
-    throw core::UsageError(std::to_string(database_bytes) + " bytes: expected whole pages of " +
-                           std::to_string(options.page_size_bytes) + ", and one at least");
-  }
+  core::check_use(database_bytes > 0 && database_bytes % options.page_size_bytes == 0, database_bytes,
+                  " bytes: expected whole pages of ", options.page_size_bytes, ", and one at least");
   const std::size_t page_count = database_bytes / options.page_size_bytes;
   check_range("page_count", page_count, 1, index_of(no_page) - 1);
   const auto pages = static_cast<std::uint32_t>(page_count);
@@ -71,14 +67,12 @@ TaskPlan::TaskPlan(const TaskOptions& options, std::size_t database_bytes, std::
 }
 
 void TaskPlan::check() const {
-  check_range("node_count", node_count(), 1, nodes::node_count_max);
+  check_range(core::field_of<&nodes::ComputerRequest::node_count>(), node_count(), 1, nodes::node_count_max);
   check_range("task_count", task_count_, 1, 0xffffffffU);
-  check_range("in_flight", options_.in_flight, 1, in_flight_max);
-  check_range("cache_pages", options_.cache_pages.value_or(1), 1, index_of(no_page));
-  if (!is_page_size(options_.page_size_bytes)) {
-    throw core::UsageError("page_size_bytes=" + std::to_string(options_.page_size_bytes) +
-                           ": a page is a power of two from 512B to 64KiB");
-  }
+  check_range(core::field_of<&TaskOptions::in_flight>(), options_.in_flight, 1, in_flight_max);
+  check_range(core::field_of<&TaskOptions::cache_pages>(), options_.cache_pages.value_or(1), 1, index_of(no_page));
+  core::check_use(is_page_size(options_.page_size_bytes), core::field_of<&TaskOptions::page_size_bytes>(), "=",
+                  options_.page_size_bytes, ": a page is a power of two from 512B to 64KiB");
   nodes::check_ranks(options_.computer);
 }
 
@@ -107,8 +101,9 @@ void TaskPlan::check_memory() const {
     most = std::max(most, node_memory(node).total());
   }
   if (options_.computer.node_memory_bytes.value_or(most) < most) {
-    throw core::RoomError("node_memory_bytes=" + nodes::size_text(*options_.computer.node_memory_bytes) + ": a node takes " +
-                          nodes::size_text(most) + "; fewer cache_pages, fewer tasks in_flight or more nodes take less");
+    throw core::Refusal<core::RoomError>(core::Sentence(
+        core::field_of<&nodes::ComputerRequest::node_memory_bytes>(), "=", nodes::size_text(*options_.computer.node_memory_bytes),
+        ": a node takes ", nodes::size_text(most), "; fewer cache_pages, fewer tasks in_flight or more nodes take less"));
   }
 }
 

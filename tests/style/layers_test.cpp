@@ -88,7 +88,6 @@ const std::vector<Foreign> foreign = {
     {"meshoptimizer.h", {"apps/foreign/gltf/meshopt.cpp", "tests/apps/foreign/"}},
     {"draco/", {"apps/foreign/gltf/draco.cpp", "tests/apps/foreign/"}},
     {"seccomp.h", {"apps/foreign/sandbox.cpp", "tests/apps/reader/foreign_files_test.cpp"}},
-    {"CLI/", {"apps/edge/line/command_line.cpp", "apps/edge/line/command_description.cpp"}},
     {"nlohmann/",
      {"apps/edge/show/stats/", "apps/show/stats/", "apps/edge/machine/machine_file.", "apps/edge/table/table.cpp",
       "apps/lab/compare/report.cpp", "apps/lab/figures/", "apps/lab/oracle/accurate/reference_file.cpp", "apps/foreign/gltf/",

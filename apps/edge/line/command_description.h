@@ -5,10 +5,6 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace dmpc::apps {
 
 /// What a shell may offer for a value. Nothing at all: a number or a text that only the user knows.
@@ -27,6 +23,7 @@ struct OptionDescription {
   std::string group;               ///< the title below which help lists it
   bool is_required = false;
   bool has_optional_value = false;  ///< a flag that may have one, behind an =
+  std::string standard;             ///< which it has then without one
   bool is_repeatable = false;       ///< may be given several times, or is a flag
   bool is_list = false;             ///< several values: with commas between, of an argument as words of their own
   Suggestion suggestion;
@@ -49,7 +46,7 @@ struct CommandDescription {
 /// By what help calls a value.
 using Suggestions = std::map<std::string, Suggestion>;
 
-/// What is declared in CLI11's terms.
-CommandDescription describe(const CLI::App& app, const Suggestions& known);
+/// What a shell may offer for a value of which help shows this: "SIZE|auto [auto]".
+Suggestion suggestion_for(const std::string& shown, const Suggestions& known);
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// Commands and their options: declared, parsed and explained. CLI11 is named here and in command_description.cpp only.
+// Commands and their options: declared, parsed and explained.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,9 @@
 
 #include "apps/edge/line/command_description.h"
 
-namespace CLI {
-class App;
-}
-
 namespace dmpc::apps {
+
+struct Command;
 
 /// What `--help` or `--version` asks for.
 struct HelpText {
@@ -75,7 +73,7 @@ class OptionSet {
   void add_number(const std::string& name, Field& value, std::int64_t least, std::int64_t most, const std::string& shown_default,
                   const std::string& description);
 
-  /// What help says in the end.
+  /// What help says in the end; without it what it says in the end of the command that has this one.
   void set_examples(const std::string& text);
   /// Called when all options of a line with this command are read, after the checks given before; may throw core::UsageError.
   void check_in_the_end(const std::function<void()>& check);
@@ -84,17 +82,15 @@ class OptionSet {
 
  private:
   friend class CommandLine;
-  using Checks = std::vector<std::function<void()>>;
 
-  explicit OptionSet(CLI::App& app);
+  explicit OptionSet(Command& command) : command_(&command) {}
 
   void add_words_as(const std::string& name, const std::vector<std::string>& words, const std::string& shown_default,
                     const TakeText& take, const std::string& description);
   void add_number_as(const std::string& name, std::int64_t least, std::int64_t most, const std::string& shown_default,
                      const TakeNumber& take, const std::string& description);
 
-  CLI::App* app_;
-  Checks* checks_;  ///< the app's, in the order in which they are made
+  Command* command_;
 };
 
 /// All commands of the program, for one line.
@@ -113,11 +109,11 @@ class CommandLine {
 
   /// Sets what the options of the command given are to set, and returns its name, "study balance" if it is a command's command;
   /// or help. Call it once. `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at
-  /// the right --help, as read_line() does (usage/typed_line.h) and what takes a value.
+  /// the right --help, as read_line() does (typed_line.h) and what takes a value.
   std::variant<HelpText, std::string> parse(std::span<const std::string> arguments);
 
-  /// What --help prints about a command, {"study", "balance"}, or about the program. Call it for one command; not after parse().
-  std::string help(std::vector<std::string> command);
+  /// What --help prints about a command, {"study", "balance"}, or about the program.
+  std::string help(const std::vector<std::string>& command) const;
 
   /// What a value is that help calls `name`, up to its first dot: "FILE" for "FILE.nff [stdout]" and "SIZE|FILE".
   void suggest(const std::string& name, const Suggestion& suggestion);
@@ -125,7 +121,8 @@ class CommandLine {
   CommandDescription describe() const;
 
  private:
-  std::unique_ptr<CLI::App> app_;
+  std::unique_ptr<Command> program_;
+  std::string version_;
   Suggestions suggestions_;
 };
 

@@ -1,25 +1,36 @@
 // What a plan says of its fields, in the words of the command line.
 #pragma once
 
+#include <span>
 #include <string>
-#include <utility>
 
-#include "core/base/expect.h"
+#include "core/base/refusal.h"
+#include "nodes/computer_request.h"
 
 namespace dmpc::apps {
 
-/// "node_count=5: ..." as "--nodes=5: ...", for each field that an option sets.
-std::string in_options(const std::string& message);
+/// The option that sets a field.
+struct OptionWord {
+  core::Field field;
+  const char* option;
+};
 
-/// What `make` returns; a core::UsageError or core::RoomError that it throws, in_options().
+/// Of every program on the computer.
+inline constexpr OptionWord computer_words[] = {{core::field_of<&nodes::ComputerRequest::node_count>(), "--nodes"},
+                                                {core::field_of<&nodes::ComputerRequest::node_memory_bytes>(), "--node-memory"}};
+
+/// The sentence with options in place of the fields that they set; any other field by its own name.
+std::string in_options(const core::Sentence& sentence, std::span<const OptionWord> words);
+
+/// What `make` returns; a refusal that it throws, in_options(), as a core::UsageError or core::RoomError.
 template <class Make>
-auto with_options_named(const Make& make) {
+auto with_options_named(std::span<const OptionWord> words, const Make& make) {
   try {
     return make();
-  } catch (const core::UsageError& error) {
-    throw core::UsageError(in_options(error.what()));
-  } catch (const core::RoomError& error) {
-    throw core::RoomError(in_options(error.what()));
+  } catch (const core::Refusal<core::UsageError>& refusal) {
+    throw core::UsageError(in_options(refusal.sentence, words));
+  } catch (const core::Refusal<core::RoomError>& refusal) {
+    throw core::RoomError(in_options(refusal.sentence, words));
   }
 }
 

@@ -10,7 +10,6 @@
 #include "apps/edge/machine/machine_file.h"
 #include "apps/edge/machine/machines.h"
 #include "apps/edge/table/table_options.h"
-#include "apps/run/region_options.h"
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"
 #include "dataflow/regions/bsp.h"
@@ -74,7 +73,8 @@ struct AddOwn {
 
   void operator()(BalanceStudy& study) const {
     add_node_counts(set, study.node_counts);
-    add_region_options(set, study.regions);
+    add_option(set, core::field_of<&dataflow::BalanceOptions::subsample>(), study.regions);
+    add_option(set, core::field_of<&dataflow::BalanceOptions::columns_per_side>(), study.regions);
     add_topology_option(set, study.topology);
     set.add_flag("--per-node", study.per_node, "Show each node's share of the work, too");
     set.set_examples(
