@@ -113,7 +113,7 @@ class CommandLine {
 
   /// Sets what the options of the command given are to set, and returns its name, "study balance" if it is a command's command;
   /// or help. Call it once. `arguments` without the program's name. Throws core::UsageError, whose message ends with a hint at
-  /// the right --help, as read_line() does (usage/typed_line.h) and what takes a value.
+  /// the right --help, as read_line() does (apps/line/typed_line.h) and what takes a value.
   std::variant<HelpText, std::string> parse(std::span<const std::string> arguments);
 
   /// What --help prints about a command, {"study", "balance"}, or about the program. Call it for one command; not after parse().
