@@ -3,8 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <regex>
+#include <set>
 #include <string>
 
 #include "tests/style/sources.h"
@@ -56,6 +58,42 @@ Faults faults_of_comments(const Place& place) {
     for (const std::string& name : found_in(comment_of(place.document.lines[i]), names)) {
       if (!is_there_for(place.root, place.document.path, name)) {
         faults.push_back(place.text(i, "a file that does not exist: " + name));
+      }
+    }
+  }
+  return faults;
+}
+
+bool is_of_a_name(char letter) { return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_'; }
+
+/// All words of the sources.
+std::set<std::string> words_of_sources(const fs::path& root) {
+  std::set<std::string> words;
+  for (const std::string layer : {"core", "nodes", "svm", "dataflow", "apps"}) {
+    for (const std::string& file : sources_below(root, layer)) {
+      for (const std::string& line : lines_of(root / file)) {
+        for (auto begin = line.begin(); begin != line.end();) {
+          const auto end = std::find_if_not(begin, line.end(), is_of_a_name);
+          words.emplace(begin, end);
+          begin = std::find_if(end, line.end(), is_of_a_name);
+        }
+      }
+    }
+  }
+  return words;
+}
+
+/// Types in `code` of a document that no source has.
+Faults faults_of_types(const Place& place) {
+  static const std::set<std::string> words = words_of_sources(DMPC_SOURCE_DIR);
+  static const std::regex codes("`([^`]+)`"), types(R"((?:^|[^A-Za-z_])([A-Z][a-z]+[A-Z][A-Za-z]*))");
+  Faults faults;
+  for (std::size_t i = 0; i < place.document.lines.size(); ++i) {
+    for (const std::string& code : found_in(place.document.lines[i], codes)) {
+      for (const std::string& type : found_in(code, types)) {
+        if (!words.contains(type)) {
+          faults.push_back(place.text(i, "a type that does not exist: " + type));
+        }
       }
     }
   }
@@ -144,6 +182,13 @@ TEST_CASE("every file that a document names is there") {
   CHECK(faults_of_names(readme_that_says({"`core/film.h`"})) ==
         Faults{"core/README.md:1: a file that does not exist: core/film.h"});
   CHECK(faults_of_names(readme_that_says({"    tests/gallop"})).size() == 1);
+}
+
+TEST_CASE("every type that a document names is there") {
+  check_all_names(faults_of_types);
+  CHECK(faults_of_types(readme_that_says({"`LastingPieces` and `nodes::ByteSource`", "no code: TurtleDove"})).empty());
+  CHECK(faults_of_types(readme_that_says({"`nodes::TurtleDove`"})) ==
+        Faults{"core/README.md:1: a type that does not exist: TurtleDove"});
 }
 
 TEST_CASE("every file that a comment names is there") {
