@@ -40,7 +40,7 @@ static_assert(packet_kind_count <= 32);
 
 /// Throws core::UsageError if there are fewer nodes than ranks.
 void check_nodes_for(std::uint32_t node_count, std::uint32_t rank_count);
-/// The same of the ranks that are asked for: for plans.
+/// Checks the ranks that are asked for: for plans.
 void check_ranks(const ComputerRequest& computer);
 
 enum class RunEnd : std::uint8_t { finished, interrupted };

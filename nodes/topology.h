@@ -17,7 +17,7 @@ enum class TopologyKind : std::uint8_t { crossbar, hypercube, mesh, torus, fat_t
 
 /// "crossbar", "hypercube", "mesh", "torus" or "fat-tree".
 std::string_view name_of(TopologyKind kind);
-/// The same read back; throws core::InputError, listing the names, for anything else.
+/// A name read back; throws core::InputError, listing the names, for anything else.
 TopologyKind parse_topology(std::string_view name);
 
 /// One directed wire: from a place to a neighbouring place. Places below node_count() are nodes; the others are switches, or the
@@ -53,7 +53,7 @@ class Topology {
   /// other's way (E. Zahavi, "D-Mod-K Routing Providing Non-Blocking Traffic for Shift Permutations on Real Life Fat Trees",
   /// 2010).
   std::vector<Link> route(NodeId source, NodeId target) const;
-  /// The same behind what is in `links` already.
+  /// Appends the route to what is in `links` already.
   void append_route(NodeId source, NodeId target, std::vector<Link>& links) const;
 
   /// The longest of all shortest ways.
