@@ -31,7 +31,7 @@ class TaskPlan {
     std::size_t result_bytes = 0;  ///< of each, under way or done
   };
 
-  /// Of `task_count` tasks over `database_bytes`, both above 0. Throws core::UsageError for values out of range and bytes that
+  /// Plans `task_count` tasks over `database_bytes`, both above 0. Throws core::UsageError for values out of range and bytes that
   /// are not whole pages, core::RoomError for less memory than a node takes, naming that.
   TaskPlan(const TaskOptions& options, std::size_t database_bytes, std::uint32_t task_count, const Sizes& sizes);
 
@@ -49,7 +49,7 @@ class TaskPlan {
 
   /// Exactly what a node takes.
   nodes::MemoryPlan node_memory(std::uint32_t node) const;
-  /// Of the host, which has nothing to do.
+  /// The memory of the host, which has nothing to do.
   nodes::MemoryPlan host_memory() const;
 
  private:
