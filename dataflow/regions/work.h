@@ -19,7 +19,7 @@ struct WorkPrices {
   std::uint64_t tile_read_ps = 0;                                             ///< of a texture, with its entry in the table
 };
 
-/// Of one core of the machine on which they were measured.
+/// Prices of one core of the machine on which they were measured.
 extern const WorkPrices measured_prices;
 
 /// The work of so many operations, in picoseconds. Thread safety: pure.
