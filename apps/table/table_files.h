@@ -35,7 +35,7 @@ struct TableResult {
   std::function<std::vector<PlottedTable>()> plotted = {};
 };
 
-/// Of one table, which outlives it: its data lie in `data_file` beside what is drawn of it.
+/// The result of one table, which outlives it: its data lie in `data_file` beside what is drawn of it.
 TableResult table_result(const Table& table, TableFormat format, std::function<std::string()> page, std::string data_file,
                          std::vector<Plot> plots);
 

@@ -44,7 +44,7 @@ struct SpeedSettings {
   PictureOptions picture_of(SpeedPart part, const std::string& scene) const;
   /// Throws as load_scene_beside().
   core::Scene load(const PictureOptions& picture) const;
-  /// Of each class of rays in the kernel's part.
+  /// So many rays of each class are in the kernel's part.
   std::size_t rays_max() const { return is_quick ? 20'000 : 200'000; }
 };
 

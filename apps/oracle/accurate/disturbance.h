@@ -36,7 +36,7 @@ class Disturbance final : public RayWatcher {
 
   double unit_;
   std::uint64_t state_;
-  // Of the surface last touched.
+  // These are of the surface last touched.
   core::Vec3d normal_;
   double t_ = 0, size_ = 0;
   bool is_flat_ = false, is_smooth_ = false;
