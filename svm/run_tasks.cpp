@@ -66,7 +66,7 @@ std::string told_tasks(nodes::Runner& runner, std::size_t index) {
   return flat.take();
 }
 
-/// Of the nodes that are here and, on rank 0, of all.
+/// Gathers what the nodes did that are here and, on rank 0, all of them.
 void gather_tasks(nodes::Runner& runner, const TaskPlan& plan, const TakeResults& take, TaskFigures& figures) {
   const std::vector<std::string> told =
       runner.gather([&](std::size_t index) { return index == plan.node_count() ? std::string() : told_tasks(runner, index); });

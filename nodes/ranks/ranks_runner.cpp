@@ -27,7 +27,7 @@
 namespace dmpc::nodes {
 namespace {
 
-/// Of a communicating thread that always has something to do, from one look at who is silent to the next.
+/// So many turns does a communicating thread that always has something to do take from one look at who is silent to the next.
 constexpr std::uint32_t turns_a_look = 256;
 
 std::vector<bool> here(std::size_t peer_count, const RankLinks& links) {
@@ -168,7 +168,8 @@ struct RanksRunner::Implementation {
   /// Here or, as is said, elsewhere: what others wait for before the start may never come.
   bool has_failed() const { return nodes.ending() == Ending::failed; }
 
-  /// Of each other rank the shortest of several round trips. They answer while they wait for the start, or for clocks_read.
+  /// Reads each other rank's clock, in the shortest of several round trips. They answer while they wait for the start, or for
+  /// clocks_read.
   std::vector<ClockAnswer> read_clocks() {
     std::vector<ClockAnswer> shortest(links.rank_count());
     for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
@@ -400,7 +401,7 @@ struct RanksRunner::Implementation {
     }
   }
 
-  /// Of the other ranks.
+  /// The texts of the other ranks.
   std::string texts() const {
     std::string texts;
     for (const LastWord& word : last_words) {
