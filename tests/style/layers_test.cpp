@@ -132,7 +132,7 @@ std::size_t height(const std::string& layer, const std::string& room) {
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), room) - names.begin());
 }
 
-/// Of two files of one layer.
+/// Whether a file may look into another of its layer.
 bool may_look_into(std::string_view file, std::string_view header) {
   const std::string layer = first_folder(header), room = room_of(header), own = room_of(file);
   if (room == own) {

@@ -15,7 +15,7 @@ using Rays = std::vector<AccurateRay>;
 
 constexpr std::size_t trial_count = 16;
 constexpr double float_rounding = 0x1p-24;
-/// Of a weight that is a product of some floats, and of what a light's rounded place does to a highlight.
+/// What rounding takes of a weight that is a product of some floats, and of what a light's rounded place does to a highlight.
 constexpr double weight_rounding = 8e-6;
 /// The product's shadow rays end so much of their length before the light.
 constexpr double end_rounding = 4e-6;

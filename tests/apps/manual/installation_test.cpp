@@ -64,7 +64,7 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// Of the package beside dmpc's own.
+/// Checks the package beside dmpc's own.
 void check_python_package(const TemporaryFolder& folder) {
   const Said unpacked = run({"sh", "-c",
                              "cd '" + folder.path().string() +
