@@ -53,12 +53,17 @@ TEST_CASE("an excerpt has the notes that are asked for, whole") {
   CHECK(kept({"--notes=of the machine"}).output == "- Load: that of\n  the machine.\n\n");
 }
 
+TEST_CASE("an excerpt has the lines that are asked for as they are") {
+  CHECK(kept({"--lines=machine|17"}).output == "```\n  the machine.\n- Film: 17.\n```\n\n");
+}
+
 TEST_CASE("an excerpt of what is not there is refused") {
   CHECK(kept({"--table=squares"}).errors == "excerpt: no table below squares\n");
   CHECK(kept({"--table=Study", "--columns=colour"}).errors ==
         "excerpt: no column colour: expected nodes; system; time (s); memory; load\n");
   CHECK(kept({"--table=Study", "--rows=^65 "}).errors == "excerpt: no row has ^65 \n");
   CHECK(kept({"--notes=weather"}).status == 1);
+  CHECK(kept({"--lines=weather"}).status == 1);
 }
 
 }  // namespace dmpc::tests
