@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "core/base/expect.h"
+#include "core/trace/work.h"
 #include "dataflow/packets.h"
 #include "dataflow/ranks.h"
 #include "dataflow/regions/mapping.h"
-#include "dataflow/regions/work.h"
 #include "nodes/flat_bytes.h"
 
 namespace dmpc::dataflow {

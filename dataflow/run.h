@@ -10,7 +10,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/film.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/pixel_task.h"

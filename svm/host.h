@@ -13,10 +13,10 @@
 #include "nodes/node.h"
 #include "nodes/program.h"
 #include "nodes/watch/watching.h"
-#include "svm/home_pages.h"
 #include "svm/packets.h"
-#include "svm/page_capacity.h"
-#include "svm/page_server.h"
+#include "svm/pages/home_pages.h"
+#include "svm/pages/page_capacity.h"
+#include "svm/pages/page_server.h"
 
 namespace dmpc::svm {
 

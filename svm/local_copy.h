@@ -9,8 +9,8 @@
 #include "core/record/records.h"
 #include "nodes/lasting_pieces.h"
 #include "nodes/node.h"
-#include "svm/node_program.h"
-#include "svm/page_capacity.h"
+#include "svm/pages/node_program.h"
+#include "svm/pages/page_capacity.h"
 
 namespace dmpc::svm {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/trace/bundle.h"
-#include "svm/home.h"
-#include "svm/replacement.h"
+#include "svm/pages/home.h"
+#include "svm/pages/replacement.h"
 #include "svm/work_items.h"
 
 namespace dmpc::svm {

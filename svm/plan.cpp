@@ -10,12 +10,12 @@
 #include "nodes/runner.h"
 #include "nodes/size_text.h"
 #include "nodes/threads/held_packets.h"
-#include "svm/forest.h"
+#include "svm/forest/forest.h"
 #include "svm/local_copy.h"
 #include "svm/packets.h"
-#include "svm/pager.h"
+#include "svm/pages/pager.h"
+#include "svm/pages/watch/counting_pager.h"
 #include "svm/slots.h"
-#include "svm/watch/counting_pager.h"
 #include "svm/work_items.h"
 
 namespace dmpc::svm {

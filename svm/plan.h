@@ -16,9 +16,9 @@
 #include "nodes/patience.h"
 #include "svm/film_gather.h"
 #include "svm/host.h"
-#include "svm/page.h"
-#include "svm/page_capacity.h"
 #include "svm/page_options.h"
+#include "svm/pages/page.h"
+#include "svm/pages/page_capacity.h"
 #include "svm/work_source.h"
 
 namespace dmpc::svm {
@@ -49,8 +49,6 @@ struct PlanRequest {
   /// Some pass may leave pixels out, so that each node keeps a byte for each pixel of its share.
   bool is_masked() const { return refinement.is_wanted() || start != nullptr; }
 };
-
-inline constexpr std::uint32_t in_flight_max = 4096;
 
 /// The answer. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
 struct Plan {

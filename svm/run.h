@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/film.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/pixel_task.h"
@@ -29,11 +29,11 @@
 #include "svm/host.h"
 #include "svm/local_copy.h"
 #include "svm/make_programs.h"
-#include "svm/node_program.h"
 #include "svm/page_options.h"
+#include "svm/pages/node_program.h"
+#include "svm/pages/watch/reference_log.h"
 #include "svm/plan.h"
 #include "svm/program.h"
-#include "svm/watch/reference_log.h"
 
 namespace dmpc::svm {
 

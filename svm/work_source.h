@@ -8,8 +8,8 @@
 
 #include "core/picture/partial_picture.h"
 #include "nodes/node.h"
-#include "svm/node_program.h"
 #include "svm/packets.h"
+#include "svm/pages/node_program.h"
 #include "svm/work_items.h"
 
 namespace dmpc::svm {

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "apps/computer/dmpc/computer.h"
-#include "apps/line/number_text.h"
-#include "apps/ranks/parts.h"
-#include "apps/ranks/rank_group.h"
-#include "apps/run/option_words.h"
-#include "apps/system/digest.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/ranks/parts.h"
+#include "apps/edge/ranks/rank_group.h"
+#include "apps/edge/run/option_words.h"
+#include "apps/edge/system/digest.h"
 #include "core/base/expect.h"
 #include "nodes/runner.h"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "apps/computer/dmpc/computer.h"
-#include "apps/line/command_line.h"
-#include "apps/run/runner_kind.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/run/runner_kind.h"
 #include "nodes/computer_request.h"
 #include "nodes/ranks/nap.h"
 

@@ -6,12 +6,11 @@
 
 #include "apps/computer/declared.h"
 #include "apps/computer/dmpc/pages.h"
-#include "apps/line/option_values.h"
+#include "apps/edge/line/option_values.h"
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
-#include "svm/page.h"
-#include "svm/plan.h"
-#include "svm/replacement.h"
+#include "svm/pages/page.h"
+#include "svm/pages/replacement.h"
 
 namespace dmpc::apps {
 namespace {

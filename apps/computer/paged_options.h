@@ -8,7 +8,7 @@
 #include "apps/computer/dmpc/computer.h"
 #include "apps/computer/options.h"
 #include "core/trace/charge.h"
-#include "svm/task_plan.h"
+#include "svm/pages/task_plan.h"
 
 namespace dmpc::apps {
 

@@ -4,12 +4,12 @@
 #include <array>
 
 #include "apps/computer/record.h"
-#include "apps/line/number_text.h"
-#include "apps/run/time_parts.h"
-#include "apps/show/trace/view.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/run/time_parts.h"
+#include "apps/edge/show/trace/view.h"
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
-#include "svm/packets.h"
+#include "svm/pages/packets.h"
 
 namespace dmpc::apps {
 namespace {

@@ -9,14 +9,14 @@
 
 #include "apps/computer/dmpc/computer.h"
 #include "apps/computer/paged_options.h"
-#include "apps/run/run_view.h"
+#include "apps/edge/run/run_view.h"
 #include "nodes/counters.h"
 #include "nodes/virtual/virtual_times.h"
 #include "nodes/watch/trace.h"
-#include "svm/run_tasks.h"
-#include "svm/task_heat.h"
-#include "svm/task_plan.h"
-#include "svm/watch/reference_log.h"
+#include "svm/pages/run_tasks.h"
+#include "svm/pages/task_heat.h"
+#include "svm/pages/task_plan.h"
+#include "svm/pages/watch/reference_log.h"
 
 namespace dmpc::apps {
 

@@ -2,9 +2,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/computer/paged_record.h"
-#include "apps/line/json_format.h"
-#include "apps/line/number_text.h"
-#include "apps/show/stats/ranks.h"
+#include "apps/edge/line/json_format.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/show/stats/ranks.h"
 
 namespace dmpc::apps {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "apps/computer/own_name.h"
 #include "apps/computer/task_heat_file.h"
-#include "apps/line/amount.h"
-#include "apps/line/number_text.h"
-#include "apps/show/page/shares.h"
-#include "svm/packets.h"
+#include "apps/edge/line/amount.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/show/page/shares.h"
+#include "svm/pages/packets.h"
 
 namespace dmpc::apps::html {
 namespace {

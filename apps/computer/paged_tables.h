@@ -6,12 +6,12 @@
 
 #include "apps/computer/page_parts.h"
 #include "apps/computer/paged_record.h"
-#include "apps/show/page/losses.h"
-#include "apps/show/page/number_map.h"
-#include "apps/show/page/traffic.h"
-#include "apps/show/page/view_tables.h"
-#include "apps/table/plot.h"
-#include "apps/table/table.h"
+#include "apps/edge/show/page/losses.h"
+#include "apps/edge/show/page/number_map.h"
+#include "apps/edge/show/page/traffic.h"
+#include "apps/edge/show/page/view_tables.h"
+#include "apps/edge/table/plot.h"
+#include "apps/edge/table/table.h"
 
 namespace dmpc::apps::html {
 

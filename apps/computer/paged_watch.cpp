@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "apps/computer/program_work.h"
-#include "apps/run/miss_estimate.h"
+#include "apps/edge/run/miss_estimate.h"
 #include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {

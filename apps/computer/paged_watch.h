@@ -9,11 +9,11 @@
 
 #include "apps/computer/instruments.h"
 #include "apps/computer/paged_record.h"
-#include "svm/run_tasks.h"
-#include "svm/task_heat.h"
-#include "svm/task_plan.h"
-#include "svm/watch/fetch_watch.h"
-#include "svm/watch/reference_log.h"
+#include "svm/pages/run_tasks.h"
+#include "svm/pages/task_heat.h"
+#include "svm/pages/task_plan.h"
+#include "svm/pages/watch/fetch_watch.h"
+#include "svm/pages/watch/reference_log.h"
 
 namespace dmpc::apps {
 

@@ -6,8 +6,8 @@
 
 #include "apps/computer/declared.h"
 #include "apps/computer/own_name.h"
-#include "apps/line/number_text.h"
-#include "apps/system/digest.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/system/digest.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "nodes/node.h"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "apps/computer/options.h"
-#include "apps/line/command_line.h"
-#include "apps/system/distinct_files.h"
-#include "apps/system/interrupt.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/system/distinct_files.h"
+#include "apps/edge/system/interrupt.h"
 
 namespace dmpc::apps {
 

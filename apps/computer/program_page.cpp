@@ -5,8 +5,8 @@
 #include "apps/computer/page_parts.h"
 #include "apps/computer/program_tables.h"
 #include "apps/computer/program_work.h"
-#include "apps/line/amount.h"
-#include "apps/line/number_text.h"
+#include "apps/edge/line/amount.h"
+#include "apps/edge/line/number_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::html {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "apps/computer/own_name.h"
-#include "apps/line/amount.h"
-#include "apps/line/number_text.h"
-#include "apps/show/page/shares.h"
+#include "apps/edge/line/amount.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/show/page/shares.h"
 
 namespace dmpc::apps::html {
 namespace {

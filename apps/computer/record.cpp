@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "apps/line/amount.h"
-#include "apps/line/number_text.h"
-#include "apps/show/trace/chrome.h"
-#include "apps/show/trace/paje.h"
+#include "apps/edge/line/amount.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/show/trace/chrome.h"
+#include "apps/edge/show/trace/paje.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -9,7 +9,7 @@
 #include "apps/computer/options.h"
 #include "apps/computer/packet_pairs.h"
 #include "apps/computer/plan.h"
-#include "apps/show/trace/view.h"
+#include "apps/edge/show/trace/view.h"
 #include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
 #include "nodes/watch/activity_profile.h"

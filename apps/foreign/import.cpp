@@ -19,15 +19,15 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
+#include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/mesh/material.h"
 #include "apps/foreign/mesh/mtl_text.h"
 #include "apps/foreign/mesh/obj_check.h"
 #include "apps/foreign/mesh/ply_check.h"
 #include "apps/foreign/mesh/stl_check.h"
-#include "apps/line/number_text.h"
-#include "apps/line/shown_text.h"
-#include "apps/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

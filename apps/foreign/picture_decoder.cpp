@@ -13,7 +13,7 @@
 #include "apps/picture/texture_size.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
-#include "core/build/record_writer.h"
+#include "core/database/record_writer.h"
 #include "core/scene/texel.h"
 
 namespace dmpc::apps {

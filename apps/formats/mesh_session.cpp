@@ -9,9 +9,9 @@
 #include <span>
 #include <utility>
 
+#include "apps/edge/system/input_memory.h"
 #include "apps/formats/named_file.h"
 #include "apps/picture/texture_size.h"
-#include "apps/system/input_memory.h"
 #include "core/base/expect.h"
 #include "core/scene/texture.h"
 

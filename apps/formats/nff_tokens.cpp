@@ -7,8 +7,8 @@
 #include <istream>
 #include <optional>
 
-#include "apps/line/number_text.h"
-#include "apps/system/byte_order_mark.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -6,17 +6,17 @@
 #include <string>
 #include <utility>
 
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/system/output_file.h"
+#include "apps/edge/system/progress.h"
+#include "apps/edge/system/stopwatch.h"
 #include "apps/info/json.h"
 #include "apps/info/record.h"
 #include "apps/info/text.h"
-#include "apps/line/option_values.h"
 #include "apps/run/region_options.h"
 #include "apps/run/strategy_options.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
-#include "apps/system/output_file.h"
-#include "apps/system/progress.h"
-#include "apps/system/stopwatch.h"
 #include "svm/plan.h"
 
 namespace dmpc::apps {

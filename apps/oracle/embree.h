@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/record/ray.h"
 
 #if __has_include(<embree3/rtcore.h>)

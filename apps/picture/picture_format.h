@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/system/descriptor.h"
+#include "apps/edge/system/descriptor.h"
 
 namespace dmpc::apps {
 

@@ -10,26 +10,26 @@
 #include <ostream>
 #include <utility>
 
+#include "apps/edge/ranks/rank_group.h"
+#include "apps/edge/system/attempts.h"
+#include "apps/edge/system/output_file.h"
+#include "apps/edge/system/progress.h"
+#include "apps/edge/system/stopwatch.h"
 #include "apps/effort/render_effort.h"
 #include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
-#include "apps/ranks/rank_group.h"
-#include "apps/ranks/self_test.h"
 #include "apps/render/checkpoints.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/outputs.h"
 #include "apps/render/preview.h"
 #include "apps/render/ranks.h"
+#include "apps/render/self_test.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/show/stats/stats.h"
 #include "apps/show/summary.h"
 #include "apps/show/trace/file.h"
-#include "apps/system/attempts.h"
-#include "apps/system/output_file.h"
-#include "apps/system/progress.h"
-#include "apps/system/stopwatch.h"
 #include "nodes/ranks/life_signs.h"
 
 namespace dmpc::apps {

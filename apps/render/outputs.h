@@ -1,8 +1,8 @@
 // The files that a render leaves.
 #pragma once
 
+#include "apps/edge/system/output_set.h"
 #include "apps/run/render_record.h"
-#include "apps/system/output_set.h"
 
 namespace dmpc::apps {
 

@@ -4,11 +4,11 @@
 #include <optional>
 #include <string_view>
 
-#include "apps/ranks/parts.h"
+#include "apps/edge/ranks/parts.h"
+#include "apps/edge/run/computer_room.h"
+#include "apps/edge/run/option_words.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/watch_order.h"
-#include "apps/run/computer_room.h"
-#include "apps/run/option_words.h"
 #include "dataflow/packets.h"
 #include "dataflow/ranks.h"
 #include "nodes/ranks/following.h"

@@ -1,7 +1,7 @@
 // The options that say how space is cut into regions and where these are put.
 #pragma once
 
-#include "apps/line/command_line.h"
+#include "apps/edge/line/command_line.h"
 #include "dataflow/regions/balance.h"
 #include "dataflow/regions/bsp.h"
 #include "nodes/topology.h"

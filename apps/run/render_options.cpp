@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <string>
 
-#include "apps/line/option_values.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/table/table_options.h"
 #include "apps/run/region_options.h"
 #include "apps/run/viewer_address.h"
-#include "apps/table/table_options.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
 #include "dataflow/packets.h"

@@ -3,10 +3,10 @@
 #include <memory>
 #include <utility>
 
-#include "apps/machine/machine_file.h"
+#include "apps/edge/machine/machine_file.h"
+#include "apps/edge/run/computer_room.h"
+#include "apps/edge/run/option_words.h"
 #include "apps/oracle/oracle.h"
-#include "apps/run/computer_room.h"
-#include "apps/run/option_words.h"
 #include "core/base/expect.h"
 #include "core/record/records.h"
 #include "nodes/ranks/rank_links.h"

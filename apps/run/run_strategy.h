@@ -8,7 +8,7 @@
 
 #include "apps/run/report.h"
 #include "apps/run/strategy_options.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/pixel_task.h"
 #include "nodes/watch/watching.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "apps/line/option_values.h"
-#include "apps/machine/machines.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/machine/machines.h"
 #include "apps/run/region_options.h"
 #include "core/base/expect.h"
 #include "dataflow/packets.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "apps/line/command_line.h"
-#include "apps/run/runner_kind.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/run/runner_kind.h"
 #include "apps/scene/database_options.h"
 #include "dataflow/ray_options.h"
 #include "nodes/computer_request.h"

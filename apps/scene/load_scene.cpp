@@ -6,10 +6,10 @@
 #include <set>
 #include <system_error>
 
+#include "apps/edge/system/progress.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/nff_reader.h"
-#include "apps/system/progress.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/system/distinct_files.h"
+#include "apps/edge/system/opened_files.h"
 #include "apps/scene/picture_options.h"
-#include "apps/system/distinct_files.h"
-#include "apps/system/opened_files.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {

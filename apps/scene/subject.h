@@ -6,7 +6,7 @@
 
 #include "apps/scene/database_options.h"
 #include "apps/scene/picture_options.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "core/picture/rounding_loss.h"
 #include "core/scene/scene.h"

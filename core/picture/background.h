@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/camera.h"
 #include "core/picture/tile_footprint.h"
 

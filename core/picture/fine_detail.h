@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/camera.h"
 
 namespace dmpc::core {

@@ -14,6 +14,7 @@
 #include "core/trace/below.h"
 #include "core/trace/bundle_walk.h"
 #include "core/trace/operations.h"
+#include "core/trace/task_state.h"
 #include "core/trace/traversal.h"
 
 namespace dmpc::core {
@@ -96,8 +97,6 @@ inline std::optional<Color> light_of_ended(const Ray& ray, bool hit, const Rende
   }
   return is_shadow ? ray.weight : ray.weight * settings.header.background;
 }
-
-enum class TaskState : std::uint8_t { finished, more, absent };
 
 /// Renders samples of one pixel, depth first, last in first out: a hit is shaded one child at a time, and each child is
 /// traced to its end before the next is made, so the stack holds at most one hit a depth, whatever the number of lights. Lives in

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/camera.h"
 
 namespace dmpc::core {

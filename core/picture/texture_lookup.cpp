@@ -18,7 +18,7 @@ constexpr std::uint32_t quarter_count = 4;
 /// What TextureLookup::tile can hold: addresses of 16 GiB, more than a database has.
 constexpr std::uint32_t tile_mask = 0x7fffffff;
 /// A probe that covers more is taken for this: far beyond the coarsest level.
-constexpr double width_max = 0x1p40;
+constexpr double footprint_width_max = 0x1p40;
 constexpr double octaves_per_e = 1.4426950408889634;  // 1 / ln 2
 
 /// A place's two neighbours along one side.
@@ -218,7 +218,7 @@ TextureLookup begin_lookup(const TextureReference& texture, const TextureFootpri
                        .format = texture.format,
                        .wrap_s = texture.wrap_s,
                        .wrap_t = texture.wrap_t};
-  const double detail = footprint.width > 1 ? natural_log(std::min(footprint.width, width_max)) * octaves_per_e : 0;
+  const double detail = footprint.width > 1 ? natural_log(std::min(footprint.width, footprint_width_max)) * octaves_per_e : 0;
   const double level = floor_of(detail), coarsest = texture.level_count - 1;
   lookup.level = static_cast<std::uint32_t>(std::min(level, coarsest)) & 15U;
   lookup.coarse_share = level < coarsest ? static_cast<std::uint16_t>((detail - level) / share_unit) : std::uint16_t{0};

@@ -20,10 +20,10 @@ namespace dmpc::core {
 ///     O + t D = v0 + u (v1 - v0) + v (v2 - v0),
 /// whether or not that lies on the triangle; 1 - u - v, u and v are the weights of v0, v1 and v2. There is none where the ray is
 /// parallel to the plane, and no certificate is of a triangle that is hit in a tilted plane that it shares
-/// (core/build/coplanar.h). A sphere's centre and radius are what floats and rests add up to (core/record/curved_values.h), and t
-/// is the least positive root of |O + t D - centre| = radius, or the greater root if only the inside is visible. A cone's t is
-/// the least positive one where O + t D is as far from the axis as the radius is there, between base and apex, and where the ray
-/// gets out if only the inside is visible.
+/// (core/database/coplanar.h). A sphere's centre and radius are what floats and rests add up to (core/record/curved_values.h),
+/// and t is the least positive root of |O + t D - centre| = radius, or the greater root if only the inside is visible. A cone's t
+/// is the least positive one where O + t D is as far from the axis as the radius is there, between base and apex, and where the
+/// ray gets out if only the inside is visible.
 struct Certificate {
   static constexpr double unknown = std::numeric_limits<double>::infinity();
 

@@ -34,8 +34,8 @@ inline constexpr float near_start = 0x1p-10F;
 /// Less than near_start by more than t is off, so that neighbours are judged alike.
 inline constexpr float near_edge = 0x1p-12F;
 /// Edge functions in floats are off by less than (edge_rounding * R + rest_weight * rest) * W, where W is the triangle's largest
-/// coordinate across the ray, R any of its largest, as seen from where the ray starts: 140 u R W (apps/oracle/encounter.cpp), and
-/// what the start's rest moves an edge by.
+/// coordinate across the ray, R any of its largest, as seen from where the ray starts: 140 u R W (apps/lab/oracle/encounter.cpp),
+/// and what the start's rest moves an edge by.
 inline constexpr float edge_rounding = 160 * 0x1p-24F, rest_weight = 8;
 
 /// Faces whose plane is shared are hit within this of the boxes of their corners: farther than rounding moves the plane, by less

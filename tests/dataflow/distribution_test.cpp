@@ -10,6 +10,8 @@
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
+namespace distribution_test {
+
 using namespace dmpc;
 using dataflow::Bsp;
 using dataflow::Distribution;
@@ -139,3 +141,5 @@ TEST_CASE("only more nodes than were asked for are tried, and none is named wher
   CHECK(*smallest_above(subject, 4, needed_bytes(subject, 1)) == 5);
   CHECK(!smallest_above(subject, 1, std::size_t{200} << 10U));  // less than a thread's stack
 }
+
+}  // namespace distribution_test

@@ -9,6 +9,8 @@
 #include "nodes/threads/threads_runner.h"
 #include "tests/support/shuffled_machine.h"
 
+namespace dataflow_film_gather_test {
+
 using namespace dmpc;
 using dataflow::FilmEntry;
 using dataflow::FilmGather;
@@ -94,3 +96,5 @@ TEST_CASE("light that saturates an entry is counted") {
   sender.film.add(1, 0, {{1, 0, 0}});
   CHECK(sender.film.counters().saturated == 1);
 }
+
+}  // namespace dataflow_film_gather_test

@@ -9,6 +9,8 @@
 
 #include "tests/support/shuffled_machine.h"
 
+namespace packets_test {
+
 using namespace dmpc;
 using dataflow::Kind;
 using dataflow::RayMessage;
@@ -114,3 +116,5 @@ TEST_CASE("control is sent whatever credits there are, and spends none") {
   CHECK(parcel.packet().as<dataflow::Credits>().count == 5);
   CHECK_THROWS_AS(parcel.packet().as<dataflow::Done>(), core::InternalError);
 }
+
+}  // namespace packets_test

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-#include "core/build/extract.h"
-#include "dataflow/ray_task.h"
+#include "core/database/extract.h"
+#include "dataflow/rays/ray_task.h"
 #include "dataflow/regions/balance.h"
-#include "dataflow/unit_pages.h"
+#include "dataflow/units/unit_pages.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 

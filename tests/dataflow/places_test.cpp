@@ -4,6 +4,8 @@
 
 #include "core/base/expect.h"
 
+namespace places_test {
+
 using namespace dmpc;
 using dataflow::Places;
 using nodes::NodeId;
@@ -59,3 +61,5 @@ TEST_CASE("without shared places the account takes no memory") {
   CHECK(owner.memory.used().total() == Owner::plan_for(0, 0).total());
   CHECK_FALSE(owner.places.grant());
 }
+
+}  // namespace places_test

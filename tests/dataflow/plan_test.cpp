@@ -8,9 +8,11 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/picture/memory_use.h"
-#include "dataflow/bundle_task.h"
 #include "dataflow/packets.h"
+#include "dataflow/rays/bundle_task.h"
 #include "nodes/size_text.h"
+
+namespace dataflow_plan_test {
 
 using namespace dmpc;
 using core::operator""_KiB;
@@ -322,3 +324,5 @@ TEST_CASE("each node is given its own share and no more") {
   CHECK(large[core::MemoryUse::home_pages] - small[core::MemoryUse::home_pages] == 62976);  // whole cache lines
   CHECK(large[nodes::Category::mailbox] == small[nodes::Category::mailbox]);
 }
+
+}  // namespace dataflow_plan_test

@@ -16,6 +16,8 @@
 #include "tests/support/shuffled_machine.h"
 #include "tests/support/small_scenes.h"
 
+namespace dataflow_program_test {
+
 using namespace dmpc;
 using dataflow::Kind;
 using dataflow::RayMessage;
@@ -340,3 +342,5 @@ TEST_CASE("a node with bundles gives others time to fill its packets before it s
   CHECK_FALSE((node.program.work(), node.program.has_leftovers()));
   CHECK(node.rays_sent().size() > sent);
 }
+
+}  // namespace dataflow_program_test

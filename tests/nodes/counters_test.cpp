@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::counters_test {
 
 TEST_CASE("traffic is packets, and bytes with their headers, summed kind by kind") {
   TrafficByKind sum{}, more{};
@@ -18,4 +18,4 @@ TEST_CASE("traffic is packets, and bytes with their headers, summed kind by kind
   CHECK(total(sum).bytes == 3 * sizeof(PacketHeader) + 108);
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::counters_test

@@ -9,7 +9,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::lasting_pieces_test {
 namespace {
 
 constexpr std::size_t piece_bytes = 64;
@@ -88,4 +88,4 @@ TEST_CASE("one piece is kept with what must be readable behind it") {
   }
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::lasting_pieces_test

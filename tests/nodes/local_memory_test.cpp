@@ -15,7 +15,7 @@
 #include <sanitizer/asan_interface.h>
 #endif
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::local_memory_test {
 namespace {
 
 /// A program's uses of memory.
@@ -158,4 +158,4 @@ TEST_CASE("bytes that were not handed out are poisoned, the rest of a cache line
 #endif
 
 }  // namespace
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::local_memory_test

@@ -9,7 +9,7 @@
 #include "nodes/switching.h"
 #include "tests/support/topologies.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::topology_test {
 
 using nodes::Link;
 using nodes::NodeId;
@@ -156,4 +156,4 @@ TEST_CASE("a topology without nodes, with too many, or a way to a node that is n
   CHECK_THROWS_AS(Topology(TopologyKind::hypercube, 5).hops(NodeId{0}, NodeId{6}), core::InternalError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::topology_test

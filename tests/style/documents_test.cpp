@@ -12,7 +12,7 @@
 
 #include "tests/support/documents.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::style_documents_test {
 
 namespace {
 
@@ -184,4 +184,4 @@ TEST_CASE("results have a date, a commit and a command") {
   CHECK(faults_of_results(room_that_says({"## A", "2026-11-23, commit 59ba5d7", "    x", "## B"}, results)).size() == 3);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::style_documents_test

@@ -9,7 +9,7 @@
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::excerpt_test {
 
 namespace {
 
@@ -85,4 +85,4 @@ TEST_CASE("an excerpt of what is not there is refused") {
   CHECK(kept({"--lines=weather"}).status == 1);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::excerpt_test

@@ -12,7 +12,7 @@
 #include "tests/style/sources.h"
 #include "tests/support/documents.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::house_test {
 
 namespace {
 
@@ -201,7 +201,7 @@ TEST_CASE("every file that a comment names is there") {
     }
   }
   const auto faults_of = [&](const std::string& comment) { return faults_of_comments({root, {"svm/page.h", {"/" + comment}}}); };
-  CHECK(faults_of("/ as svm/pager has it (page.h, core/picture/film.h, <sys/absent.h>), apps/modules/NAME.cpp").empty());
+  CHECK(faults_of("/ as svm/pages/pager has it (packets.h, core/picture/film.h, <sys/absent.h>), apps/modules/NAME.cpp").empty());
   CHECK(faults_of("/ See usage/gone.h.") == Faults{"svm/page.h:1: a file that does not exist: usage/gone.h"});
   CHECK(faults_of("/ see svm/gone, gone.h").size() == 2);
   CHECK(faults_of("* no comment of ours: gone.h, https://svm/gone.h").empty());
@@ -237,4 +237,4 @@ TEST_CASE("nodes speaks of no pages, rays or pictures") {
   CHECK(programs_words("std::array<Packet> package; // a filmy bricklayer").empty());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::house_test

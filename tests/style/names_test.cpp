@@ -11,7 +11,7 @@
 
 #include "tests/style/sources.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::names_test {
 
 namespace {
 
@@ -55,4 +55,4 @@ TEST_CASE("no test has a name that CMake would cut or join") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::names_test

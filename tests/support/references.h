@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "svm/page.h"
+#include "svm/pages/page.h"
 
 namespace dmpc::tests {
 

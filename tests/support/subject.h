@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <ostream>
 
-#include "apps/bench/stability/cells.h"
-#include "core/build/database.h"
+#include "apps/lab/bench/stability/cells.h"
+#include "core/database/database.h"
 #include "core/picture/background.h"
 #include "core/picture/render.h"
 #include "core/scene/frame.h"

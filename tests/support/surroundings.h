@@ -1,8 +1,8 @@
 // What a node of dataflow knows of all of space, from a test's parts.
 #pragma once
 
-#include "core/build/outline.h"
-#include "dataflow/next_stop.h"
+#include "core/database/outline.h"
+#include "dataflow/rays/next_stop.h"
 
 namespace dmpc::tests {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "core/base/expect.h"
 
 namespace dmpc::tests {

@@ -8,6 +8,8 @@
 #include "svm/run.h"
 #include "tests/support/built_scene.h"
 
+namespace resident_test {
+
 using namespace dmpc;
 using svm::PageId;
 using tests::BuiltScene;
@@ -53,3 +55,5 @@ TEST_CASE("no pages are asked for, or more than there are, or nobody waits for t
   CHECK(svm::most_used_pages(small.database, small.settings, 3, stop.get_token()) ==
         std::vector<PageId>{PageId{0}, PageId{1}, PageId{2}});
 }
+
+}  // namespace resident_test

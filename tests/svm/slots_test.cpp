@@ -4,6 +4,8 @@
 
 #include "tests/support/small_machine.h"
 
+namespace slots_test {
+
 using namespace dmpc;
 
 namespace {
@@ -55,3 +57,5 @@ TEST_CASE("slots take exactly the memory that they say they need") {
     CHECK(small.memory.used().bytes == SmallSlots::needs(count).bytes);
   }
 }
+
+}  // namespace slots_test

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/formats/nff_reader.h"
-#include "apps/line/number_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/trimmed.h"
-#include "apps/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

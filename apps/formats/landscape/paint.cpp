@@ -6,8 +6,8 @@
 
 #include "apps/formats/landscape/terrain.h"
 #include "core/base/expect.h"
-#include "core/base/parallel.h"
 #include "core/base/units.h"
+#include "core/database/parallel.h"
 
 namespace dmpc::apps {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include "apps/line/amount.h"
+#include "apps/edge/line/amount.h"
 #include "apps/run/memory_categories.h"
 
 namespace dmpc::apps::html {

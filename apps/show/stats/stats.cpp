@@ -8,12 +8,12 @@
 #include <string>
 #include <variant>
 
-#include "apps/line/json_format.h"
-#include "apps/line/number_text.h"
-#include "apps/machine/machine_file.h"
+#include "apps/edge/line/json_format.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/machine/machine_file.h"
+#include "apps/edge/show/stats/ranks.h"
 #include "apps/run/memory_categories.h"
 #include "apps/show/heat/field.h"
-#include "apps/show/stats/ranks.h"
 #include "apps/show/stats/strategy.h"
 #include "apps/show/stats/virtual.h"
 #include "core/base/expect.h"

@@ -2,10 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include "apps/machine/machines.h"
+#include "apps/edge/machine/machines.h"
 #include "core/trace/charge.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::computer_options_test {
 
 TEST_CASE("a machine takes as many times as long for a program's operations as for its other arithmetic") {
   for (const MachineDescription& preset : machine_presets()) {
@@ -43,4 +43,4 @@ TEST_CASE("threads have no machine") {
   CHECK(options.computer.model() == nullptr);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::computer_options_test

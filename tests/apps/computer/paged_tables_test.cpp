@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::paged_tables_test {
 
 namespace {
 
@@ -87,4 +87,4 @@ TEST_CASE("all operations together are the nodes' computing, those of pages incl
   CHECK(std::holds_alternative<std::monostate>(table.rows()[3][2]));
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::paged_tables_test

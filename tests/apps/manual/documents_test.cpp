@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/manual/leaves.h"
 #include "core/base/expect.h"
 #include "tests/support/documents.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::manual_documents_test {
 
 namespace {
 
@@ -170,4 +170,4 @@ TEST_CASE("a command or option in a document that dmpc does not take is found") 
   CHECK(fault_of("With `--nodes=8` it is, and --strategy=svm; a dash -- is none.").empty());
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::manual_documents_test

@@ -16,7 +16,7 @@
 #include "tests/support/shown_texture.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::modules_texture_lookup_test {
 
 namespace {
 
@@ -121,4 +121,4 @@ TEST_CASE("between two levels OpenImageIO blends by another share: no farther fr
   CHECK(largest > 0.001);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::modules_texture_lookup_test

@@ -21,7 +21,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::program_program_test {
 
 namespace {
 
@@ -584,4 +584,4 @@ TEST_CASE("a signal while a render writes its counters ends with status 130, and
   CHECK(folder.entry_count() == 2);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::program_program_test

@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::checkpoint_file_test {
 
 using tests::contains;
 using tests::file_text;
@@ -126,4 +126,4 @@ TEST_CASE("where there is no room for a checkpoint that is said, and the old one
   CHECK(read_checkpoint(folder / "a", identity).done == small.done);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::checkpoint_file_test

@@ -17,7 +17,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::checkpoints_test {
 
 using tests::ChildProcess;
 using tests::contains;
@@ -265,4 +265,4 @@ TEST_CASE("a checkpoint of other settings is refused by the program, which says 
   CHECK(contains(other.errors(), "of another picture: depth is 5, here 4"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::checkpoints_test

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace dmpc::apps {
+namespace dmpc::apps::ray_hops_test {
 
 namespace {
 
@@ -43,4 +43,4 @@ TEST_CASE("rays that stay have no hops") {
   CHECK(ray_hops_of(report_with({{0, 0}, {0, 0}}), TopologyKind::torus).mean_of_random == 0);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::ray_hops_test

@@ -12,6 +12,8 @@
 #include "core/base/sampling.h"
 #include "core/families/scenes.h"
 
+namespace mount_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -127,3 +129,5 @@ TEST_CASE("finer mountains are as high as that of 1987, and half as rough with e
     CHECK(roughness(fine) == doctest::Approx(roughness(old) / std::pow(2, size - 7)).epsilon(0.1));
   }
 }
+
+}  // namespace mount_test

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <vector>
 
-#include "apps/bench/stability/children.h"
-#include "apps/bench/stability/mesh.h"
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/children.h"
+#include "apps/lab/bench/stability/mesh.h"
+#include "apps/lab/bench/stability/random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
+
+namespace self_hits_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -192,3 +194,5 @@ TEST_CASE("two sheets a ten-thousandth apart stay separate") {
   CHECK(blocked_above == 0);
   CHECK(between == 2 * scaled(20'000));
 }
+
+}  // namespace self_hits_test

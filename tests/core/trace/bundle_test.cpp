@@ -9,14 +9,16 @@
 #include <memory>
 #include <vector>
 
-#include "apps/bench/stability/random.h"
-#include "apps/bench/stability/records.h"
-#include "core/build/extract.h"
+#include "apps/lab/bench/stability/random.h"
+#include "apps/lab/bench/stability/records.h"
+#include "core/database/extract.h"
 #include "core/trace/bundle_walk.h"
 #include "tests/support/covering_faces.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 #include "tests/support/small_scenes.h"
+
+namespace bundle_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -403,3 +405,5 @@ TEST_CASE("a hit that is nearer than a candidate read elsewhere takes its place,
   });
   CHECK(hits > 5);
 }
+
+}  // namespace bundle_test

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/bench/stability/mesh.h"
-#include "apps/bench/stability/random.h"
-#include "apps/bench/stability/rays.h"
-#include "apps/bench/stability/targets.h"
+#include "apps/lab/bench/stability/mesh.h"
+#include "apps/lab/bench/stability/random.h"
+#include "apps/lab/bench/stability/rays.h"
+#include "apps/lab/bench/stability/targets.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
+
+namespace leaks_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -142,3 +144,5 @@ TEST_CASE("rays along the axes with zeros of both signs leave no closed mesh") {
   }
   CHECK(leaked == 0);
 }
+
+}  // namespace leaks_test

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+namespace trace_skips_test {
+
 using namespace dmpc::core;
 
 TEST_CASE("every skip has a name, a switch and a counter of its own, and the table has them all") {
@@ -38,3 +40,5 @@ TEST_CASE("work left out is summed one by one") {
   CHECK(sum.background == 4);
   CHECK(sum.any_hit == 0);
 }
+
+}  // namespace trace_skips_test

@@ -4,9 +4,9 @@
 
 #include <numeric>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::bsp_test {
 
 namespace {
 
@@ -280,4 +280,4 @@ TEST_CASE("the connectivity graph of four quarters is a ring") {
 
 TEST_CASE("one region has no neighbours") { CHECK(boundaries_of(build_bsp(hill(), 1), axes_xz).empty()); }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::bsp_test

@@ -6,7 +6,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::mapping_test {
 
 namespace {
 
@@ -149,4 +149,4 @@ TEST_CASE("a topology of another size and a flow to nowhere are refused") {
   CHECK_THROWS_AS(map_regions(square(4), to_itself, mesh), core::InternalError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::mapping_test

@@ -18,6 +18,8 @@
 #include "nodes/ranks/streams_to_ranks.h"
 #include "tests/support/loopback_ranks.h"
 
+namespace streams_test {
+
 namespace {
 
 using namespace dmpc;
@@ -151,3 +153,5 @@ TEST_CASE("what fails while others are shown that a rank lives fails here") {
 }
 
 }  // namespace
+
+}  // namespace streams_test

@@ -22,7 +22,7 @@
 #include "tests/nodes/toy_machine.h"
 #include "tests/nodes/toy_programs.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::threads_runner_test {
 namespace {
 
 using namespace nodes;
@@ -363,4 +363,4 @@ TEST_CASE("busy, asleep and wall time of a node fit together") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::threads_runner_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/topologies.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::virtual_links_test {
 namespace {
 
 using nodes::Links;
@@ -416,4 +416,4 @@ TEST_CASE("without contention a memory port is never waited for") {
   CHECK(links.traffic().wait_ns == 0);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::virtual_links_test

@@ -17,7 +17,7 @@
 
 #include "tests/nodes/scripted_machine.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::virtual_runner_test {
 namespace {
 
 using namespace nodes;
@@ -390,4 +390,4 @@ TEST_CASE("the busiest links are listed, as many as there is room for") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::virtual_runner_test

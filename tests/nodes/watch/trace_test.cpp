@@ -11,7 +11,7 @@
 #include "core/base/sampling.h"
 #include "nodes/program.h"
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::watch_trace_test {
 
 namespace {
 
@@ -384,4 +384,4 @@ TEST_CASE("a node that has told something on two ranks is an error") {
   CHECK_THROWS_AS(here.recorder.add(elsewhere.recorder.bytes(), {}), core::InternalError);
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::watch_trace_test

@@ -16,7 +16,7 @@
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::schema_test {
 
 namespace {
 
@@ -169,4 +169,4 @@ TEST_CASE("a figure that the schema does not know, one that is missing and one o
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::schema_test

@@ -9,7 +9,7 @@
 
 #include "tests/apps/show/rendered.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::strategy_test {
 
 namespace {
 
@@ -185,4 +185,4 @@ TEST_CASE("pages and work of svm are counted by node, and a cache has svm alone"
   CHECK(stats.packets_overflowed == 0);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::strategy_test
