@@ -8,7 +8,7 @@
 
 namespace dmpc::apps {
 
-/// Of a value in single precision, relative to it.
+/// What rounding takes of a value in single precision, relative to it.
 inline constexpr double float_rounding = 0x1p-24;
 
 /// Moves what starts from one hit by as much as the product's arithmetic in float may. With u = 2^-24 and L the product's
