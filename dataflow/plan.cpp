@@ -77,7 +77,7 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
                         + plan.ray_places          // rays, or credits unused: the places that others share
                         + plan.host_credits        // forwarded rays: the host's
                         + dealt                    // primary rays dealt after the start
-                        + moving,                  // UnitPage or UnitPrimaryRays: the answer to this node's question
+                        + moving,                  // unit_page or unit_primaries: the answer to this node's question
           .bulk_payload_bytes = std::max({plan.packet_bytes(), dealt > 0 ? sizeof(DealtPrimaries) : 0, plan.unit_packet_bytes(),
                                           plan.is_moving() ? sizeof(UnitPrimaryRays) : 0})};
 }

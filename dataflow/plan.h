@@ -76,7 +76,7 @@ struct Plan {
   bool is_moving() const { return request.is_moving(); }
   /// Units in all, if regions move.
   std::uint32_t unit_count() const { return is_moving() ? node_count() * request.rays.balance.regions_a_node : 0; }
-  /// Of a page of a unit with its header.
+  /// A page of a unit with its header takes so much.
   std::size_t unit_packet_bytes() const;
   /// The primary rays that node `index` has room for by unit: a node that takes a unit may have had fewer of its own than the
   /// mean. Requires that regions move, here and below.

@@ -107,7 +107,7 @@ class RayProgram final : public NodeProgram {
   ProgramReport report() const override;
 
  private:
-  /// Of the ray that was started, taken up or made last; `sample`: that of the primary ray started last.
+  /// What is known of the ray that was started, taken up or made last; `sample`: that of the primary ray started last.
   struct Newest {
     std::uint32_t pixel = 0, sample = 0, depth = 1;
   };

@@ -128,7 +128,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
                                                         const RunOptions& options, const std::stop_token& stop = {},
                                                         const core::FineDetail* detail = nullptr);
 
-/// The same where the host is elsewhere.
+/// What a runner needs where the host is elsewhere.
 std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program);
 
 /// What is told after a run.

@@ -46,7 +46,7 @@ class LastingPieces {
       std::copy(piece.begin(), piece.end(), room_.begin() + static_cast<std::ptrdiff_t>(index * piece_bytes_));
     }
   }
-  /// The same with the piece of `source` from `offset_bytes` on.
+  /// Puts the piece of `source` from `offset_bytes` on there.
   void put(std::size_t index, const ByteSource& source, std::size_t offset_bytes) {
     if (places_) {
       places_[index] = source.lasting(offset_bytes, piece_bytes_).data();

@@ -44,7 +44,7 @@ MemoryPlan memory_beside_program(const MailboxCapacity& mailbox, std::uint32_t p
 
 /// Throws core::Refusal<core::UsageError> if there are fewer nodes than ranks.
 void check_nodes_for(std::uint32_t node_count, std::uint32_t rank_count);
-/// The same of the ranks that are asked for: for plans.
+/// Checks the ranks that are asked for: for plans.
 void check_ranks(const ComputerRequest& computer);
 
 enum class RunEnd : std::uint8_t { finished, interrupted };

@@ -17,7 +17,7 @@ enum class TopologyKind : std::uint8_t { crossbar, hypercube, mesh, torus, fat_t
 
 /// "crossbar", "hypercube", "mesh", "torus" or "fat-tree".
 std::string_view name_of(TopologyKind kind);
-/// The same read back; throws core::InputError, listing the names, for anything else.
+/// A name read back; throws core::InputError, listing the names, for anything else.
 TopologyKind parse_topology(std::string_view name);
 
 /// One directed wire: from a place to a neighbouring place. Places below node_count() are nodes; the others are switches, or the

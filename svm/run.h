@@ -95,7 +95,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
                                                         const nodes::Progress& progress,
                                                         const core::Continuation& continuation = {});
 
-/// The same where the host is elsewhere.
+/// What a runner needs where the host is elsewhere.
 std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program);
 
 /// After a run, on all ranks alike: what its nodes report, on that of the host; on others what those there do.

@@ -94,7 +94,7 @@ void WorkSource::begin_pass() {
   skip_unwanted();
 }
 
-/// Of an item of the share.
+/// The steps of an item of the share.
 ItemSteps WorkSource::steps_of(const PixelRectangle& item) const {
   ItemSteps steps;
   auto step = steps.begin();

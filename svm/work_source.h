@@ -56,7 +56,7 @@ class WorkSource {
   bool has_pixel() const { return !scan_.empty() || !items_.empty(); }
   /// Requires has_pixel().
   std::uint32_t next_pixel();
-  /// Of the next pixel, in this pass. Requires has_pixel().
+  /// The samples of the next pixel, in this pass. Requires has_pixel().
   core::SampleRange next_samples();
   /// The next pixel lies in the tile of the one before.
   bool stays_in_tile() const { return scan_.stays_in_tile(); }

@@ -33,15 +33,15 @@ class ProgramPlan {
   /// How many of them `source` may have under way to `target`; fewer than there is room for under chaos.
   std::uint32_t credits(std::uint32_t source, std::uint32_t target, Index packet) const;
 
-  /// Of all packets.
+  /// The longest payload of all packets.
   std::size_t payload_bytes_max() const;
   /// Equal plans, equal digests.
   std::uint64_t digest() const;
 
   const nodes::MailboxCapacity& mailbox(std::uint32_t node) const { return mailboxes_[node]; }
-  /// Of a node, all of its program's memory included.
+  /// The memory of a node, all of its program's included.
   nodes::MemoryPlan memory(std::uint32_t node) const;
-  /// Of the host, which has nothing to do.
+  /// The memory of the host, which has nothing to do.
   nodes::MemoryPlan host_memory() const;
   std::size_t held_bytes() const { return held_bytes_; }
   /// The table of credits and unanswered packets of a program's own, by packet and node.

@@ -239,7 +239,7 @@ bool is_figure_of_nodes(const aiScene& scene) {
          std::any_of(scene.mMaterials, scene.mMaterials + scene.mNumMaterials, is_named_so);
 }
 
-/// Of a scene that Assimp paints white where the file says nothing of colours.
+/// Whether a scene that Assimp paints white comes from a file that says nothing of colours.
 bool says_no_colour(const std::string& path, const std::string& ending, SceneFiles& files) {
   if (ending != "ply" && ending != "stl") {
     return false;

@@ -20,7 +20,7 @@ namespace dmpc::apps {
 namespace {
 
 constexpr int channels = 3;
-/// Of the finest level: four bytes each, and a third of that for the other levels.
+/// So many texels has the finest level at most: four bytes each, and a third of that for the other levels.
 constexpr std::size_t texels_max = core::RecordWriter::bytes_max / 16 * 3;
 
 std::size_t texel_count(const OIIO::ImageSpec& spec) {

@@ -81,7 +81,7 @@ class Commands {
     declare_help();
     declare_values();
   }
-  /// Of those commands alone that `line` may name are there options. To declare all takes longer than anything else that a short
+  /// Only those commands have options that `line` may name. To declare all takes longer than anything else that a short
   /// command does.
   explicit Commands(std::span<const std::string> line) : line_words_(std::in_place, line.begin(), line.end()) {
     declare_commands();

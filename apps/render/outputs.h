@@ -6,7 +6,7 @@
 
 namespace dmpc::apps {
 
-/// Of the picture and the checkpoint the names alone: they are written when it is their time.
+/// All outputs; of the picture and the checkpoint it has the names alone: they are written when it is their time.
 OutputSet<RenderRecord> outputs_of(const RenderOptions& options);
 
 /// Throws core::InputError unless what the options ask for can be written, as far as can be known beforehand, and none of it

@@ -61,7 +61,7 @@ Address take_room_for(BrickDraft& draft, RecordWriter& writer) {
   return address;
 }
 
-/// Of what is below bricks of the forest.
+/// Takes room for what is below bricks of the forest.
 Address take_subtree_room_for(BrickDraft& draft, RecordWriter& writer) {
   if (draft.address == no_address) {
     writer.keep_together(subtree_bytes(draft));

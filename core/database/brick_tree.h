@@ -40,7 +40,7 @@ struct BrickTree {
   void count(RecordCounts& records) const;
   /// Takes room for the records: a brick, its blocks, and then its bricks. Returns the first brick's address.
   Address take_room(RecordWriter& writer);
-  /// The same in two steps, of a tree that lies in pages of `page_size` bytes: first for the bricks that no page holds
+  /// Takes room in two steps, for a tree that lies in pages of `page_size` bytes: first for the bricks that no page holds
   /// together with all that is below them, and the blocks beside them; take_room() then puts each subtree, from a brick or a
   /// block down, into one page.
   void take_forest_room(RecordWriter& writer, std::size_t page_size);

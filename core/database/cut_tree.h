@@ -20,7 +20,7 @@ class CutTree {
   /// Two groups of different kinds as if they were the parts of one.
   CutTree(std::unique_ptr<CutTree> first, std::unique_ptr<CutTree> second);
 
-  /// Of all primitives; for a part that is_block(), the group itself.
+  /// The group of all primitives; for a part that is_block(), the group itself.
   const Group& group() const { return group_; }
   bool is_block() const { return first_ == nullptr; }
 

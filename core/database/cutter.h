@@ -18,7 +18,7 @@ namespace dmpc::core {
 /// Cutter's lists.
 struct Group {
   std::uint32_t first = 0, last = 0;
-  /// Of a small group: where the one began that was sorted and which this is a part of.
+  /// Where the group that was sorted, and which this small group is a part of, began.
   std::uint32_t base = 0;
   bool is_sorted = false;
   bool needs_plane = false;

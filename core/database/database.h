@@ -49,13 +49,13 @@ struct PrimitiveValues {
 
   /// A vertex, centre or end, by the row where it starts: what its floats say.
   Vec3d vector(std::size_t row) const { return {double{value[row]}, double{value[row + 1]}, double{value[row + 2]}}; }
-  /// Of a sphere or cone, with rests; no longer than this.
+  /// The values of a sphere or cone, with rests; no longer than this.
   CurvedValues curved() const { return {kind, value.data(), 1, 0}; }
 
   /// The plane() of triangles that have a coordinate in common, by which their plane is known.
   static constexpr std::uint32_t level_plane = 0xffffffffU;
 
-  /// Of a triangle: which of Database::planes() it shares with others that cover it, from 1 on; 0: none. It stands behind the
+  /// Says of a triangle which of Database::planes() it shares with others that cover it, from 1 on; 0: none. It stands behind the
   /// nine values.
   std::uint32_t plane() const {
     return kind == PrimitiveKind::triangle ? std::bit_cast<std::uint32_t>(value[value_count(kind)]) : 0;
@@ -122,7 +122,7 @@ class Database {
   /// Copies of primitives in blocks, at least one each.
   std::uint64_t references() const { return references_; }
   const RecordCounts& records() const { return records_; }
-  /// Of one tree in spatial order, how many pages lie before the first subtree: tables and the bricks above. What a page behind
+  /// How many pages of one tree in spatial order lie before the first subtree: tables and the bricks above. What a page behind
   /// them holds of the tree holds all that is below it. 0 for any other database.
   std::size_t forest_page_count() const { return forest_page_count_; }
   /// Half the width of the slab within which a primitive counts as touching a cell, grid-local.
@@ -145,8 +145,8 @@ class Database {
 
 /// Throws RoomError if the database would exceed 16 GiB.
 Database build_database(const Scene& scene, const BuildOptions& options);
-/// The same, and frees the scene's objects on the way: they never lie in memory beside the records. View, lights, materials and
-/// background stay, and of textures all but their texels.
+/// Builds as the other, and frees the scene's objects on the way: they never lie in memory beside the records. View, lights,
+/// materials and background stay, and of textures all but their texels.
 Database build_database(Scene&& scene, const BuildOptions& options);
 
 }  // namespace dmpc::core

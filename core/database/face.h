@@ -14,7 +14,7 @@
 
 namespace dmpc::core {
 
-/// Of what a coordinate is, rounding to float moves it by this at most.
+/// Rounding to float moves a coordinate by this share of it at most.
 inline constexpr double corner_rounding = 0x1p-25;
 
 /// `id`: of the primitive; `object`: that it is of.

@@ -9,7 +9,7 @@ namespace dmpc::core {
 
 /// The primitive's bounding box, not padded.
 Box bounds_of(const PrimitiveValues& primitive);
-/// The same in single precision, rounded outwards.
+/// These bounds in single precision, rounded outwards.
 Bounds rounded_bounds_of(const PrimitiveValues& primitive);
 
 /// One primitive against many boxes. Boxes come enlarged by the pad; comparisons are inclusive.

@@ -21,7 +21,7 @@ class Parallel {
   /// Calls part(i) once for each i below `count` and returns when all are done. Throws what a part throws, one of them if several
   /// do.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& part) const;
-  /// The same, and calls ended(i) after part(i); in any order, but never two of them at a time.
+  /// Does as the other, and calls ended(i) after part(i); in any order, but never two of them at a time.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& part,
                 const std::function<void(std::size_t)>& ended) const;
 

@@ -85,7 +85,7 @@ class RecordWriter {
   std::size_t front_bytes() const { return front_bytes_; }
   /// Bytes of the pages so far, the last one filled up: one at least.
   std::size_t page_bytes() const { return std::max(page_size_, round_up(end_, page_size_)); }
-  /// The same with one more record of `bytes`.
+  /// The bytes of these pages with one more record of `bytes`.
   std::size_t page_bytes_with(std::size_t bytes) const {
     return round_up(place_in_page(end_, bytes, page_size_) + bytes, page_size_);
   }

@@ -12,7 +12,7 @@
 
 namespace dmpc::core {
 
-/// Of every occupied top cell a list, the cells in Morton order.
+/// A list for every occupied top cell, the cells in Morton order.
 class TopCells {
  public:
   /// None where the lists would be long: where a primitive lies in more than four cells on average; always some for a single

@@ -11,7 +11,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Of the largest coordinate and radius: solved in double from rays that are exact to 2^-49.
+/// A ray starts off by so much of the largest coordinate and radius: they are solved in double from rays that are exact to 2^-49.
 constexpr double curved_clearance = 0x1p-40;
 
 /// `size`: the largest coordinate and radius; `radius`: of the surface where it was hit.

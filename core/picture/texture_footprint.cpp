@@ -38,7 +38,7 @@ Ellipse ellipse_of(const Matrix& m) {
   return ellipse;
 }
 
-/// Of a line about `middle`, the part that lies between the two ends of `extent`, in lengths of the line.
+/// Cuts a line about `middle` to the part that lies between the two ends of `extent`, in lengths of the line.
 void cut(double middle, double length, const std::array<double, 2>& extent, double& from, double& to) {
   if (length == 0) {
     return;
@@ -48,7 +48,7 @@ void cut(double middle, double length, const std::array<double, 2>& extent, doub
   to = std::min(to, std::max(std::max(one, other), 0.0));
 }
 
-/// Of a triangle's corners along one side of the texture.
+/// The extent of a triangle's corners along one side of the texture.
 std::array<double, 2> extent_of(const TexturedNormals& triangle, std::size_t side) {
   const auto [low, high] = std::minmax({triangle.place[0][side], triangle.place[1][side], triangle.place[2][side]});
   return {double{low}, double{high}};

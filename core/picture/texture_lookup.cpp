@@ -37,7 +37,7 @@ double floor_of(double value) {
   return whole > value ? whole - 1 : whole;
 }
 
-/// The same place with its whole turns round the texture taken off.
+/// A place with its whole turns round the texture taken off.
 double reduced(double place, TextureWrap wrap) {
   switch (wrap) {
     case TextureWrap::repeat:
@@ -50,7 +50,7 @@ double reduced(double place, TextureWrap wrap) {
   return std::clamp(place, -1.0, 2.0);
 }
 
-/// Of a texel that a reduced place may have for its neighbour.
+/// The number of a texel that a reduced place may have for its neighbour.
 std::uint32_t wrapped(std::int64_t texel, std::int64_t size, TextureWrap wrap) {
   if (wrap != TextureWrap::clamp) {
     const std::int64_t period = wrap == TextureWrap::mirror ? 2 * size : size;

@@ -8,7 +8,7 @@
 //   normals     PatchNormals, TexturedNormals         } shading data, read for final hits only
 //   materials   MaterialRecord                        }
 //   lights      LightRecord                           }
-//   textures    tables of addresses, and the TextureTiles that they name: read where a final hit is textured
+//   textures    tables of addresses, and every TextureTile that they name: read where a final hit is textured
 #pragma once
 
 #include <array>

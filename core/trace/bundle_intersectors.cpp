@@ -251,7 +251,7 @@ HWY_INLINE Vertices shear(const ShearedRays& rays, const TriangleRows& triangles
 
 HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)); }
 
-/// Of the rays `asked`, which pass the triangle, those about which floats may be wrong, and some more: the scalar twin has the
+/// Those of the rays `asked`, which pass the triangle, about which floats may be wrong, and some more: the scalar twin has the
 /// last word.
 HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const Vertices& a, const Vertices& b, const Vertices& c,
                                    const Vector& margin) {
@@ -263,7 +263,7 @@ HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const Vertices& a,
   return asked & bits_of(tag, hn::Le(margin, hn::Mul(hn::Add(rounding, hn::Set(tag, rest_weight * rest)), widest)));
 }
 
-/// The same of those for which doubles judge.
+/// Those of them for which doubles judge.
 HWY_INLINE RayMask doubtful(const RayBundle& bundle, RayMask asked, const Vertices& a, const Vertices& b, const Vertices& c,
                             Vector least, Vector greatest) {
   const Floats tag;

@@ -13,7 +13,7 @@
 
 namespace dmpc::core {
 
-/// Of the hit of one ray on one primitive.
+/// Certifies the hit of one ray on one primitive.
 ///
 /// The exact answer is that of real numbers. The ray is O + t D, O the sum of `origin` and `origin_rest`, D that of `direction`
 /// and `direction_rest`, neither rounded. A triangle's nine floats stand for themselves, and t, u, v solve

@@ -108,7 +108,7 @@ float judged(float t, const SeenTriangle& seen) {
   return std::fabs(exact - double{t}) <= same_distance * exact ? t : rounded(exact);
 }
 
-/// Of a triangle that floats let the ray pass at an edge.
+/// The t of a triangle that floats let the ray pass at an edge.
 float judged_outside(const SeenTriangle& seen) {
   const double exact = seen.plane_distance();
   return exact > 0.0 && exact < double{near_edge} && seen.is_crossed() ? rounded(exact) : missed;
@@ -145,8 +145,8 @@ struct ShearedTriangle {
     const float deepest = std::max(std::max(std::fabs(a.z), std::fabs(b.z)), std::fabs(c.z));
     return std::min(-least, greatest) <= (edge_rounding * std::max(widest, deepest) + rest_weight * ray.rest()) * widest;
   }
-  /// Of the hit, not scaled yet. Each weight is divided before the sum: a cubic in length would overflow and underflow far too
-  /// soon.
+  /// The depth of the hit, not scaled yet. Each weight is divided before the sum: a cubic in length would overflow and underflow
+  /// far too soon.
   float depth() const { return std::fma(u / determinant, a.z, std::fma(v / determinant, b.z, (w / determinant) * c.z)); }
 
   ShearedVertex a, b, c;

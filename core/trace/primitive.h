@@ -12,7 +12,7 @@ namespace dmpc::core {
 /// Source: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 struct ShearedRay {
   explicit ShearedRay(const Ray& ray);
-  /// Of what has been computed before.
+  /// Takes what has been computed before.
   ShearedRay(const Vec3f& start, const Vec3f& rest, float x_shear, float y_shear, float z_scale, std::uint32_t x, std::uint32_t y,
              std::uint32_t z)
       : origin(start), origin_rest(rest), shear_x(x_shear), shear_y(y_shear), scale_z(z_scale), axis_x(x), axis_y(y), axis_z(z) {}
@@ -69,7 +69,7 @@ float intersect_shared_face(const ShearedRay& ray, double plane_depth, const flo
 /// t rounded to float once. A negative radius shows the inside only. Nearest root with t > 0.
 float intersect_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
 float intersect_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
-/// The same before t is rounded; `missed` if the ray misses.
+/// The t of a sphere before it is rounded; `missed` if the ray misses.
 double sphere_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
 double cone_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
 

@@ -60,7 +60,7 @@ inline Traced pass(const Ray& ray, const Walk& walk, Passage& passage, Operation
   return traced;
 }
 
-/// The same for a region by itself.
+/// Passes through a region by itself.
 inline Traced pass(const Ray& ray, const GridFrame& frame, const Region& region, Passage& passage, Operations& operations) {
   return pass(ray, Walk(ray, frame, region), passage, operations);
 }

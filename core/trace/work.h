@@ -19,12 +19,12 @@ struct WorkPrices {
   std::uint64_t tile_read_ps = 0;                                       ///< of a texture, with its entry in the table
 };
 
-/// Of one core of the machine on which they were measured: 12 scenes (balls, gears, jacks, mount, rings, shells, teapot, tetra,
-/// tree; balls, rings and tree also as triangles) at 512x512, every other pixel; the time of each 32x32 tile on one thread's own
-/// clock (least of 9 runs) against its counted operations; non-negative least squares of the relative errors over the 3,072
-/// tiles. Half of the tiles are met to 10 %, nine in ten to 23 %; the worst scene is balls-4-t4, whose records exceed the caches
-/// (63 % of its time). Only their ratios matter here. The price of a tile is that of a million look-ups in a texture of 512x512
-/// texels, 2.5 tiles each.
+/// Prices of one core of the machine on which they were measured: 12 scenes (balls, gears, jacks, mount, rings, shells, teapot,
+/// tetra, tree; balls, rings and tree also as triangles) at 512x512, every other pixel; the time of each 32x32 tile on one
+/// thread's own clock (least of 9 runs) against its counted operations; non-negative least squares of the relative errors over
+/// the 3,072 tiles. Half of the tiles are met to 10 %, nine in ten to 23 %; the worst scene is balls-4-t4, whose records exceed
+/// the caches (63 % of its time). Only their ratios matter here. The price of a tile is that of a million look-ups in a texture
+/// of 512x512 texels, 2.5 tiles each.
 inline constexpr WorkPrices measured_prices{.ray_ps = 55'000,
                                             .cell_step_ps = 7'500,
                                             .brick_read_ps = 14'700,

@@ -46,7 +46,7 @@ class BundleTask {
   /// node's than the first of them wait for the next call. Requires that none has ended before.
   void trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations);
 
-  // Of the first of those that have ended:
+  // These speak of the first of those that have ended:
   core::Traced traced() const;
   const core::Ray& ray() const { return flights_->bundle.rays[ended_]; }
   bool found_here() const { return flights_->bundle.hit(ended_).block != core::no_address; }

@@ -132,7 +132,7 @@ void Gather::set_open(NodeId owner, std::uint16_t slot) {
   open_[i / 64] = slot == none ? open_[i / 64] & ~bit : open_[i / 64] | bit;
 }
 
-/// Of the owners that `may` is true of, whose open packet has most rays.
+/// The one of the owners that `may` is true of whose open packet has most rays.
 template <class May>
 std::optional<NodeId> Gather::fullest(const May& may) const {
   std::optional<NodeId> found;

@@ -13,10 +13,10 @@ namespace dmpc::dataflow {
 /// the part's records, so where a hit was found is the node's to say, not the region's.
 class PartTracer : public core::GridTracer<PartRecords> {
  public:
-  /// Of a node that has no other region than the header's.
+  /// For a node that has no other region than the header's.
   PartTracer(PartRecords& records, const core::DatabaseHeader& header, const core::Skips& skips)
       : GridTracer(records, header, skips) {}
-  /// Of node `self`; `regions` outlive it, and the header's is one of the node's.
+  /// For node `self`; `regions` outlive it, and the header's is one of the node's.
   PartTracer(PartRecords& records, const core::DatabaseHeader& header, const core::Skips& skips, const Regions& regions,
              nodes::NodeId self)
       : GridTracer(records, header, skips), regions_(&regions), self_(self) {}

@@ -53,7 +53,7 @@ class PrimaryOwners {
   std::uint64_t find(std::uint32_t pixel, std::uint32_t sample);
   /// A bit for each.
   std::uint64_t all_partitions() const { return lattice_.all_partitions(); }
-  /// Of the ray found last, by partition.
+  /// Who has the ray found last, by partition.
   std::span<const std::uint16_t> owners() const { return owners_; }
 
  private:

@@ -77,7 +77,7 @@ class RayTask {
   }
 
  private:
-  /// Of the ray under way.
+  /// How far the ray under way is.
   enum class Stage : std::uint8_t { none, shot, entered, ended };
 
   /// A ray, where it is, and where its candidate's block is if that is not here.

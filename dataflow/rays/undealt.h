@@ -39,7 +39,7 @@ class Undealt {
   const core::PixelMask& begun() const { return begun_; }
 
  private:
-  /// Of one node, the next one last.
+  /// The runs of one node, the next one last.
   using Runs = std::vector<PrimaryRun>;
 
   std::uint64_t end_of_stretch(std::uint64_t first, std::uint64_t end) const;

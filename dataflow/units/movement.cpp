@@ -196,7 +196,7 @@ bool Movement::take_acknowledgement() {
 }
 
 void Movement::take_news(const UnitMoved& moved) {
-  // Of a unit that it is giving, a node may hear who has it before the last acknowledgement comes, which tells the same.
+  // A node may hear who has a unit that it is giving before the last acknowledgement comes, which tells the same.
   if (!answers_for(moved.unit) && is_news(version_[moved.unit], moved.version)) {
     core::expect(nodes::NodeId{moved.owner} != node_->id(), "a unit's owner knows all news of it");
     units_.regions->give_to(moved.unit, nodes::NodeId{moved.owner});

@@ -14,7 +14,7 @@
 
 namespace dmpc::nodes {
 
-/// Of one rank.
+/// The figures of one rank.
 struct RankFigures {
   std::string name;  ///< "rank 2 on host b"
   RankMemory memory;
@@ -22,7 +22,7 @@ struct RankFigures {
   ClockDrift clock;  ///< of an observed run
 };
 
-/// Of all ranks, by number: what their nodes and the host took, and what has come from each.
+/// The figures of all ranks, by number: what their nodes and the host took, and what has come from each.
 inline std::vector<RankFigures> rank_figures(std::span<const PeerMemory> peers, const RankLinks& links,
                                              const std::vector<RankReport>& reports) {
   std::vector<RankFigures> figures;

@@ -53,7 +53,7 @@ class Cache {
   /// most recently used. Returns the page that had to go, or no_page. Requires at least one frame and `bytes` of the page's
   /// size. A touch() that follows is of the reference that it came for, no further one.
   PageId install(PageId page, std::span<const std::byte> bytes);
-  /// The same with the page that lies at `offset_bytes` of `source`.
+  /// Installs the page that lies at `offset_bytes` of `source`.
   PageId install(PageId page, const nodes::ByteSource& source, std::size_t offset_bytes);
 
   /// Frames that have a page.

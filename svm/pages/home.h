@@ -33,7 +33,7 @@ class Homes {
     constexpr bool operator==(const Place&) const = default;
   };
 
-  /// Of pages dealt over `node_count` nodes from `first` on. Requires 1 <= node_count < 2^16.
+  /// The homes of pages dealt over `node_count` nodes from `first` on. Requires 1 <= node_count < 2^16.
   explicit Homes(std::uint32_t node_count, std::uint32_t first = 0)
       : node_count_(node_count),
         first_(first),
@@ -66,7 +66,7 @@ class Homes {
   std::uint64_t reciprocal_;
 };
 
-/// Of a computer with so many nodes.
+/// The homes on a computer with so many nodes.
 inline Homes homes_of(PageHomes where, std::uint32_t node_count) {
   return are_at_host(where) ? Homes(1, node_count) : Homes(node_count);
 }

@@ -40,7 +40,7 @@ struct PageCapacity {
   bool is_asked(std::uint32_t index) const {
     return pages_at(index) > 0 || (index < node_count && tree() && tree()->count_below(index) > 0);
   }
-  /// Of the frames of resident pages, all alike.
+  /// The shape of the frames of resident pages, all alike.
   CacheShape resident_shape() const { return {resident_count, page_size_bytes()}; }
   /// Pages at home at node `index`, or the host, beside those that all nodes hold.
   std::uint32_t pages_at(std::uint32_t index) const { return homes().count_at(index, page_count - forest_pages); }

@@ -49,8 +49,8 @@ class PageTable {
     }
     entries_[at] = {page, place};
   }
-  /// Of a page that is in the table. Closes the gap by moving back every later entry of the run that may stand there, so that no
-  /// search ends too early (D. E. Knuth, The Art of Computer Programming 3, section 6.4, algorithm R).
+  /// Takes out a page that is in the table. Closes the gap by moving back every later entry of the run that may stand there, so
+  /// that no search ends too early (D. E. Knuth, The Art of Computer Programming 3, section 6.4, algorithm R).
   void erase(PageId page) {
     const std::size_t mask = entries_.size() - 1;
     std::size_t gap = start_of(page);

@@ -46,7 +46,8 @@ class RequestTree {
   std::uint32_t node_count_, arity_;
 };
 
-/// Of a computer with so many nodes; none where nodes ask each other. `arity` is read where = tree alone: else all ask the host.
+/// The tree of a computer with so many nodes; none where nodes ask each other. `arity` is read where = tree alone: else all ask
+/// the host.
 inline std::optional<RequestTree> request_tree_of(PageHomes where, std::uint32_t node_count, std::uint32_t arity) {
   return are_at_host(where) ? std::optional(RequestTree(node_count, where == PageHomes::tree ? arity : node_count))
                             : std::nullopt;

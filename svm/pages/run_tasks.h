@@ -35,7 +35,7 @@ struct TaskFigures {
   std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
   std::vector<nodes::RankFigures> ranks;             ///< of rank 0, where there are any
 
-  /// Of all nodes.
+  /// The counters of all nodes together.
   PageCounters all_pages() const;
 };
 

@@ -13,7 +13,7 @@
 
 namespace dmpc::svm {
 
-/// Of one task. Over all tasks of a node they add up to what the node counted.
+/// What one task has taken. Over all tasks of a node they add up to what the node counted.
 struct TaskTaken {
   std::uint32_t node = 0;        ///< that ran it
   std::uint64_t steps = 0;       ///< calls of it, those in which its page was not there included
@@ -25,7 +25,7 @@ struct TaskTaken {
 /// By task. Thread safety: each task is one node's; read when none runs.
 using TaskHeat = std::vector<TaskTaken>;
 
-/// Of the tasks that ran here, for add_heat() on another rank.
+/// Puts what the tasks that ran here took, for add_heat() on another rank.
 inline void put_heat(nodes::FlatWriter& flat, const TaskHeat& heat) {
   const auto is_here = [](const TaskTaken& taken) { return taken.steps > 0; };
   flat.put(static_cast<std::uint64_t>(std::count_if(heat.begin(), heat.end(), is_here)));
@@ -51,7 +51,7 @@ class TaskMeter {
   /// `heat` outlives the meter.
   TaskMeter(TaskHeat& heat, std::uint32_t node) : heat_(&heat), node_(node) {}
 
-  /// Of the node since the start, at the end of a step of `task`.
+  /// Says what the node has counted since the start, at the end of a step of `task`.
   void stepped(std::uint32_t task, const PageCounters& pages, const nodes::Charges& charges) {
     TaskTaken& taken = (*heat_)[task];
     taken.node = node_;

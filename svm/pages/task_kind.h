@@ -38,9 +38,9 @@ template <class Records>
 struct TaskKind {
   TaskPlan::Sizes sizes;
   std::function<void(std::byte* task, std::uint32_t number)> start;
-  /// Of a task that answers `absent` the address is set.
+  /// Runs a step of a task; where that answers `absent` the address is set.
   std::function<core::TaskState(std::byte* task, Records& records, nodes::Charges& charges, core::Address& absent)> run;
-  /// Of a finished task.
+  /// Puts down the result of a finished task.
   std::function<void(const std::byte* task, std::byte* result)> put_result;
 };
 

@@ -52,7 +52,7 @@ class TaskPlan {
   nodes::Layout<std::byte, std::uint32_t, std::uint32_t, std::uint32_t, std::byte> program_layout(std::uint32_t node) const;
   /// Exactly what a node takes.
   nodes::MemoryPlan node_memory(std::uint32_t node) const;
-  /// Of the host, which has nothing to do.
+  /// The memory of the host, which has nothing to do.
   nodes::MemoryPlan host_memory() const;
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t piece_bytes = 64;
 
-/// Of a program.
+/// A program's use of memory.
 enum class PieceUse : std::uint8_t { pieces };
 
 /// Room for three pieces.

@@ -18,7 +18,7 @@
 namespace dmpc::nodes::local_memory_test {
 namespace {
 
-/// Of a program.
+/// A program's uses of memory.
 enum class OwnUse : std::uint8_t { first = 0, last = 5, too_much = 6 };
 
 MemoryPlan queues_of(std::size_t bytes) {

@@ -10,7 +10,7 @@ namespace dmpc::tests::machine_test {
 
 namespace {
 
-/// Of operations, as a program names them.
+/// Classes of operations, as a program names them.
 enum class Class : std::uint8_t { first, second, third };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Who stands on whom: library upon library, and within core and those of apps room upon room; which file alone names a foreign
+// Who stands on whom: library upon library, and within core and those of apps room upon room; which files may name a foreign
 // library; and that no layer but the edge knows the command line.
 
 #include <doctest/doctest.h>
@@ -163,7 +163,7 @@ std::size_t height(const std::string& library, const std::string& room) {
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), room) - names.begin());
 }
 
-/// Of two files of one library.
+/// Whether a file may look into another of its library.
 bool may_look_into(std::string_view file, std::string_view header) {
   const std::string library = library_of(header), room = room_of(header), own = room_of(file);
   if (room == own) {
@@ -255,7 +255,7 @@ bool stands_below(const std::string& library, const std::string& other) {
 
 }  // namespace
 
-TEST_CASE("every include goes downwards and every foreign library has its one file") {
+TEST_CASE("every include goes downwards, and foreign libraries are named where they may be") {
   const fs::path root = DMPC_SOURCE_DIR;
   const Names files = source_files(root);
   CHECK(files.size() > 50);
@@ -367,7 +367,7 @@ TEST_CASE("the two families never meet") {
   CHECK(violations_in("dataflow/host.h", "#include \"svm/pages/page.h\"").size() == 1);
 }
 
-TEST_CASE("a foreign header outside its file is found") {
+TEST_CASE("a foreign header outside its files is found") {
   CHECK(violations_in("apps/lab/check/command.cpp", "#include <embree3/rtcore.h>").size() == 1);
   CHECK(violations_in("apps/render/command.cpp", "#include <OpenImageIO/imageio.h>").size() == 1);
   CHECK(violations_in("apps/picture/image_file.cpp", "#include <OpenImageIO/imageio.h>").size() == 1);

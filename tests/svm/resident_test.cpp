@@ -15,7 +15,7 @@ using svm::PageId;
 using tests::BuiltScene;
 
 TEST_CASE("what a small picture uses most comes first, as often as it is looked up, and each page once") {
-  // Of one pixel of 8x8 the small picture is the picture of one pixel.
+  // The small picture of 8x8 pixels is the picture of one pixel.
   const BuiltScene one("rings-2", 512, 8);
   const auto count = static_cast<std::uint32_t>(one.database.page_count());
   const std::vector<PageId> pages = svm::most_used_pages(one.database, one.settings, count);

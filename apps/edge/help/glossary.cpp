@@ -80,7 +80,8 @@ constexpr std::array entries = {
     GlossaryEntry{"topology", "Which nodes are neighbours: mesh, hypercube, ring and so on."},
     GlossaryEntry{"virtual time", "The modelled machine's clock. It does not depend on the computer that dmpc runs on."},
     GlossaryEntry{"wall clock", "Time on the computer that dmpc runs on."},
-    GlossaryEntry{"work item", "A few pixels, 3x3 as a rule, that a node hands to one that has run out of work."},
+    GlossaryEntry{"work item",
+                  "A square of pixels, 4x4 (3x3 where rays walk alone), that a node hands to one that has run out of work."},
 };
 
 constexpr std::size_t line_letters_max = 100;

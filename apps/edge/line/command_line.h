@@ -39,13 +39,13 @@ class OptionSet {
   void begin_group(const std::string& title);
   /// A word without an option's name that must be given; help calls it `name`.
   void add_argument(const std::string& name, const TakeText& take, const std::string& description);
-  /// The same for any number of words, or none; `take` is called with one after the other.
+  /// Any number of such words, or none; `take` is called with one after the other.
   void add_arguments(const std::string& name, const TakeText& take, const std::string& description);
   /// An option with a text that must be given; `shown` is what the help says of its value.
   void add_required(const std::string& name, const std::string& shown, const TakeText& take, const std::string& description);
   /// An option with a text; `shown` is what the help says of its value.
   void add_text(const std::string& name, const std::string& shown, const TakeText& take, const std::string& description);
-  /// The same for an option that may be given several times; `take` is called with one text after the other.
+  /// An option with a text that may be given several times; `take` is called with one text after the other.
   void add_texts(const std::string& name, const std::string& shown, const TakeText& take, const std::string& description);
   void add_path(const std::string& name, const std::string& shown, std::optional<std::filesystem::path>& path,
                 const std::string& description);
@@ -64,7 +64,7 @@ class OptionSet {
   template <class T, class Field>
   void add_choice(const std::string& name, Field& value, const Choices<T>& choices, const std::string& shown_default,
                   const std::string& description);
-  /// The same; the default is what `value` is now.
+  /// Such an option whose default is what `value` is now.
   template <class T>
   void add_choice(const std::string& name, T& value, const Choices<T>& choices, const std::string& description);
 

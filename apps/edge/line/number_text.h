@@ -25,7 +25,7 @@ std::string seconds_text(double seconds);
 std::string bytes_text(std::size_t bytes);
 /// Whole ones, rounded down: "16 MiB".
 std::string mebibytes_text(std::uint64_t bytes);
-/// Of numbers of one kind; 0 of 0 is 0.
+/// The percentage of numbers of one kind; 0 of 0 is 0.
 template <class Number>
 double percent_of(Number part, Number whole) {
   return whole > Number{} ? 100 * static_cast<double>(part) / static_cast<double>(whole) : 0;

@@ -52,7 +52,7 @@ class ShownOutput {
   std::streambuf* before_;
 };
 
-/// The same for a text.
+/// A text as it is shown.
 std::string shown(std::string_view text);
 
 /// A text of strangers as a part of a line: what is longer is cut off, which is said, and all is shown so, line ends too.

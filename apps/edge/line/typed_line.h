@@ -15,7 +15,7 @@ struct TypedLine {
   std::string command;            ///< "study balance"
   bool asks_for_help = false;     ///< about `command`, which may be empty; nothing else of the line counts
   bool asks_for_version = false;  ///< of the program
-  /// The same line in one form: the commands, each option as --name or --name=value, --, and all arguments.
+  /// The line in one form: the commands, each option as --name or --name=value, --, and all arguments.
   std::vector<std::string> words;
 };
 

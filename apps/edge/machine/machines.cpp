@@ -33,7 +33,7 @@ struct Preset {
   Figure<std::uint64_t> hop_ns;
   Figure<std::uint64_t> service_ns;
   Figure<std::uint64_t> slowdown;  ///< of an operation, against the core on which the prices were measured
-  /// Of the price of a cached look-up, which all machines have times their slowdown.
+  /// Where the price of a cached look-up comes from, which all machines have times their slowdown.
   const char* cached_lookup_source =
       "the iPSC/2's, fitted there, carried over by the slowdown: not measured on this machine, low";
   Figure<bool> has_memory_port = {false, "assumed, low: nothing is known of such a bound"};

@@ -9,7 +9,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// Of a block that is stored as it is (RFC 1951).
+/// The most bytes of a block that is stored as it is (RFC 1951).
 constexpr std::size_t stored_block_max = 65535;
 
 std::string big_endian(std::uint32_t number) {

@@ -20,7 +20,7 @@ using Variable = std::function<const char*(const char* name)>;
 
 /// Nothing if this process was started alone.
 std::optional<Launcher> launcher(const Variable& variable);
-/// Of this process's environment.
+/// The launcher that this process's environment tells of.
 std::optional<Launcher> launcher();
 
 /// For what knows nothing of ranks: throws core::UsageError if a launcher has started several processes, each of which would do

@@ -9,7 +9,7 @@
 
 namespace dmpc::apps {
 
-/// Of one rank.
+/// The processors of one rank.
 struct RankProcessors {
   std::string host;
   std::vector<int> numbers;  ///< of those that the launcher or the system allows it, ascending
@@ -23,7 +23,7 @@ std::string text_of(const RankProcessors& processors);
 /// What text_of() has made. Throws core::InternalError for any other text.
 RankProcessors parse_processors(const std::string& text);
 
-/// Of the processors that rank `rank` may use, each counted by the part that falls to it: one that three ranks of a host may use
+/// How many processors rank `rank` may use, each counted by the part that falls to it: one that three ranks of a host may use
 /// is a third of a processor to each.
 double share_of_processors(const std::vector<RankProcessors>& by_rank, std::uint32_t rank);
 

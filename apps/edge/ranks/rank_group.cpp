@@ -60,7 +60,7 @@ void expect_to_be_told(const MpiLibrary& library) {
   }
 }
 
-/// Of those that were started together.
+/// Whether this is the first of those that were started together.
 bool is_first(const MpiLibrary& library) {
   const std::optional<Launcher> launched = launcher();
   return library.rank() == 0 && (!launched || launched->rank == 0);

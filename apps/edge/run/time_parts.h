@@ -39,7 +39,7 @@ struct TimeParts {
   std::array<std::uint64_t, time_part_count> ns{};
 
   std::uint64_t total_ns() const;
-  /// Of the total, in percent; they add up to 100. A run that took no time was all computing.
+  /// Each part in percent of the total; they add up to 100. A run that took no time was all computing.
   std::array<double, time_part_count> percent() const;
 };
 

@@ -32,7 +32,7 @@ class ChildProcess {
   pid_t id() const { return id_; }
   /// Its exit status, once it has ended; below 0: the signal that ended it.
   std::optional<int> status();
-  /// The same; waits for the end.
+  /// Waits for the end, and says how it ended.
   int wait();
   /// What it has written to stderr so far.
   std::string errors() const { return errors_.bytes(); }

@@ -26,7 +26,7 @@ constexpr int tries_max = 100;
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-/// Of 65 bits, so that two processes never hit on the same.
+/// A word of 65 bits, so that two processes never hit on the same.
 std::string random_word() {
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz234567";
   std::string word(13, '\0');

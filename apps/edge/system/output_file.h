@@ -100,7 +100,7 @@ class OutputFile {
 void write_file(const std::filesystem::path& path, std::string_view text, Durability durability = Durability::on_disk,
                 Files& files = real_files());
 
-/// The same, or without a path to the standard output, `output`; `what` is for the message.
+/// Writes a text to the path, or without one to the standard output, `output`; `what` is for the message.
 void write_to(const std::optional<std::filesystem::path>& path, std::string_view text, std::ostream& output,
               std::string_view what);
 

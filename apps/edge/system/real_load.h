@@ -9,7 +9,7 @@ namespace dmpc::apps {
 /// Cores that are at work in the real computer; at least 1.
 std::uint32_t core_count();
 
-/// Of the last minute; 0 where the system does not say.
+/// The load of the last minute; 0 where the system does not say.
 double machine_load();
 
 /// A sentence with the load `before` and the load now.

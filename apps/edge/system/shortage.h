@@ -16,7 +16,7 @@ struct ComputerRoomError : core::RoomError {
 /// Throws ComputerRoomError "WHAT: ..." if errno's value says that something has run out.
 void throw_if_short(int error, const std::string& what);
 
-/// The same if a program that did not get ready says so; as the dynamic loader and libraries put it.
+/// Throws it if a program that did not get ready says so; as the dynamic loader and libraries put it.
 void throw_if_short(std::string_view complaint, const std::string& what);
 
 }  // namespace dmpc::apps

@@ -23,7 +23,7 @@ class TextInput final : private std::streambuf, public std::istream {
  public:
   explicit TextInput(const std::filesystem::path& path, const PipePatience& patience = {});
 
-  /// Of an ordinary file; nothing is known of a pipe.
+  /// The bytes of an ordinary file; nothing is known of a pipe.
   std::uint64_t file_bytes() const { return file_bytes_; }
 
  private:

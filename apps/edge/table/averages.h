@@ -7,7 +7,7 @@
 
 namespace dmpc::apps {
 
-/// Of numbers above 0; nothing if there are none.
+/// The geometric mean of numbers above 0; nothing if there are none.
 std::optional<double> geometric_mean(std::span<const double> numbers);
 
 /// The middle one, or the mean of the two in the middle. Requires some.

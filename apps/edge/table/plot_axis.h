@@ -23,7 +23,8 @@ struct PlotExtent {
 
 /// Label, limits and scale of the axis "x" or "y".
 std::string axis_lines(const std::string& name, const PlotAxis& axis);
-/// The same with round ticks as people read them, for numbers counted in `unit`; those of powers of two are gnuplot's own.
+/// Lines for an axis with round ticks as people read them, for numbers counted in `unit`; those of powers of two are gnuplot's
+/// own.
 std::string axis_lines(const std::string& name, PlotAxis axis, const PlotExtent& extent, const std::string& unit);
 
 }  // namespace dmpc::apps

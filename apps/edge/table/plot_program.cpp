@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of what a program says; the rest is forgotten.
+/// So much of what a program says is kept; the rest is forgotten.
 constexpr std::size_t words_bytes_max = 2000;
 
 /// The words without empty lines, on one line.
@@ -44,7 +44,7 @@ PlotOutcome run_script(const fs::path& folder, const std::string& name, const st
                        (words.empty() ? "" : ": " + words)};
 }
 
-/// The same where the program is missing.
+/// The outcome where the program is missing.
 PlotOutcome outcome_of(const fs::path& folder, const std::string& name, const std::string& program) {
   try {
     return run_script(folder, name, program);

@@ -73,7 +73,7 @@ std::vector<Layout> layouts_of(const Table& table, const std::vector<Line>& line
 /// Columns that stand side by side, by their indices.
 using Fold = std::vector<std::size_t>;
 
-/// Of a cell with its bars and blanks.
+/// The width of a cell with its bars and blanks.
 std::size_t width_of(const Layout& layout) { return layout.width + 3; }
 
 /// So many columns from the left.

@@ -59,7 +59,7 @@ inline constexpr std::size_t markdown_width_max = 120;
 /// A row's cells as Markdown has them.
 std::vector<std::string> texts_of(const Table& table, const std::vector<Cell>& row);
 
-/// Of the column with this name; nothing where there is none, or the row has no number there.
+/// The number in the column with this name; nothing where there is none, or the row has no number there.
 std::optional<double> number_in(const Table& table, const std::vector<Cell>& row, std::string_view column);
 
 /// The names and cells of a row, "nodes 4, virtual time (s) 3.142", as many as fit a line.

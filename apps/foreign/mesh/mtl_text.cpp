@@ -19,7 +19,7 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::string_view blanks = " \t", line_ends = "\r\n";
-/// Of a texture's name, with the options before it; Assimp holds no more.
+/// The longest name of a texture, with the options before it; Assimp holds no more.
 constexpr std::size_t name_bytes_max = 1023;
 
 /// How many arguments an option of a texture has at most, and what it is without the option.

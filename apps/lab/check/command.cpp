@@ -181,7 +181,7 @@ std::uint64_t print_certified(std::ostream& output, const Inspection& inspection
   return counts.failures();
 }
 
-/// Of the picture as Embree would make it.
+/// Says how far the picture is the one that Embree would make.
 void print_pixels(std::ostream& output, std::uint64_t differing, std::uint64_t pixels) {
   output << "Pixels that Embree would change: " << differing << " of " << pixels << ", "
          << fixed(1e6 * static_cast<double>(differing) / static_cast<double>(pixels), 1) << " ppm\n";

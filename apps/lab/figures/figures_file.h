@@ -22,7 +22,7 @@ struct Figure {
 /// this dmpc's json_format.
 std::vector<Figure> parse_figures(std::string_view text, const std::string& file);
 
-/// The same of a file. Throws core::InputError if it cannot be read, too.
+/// Reads those of a file. Throws core::InputError if it cannot be read, too.
 std::vector<Figure> read_figures(const std::filesystem::path& file);
 
 /// As JSON has it, but a text without quotes: "null", "812", "svm".

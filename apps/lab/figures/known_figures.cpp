@@ -63,7 +63,7 @@ class SchemaWalk {
   std::vector<KnownFigure> figures_;
 };
 
-/// Of one node, or what was asked for: meant only where nothing else is.
+/// Whether it is of one node, or what was asked for: such a name is meant only where nothing else is.
 bool is_aside(const std::string& name) {
   return name.find('*') != std::string::npos || name.starts_with("host.") || name.starts_with("options.");
 }

@@ -21,7 +21,7 @@ struct CertifiedHit {
   double allowed_ulp = 0;   ///< what the kernels' bound allows it to be off
 };
 
-/// Of a hit of `ray` on `values` at `t`. Thread-safe.
+/// Certifies a hit of `ray` on `values` at `t`. Thread-safe.
 CertifiedHit certified(const core::Ray& ray, const core::PrimitiveValues& values, float t);
 
 /// Any number of values, kept for their median.

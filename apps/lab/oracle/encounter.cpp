@@ -177,7 +177,7 @@ struct Quadratic {
     const Long unit = 16 * double_rounding;
     return unit * (2 * std::fabs(b) * direction * size + std::fabs(a) * size * size + std::fabs(c) * direction * direction);
   }
-  /// Of a root near t; 2 (a t + b) is the slope there.
+  /// The error of a root near t; 2 (a t + b) is the slope there.
   Long root_error(Long t) const {
     const Long residual = 16 * double_rounding * (direction * std::fabs(t) + size) * (direction * std::fabs(t) + size);
     const Long slope = 2 * std::fabs(a * t + b);

@@ -35,7 +35,7 @@ struct Encounter {
 void add_encounters(const core::Ray& ray, const core::PrimitiveValues& values, std::uint32_t primitive,
                     std::vector<Encounter>& encounters);
 
-/// The same for reports, whether or not it is a hit: the encounter with the greatest margin. A ray that does not meet a curved
+/// Answers for reports, whether or not it is a hit: the encounter with the greatest margin. A ray that does not meet a curved
 /// primitive's full surface at all has margins of minus infinity.
 Encounter examine(const core::Ray& ray, const core::PrimitiveValues& values, std::uint32_t primitive);
 

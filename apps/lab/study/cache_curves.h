@@ -15,10 +15,10 @@
 
 namespace dmpc::apps {
 
-/// Of all nodes together, each with a cache of its own. A value.
+/// The curves of all nodes together, each with a cache of its own. A value.
 class CacheCurves {
  public:
-  /// Of one node, in order; those of one page in a row may be one.
+  /// The references of one node, in order; those of one page in a row may be one.
   using NodeReferences = std::span<const svm::PageId>;
 
   /// `reference_count`: those that a share of misses is of. `sizes`: in pages. `check` is called check_count()
@@ -27,7 +27,7 @@ class CacheCurves {
               const std::function<void()>& check);
 
   static std::uint64_t check_count(std::size_t node_count, std::size_t size_count);
-  /// Of the cells that row() has. `share`: what the second says that the cache is a share of.
+  /// The columns of the cells that row() has. `share`: what the second says that the cache is a share of.
   static std::vector<Column> columns(const std::string& share);
   static Plot plot();
   static PlotAxis size_axis();

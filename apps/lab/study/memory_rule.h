@@ -16,9 +16,9 @@ namespace dmpc::apps {
 
 /// Without either: as much as the system needs, and caches that hold the whole database.
 struct MemoryRule {
-  /// Of the database, beside the node's own part, which is an Nth of it: what a cache holds, or copies take. In (0, 1].
+  /// How much of the database, beside the node's own part, which is an Nth of it, a cache holds, or copies take. In (0, 1].
   std::optional<double> share = {};
-  /// Of all that the node's memory holds, as --node-memory of `render`.
+  /// The bytes of all that the node's memory holds, as --node-memory of `render`.
   std::optional<std::size_t> bytes = {};
 
   /// As the command line has it: "auto", "25%", "1MiB".

@@ -49,7 +49,7 @@ class Ghosts {
     table_.insert(page, index);
     lists_.push(list, index);
   }
-  /// The same in place of the page that has been in the list longest, where there is no room.
+  /// Remembers it in place of the page that has been in the list longest, where there is no room.
   void remember_latest(unsigned list, PageId page) {
     if (free_count_ == 0) {
       forget_oldest(list);

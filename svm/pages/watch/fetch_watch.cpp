@@ -102,10 +102,10 @@ std::uint32_t word_in(const nodes::Passing& packet, std::size_t index) {
   return word;
 }
 
-/// Of a request, and of a reply's header.
+/// The page of a request, and of a reply's header.
 std::uint32_t page_in(const nodes::Passing& packet) { return word_in(packet, 0); }
 
-/// Of a request that is passed on.
+/// The asker of a request that is passed on.
 std::uint32_t asker_in(const nodes::Passing& packet) { return word_in(packet, 1); }
 
 /// `count`: of those that have this asker and home so far, at the end that asks.

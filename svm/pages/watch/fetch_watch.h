@@ -53,7 +53,7 @@ struct Fetches {
   std::uint32_t every = 1;
   PageHomes where = PageHomes::spread;  ///< pages are at home
 
-  /// Of a page.
+  /// The home of a page.
   std::uint32_t home_of(std::uint32_t page) const {
     return are_at_host(where) ? peer_count - 1 : Homes(peer_count).place_of(PageId{page}).node;
   }

@@ -17,11 +17,11 @@ namespace dmpc::svm {
 /// A value. Of one node, or of several added up, each with a cache of its own.
 class MissCurve {
  public:
-  /// Of no references.
+  /// The curve of no references.
   MissCurve() = default;
-  /// Of one node's references of pages that need a frame. Time n log p and memory 16 p for n references of pages below p (a
-  /// Fenwick tree over the times of last references: B. T. Bennett, V. J. Kruskal, "LRU Stack Processing", 1975, with the tree
-  /// of P. M. Fenwick, 1994).
+  /// The curve of one node's references of pages that need a frame. Time n log p and memory 16 p for n references of pages below
+  /// p (a Fenwick tree over the times of last references: B. T. Bennett, V. J. Kruskal, "LRU Stack Processing", 1975, with the
+  /// tree of P. M. Fenwick, 1994).
   explicit MissCurve(std::span<const PageId> references);
 
   MissCurve& operator+=(const MissCurve& more);

@@ -12,8 +12,8 @@
 
 namespace dmpc::svm {
 
-/// Of one node's references. The first pass, which finds each reference's next, is the constructor's; the second is each size's.
-/// Thread safety: an immutable value once made.
+/// The fewest misses of one node's references. The first pass, which finds each reference's next, is the constructor's; the
+/// second is each size's. Thread safety: an immutable value once made.
 class Optimum {
  public:
   /// Fewer than 2^32 - 1 references, which outlive this.

@@ -34,7 +34,7 @@ class ReferenceLog {
       keep(page);
     }
   }
-  /// Of the pages that are kept, in order.
+  /// The references of the pages that are kept, in order.
   std::span<const PageId> pages() const { return pages_; }
   /// A power of two.
   std::uint32_t every() const { return share_.every(); }

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 void check_installed(const fs::path& root, const std::string& zsh_folder) {
   const fs::path share = root / "share";
   for (const fs::path& file :
-       {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/LICENSE",
+       {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/WORDS.md", share / "doc/dmpc/LICENSE",
         share / "doc/dmpc/apps/teapot.png", share / "dmpc/stats.schema.json", share / "doc/dmpc/apps/teapot-heat.png",
         share / "doc/dmpc/core/README.md", share / "doc/dmpc/apps/lab/study/paper/RESULTS.md",
         share / "fish/vendor_completions.d/dmpc.fish", share / "zsh" / zsh_folder / "_dmpc"}) {
@@ -64,7 +64,7 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// Of the package beside dmpc's own.
+/// Checks the package beside dmpc's own.
 void check_python_package(const TemporaryFolder& folder) {
   const Said unpacked = run({"sh", "-c",
                              "cd '" + folder.path().string() +

@@ -190,7 +190,7 @@ class Storage {
   int status_ = 0;
 };
 
-/// Of a computer on which nothing goes wrong.
+/// The picture of a computer on which nothing goes wrong.
 const std::vector<float>& undisturbed_picture(std::uint64_t seed) {
   static std::map<std::uint64_t, std::vector<float>> pictures;
   std::vector<float>& picture = pictures[seed % 2];

@@ -26,7 +26,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Of those commands that call dmpc themselves, another one than the test's.
+/// For those commands that call dmpc themselves: another one than the test's.
 template <class Options>
 Options with_program(const apps::Command& command) {
   auto options = command.options<Options>();

@@ -19,7 +19,7 @@ namespace {
 
 const PictureIdentity identity{100, 50, {{"depth", "5"}, {"objects", "#12"}}, {.samples = 4}};
 
-/// Of 5,000 pixels, of which a third are done.
+/// A picture of 5,000 pixels, of which a third are done.
 struct SmallPicture {
   SmallPicture() {
     for (std::uint32_t pixel = 0; pixel < 5000; pixel += 3) {

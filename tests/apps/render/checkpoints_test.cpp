@@ -78,7 +78,7 @@ bool waits_for_checkpoint(const TemporaryFolder& folder) {
   return false;
 }
 
-/// Of a picture that takes about a second.
+/// Computers for a picture that takes about a second.
 const std::vector<std::vector<std::string>> computers = {{"--samples=16", "--strategy=svm", "--nodes=3"},
                                                          {"--samples=16", "--strategy=dataflow", "--nodes=2"},
                                                          {"--samples=16", "--strategy=replicated", "--nodes=2"},

@@ -51,7 +51,7 @@ std::vector<double> details(const Heights& heights) {
   return found;
 }
 
-/// Of what is `distance` apart: 1 if alike, about 0 if unrelated.
+/// The correlation of what is `distance` apart: 1 if alike, about 0 if unrelated.
 double correlation(const std::vector<double>& values, std::size_t distance) {
   double products = 0, squares = 0;
   for (std::size_t i = 0; i + distance < values.size(); ++i) {

@@ -76,7 +76,7 @@ Count self_hits(const Scene& scene, std::size_t rays) {
   return count;
 }
 
-/// The same, meeting random triangles at `rise` (the sine of the angle to their plane), also next to their edges.
+/// Hits of rays that meet random triangles at `rise` (the sine of the angle to their plane), also next to their edges.
 Count grazing_self_hits(const Scene& scene, double rise, std::size_t rays) {
   const Database database = database_of(scene);
   Random random(42);

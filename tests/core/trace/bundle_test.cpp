@@ -69,7 +69,7 @@ WalksAlone walk_alone(const Database& database, const BundleRays& rays, const Sk
   return result;
 }
 
-/// Of shadow rays any hit will do.
+/// The hits are those of rays that walk alone; for shadow rays any hit will do.
 void check_hits(const RayBundle& bundle, const WalksAlone& expected) {
   for (std::size_t i = 0; i < bundle.count; ++i) {
     CAPTURE(i);
@@ -81,7 +81,7 @@ void check_hits(const RayBundle& bundle, const WalksAlone& expected) {
   }
 }
 
-/// Of triangles alone, of all kinds of primitives, and with empty space between its parts.
+/// Scenes of triangles alone, of all kinds of primitives, and with empty space between its parts.
 const std::vector<Database>& bundle_subjects() {
   static const std::vector<Database> all = [] {
     std::vector<Database> result;

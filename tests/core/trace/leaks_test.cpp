@@ -42,7 +42,7 @@ std::size_t leaks(const Database& database, const std::vector<Vec3d>& origins) {
   return count;
 }
 
-/// The same from `count` points within `reach` of `center`, and from `center` itself.
+/// Leaks from `count` points within `reach` of `center`, and from `center` itself.
 std::size_t leaks(const Mesh& mesh, const Vec3d& center, double reach, std::size_t count) {
   Random random(7);
   std::vector<Vec3d> origins{center};

@@ -29,7 +29,7 @@ inline std::vector<std::string> mpirun_of(int ranks, const std::string& program,
   command.insert(command.end(), arguments.begin(), arguments.end());
   return command;
 }
-/// The same of dmpc.
+/// The words that start dmpc so.
 inline std::vector<std::string> mpirun(int ranks, const std::vector<std::string>& arguments,
                                        const std::string& way = shared_memory) {
   return mpirun_of(ranks, DMPC_PROGRAM, arguments, way);

@@ -29,7 +29,7 @@ using nodes::StreamsToRanks;
 
 constexpr nodes::RankSilence impatient{.life_sign = std::chrono::milliseconds{5}, .longest = std::chrono::milliseconds{100}};
 
-/// Of a rank's own.
+/// Bytes of a rank's own.
 std::vector<std::byte> bytes_for(std::uint32_t rank, std::size_t count) {
   std::vector<std::byte> bytes(count);
   for (std::size_t i = 0; i < count; ++i) {

@@ -122,7 +122,8 @@ VirtualReport report_on(const Machine& machine) {
 
 std::uint64_t hash_of(const Machine& machine) { return report_on(machine).hash; }
 
-/// Of one letter that may be changed so that no time changes: the toy's short messages all cost the same but for their bytes.
+/// The hash of a run with one letter that may be changed so that no time changes: the toy's short messages all cost the same but
+/// for their bytes.
 std::uint64_t hash_of(const Letter& letter) {
   Machine machine = toy_model();
   machine.short_message.byte_ps = 0;

@@ -15,7 +15,7 @@ namespace dmpc::nodes::watch_trace_test {
 
 namespace {
 
-/// Of a program nothing but its levels.
+/// A program that has nothing but its levels.
 class Gauge final : public Program {
  public:
   void receive(const Packet& /*packet*/) override {}

@@ -10,7 +10,7 @@ namespace dmpc::apps::html {
 /// byte of a file's name, becomes U+FFFD; control characters but line ends and tabs become spaces.
 std::string escaped(std::string_view text);
 
-/// The same; what stands between two backticks is code.
+/// `text` so escaped, but what stands between two backticks is code.
 std::string escaped_with_code(std::string_view text);
 
 }  // namespace dmpc::apps::html

@@ -12,7 +12,7 @@ namespace dmpc::apps::html {
 
 namespace {
 
-/// Of all nodes, by part.
+/// The losses of all nodes, by part.
 std::vector<std::uint64_t> sum_of_parts(const Losses& losses) {
   std::vector<std::uint64_t> sum(losses.parts.size());
   for (const std::vector<std::uint64_t>& node : losses.nodes) {
@@ -62,7 +62,7 @@ std::string virtual_conclusion(const Losses& losses, std::span<const double> par
   return text + "." + (even.empty() ? "" : " " + even + ".");
 }
 
-/// Of what wall_losses() tells.
+/// The conclusion from what wall_losses() tells.
 std::string wall_conclusion(std::span<const double> parts) {
   const double whole = sum_of(parts);
   if (whole == 0) {

@@ -23,7 +23,7 @@ struct Losses {
 
 /// On a modelled machine: TimePart's, without those of which no node has anything.
 Losses virtual_losses(std::span<const nodes::VirtualTimes> nodes, const WaitKinds& waits);
-/// Of threads: they compute, sleep for want of packets, or wait for a core.
+/// The losses of threads: they compute, sleep for want of packets, or wait for a core.
 Losses wall_losses(std::span<const nodes::NodeCounters> nodes);
 /// Without parts, but computing, of which no node has anything.
 Losses without_empty_parts(const Losses& losses);

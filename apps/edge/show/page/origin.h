@@ -17,7 +17,7 @@ struct Origin {
   std::optional<std::uint64_t> scene_digest = {};
 };
 
-/// Of this process, now. The date is that of SOURCE_DATE_EPOCH (seconds since 1970) where this is a number.
+/// The origin of what this process makes now. The date is that of SOURCE_DATE_EPOCH (seconds since 1970) where this is a number.
 Origin this_origin(std::optional<std::uint64_t> scene_digest = {});
 
 /// The words as a shell takes them, in quotes where they need some; the program without its folder.

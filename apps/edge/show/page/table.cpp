@@ -41,7 +41,7 @@ struct ColumnStyle {
   bool is_text = false;
 };
 
-/// Of all columns counted in the same unit.
+/// The largest number in all columns counted in the same unit.
 double largest_in(const Table& table, const std::string& unit) {
   double largest = 0;
   for (std::size_t column = 0; column < table.columns().size(); ++column) {

@@ -13,7 +13,7 @@ namespace dmpc::apps::html {
 
 namespace {
 
-/// Of the links of a machine; `--stats` has more.
+/// So many of the links of a machine are shown; `--stats` has more.
 constexpr std::size_t link_rows_max = 64;
 
 std::vector<std::uint64_t> bytes_of(std::span<const PacketKindTraffic> packets) {

@@ -13,7 +13,7 @@
 
 namespace dmpc::apps::html {
 
-/// Of a kind of packet, what was sent.
+/// What was sent of a kind of packet.
 struct PacketKindTraffic {
   std::string kind;  ///< its name in words
   nodes::Traffic sent;

@@ -16,7 +16,7 @@ namespace {
 
 /// Most of the nodes: below this share of them a run tails off.
 constexpr double busy_share = 0.5;
-/// Of a run: a shorter tail is not worth a sentence.
+/// The share of a run: a shorter tail is not worth a sentence.
 constexpr double tail_share_min = 0.02;
 
 /// A change that two digits do not show.

@@ -26,7 +26,7 @@ double microseconds(double ns) { return ns / 1000; }
 std::size_t node_count_of(const nodes::ActivitySteps& steps) { return steps.nodes.size() - 1; }  // the host is the last
 std::size_t step_count_of(const nodes::ActivitySteps& steps) { return steps.nodes.front().size(); }
 
-/// Of all nodes but the host, with work of one kind.
+/// The time of all nodes but the host with work of one kind.
 std::uint64_t busy_ns(const nodes::ActivitySteps& steps, std::size_t step, std::size_t work) {
   std::uint64_t sum_ns = 0;
   for (std::size_t node = 0; node < node_count_of(steps); ++node) {
@@ -47,7 +47,7 @@ std::vector<std::size_t> parts_found(const Fetches& fetches) {
   return found;
 }
 
-/// Of fetches that are sorted by their length.
+/// The mean of fetches that are sorted by their length.
 double mean_ns(std::span<const Fetch> fetches, std::size_t part) {
   const double sum = std::accumulate(fetches.begin(), fetches.end(), 0.0, [part](double before, const Fetch& fetch) {
     return before + static_cast<double>(fetch.part_ns[part]);

@@ -28,7 +28,7 @@ void write_references(std::ostream& output, const std::vector<svm::ReferenceLog>
 /// whole numbers below 2^64, whatever they mean. Throws core::InputError naming the line, core::RoomError for more than 2^32 - 2
 /// references.
 ReferenceTrace read_references(const std::filesystem::path& path);
-/// The same of text that is called `name` in messages.
+/// Reads text that is called `name` in messages.
 ReferenceTrace read_references(std::istream& input, const std::string& name);
 
 }  // namespace dmpc::apps

@@ -34,7 +34,7 @@ std::vector<std::size_t> beginnings(std::span<const TraceItem> items) {
   return found;
 }
 
-/// Of items of one time, in order of node: each node's stay in their order, but it stops before the end of a message until
+/// Orders items of one time by node: each node's stay in their order, but it stops before the end of a message until
 /// another node has come to its beginning.
 void order_causally(std::span<TraceItem> items) {
   std::unordered_set<std::uint32_t> unsent;

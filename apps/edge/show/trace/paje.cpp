@@ -44,7 +44,7 @@ constexpr const char* definitions =
     "%EventDef PajeEndLink 11\n% Time date\n% Type string\n% Container string\n% EndContainer string\n% Value string\n"
     "% Key string\n%EndEventDef\n";
 
-/// Of each SpanName.
+/// The colour of each SpanName.
 constexpr const char* colors[] = {"0.27 0.51 0.71", "0.95 0.61 0.18", "0.46 0.72 0.38", "0.60 0.48 0.74", "0.74 0.62 0.84",
                                   "0.65 0.65 0.65", "0.84 0.24 0.31", "0.35 0.35 0.35", "0.80 0.80 0.50"};
 static_assert(std::size(colors) == span_names.size());

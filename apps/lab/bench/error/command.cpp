@@ -123,7 +123,7 @@ std::vector<PlottedTable> plotted_tables(std::span<const SceneResult> results) {
   return plotted;
 }
 
-/// Of points that were rendered once; what their times are in the end the table says.
+/// Shows points that were rendered once; what their times are in the end the table says.
 void show_rows(const SceneResult& result, ShownRows& shown) {
   constexpr std::size_t key_count = 3;  // scene, knob and setting
   if (shown.is_shown()) {

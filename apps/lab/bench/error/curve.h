@@ -13,7 +13,7 @@ struct CostPoint {
 };
 
 /// Which points no other one is better than: none costs less or as much and has a smaller error, or the same error for less.
-/// Of points that are equal in both all are on the front. Points with `is_eligible` false are not, and beat none.
+/// All of several points that are equal in both are on the front. Points with `is_eligible` false are not, and beat none.
 std::vector<bool> pareto_front(std::span<const CostPoint> points, const std::vector<bool>& is_eligible);
 
 /// The cost at which a curve through `points`, in any order, comes to `error`: on a straight line in the logarithms of both

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<const char*, 9> names = {"samples",           "adaptive",   "cutoff",  "depth",
                                               "tessellation",      "arithmetic", "quality", "adaptive and cutoff",
                                               "adaptive and depth"};
-/// Of these the command line knows.
+/// So many of these the command line knows.
 constexpr std::size_t single_count = 7;
 
 Knob knob_of(const std::string& word, const std::string& text) {

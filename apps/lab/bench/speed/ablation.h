@@ -19,7 +19,8 @@ struct Ablation {
   double work_ratio = 1;  ///< without over with it, by counted operations and their prices (core/trace/work.h): no noise
   std::optional<std::uint64_t> avoided = std::nullopt;  ///< of `unit`
   std::string unit = {};
-  /// Of a bounded skip, which changes the picture: the root mean square error of linear channels against the picture without it.
+  /// What a bounded skip, which changes the picture, errs by: the root mean square error of linear channels against the picture
+  /// without it.
   std::optional<double> error = std::nullopt;
 
   double noise = 0;  ///< the largest share by which times of the same differed in a round

@@ -18,7 +18,7 @@ struct BundleSpan {
 
   std::size_t count() const { return borders.size() - 1; }
   std::span<const core::Ray> bundle(std::size_t index) const { return between(borders[index], borders[index + 1]); }
-  /// Of all its bundles, in order.
+  /// The rays of all its bundles, in order.
   std::span<const core::Ray> rays() const { return between(borders.front(), borders.back()); }
   /// `most` bundles from the one of this index on, or as many as there are. Requires first <= count().
   BundleSpan part(std::size_t first, std::size_t most) const {

@@ -117,7 +117,7 @@ Table rows_of(const Results& results) {
   return others.rows().empty() ? plain_table(results.comparisons, "") : others;
 }
 
-/// Of what was measured so far, as the table in the end has them.
+/// Shows rows of what was measured so far, as the table in the end has them.
 void show_rows(const SpeedOptions& options, const Results& results, ShownRows& shown) {
   if (shown.is_shown()) {
     shown.show(options.is_ablation ? table_of(results.ablations, "") : rows_of(results));

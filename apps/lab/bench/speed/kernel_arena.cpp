@@ -29,7 +29,7 @@ std::uint64_t trace_rays(std::span<const core::Ray> rays, R&& records, const cor
   return hits;
 }
 
-/// The same of rays that walk together.
+/// Traces rays that walk together.
 template <core::Records R>
 std::uint64_t trace_bundles(const BundleSpan& bundles, R&& records, const core::DatabaseHeader& header) {
   core::GridTracer tracer(records, header, {});

@@ -65,7 +65,7 @@ std::string spread_of(const std::vector<double>& ratios) {
   return fixed(mean(ratios), 3) + " (" + fixed(*least, 3) + " to " + fixed(*most, 3) + ")";
 }
 
-/// Of the comparisons of `what`.
+/// The ratios of the comparisons of `what`.
 std::vector<double> ratios_of(std::span<const Comparison> comparisons, const std::string& what) {
   return ratios_of(measured(comparisons, [&](const Comparison& one) { return is_plain(one, what); }));
 }

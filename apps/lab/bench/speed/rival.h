@@ -39,7 +39,7 @@ class EmbreeRival {
 
   /// Asks about the rays, one by one, up to their t_max; returns how many hit.
   std::uint64_t trace(std::span<const core::Ray> rays, Query query) const;
-  /// The same of bundles, each as a packet of up to 16 rays.
+  /// Traces bundles, each as a packet of up to 16 rays.
   std::uint64_t trace_packets(const BundleSpan& bundles, Query query, Coherence coherence) const;
   /// What Embree took to build its tree, from vertices that lay ready.
   Times build_times() const;

@@ -14,7 +14,7 @@ bool is_kernel(const Comparison& comparison, const char* subject) {
          comparison.rival == "Embree robust";
 }
 
-/// Of rays that a render shoots; bounces are a path tracer's.
+/// Whether it is of rays that a render shoots; bounces are a path tracer's.
 bool is_rendered(const Comparison& comparison, const char* subject) {
   return is_kernel(comparison, subject) && comparison.detail != name_of(RayClass::bounce);
 }
@@ -27,7 +27,7 @@ bool is_of(const Comparison& comparison, SpeedPart part, const char* what, const
   return comparison.part == part && comparison.what == what && comparison.subject == subject;
 }
 
-/// The same of what is timed by two clocks: what the user waits for counts.
+/// As is_of(), and what is timed by two clocks only by the wall clock: what the user waits for counts.
 bool is_timed(const Comparison& comparison, SpeedPart part, const char* what, const char* subject) {
   return comparison.is_by_wall_clock() && is_of(comparison, part, what, subject);
 }

@@ -52,7 +52,7 @@ PrimitiveValues any_triangle(Random& random) {
   return values;
 }
 
-/// Of four values, none of them negative: the bits of a usual float.
+/// The rests of four values, none of them negative: the bits of a usual float.
 float any_rests(Random& random) { return std::bit_cast<float>(static_cast<std::uint32_t>(random.bits()) & 0x3f3f3f3fU); }
 
 PrimitiveValues any_sphere(Random& random) {

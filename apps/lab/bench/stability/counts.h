@@ -8,7 +8,7 @@
 
 namespace dmpc::apps {
 
-/// Of one kernel in one test. A ray fails in one way at most.
+/// What one kernel came to in one test. A ray fails in one way at most.
 struct StabilityCounts {
   std::uint64_t tried = 0;           ///< rays, or points
   std::uint64_t leaks = 0;           ///< missed what cannot be missed by rounding

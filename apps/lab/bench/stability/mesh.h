@@ -94,7 +94,7 @@ inline Mesh moved(Mesh mesh, double factor, const core::Vec3d& offset) {
   return mesh;
 }
 
-/// The same with vertices as single precision holds them; triangles stay joined, since equal vertices round alike.
+/// The mesh with vertices as single precision holds them; triangles stay joined, since equal vertices round alike.
 inline Mesh rounded(Mesh mesh) {
   for (core::Vec3d& v : mesh.vertices) {
     v = core::Vec3d(core::Vec3f(v));

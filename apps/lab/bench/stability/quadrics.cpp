@@ -50,7 +50,7 @@ Roots sphere_roots(const Ray& ray, const PrimitiveValues& sphere) {
   return roots_of(a, 0, dot(nearest, nearest) - radius * radius, shift);
 }
 
-/// Of the whole double cone; the caller's rays meet it between its ends.
+/// The roots of the whole double cone; the caller's rays meet it between its ends.
 Roots cone_roots(const Ray& ray, const PrimitiveValues& cone) {
   const Vec3l base = row(cone, 0), axis = row(cone, 4) - base, d(ray.full_direction()), from = Vec3l(ray.full_origin()) - base;
   const Long squared = dot(axis, axis), shift = -dot(from, d) / dot(d, d);

@@ -24,7 +24,7 @@ class Random {
     const double x = between(low, high), y = between(low, high);
     return {x, y, between(low, high)};
   }
-  /// Of unit length, uniform over the sphere.
+  /// A direction of unit length, uniform over the sphere.
   core::Vec3d direction() {
     for (;;) {
       const core::Vec3d v = in_box(-1, 1);

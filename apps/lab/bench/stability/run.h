@@ -51,8 +51,8 @@ class StabilityRun {
   std::uint64_t seed_;
 };
 
-/// Of the tests named ("R1", "quadrics"; all if none is), in the order of grid tests R1 to R16. Throws core::UsageError for a
-/// name that is none, saying what there is.
+/// The cases of the tests named ("R1", "quadrics"; all if none is), in the order of grid tests R1 to R16. Throws core::UsageError
+/// for a name that is none, saying what there is.
 StabilityCases stability_cases(const StabilityAmount& amount, const std::vector<std::string>& tests);
 
 }  // namespace dmpc::apps

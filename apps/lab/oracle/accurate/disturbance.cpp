@@ -12,13 +12,13 @@ using core::Vec3d;
 
 /// The product counts shares of levels and of probes in steps of half of this.
 constexpr double share_rounding = 0x1p-15;
-/// Of a value with its rest; and of a ray with its own.
+/// What rounding takes of a value with its rest; and of a ray with its own.
 constexpr double curved_rounding = 0x1p-32;
 constexpr double rest_rounding = 0x1p-45;
 /// What the product's secondary rays start off their surface by, grid-local, and how much farther along their way.
 constexpr double clearance = 0x1p-20, tie_clearance = 0x1p-23, clearances_along = 8;
 
-/// Of the triangle or the cone, whose normal turns where an end of it is moved.
+/// The height of the triangle or the cone, whose normal turns where an end of it is moved.
 double height_of(const AccurateBody& body) {
   const Vec3d a = body.place[1] - body.place[0], b = body.place[2] - body.place[0];
   return body.kind == core::PrimitiveKind::cone ? length(a)

@@ -8,7 +8,7 @@
 
 namespace dmpc::apps {
 
-/// Of a value in single precision, relative to it.
+/// What rounding takes of a value in single precision, relative to it.
 inline constexpr double float_rounding = 0x1p-24;
 
 /// Moves what starts from one hit by as much as the product's arithmetic in float may. With u = 2^-24 and L the product's
@@ -39,7 +39,7 @@ class Disturbance final : public RayWatcher {
 
   double unit_;
   std::uint64_t state_;
-  // Of the surface last touched.
+  // These are of the surface last touched.
   core::Vec3d normal_;
   double t_ = 0, size_ = 0;
   bool is_flat_ = false, is_smooth_ = false;

@@ -40,7 +40,7 @@ class PixelJudge {
   PixelJudge(const core::Database& database, const core::RenderSettings& settings, const AccurateScene& scene,
              const AccurateFinder& finder, const AccurateCamera& camera);
 
-  /// Of a picture with one sample a pixel.
+  /// Judges a pixel of a picture with one sample a pixel.
   Judgement judge(std::uint32_t pixel) const;
 
  private:

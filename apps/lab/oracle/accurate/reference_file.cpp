@@ -18,7 +18,7 @@ using nlohmann::json;
 fs::path picture_file(const fs::path& folder, const std::string& key) { return folder / (key + ".exr"); }
 fs::path figures_file(const fs::path& folder, const std::string& key) { return folder / (key + ".json"); }
 
-/// Of the size and all bits.
+/// A hash of the size and all bits.
 std::uint64_t hash_of(const Image& image) {
   std::uint64_t hash = core::mix(static_cast<std::uint64_t>(image.width) << 32U | static_cast<std::uint64_t>(image.height));
   for (const float value : image.rgb) {

@@ -14,7 +14,7 @@ using core::Vec3d;
 using Rays = std::vector<AccurateRay>;
 
 constexpr std::size_t trial_count = 16;
-/// Of a weight that is a product of some floats, and of what a light's rounded place does to a highlight.
+/// What rounding takes of a weight that is a product of some floats, and of what a light's rounded place does to a highlight.
 constexpr double weight_rounding = 8e-6;
 /// The product's shadow rays end so much of their length before the light.
 constexpr double end_rounding = 4e-6;

@@ -24,8 +24,8 @@ struct AccurateFootprint {
   double width = 0, strides = 1;
 };
 
-/// Of a cone `cone` wide, in world units, where its axis meets the triangle in the point with these weights of its corners. A
-/// cone of no width sees a point.
+/// The footprint of a cone `cone` wide, in world units, where its axis meets the triangle in the point with these weights of its
+/// corners. A cone of no width sees a point.
 AccurateFootprint footprint_of(const AccuratePaint& paint, const core::Texture& texture, const std::array<double, 3>& weight,
                                const core::Vec3d& direction, double cone);
 

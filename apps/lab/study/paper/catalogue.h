@@ -11,13 +11,13 @@
 
 namespace dmpc::apps {
 
-/// Of the cache experiments, in the article.
+/// The nodes of the cache experiments, in the article.
 inline constexpr std::uint32_t cache_node_count = 32;
 /// Sizes of the cache experiments for each scene.
 inline constexpr std::size_t cache_size_count = 10;
 /// Rows of Tables 2 and 3.
 inline constexpr std::size_t rings_row = 2, tetra_row = 3;
-/// Of Tables 2 and 3: the scene that is small beside a node's memory.
+/// The row of Tables 2 and 3 with the scene that is small beside a node's memory.
 inline constexpr std::size_t small_row = 0;
 /// Sides of work items that are tried on Rings4 and 64 nodes; the first, 0: every node keeps its submap.
 inline constexpr std::array<std::uint32_t, 7> item_sides = {0, 1, 2, 3, 4, 6, 8};
@@ -53,7 +53,7 @@ struct CacheScene {
   std::array<std::uint32_t, cache_size_count> pages{};  ///< of the article's database
 
   constexpr const PaperScene& row() const { return paper_scenes[paper_row]; }
-  /// Of the database; pages are of 1 KB.
+  /// The share of the database; pages are of 1 KB.
   double share(std::size_t size) const { return pages[size] / static_cast<double>(row().database_kilobytes); }
   /// What the largest cache makes of a node's shared memory: with the node's own pages, in KB.
   constexpr double shared_kilobytes() const {
@@ -68,7 +68,7 @@ static_assert(cache_scenes[0].paper_row == missing_rows[0] && cache_scenes[1].pa
 /// The scene, and the seconds on one node and on two, that the machine's prices are fitted to: Mountain.
 inline constexpr std::size_t calibration_row = 1;
 inline constexpr const PaperScene& calibration_scene = paper_scenes[calibration_row];
-/// Of its row in Table 3, from the left.
+/// So many cells of its row in Table 3 are fitted to, from the left.
 inline constexpr std::size_t calibration_cell_count = 2;
 
 /// Numbers of runs.
@@ -90,7 +90,7 @@ struct Catalogue {
   std::array<std::size_t, 2> cache_base{};                            ///< of `cache_scenes`, on one node
   std::array<std::array<std::size_t, cache_size_count>, 2> cached{};  ///< of `cache_scenes`, by size
   std::array<std::size_t, item_sides.size()> items{};                 ///< Rings4 on 64 nodes, by size
-  /// The same, asked of the host; nothing of size 0.
+  /// Those that ask the host for items; nothing of size 0.
   std::array<std::size_t, item_sides.size()> items_dealt{};
   std::array<std::array<std::size_t, ray_way_names.size()>, 2> rings_by_way{};  ///< of `rings` on 64 nodes, by RayWay
   /// Rings4 on 64 nodes, by size: its shared memory in software, and in hardware.

@@ -83,7 +83,7 @@ void claim_rays_fall(Claims& rows, const Catalogue& catalogue, const PaperResult
   }
 }
 
-/// Of one scene's caches: size, efficiency and traffic.
+/// A point of one scene's caches: size, efficiency and traffic.
 struct CachePoint {
   std::uint32_t pages = 0;  ///< in the article
   double share = 0;         ///< of the database

@@ -9,7 +9,7 @@
 
 namespace dmpc::apps {
 
-/// Of the 4 MB of a node's memory, about so many KB serve the shared memory: its own pages and its cache. So says the text.
+/// About so many KB of the 4 MB of a node's memory serve the shared memory: its own pages and its cache. So says the text.
 inline constexpr double shared_kilobytes = 3.2 * 1024;
 
 /// Pixels a side of its pictures.

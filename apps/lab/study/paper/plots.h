@@ -8,7 +8,7 @@
 
 namespace dmpc::apps {
 
-/// Of one of its tables.
+/// A plot of one of its tables.
 struct PaperPlot {
   std::string table;  ///< by the name of its files: "table_3"
   Plot plot;

@@ -16,7 +16,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// Of a table, by its name: links to them in Markdown.
+/// The pictures of a table, by its name: links to them in Markdown.
 using Pictures = std::map<std::string, std::string>;
 
 void write_tables(const std::vector<NamedTable>& tables, const std::filesystem::path& folder, Attempts& attempts) {

@@ -36,7 +36,7 @@ std::vector<OutputName> report_files(const PaperReport& report, const std::files
 /// report.md, too. Each file is one of the attempts.
 std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder, Attempts& attempts);
 
-/// The same as a page. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
+/// The report as a page. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
 /// written.
 std::string page_of(const PaperReport& report, std::ostream& complaints);
 

@@ -52,7 +52,7 @@ struct PaperResult {
   std::uint64_t film_hash = 0;
 
   double seconds() const { return 1e-9 * static_cast<double>(total_ns); }
-  /// Of the look-ups of pages, those that a page had to travel for.
+  /// The share of the look-ups of pages for which a page had to travel.
   double miss_ratio() const { return references == 0 ? 0 : static_cast<double>(faults) / static_cast<double>(references); }
   /// Bytes of pages that a node receives a second.
   double page_rate(std::uint32_t node_count) const {

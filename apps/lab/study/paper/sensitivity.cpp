@@ -19,7 +19,7 @@ using nodes::MessageCost;
 
 std::uint64_t& price(Machine& machine, Charge charge) { return machine.cost_ps[static_cast<std::size_t>(charge)]; }
 
-/// Of what has a price that Table 3's runs pay.
+/// The charges of what has a price that Table 3's runs pay.
 constexpr std::pair<Charge, const char*> charges[] = {
     {Charge::ray_setup, "ray set-up"},        {Charge::cell_step, "cell step"}, {Charge::brick_read, "brick read"},
     {Charge::triangle_test, "triangle test"}, {Charge::shading, "shading"},     {Charge::cached_lookup, "cached look-up"},

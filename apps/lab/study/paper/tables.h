@@ -20,12 +20,12 @@ constexpr double efficiency(double base_seconds, std::uint32_t base_count, doubl
   return 100 * base_seconds * base_count / (seconds * node_count);
 }
 
-/// The same of what is printed in a scene's row of Table 3, against the row's first time. Requires a column with a time.
+/// The efficiency that is printed in a scene's row of Table 3, against the row's first time. Requires a column with a time.
 inline double printed_efficiency(const PaperScene& scene, std::size_t column) {
   const std::size_t base = scene.base();
   return efficiency(scene.seconds[base], paper_node_counts[base], scene.seconds[column], paper_node_counts[column]);
 }
-/// The same of a row of runs, against the one at `base`; nothing if either has no result.
+/// The efficiency of a row of runs, against the one at `base`; nothing if either has no result.
 std::optional<double> found_efficiency(const Catalogue::ByNodeCount& runs, const PaperResults& results, std::size_t base,
                                        std::size_t column);
 

@@ -43,7 +43,7 @@ TEST_CASE("the glossary as text says every word once, on lines that fit a termin
     heads += line.starts_with(" ") ? 0 : 1;
   }
   CHECK(heads == glossary().size());
-  CHECK(tests::contains(text, "work item        A few pixels, 3x3 as a rule"));
+  CHECK(tests::contains(text, "work item        A square of pixels, 4x4 (3x3 where"));
 }
 
 }  // namespace dmpc::apps::glossary_test

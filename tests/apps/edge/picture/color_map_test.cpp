@@ -16,7 +16,7 @@ constexpr int steps = 400;
 
 double at(int step) { return static_cast<double>(step) / steps; }
 
-/// Of linear light, by the definition of L*.
+/// The lightness of linear light, by the definition of L*.
 double lightness(const core::Color& color) {
   const double y = 0.2126729 * double{color.x} + 0.7151522 * double{color.y} + 0.0721750 * double{color.z};
   return y > 216.0 / 24389 ? 116 * std::cbrt(y) - 16 : y * 24389 / 27;

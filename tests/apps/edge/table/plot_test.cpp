@@ -229,7 +229,7 @@ namespace {
 
 using Light = std::array<double, 3>;
 
-/// Of "#rrggbb".
+/// The light of "#rrggbb".
 Light linear_light(const std::string& color) {
   Light light{};
   for (std::size_t channel = 0; channel < 3; ++channel) {

@@ -15,7 +15,7 @@ namespace dmpc::apps::table_table_test {
 
 namespace {
 
-/// Of every kind of cell one, and one that is missing.
+/// It has one of every kind of cell, and one that is missing.
 Table small_table() {
   Table table("two runs", {{"nodes"}, {"kind"}, {"average load", "%", 1}});
   table.add_row({std::uint64_t{1234567}, "plain", 82.46});

@@ -20,7 +20,7 @@ using apps::System;
 using apps::SystemsStudy;
 using apps::Table;
 
-/// Of these systems, by name.
+/// A study of these systems, by name.
 SystemsStudy study_of(const std::string& scene, const std::vector<const char*>& systems, std::uint32_t node_count,
                       std::vector<MemoryRule> memories) {
   SystemsStudy study{.chosen = {}, .node_counts = {node_count}, .memories = std::move(memories)};

@@ -19,7 +19,7 @@ StrategyStats stats_of(const Rendered& rendered) {
 
 StrategyStats stats_of(const RenderOptions& options) { return stats_of(Rendered(options)); }
 
-/// Of what stands at `path` in every node's object.
+/// The sum of what stands at `path` in every node's object.
 std::uint64_t sum_over_nodes(const StrategyStats& stats, const char* path) {
   const Json::json_pointer pointer(path);
   return std::accumulate(stats.nodes.begin(), stats.nodes.end(), std::uint64_t{0},

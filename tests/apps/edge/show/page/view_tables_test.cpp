@@ -14,7 +14,7 @@ double real(const Cell& cell) { return std::get<double>(cell); }
 
 const std::vector<std::string> six_works = {"a", "b", "c", "d", "e", "f"};
 
-/// Of a row's numbers but the last.
+/// The sum of a row's numbers but the last.
 double sum_before_last(const std::vector<Cell>& row) {
   double sum = 0;
   for (std::size_t i = 1; i + 1 < row.size(); ++i) {

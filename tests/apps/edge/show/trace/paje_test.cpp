@@ -35,7 +35,7 @@ std::uint64_t count(const std::string& text, const std::string& beginning) {
   return found;
 }
 
-/// Of all nodes, from lines "State, node, activity, begin, end, duration, depth, name" in seconds with nine decimals.
+/// The time of all nodes, from lines "State, node, activity, begin, end, duration, depth, name" in seconds with nine decimals.
 std::uint64_t shading_ns(const std::string& read) {
   std::istringstream lines(read);
   std::uint64_t sum_ns = 0;

@@ -29,7 +29,7 @@ ErrorOptions error_options(Words arguments) {
   return apps::parse_command_line(arguments).options<ErrorOptions>();
 }
 
-/// Of tetra-2 at 16x16 against a rough reference.
+/// The errors of tetra-2 at 16x16 against a rough reference.
 ErrorOptions tiny_error(const TemporaryFolder& folder, Words more = {}) {
   more.insert(more.end(), {"tetra-2", "--resolution=16x16", "--quick", "--repeat=2", "--reference-samples=12",
                            "--references=" + (folder / "references").string()});

@@ -33,7 +33,7 @@ apps::Subject recorded_subject(const std::string& scene = "balls-1") {
 
 constexpr std::uint32_t rays_each = 3;
 
-/// Of bundles of equal size whose rays have the bundle's number as their pixel: 0, 1, 2, ...
+/// What is kept of bundles of equal size whose rays have the bundle's number as their pixel: 0, 1, 2, ...
 apps::BundledRays kept_of(std::uint32_t shot, std::size_t most) {
   BundleSample sample(most);
   for (std::uint32_t i = 0; i < shot; ++i) {
