@@ -15,7 +15,7 @@
 #include "svm/run.h"
 #include "tests/support/allocation_guard.h"
 
-namespace dmpc::tests::allocation_program_allocation_test {
+namespace dmpc::tests::svm_program_allocation_test {
 
 namespace {
 
@@ -81,4 +81,4 @@ TEST_CASE("a node of replicated allocates nothing while it renders") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests::allocation_program_allocation_test
+}  // namespace dmpc::tests::svm_program_allocation_test
