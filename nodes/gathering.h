@@ -12,6 +12,7 @@
 #include "nodes/flat_bytes.h"
 #include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
+#include "nodes/watch/watching.h"
 
 namespace dmpc::nodes {
 
