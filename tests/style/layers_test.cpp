@@ -65,7 +65,7 @@ const std::map<std::string, Names> rooms = {
 
 /// Rooms of other libraries, and the files of their floor, by how they begin, that look down into them.
 const std::map<std::string, Names> looked_into_by = {
-    {"nodes/threads", {"nodes/runner.cpp"}},       {"nodes/ranks", {"nodes/runner."}},
+    {"nodes/threads", {"nodes/runner.cpp"}},       {"nodes/ranks", {"nodes/runner.", "nodes/gathering."}},
     {"nodes/virtual", {"nodes/runner."}},          {"nodes/watch", {}},
     {"svm/pages/watch", {"svm/pages/run_tasks."}}, {"svm/forest", {"svm/plan.", "svm/make_programs."}},
 };
@@ -88,6 +88,7 @@ const std::vector<Foreign> foreign = {
     {"meshoptimizer.h", {"apps/foreign/gltf/meshopt.cpp", "tests/apps/foreign/"}},
     {"draco/", {"apps/foreign/gltf/draco.cpp", "tests/apps/foreign/"}},
     {"seccomp.h", {"apps/foreign/sandbox.cpp", "tests/apps/reader/foreign_files_test.cpp"}},
+    {"CLI/", {}},  // nobody wants it any more
     {"nlohmann/",
      {"apps/edge/show/stats/", "apps/show/stats/", "apps/edge/machine/machine_file.", "apps/edge/table/table.cpp",
       "apps/lab/compare/report.cpp", "apps/lab/figures/", "apps/lab/oracle/accurate/reference_file.cpp", "apps/foreign/gltf/",
