@@ -52,7 +52,7 @@ TEST_CASE("as many nodes wait as there are, and none twice") {
 
 TEST_CASE("without shared places the account takes no memory") {
   Owner owner({.node_count = 5, .shared = 0});
-  CHECK(owner.memory.used().total() == Owner::plan_for({.node_count = 0, .shared = 0}).total());
+  CHECK(owner.memory.used().total() == nodes::MemoryPlan(Places::layout({.node_count = 0})).total());
   CHECK_FALSE(owner.places.grant());
 }
 

@@ -157,6 +157,26 @@ void choose_quick(const OptionSet& set, MeasureOptions& measure) {
   }
 }
 
+/// What is turned, and what stays.
+void add_turned_options(OptionSet set, ErrorOptions& options) {
+  MeasureOptions& measure = options.measure;
+  set.add_text(
+      "--knobs", "NAME,NAME,... [all]",
+      [&](const std::string& text) {
+        measure.knobs = parse_knobs(text);
+        options.has_tessellation = measure.knobs.contains(Knob::tessellation);
+      },
+      "What is turned, one at a time: samples, adaptive (sampling), cutoff, depth, tessellation, arithmetic, quality (draft, "
+      "default); adaptive with cutoff or depth together as well");
+  set.add_flag(
+      "--quick", measure.is_quick,
+      "Fewer positions of each knob, and, where nothing else is said, 192x192 pixels, one round and 16 x 16 rays through "
+      "each pixel of the reference: half a minute");
+  set.add_number("--repeat", measure.rounds, 1, 1000, "3", "Rounds in which everything is rendered and timed");
+  set.add_number("--samples", measure.picture.samples, 2, 4096, std::to_string(measure.picture.samples),
+                 "Rays through each pixel where they are not what is turned");
+}
+
 }  // namespace
 
 ErrorOptions::ErrorOptions() {
@@ -173,23 +193,7 @@ void add_options(OptionSet set, ErrorOptions& options) {
   set.add_arguments(
       "SCENE", [&options](const std::string& text) { options.scenes.push_back(text); },
       "NFF or mesh files, or built-in scenes such as teapot-12, rings-3, tetra-6");
-  set.add_text(
-      "--knobs", "NAME,NAME,... [all]",
-      [&](const std::string& text) {
-        measure.knobs = parse_knobs(text);
-        options.has_tessellation = measure.knobs.contains(Knob::tessellation);
-      },
-      "What is turned, one at a time: samples, adaptive (sampling), cutoff, depth, tessellation, arithmetic, quality (draft, "
-      "default); adaptive with "
-      "cutoff "
-      "or depth together as well");
-  set.add_flag(
-      "--quick", measure.is_quick,
-      "Fewer positions of each knob, and, where nothing else is said, 192x192 pixels, one round and 16 x 16 rays through "
-      "each pixel of the reference: half a minute");
-  set.add_number("--repeat", measure.rounds, 1, 1000, "3", "Rounds in which everything is rendered and timed");
-  set.add_number("--samples", measure.picture.samples, 2, 4096, std::to_string(measure.picture.samples),
-                 "Rays through each pixel where they are not what is turned");
+  add_turned_options(set, options);
   add_options(set, measure.picture.staging);
   add_view_options(set, measure.picture);
   set.add_text(
