@@ -69,7 +69,7 @@ struct Report {
 
   /// What programs count, summed over the nodes.
   template <class Counts>
-  Counts summed(Counts ProgramReport::*counts) const {
+  Counts summed(Counts ProgramCounts::*counts) const {
     return core::total_of(nodes, [counts](const NodeReport& node) { return node.program.*counts; });
   }
   core::Operations operations() const { return summed(&ProgramReport::operations); }
