@@ -31,7 +31,7 @@ class MovingUnits {
   /// Those of the primary rays dealt before the start that are of no unit.
   static std::span<const PrimaryRun> others_of(std::span<const PrimaryRun> /*primaries*/) { return {}; }
 
-  /// Of units.
+  /// How many primary rays of units are left.
   std::uint64_t primaries_left() const { return primaries_.left(); }
   /// The next primary ray to start: one of the others, or of a unit if there is none. Requires that one is left.
   PrimaryStart take_primary(Primaries& others) {

@@ -21,7 +21,7 @@
 
 namespace dmpc::dataflow {
 
-/// The same functions as MovingUnits, which do nothing.
+/// Has the functions of MovingUnits, which do nothing here.
 class NoUnits {
  public:
   NoUnits(nodes::Node& node, const Plan& /*plan*/, const NodeDeal& deal, const core::DatabaseHeader& /*header*/,

@@ -67,7 +67,7 @@ struct Report {
   std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
   std::vector<nodes::RankFigures> ranks;             ///< where there are several, or could be
 
-  /// Of what programs count, summed over the nodes.
+  /// What programs count, summed over the nodes.
   template <class Counts>
   Counts summed(Counts ProgramCounts::*counts) const {
     return core::total_of(nodes, [counts](const NodeReport& node) { return node.program.*counts; });

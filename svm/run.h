@@ -67,7 +67,7 @@ struct Report {
   core::RefinementResult refinement;
   std::vector<nodes::RankFigures> ranks;  ///< where there are several, or could be
 
-  /// Of what programs count, summed over the nodes.
+  /// What programs count, summed over the nodes.
   template <class Counts>
   Counts summed(Counts ProgramReport::*counts) const {
     return core::total_of(nodes, [counts](const NodeReport& node) { return node.program.*counts; });

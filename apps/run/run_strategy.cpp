@@ -39,7 +39,7 @@ void check_room_for(const Plan& plan) {
   check_room(nodes::rank_memory(nodes::peers_of(plan), plan.request.computer.ranks, 0));
 }
 
-/// Of the rank that has most.
+/// The network memory of the rank that has most.
 template <class Plan>
 nodes::NetworkMemory network_memory_max(const Plan& plan, const nodes::RankLinks& links) {
   nodes::NetworkMemory most;

@@ -59,7 +59,7 @@ std::string joined_by_or(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Of several that do not go with the strategy the first one is named that fewest strategies have.
+/// Names, of several that do not go with the strategy, the first one that fewest strategies have.
 void check_strategy(const OptionSet& options, const StrategyOptions& run) {
   std::size_t fewest = std::size(strategy_kinds);
   std::string sentence;

@@ -44,7 +44,7 @@ void for_each_row(const Visit& visit) {
   visit(topology_row());
 }
 
-/// Of all fields of plans, for with_options_named().
+/// The words of all fields of plans, for with_options_named().
 const std::vector<OptionWord>& strategy_words();
 
 /// A key of --stats, and what it tells.

@@ -54,7 +54,7 @@ ClockDrift ClockTalk::drift_of(std::uint32_t rank) const {
   return after_.empty() ? ClockDrift() : ClockDrift(before_[rank], after_[rank], start_ns_);
 }
 
-/// Of each other rank the shortest of several round trips.
+/// The shortest of several round trips to each other rank.
 std::vector<ClockAnswer> ClockTalk::read_clocks(const Wait& wait) {
   std::vector<ClockAnswer> shortest(links_->rank_count());
   for (std::uint32_t rank = 1; rank < links_->rank_count(); ++rank) {

@@ -26,7 +26,7 @@ class ClockTalk {
   /// Until all ranks have made their nodes nobody starts: packets would come where there is no mailbox yet. Rank 0 knows when.
   /// `wait` may end before its time once a rank has failed, which may never answer.
   void start(const Wait& wait);
-  /// Of the run, by this rank's clock.
+  /// When the run starts, by this rank's clock.
   std::uint64_t start_ns() const { return start_ns_; }
 
   /// There is something to say after the run.
@@ -34,7 +34,7 @@ class ClockTalk {
   /// Rank 0 does so then. They answer until they hear that it asks no more.
   void ask_again(const Wait& wait);
   bool is_over() const { return links_->rank() == 0 ? links_->has_said_all() : are_clocks_read_; }
-  /// Of another rank, on rank 0; that of equal clocks if they were not compared.
+  /// The drift of another rank, on rank 0; that of equal clocks if they were not compared.
   ClockDrift drift_of(std::uint32_t rank) const;
 
  private:

@@ -79,7 +79,7 @@ RunEnd ClosingTalk::judge(const std::optional<Chaos>& disturbance) const {
   }
 }
 
-/// Of the other ranks.
+/// The texts of the other ranks.
 std::string ClosingTalk::texts() const {
   std::string texts;
   for (const LastWord& word : last_words_) {

@@ -48,7 +48,7 @@ class Exchange {
   }
 
  private:
-  /// Of a thread that always has something to do, from one look at who is silent to the next.
+  /// So many turns does a thread that always has something to do take from one look at who is silent to the next.
   static constexpr std::uint32_t turns_a_look = 256;
 
   template <class Sleep>

@@ -45,7 +45,7 @@ std::vector<nodes::NodeSpecification> task_specifications(const TaskPlan& plan, 
   return all;
 }
 
-/// Of the nodes that are here and, on rank 0, of all.
+/// Gathers what the nodes did that are here and, on rank 0, all of them.
 void gather_tasks(nodes::Runner& runner, const TaskPlan& plan, const TakeResults& take, TaskFigures& figures) {
   nodes::gather_nodes(
       runner, plan.node_count(),

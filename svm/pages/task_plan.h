@@ -32,7 +32,7 @@ class TaskPlan {
     std::size_t result_bytes = 0;  ///< of each, under way or done
   };
 
-  /// Of `task_count` tasks over `database_bytes`, both above 0. Throws core::Refusal<core::UsageError> for values out of
+  /// Plans `task_count` tasks over `database_bytes`, both above 0. Throws core::Refusal<core::UsageError> for values out of
   /// range and bytes that are not whole pages, of core::RoomError for less memory than a node takes, naming that.
   TaskPlan(const TaskOptions& options, std::size_t database_bytes, std::uint32_t task_count, const Sizes& sizes);
 

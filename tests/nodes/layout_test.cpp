@@ -10,7 +10,7 @@
 namespace dmpc::nodes::layout_test {
 namespace {
 
-/// Of a program.
+/// A program's uses of memory.
 enum class Use : std::uint8_t { first, second };
 
 Layout<std::byte, std::uint64_t, std::uint32_t> small_layout() { return {{Use::first, 65}, {Use::second, 8}, {Use::first, 1}}; }

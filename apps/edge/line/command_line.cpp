@@ -117,7 +117,7 @@ auto* find_command(Commands& commands, const std::string& name, const At& at) {
   return at(*found);
 }
 
-/// Of words that follow the command's name: options as --name or --name=value, --, arguments.
+/// Notes which options are given by words that follow the command's name: options as --name or --name=value, --, arguments.
 void note_given(Command& command, std::span<const std::string> words) {
   const auto end_of_options = std::find(words.begin(), words.end(), "--");
   for (auto word = words.begin(); word != end_of_options; ++word) {

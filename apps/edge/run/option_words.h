@@ -15,7 +15,7 @@ struct OptionWord {
   const char* option;
 };
 
-/// Of every program on the computer.
+/// The words of every program on the computer.
 inline constexpr OptionWord computer_words[] = {{core::field_of<&nodes::ComputerRequest::node_count>(), "--nodes"},
                                                 {core::field_of<&nodes::ComputerRequest::node_memory_bytes>(), "--node-memory"}};
 

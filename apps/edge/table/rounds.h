@@ -18,7 +18,7 @@ void round_by_round(std::size_t rounds, std::size_t count, const Visit& visit) {
   }
 }
 
-/// The same of visit(index), and shows how many there have been.
+/// Goes round by round with visit(index), and shows how many there have been.
 template <class Visit>
 void round_by_round(std::size_t rounds, std::size_t count, Progress& progress, const Visit& visit) {
   round_by_round(rounds, count, [&](std::size_t round, std::size_t index) {

@@ -63,7 +63,7 @@ std::size_t bytes_of(const PlannedRun& run, const Subject& subject) {
                                                 : computer.svm.all_bytes;
 }
 
-/// Of the largest computers, as many as there are at a time.
+/// The bytes of the largest computers, as many as there are at a time.
 std::size_t bytes_at_once(const std::vector<PlannedRun>& runs, const Subject& subject) {
   const auto largest =
       std::max_element(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.node_count < b.node_count; });

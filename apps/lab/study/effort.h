@@ -14,7 +14,7 @@ namespace dmpc::apps {
 /// In their order; of a study whose runs depend on the first one about as many.
 std::vector<PlannedRun> planned_runs(const Study& study);
 
-/// Of all runs, from a few pixels of the picture and from what their nodes ask for.
+/// The effort of all runs, from a few pixels of the picture and from what their nodes ask for.
 Effort effort_of(const std::vector<PlannedRun>& runs, const Subject& subject);
 
 }  // namespace dmpc::apps

@@ -78,7 +78,7 @@ class StudyRuns {
   /// strategy does not take, core::InternalError if a film is not the first run's, and whatever else a run throws: `take` has
   /// then been told of all runs before that one, and of none after it.
   void run_side_by_side(std::span<const StudyRun> runs, const Take& take);
-  /// The same over the study's database.
+  /// Runs side by side over the study's database.
   void run_side_by_side(std::span<const StrategyOptions> runs, const Take& take);
 
   /// What the study renders.
@@ -93,7 +93,7 @@ class StudyRuns {
 
   /// Runs that have ended.
   std::uint32_t count() const { return count_; }
-  /// Of every run's film; nothing before the first.
+  /// The hash of every run's film; nothing before the first.
   std::optional<std::uint64_t> film_hash() const { return film_hash_; }
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 using dataflow::Balance;
 
-/// Of the node that used most.
+/// The memory of the node that used most.
 template <class Report>
 std::uint64_t memory_max_bytes(const Report& report) {
   std::size_t most = 0;

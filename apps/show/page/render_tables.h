@@ -22,7 +22,7 @@ Losses losses_of(const Account& account);
 Table memory_table(const Account& account);
 Plot memory_plot(const Account& account);
 
-/// Of all nodes together.
+/// The packets of all nodes together.
 std::vector<PacketKindTraffic> packets_of(const Account& account);
 
 }  // namespace dmpc::apps::html

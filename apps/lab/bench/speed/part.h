@@ -47,7 +47,7 @@ struct SpeedSettings {
   core::Scene load(const PictureOptions& picture) const;
   /// The part's picture of it, ready to be rendered. Throws as load().
   Subject subject_of(SpeedPart part, const std::string& scene) const;
-  /// Of each class of rays in the kernel's part.
+  /// So many rays of each class are in the kernel's part.
   std::size_t rays_max() const { return is_quick ? 20'000 : 200'000; }
 };
 

@@ -33,7 +33,7 @@ struct Sizes {
   double mean() const { return sum / static_cast<double>(count); }
 };
 
-/// Of the rows that have a number in the column.
+/// The sizes of the rows that have a number in the column.
 Sizes sizes_of(const Table& table, const char* column) {
   Sizes sizes;
   for (const Row& row : table.rows()) {

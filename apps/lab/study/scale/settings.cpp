@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<const char*, 2> part_names = {"sizes", "nodes"};
 constexpr std::array<const char*, 3> method_names = {"cache", "quarter", "dataflow"};
 
-/// Of primitives in the smallest scene of a family.
+/// The number of primitives in the smallest scene of a family.
 constexpr std::uint64_t least_count = 1000;
 constexpr int size_limit = 100'000;
 

@@ -10,7 +10,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// Of the largest rows, for the growth where small things that do not grow no longer matter.
+/// So many of the largest rows are taken for the growth where small things that do not grow no longer matter.
 constexpr std::size_t last_count = 3;
 constexpr int exponent_digits = 2;
 
@@ -122,7 +122,7 @@ class GrowthRows {
   Table& table_;
 };
 
-/// Of the same method with the first number of nodes; nothing if that has no figures.
+/// What the same method takes with the first number of nodes; nothing if that has no figures.
 std::optional<double> first_render(const ScaleResult& result, const std::vector<ScaleResult>& results) {
   const auto first =
       std::find_if(results.begin(), results.end(), [&](const ScaleResult& other) { return belongs(other.run, result.run); });

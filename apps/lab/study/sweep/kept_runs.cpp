@@ -21,7 +21,7 @@ void add_file(const fs::path& path, Digest& digest) {
   digest.add(std::string_view(text.str()));
 }
 
-/// Of a word such as "--machine=mine.json".
+/// Adds a word such as "--machine=mine.json", and the file that it names.
 void add_word(const std::string& word, Digest& digest) {
   digest.add(std::string_view(word));
   const std::size_t sign = word.find('=');

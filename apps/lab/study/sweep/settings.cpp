@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t runs_max = 10'000;
 
-/// Of outputs, of what goes on from earlier ones, and of what is said meanwhile.
+/// Options of outputs, of what goes on from earlier ones, and of what is said meanwhile.
 constexpr const char* unsweepable[] = {
     "--help",         "--output",      "--stats",   "--report",           "--heatmap",        "--trace",
     "--trace-window", "--trace-nodes", "--preview", "--trace-every",      "--trace-events",   "--quiet",
