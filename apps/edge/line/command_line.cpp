@@ -12,7 +12,7 @@
 namespace dmpc::apps {
 
 /// What is declared of a command, and what of it is given.
-struct Command {
+struct DeclaredCommand {
   using Take = std::function<void(const std::string&)>;
   struct Option {
     OptionDescription described;
@@ -42,7 +42,7 @@ struct Command {
   std::string name, text, examples;
   std::string group = "Options";
   std::vector<Option> options = {};  ///< and arguments, as they were declared
-  std::vector<std::unique_ptr<Command>> commands = {};
+  std::vector<std::unique_ptr<DeclaredCommand>> commands = {};
   std::vector<std::function<void()>> checks = {};
 };
 
@@ -83,28 +83,28 @@ std::int64_t whole_number(const std::string& option, const std::string& text, st
   return number;
 }
 
-CommandDescription described(const Command& command, const Suggestions& known) {
+CommandDescription described(const DeclaredCommand& command, const Suggestions& known) {
   CommandDescription all{.name = command.name, .text = command.text, .examples = command.examples};
-  for (const Command::Option& option : command.options) {
+  for (const DeclaredCommand::Option& option : command.options) {
     OptionDescription& one = (option.is_argument() ? all.arguments : all.options).emplace_back(option.described);
     one.is_list = one.is_list || value_alone(one).find(',') != std::string::npos;
     one.suggestion = suggestion_for(one.value, known);
   }
-  for (const std::unique_ptr<Command>& inner : command.commands) {
+  for (const std::unique_ptr<DeclaredCommand>& inner : command.commands) {
     all.commands.push_back(described(*inner, known));
   }
   return all;
 }
 
-std::unique_ptr<Command> make_command(const std::string& name, const std::string& text, const std::string& examples) {
-  auto command = std::make_unique<Command>(Command{.name = name, .text = text, .examples = examples});
+std::unique_ptr<DeclaredCommand> make_command(const std::string& name, const std::string& text, const std::string& examples) {
+  auto command = std::make_unique<DeclaredCommand>(DeclaredCommand{.name = name, .text = text, .examples = examples});
   command->add_flag("-h,--help", "Explain this", [](const std::string&) {});
   return command;
 }
 
-Command::Option& option_of(Command& command, const std::string& name) {
+DeclaredCommand::Option& option_of(DeclaredCommand& command, const std::string& name) {
   const auto found = std::find_if(command.options.begin(), command.options.end(),
-                                  [&](const Command::Option& option) { return is_among(option.described.names, name); });
+                                  [&](const DeclaredCommand::Option& option) { return is_among(option.described.names, name); });
   core::expect(found != command.options.end(), "a line that was read has the form of a command");
   return *found;
 }
@@ -118,14 +118,14 @@ auto* find_command(Commands& commands, const std::string& name, const At& at) {
 }
 
 /// Notes which options are given by words that follow the command's name: options as --name or --name=value, --, arguments.
-void note_given(Command& command, std::span<const std::string> words) {
+void note_given(DeclaredCommand& command, std::span<const std::string> words) {
   const auto end_of_options = std::find(words.begin(), words.end(), "--");
   for (auto word = words.begin(); word != end_of_options; ++word) {
     const std::size_t equals = word->find('=');
     option_of(command, word->substr(0, equals)).given.push_back(equals == std::string::npos ? "" : word->substr(equals + 1));
   }
   auto word = end_of_options + 1;
-  for (Command::Option& option : command.options) {
+  for (DeclaredCommand::Option& option : command.options) {
     while (option.is_argument() && word != words.end() && (option.given.empty() || option.described.is_list)) {
       option.given.push_back(*word++);
     }
@@ -133,8 +133,8 @@ void note_given(Command& command, std::span<const std::string> words) {
 }
 
 /// In the order in which options are declared, whatever that of the line.
-void take_given(const Command& command) {
-  for (const Command::Option& option : command.options) {
+void take_given(const DeclaredCommand& command) {
+  for (const DeclaredCommand::Option& option : command.options) {
     for (const std::string& value : option.given) {
       option.take(value);
     }
@@ -232,7 +232,7 @@ void OptionSet::set_examples(const std::string& text) { command_->examples = tex
 void OptionSet::check_in_the_end(const std::function<void()>& check) { command_->checks.push_back(check); }
 
 bool OptionSet::is_given(const std::string& name) const {
-  return std::any_of(command_->options.begin(), command_->options.end(), [&](const Command::Option& option) {
+  return std::any_of(command_->options.begin(), command_->options.end(), [&](const DeclaredCommand::Option& option) {
     return (option.is_argument() ? option.described.value == name : is_among(option.described.names, name)) &&
            !option.given.empty();
   });
@@ -260,7 +260,7 @@ std::variant<HelpText, std::string> CommandLine::parse(std::span<const std::stri
   if (line.asks_for_version) {
     return HelpText{version_ + "\n"};
   }
-  Command* command = program_.get();
+  DeclaredCommand* command = program_.get();
   std::span<const std::string> words = line.words;
   for (; !words.front().starts_with('-'); words = words.subspan(1)) {
     command = find_command(command->commands, words.front(), [](const auto& each) { return each.get(); });

@@ -16,7 +16,7 @@
 
 namespace dmpc::apps {
 
-struct Command;
+struct DeclaredCommand;
 
 /// What `--help` or `--version` asks for.
 struct HelpText {
@@ -83,14 +83,14 @@ class OptionSet {
  private:
   friend class CommandLine;
 
-  explicit OptionSet(Command& command) : command_(&command) {}
+  explicit OptionSet(DeclaredCommand& command) : command_(&command) {}
 
   void add_words_as(const std::string& name, const std::vector<std::string>& words, const std::string& shown_default,
                     const TakeText& take, const std::string& description);
   void add_number_as(const std::string& name, std::int64_t least, std::int64_t most, const std::string& shown_default,
                      const TakeNumber& take, const std::string& description);
 
-  Command* command_;
+  DeclaredCommand* command_;
 };
 
 /// All commands of the program, for one line.
@@ -121,7 +121,7 @@ class CommandLine {
   CommandDescription describe() const;
 
  private:
-  std::unique_ptr<Command> program_;
+  std::unique_ptr<DeclaredCommand> program_;
   std::string version_;
   Suggestions suggestions_;
 };
