@@ -68,7 +68,7 @@ void check_like(const BundleTask& task, const Lone& lone) {
 
 TEST_CASE("a bundle's task takes exactly the memory that it has named, and starts with nothing under way") {
   const Bench bench(whole());
-  CHECK(bench.memory.used().bytes == Bench::needs(5).bytes);
+  CHECK(bench.memory.used().bytes == nodes::MemoryPlan(BundleTask::layout(5)).bytes);
   CHECK(bench.task.is_idle());
   CHECK(!bench.task.has_rays());
 }

@@ -83,7 +83,7 @@ void trace_to_the_end(Bench& bench, const core::Ray& primary, std::array<std::ui
 
 TEST_CASE("a task takes exactly the memory that it has named, and starts with nothing under way") {
   const Bench bench(whole());
-  CHECK(bench.memory.used().bytes == Bench::needs(5).bytes);
+  CHECK(bench.memory.used().bytes == nodes::MemoryPlan(RayTask::layout(5)).bytes);
   CHECK(bench.task.is_idle());
   CHECK(!bench.task.has_rays());
 }

@@ -46,7 +46,7 @@ TEST_CASE("a node without units has no primary rays of units, and takes no memor
 
 TEST_CASE("primary rays start in the order of the picture, whatever their unit") {
   UnitPrimariesBench bench(4, {{0, 2}, {20, 1}, {3, 1}, {10, 2}}, {0, 2, 0, 2});
-  CHECK(bench.memory.used().total() == UnitPrimariesBench::needs(4).total());
+  CHECK(bench.memory.used().total() == nodes::MemoryPlan(UnitPrimaries::layout({.units = 2, .runs = 4})).total());
   CHECK(bench.primaries.left() == 6);
   CHECK(bench.primaries.left_of(1) == 3);
   CHECK(bench.primaries.left_of(3) == 3);

@@ -172,7 +172,7 @@ TEST_CASE("a cache takes exactly the memory that it says it needs") {
   for (const Replacement replacement : all_policies) {
     for (const std::uint32_t frames : {0U, 1U, 2U, 31U, 64U, 1000U}) {
       SmallCache small(frames, replacement);
-      CHECK(small.memory.used().bytes == SmallCache::needs({frames, page_size, replacement}).bytes);
+      CHECK(small.memory.used().bytes == nodes::MemoryPlan(Cache::layout({frames, page_size, replacement})).bytes);
     }
   }
 }
