@@ -66,7 +66,7 @@ const std::map<std::string, Names> rooms = {
 /// Rooms of other libraries, and the files of their floor, by how they begin, that look down into them.
 const std::map<std::string, Names> looked_into_by = {
     {"nodes/threads", {"nodes/runner.cpp"}},       {"nodes/ranks", {"nodes/runner.", "nodes/gathering."}},
-    {"nodes/virtual", {"nodes/runner."}},          {"nodes/watch", {}},
+    {"nodes/virtual", {"nodes/runner."}},          {"nodes/watch", {"nodes/gathering."}},
     {"svm/pages/watch", {"svm/pages/run_tasks."}}, {"svm/forest", {"svm/plan.", "svm/make_programs."}},
 };
 
