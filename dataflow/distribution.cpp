@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "dataflow/unit_pages.h"
+#include "dataflow/units/unit_pages.h"
 
 namespace dmpc::dataflow {
 namespace {

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "core/base/forget.h"
-#include "core/build/database.h"
-#include "core/build/extract.h"
-#include "core/build/outline.h"
+#include "core/database/database.h"
+#include "core/database/extract.h"
+#include "core/database/outline.h"
 #include "core/picture/pixel_task.h"
 #include "core/trace/traversal.h"
 #include "dataflow/plan.h"
-#include "dataflow/primaries.h"
+#include "dataflow/rays/primaries.h"
 #include "dataflow/regions/regions.h"
 
 namespace dmpc::dataflow {
@@ -34,7 +34,7 @@ struct Distribution {
   /// By node and unit, where regions move: how many of the node's runs are a unit's, for they follow each other unit by unit.
   std::vector<std::vector<std::uint32_t>> runs_of_unit;
   std::size_t page_bytes = 0;  ///< theirs
-  core::DatabasePart outline;  ///< for every node; none (core/build/outline.h) if rays are to ask every region
+  core::DatabasePart outline;  ///< for every node; none (core/database/outline.h) if rays are to ask every region
 
   std::vector<Share> shares() const;
   /// Copies of primitives in all parts over those in the database: at least about 1, more where cuts go through blocks.

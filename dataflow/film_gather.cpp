@@ -1,18 +1,13 @@
 #include "dataflow/film_gather.h"
 
 #include "core/base/expect.h"
-#include "core/picture/memory_use.h"
 
 namespace dmpc::dataflow {
 
-using nodes::LocalMemory;
-
 FilmGather::FilmGather(nodes::Node& node, std::uint32_t node_count, std::uint32_t credits)
-    : node_(&node), host_(nodes::NodeId{node_count}), room_(node.memory().allocate<Room>(core::MemoryUse::film_tiles, 1).data()) {
+    : node_(&node), host_(nodes::NodeId{node_count}), room_(layout().in(node.memory()).data()) {
   node.grant(host_, film_channel, credits);
 }
-
-void FilmGather::add_needs(nodes::MemoryPlan& plan) { plan[core::MemoryUse::film_tiles] += LocalMemory::bytes_for<Room>(1); }
 
 void FilmGather::add(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {
   core::expect(!waits(), "no light is gathered while a film packet waits");

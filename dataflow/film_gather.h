@@ -6,7 +6,9 @@
 #include <span>
 
 #include "core/picture/film.h"
+#include "core/picture/memory_use.h"
 #include "dataflow/packets.h"
+#include "nodes/layout.h"
 #include "nodes/node.h"
 
 namespace dmpc::dataflow {
@@ -14,6 +16,8 @@ namespace dmpc::dataflow {
 /// One open packet. A full one that finds no credit waits, and meanwhile nothing may be added: the host acknowledges every packet
 /// at once, so the wait is bounded. Thread safety: belongs to one node.
 class FilmGather {
+  struct OpenPacket;
+
  public:
   struct Counters {
     std::uint64_t deposits = 0;
@@ -23,8 +27,8 @@ class FilmGather {
 
   /// Takes `credits` for film packets to the host, node `node_count`.
   FilmGather(nodes::Node& node, std::uint32_t node_count, std::uint32_t credits);
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan);
+  /// What the constructor takes.
+  static nodes::Room<OpenPacket> layout() { return {core::MemoryUse::film_tiles, 1}; }
 
   /// Requires that the packet does not wait. Sends it if that fills it and a credit is left.
   void add(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
@@ -46,15 +50,15 @@ class FilmGather {
   FilmEntry* find(std::uint32_t pixel, std::uint32_t plane);
 
   /// A packet as it is sent.
-  struct Room {
+  struct OpenPacket {
     FilmHeader header;
     FilmEntry entries[film_packet_entries];
   };
-  static_assert(sizeof(Room) == film_packet_bytes(film_packet_entries));
+  static_assert(sizeof(OpenPacket) == film_packet_bytes(film_packet_entries));
 
   nodes::Node* node_;
   nodes::NodeId host_;
-  Room* room_;
+  OpenPacket* room_;
   std::uint32_t count_ = 0;
   std::uint32_t under_way_ = 0;
   Counters counters_;

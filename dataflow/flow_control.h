@@ -42,7 +42,7 @@ struct NodeState {
   bool has_gathered = false;       ///< rays in open or queued packets
   bool is_unacknowledged = false;  ///< an announcement is to be taken back or acknowledged
   bool is_unanswered = false;      ///< some owner has been asked for a place and has not granted it yet
-  bool is_moving_units = false;    ///< a unit is to be asked for, or a transfer is under way (hand_over.h)
+  bool is_moving_units = false;    ///< a unit is to be asked for, or a transfer is under way (units/hand_over.h)
 };
 
 /// In the order of precedence.

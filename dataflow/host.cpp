@@ -11,15 +11,8 @@
 namespace dmpc::dataflow {
 namespace {
 
-using nodes::Category;
-using nodes::LocalMemory;
-
 /// In a run of primary rays, where some must be done soon. A node has room for 120 runs: milliseconds of work, as a rule.
 constexpr std::uint64_t run_rays_max = 16;
-
-std::size_t light_words(const Plan& plan) {
-  return core::ceil_divide<std::size_t>(std::size_t{plan.request.width} * plan.request.height, 64);
-}
 
 }  // namespace
 
@@ -33,12 +26,11 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
       refinement_(plan.request.refinement, plan.request.first_samples, film.width(), film.height(), detail),
       undealt_(plan.node_count(), plan.request.is_dealt_on_the_way ? run_rays_max : ~std::uint64_t{0}),
       kept_(plan.node_count(), plan.tested_objects()),
-      packet_(node.memory().allocate<std::byte>(Category::queues, plan.packet_bytes())),
-      has_light_(node.memory().allocate<std::uint64_t>(core::MemoryUse::film_tiles, light_words(plan))),
       node_count_(plan.node_count()),
       ray_batch_(plan.ray_batch),
       tested_objects_(plan.tested_objects()),
       pixels_total_(plan.request.width * plan.request.height) {
+  std::tie(packet_, has_light_) = layout(plan).in(node.memory());
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     node.grant(nodes::NodeId{i}, ray_channel, plan.host_credits);
     node.grant(nodes::NodeId{i}, film_channel, plan.dealing_credits());
@@ -71,9 +63,10 @@ void HostProgram::deal_pass(const core::PixelMask& done) {
   is_cut_short_ = !runs;
 }
 
-void HostProgram::add_needs(nodes::MemoryPlan& memory, const Plan& plan) {
-  memory[Category::queues] += LocalMemory::bytes_for<std::byte>(plan.packet_bytes());
-  memory[core::MemoryUse::film_tiles] += LocalMemory::bytes_for<std::uint64_t>(light_words(plan));
+nodes::Layout<std::byte, std::uint64_t> HostProgram::layout(const Plan& plan) {
+  const std::size_t pixels = std::size_t{plan.request.width} * plan.request.height;
+  return {{nodes::Category::queues, plan.packet_bytes()},
+          {core::MemoryUse::film_tiles, core::ceil_divide<std::size_t>(pixels, 64)}};
 }
 
 void HostProgram::receive(const nodes::Packet& packet) {

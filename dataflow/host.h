@@ -12,11 +12,12 @@
 #include "core/picture/partial_picture.h"
 #include "core/picture/refinement.h"
 #include "dataflow/flow_control.h"
-#include "dataflow/kept_rays.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"
+#include "dataflow/rays/kept_rays.h"
+#include "dataflow/rays/undealt.h"
 #include "dataflow/termination.h"
-#include "dataflow/undealt.h"
+#include "nodes/layout.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
 #include "nodes/watch/watching.h"
@@ -51,8 +52,8 @@ class HostProgram final : public nodes::Program {
   /// plan says that all are. `detail` is the picture's, if it is refined, and outlives the program.
   HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress, DealPrimaries deal,
               const core::Continuation& continuation = {}, const core::FineDetail* detail = nullptr);
-  /// Adds to `memory` exactly what the constructor takes of the local memory.
-  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan);
+  /// What the constructor takes of the local memory.
+  static nodes::Layout<std::byte, std::uint64_t> layout(const Plan& plan);
 
   void receive(const nodes::Packet& packet) override;
   bool work() override;

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/build/extract.h"
+#include "core/database/extract.h"
 #include "core/picture/pixel_task.h"
 #include "dataflow/plan.h"
 #include "dataflow/regions/regions.h"

@@ -44,10 +44,10 @@
 #include "core/picture/refinement.h"
 #include "core/record/ray.h"
 #include "core/trace/cursor.h"
+#include "dataflow/rays/tested_objects.h"
 #include "dataflow/regions/bsp.h"
 #include "dataflow/regions/primary_run.h"
 #include "dataflow/termination.h"
-#include "dataflow/tested_objects.h"
 #include "nodes/node.h"
 #include "nodes/packet.h"
 

@@ -1,4 +1,5 @@
-// An owner's account of the places for received packets that all senders share: how many are free, and who has asked for one.
+// An owner's account of the places for received packets: whose they are and, of those that nodes share, how many are free, and
+// who has asked for one.
 #pragma once
 
 #include <cstdint>
@@ -7,23 +8,47 @@
 
 #include "core/base/expect.h"
 #include "dataflow/flow_control.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "nodes/node_id.h"
 
 namespace dmpc::dataflow {
 
-/// Grants places in the order of the requests. Each node has at most one request that is not granted, so a ring of as many is
-/// enough. Thread safety: belongs to one node.
+/// Whose the places are in the backlog's accounts: of each sender, which has credits for its own; or, where nodes share them, all
+/// nodes' as if they were one sender, and the host's. Shared places are granted in the order of the requests. Each node has at
+/// most one request that is not granted, so a ring of as many is enough. Thread safety: belongs to one node.
 class Places {
  public:
-  /// All of `count` places are free. `sender_count`: nodes that may ask; of no use without places.
-  Places(nodes::LocalMemory& memory, std::uint32_t sender_count, std::uint32_t count)
-      : asking_(memory.allocate<std::uint16_t>(nodes::Category::queues, ring_size(sender_count, count))),
-        count_(count),
-        free_(count) {}
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t sender_count, std::uint32_t count) {
-    plan[nodes::Category::queues] += nodes::LocalMemory::bytes_for<std::uint16_t>(ring_size(sender_count, count));
+  struct Capacity {
+    std::uint32_t node_count = 1;
+    std::uint32_t shared = 0;        ///< places that nodes share and ask for; 0: they have credits of their own
+    std::uint32_t ray_credits = 1;   ///< of each node
+    std::uint32_t host_credits = 1;  ///< of the host, node `node_count`
+
+    std::uint32_t account_count() const { return shared > 0 ? 2 : node_count + 1; }
+    std::uint32_t ring_size() const { return shared == 0 ? 0 : node_count; }
+  };
+
+  /// All places are free.
+  Places(nodes::LocalMemory& memory, const Capacity& capacity)
+      : capacity_(capacity), asking_(layout(capacity).in(memory)), free_(capacity.shared) {}
+  /// What the constructor takes.
+  static nodes::Room<std::uint16_t> layout(const Capacity& capacity) {
+    return {nodes::Category::queues, capacity.ring_size()};
+  }
+
+  std::uint32_t account_of(nodes::NodeId sender) const {
+    const std::uint32_t index = nodes::index_of(sender);
+    return capacity_.shared == 0 ? index : index == capacity_.node_count ? 1 : 0;
+  }
+  bool is_shared(std::uint32_t account) const { return capacity_.shared > 0 && account == 0; }
+  /// Requires that the account is not shared.
+  nodes::NodeId sender_of(std::uint32_t account) const {
+    return nodes::NodeId{capacity_.shared > 0 ? capacity_.node_count : account};
+  }
+  /// Whether the `owed` places of an account are free for others, or their credits go back, now.
+  bool gives_back(std::uint32_t account, std::uint32_t owed, bool rests) const {
+    return is_shared(account) || returns_credits(owed, return_batch(credits_of(sender_of(account))), rests);
   }
 
   /// A node waits for a place from now on.
@@ -31,7 +56,7 @@ class Places {
     core::expect(asking_count_ < asking_.size(), "a node asks again only when it has its answer");
     asking_[(first_ + asking_count_++) % asking_.size()] = static_cast<std::uint16_t>(nodes::index_of(sender));
   }
-  /// So many places are free again.
+  /// So many shared places are free again.
   void give_back(std::uint32_t count) { free_ += count; }
   /// Takes a place for who has waited longest, if there are both.
   std::optional<nodes::NodeId> grant() {
@@ -45,16 +70,19 @@ class Places {
     return sender;
   }
 
-  std::uint32_t count() const { return count_; }
   std::uint32_t free() const { return free_; }
+  bool are_all_free() const { return free_ == capacity_.shared && asking_count_ == 0; }
   /// Nodes that wait.
   std::uint32_t asking() const { return asking_count_; }
 
  private:
-  static std::uint32_t ring_size(std::uint32_t sender_count, std::uint32_t count) { return count == 0 ? 0 : sender_count; }
+  std::uint32_t credits_of(nodes::NodeId sender) const {
+    return nodes::index_of(sender) == capacity_.node_count ? capacity_.host_credits : capacity_.ray_credits;
+  }
 
+  Capacity capacity_;
   std::span<std::uint16_t> asking_;
-  std::uint32_t count_, free_;
+  std::uint32_t free_;
   std::uint32_t first_ = 0, asking_count_ = 0;
 };
 

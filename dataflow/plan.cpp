@@ -3,16 +3,17 @@
 #include <algorithm>
 
 #include "core/base/expect.h"
+#include "core/base/refusal.h"
 #include "core/record/records.h"
-#include "dataflow/bundle_task.h"
 #include "dataflow/film_gather.h"
-#include "dataflow/gather.h"
 #include "dataflow/host.h"
 #include "dataflow/packets.h"
-#include "dataflow/primaries.h"
 #include "dataflow/program.h"
-#include "dataflow/ray_queue.h"
-#include "dataflow/ray_task.h"
+#include "dataflow/rays/bundle_task.h"
+#include "dataflow/rays/gather.h"
+#include "dataflow/rays/primaries.h"
+#include "dataflow/rays/ray_queue.h"
+#include "dataflow/rays/ray_task.h"
 #include "nodes/patience.h"
 #include "nodes/runner.h"
 #include "nodes/size_text.h"
@@ -21,9 +22,12 @@
 namespace dmpc::dataflow {
 namespace {
 
-using nodes::Category;
-using nodes::LocalMemory;
+using core::check_use;
+using core::field_of;
 using nodes::size_text;
+
+constexpr core::Field nodes_field = field_of<&nodes::ComputerRequest::node_count>(),
+                      memory_field = field_of<&nodes::ComputerRequest::node_memory_bytes>();
 
 /// One packet travelling, one being worked off, and twice that so that neither waits for the other's credit. Eight send a tenth
 /// fewer packets, but take 0.5 MB more of a node among 64.
@@ -73,7 +77,7 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
                         + plan.ray_places          // rays, or credits unused: the places that others share
                         + plan.host_credits        // forwarded rays: the host's
                         + dealt                    // primary rays dealt after the start
-                        + moving,                  // UnitPage or UnitPrimaryRays: the answer to this node's question
+                        + moving,                  // unit_page or unit_primaries: the answer to this node's question
           .bulk_payload_bytes = std::max({plan.packet_bytes(), dealt > 0 ? sizeof(DealtPrimaries) : 0, plan.unit_packet_bytes(),
                                           plan.is_moving() ? sizeof(UnitPrimaryRays) : 0})};
 }
@@ -127,36 +131,29 @@ Plan plan_with(const PlanRequest& request, const Bounds& bounds) {
   return plan;
 }
 
-void check_use(bool right, const std::string& sentence) {
-  if (!right) {
-    throw core::UsageError(sentence);
-  }
-}
-
 void check(const PlanRequest& request) {
-  check_use(request.node_count() >= 1 && request.node_count() <= nodes::node_count_max,
-            "node_count=" + std::to_string(request.node_count()) + ": from 1 to " + std::to_string(nodes::node_count_max) +
-                " nodes with strategy=dataflow");
+  constexpr core::Field tested_field = field_of<&RayOptions::tested_objects>(), batch_field = field_of<&RayOptions::ray_batch>(),
+                        credits_field = field_of<&RayOptions::ray_credits>(), places_field = field_of<&RayOptions::ray_places>();
+  check_use(request.node_count() >= 1 && request.node_count() <= nodes::node_count_max, nodes_field, "=", request.node_count(),
+            ": from 1 to ", nodes::node_count_max, " nodes with strategy=dataflow");
   nodes::check_ranks(request.computer);
   const std::uint32_t tested = request.rays.tested_objects;
-  check_use(tested <= tested_objects_max,
-            "tested_objects=" + std::to_string(tested) + ": at most " + std::to_string(tested_objects_max) + " names");
+  check_use(tested <= tested_objects_max, tested_field, "=", tested, ": at most ", tested_objects_max, " names");
   const std::uint32_t batch = request.rays.ray_batch.value_or(1), batch_max = rays_in(packet_bytes_max, tested);
-  check_use(batch >= 1 && batch <= batch_max, "ray_batch=" + std::to_string(batch) + ": from 1 to " + std::to_string(batch_max) +
-                                                  " rays" +
-                                                  (tested == 0 ? "" : " with tested_objects=" + std::to_string(tested)));
+  core::Sentence batches(batch_field, "=", batch, ": from 1 to ", batch_max, " rays");
+  if (tested > 0) {
+    batches.add(" with ", tested_field, "=", tested);
+  }
+  check_use(batch >= 1 && batch <= batch_max, batches);
   const std::uint32_t credits = request.rays.ray_credits.value_or(1);
-  check_use(credits <= ray_credits_max,
-            "ray_credits=" + std::to_string(credits) + ": at most " + std::to_string(ray_credits_max) + " packets");
+  check_use(credits <= ray_credits_max, credits_field, "=", credits, ": at most ", ray_credits_max, " packets");
   const std::uint32_t places = request.rays.ray_places.value_or(1);
-  check_use(places >= 1 && places <= ray_places_max,
-            "ray_places=" + std::to_string(places) + ": from 1 to " + std::to_string(ray_places_max) + " packets");
-  check_use(!request.rays.ray_places || !request.rays.ray_credits,
-            "ray_places=" + std::to_string(places) + " and ray_credits=" + std::to_string(credits) +
-                ": senders have credits of their own or share places, not both");
+  check_use(places >= 1 && places <= ray_places_max, places_field, "=", places, ": from 1 to ", ray_places_max, " packets");
+  check_use(!request.rays.ray_places || !request.rays.ray_credits, places_field, "=", places, " and ", credits_field, "=",
+            credits, ": senders have credits of their own or share places, not both");
   const std::uint32_t queue = request.rays.queue_packets.value_or(0);
-  check_use(queue <= queue_packets_max,
-            "queue_packets=" + std::to_string(queue) + ": at most " + std::to_string(queue_packets_max) + " packets");
+  check_use(queue <= queue_packets_max, field_of<&RayOptions::queue_packets>(), "=", queue, ": at most ", queue_packets_max,
+            " packets");
   core::expect(request.depth_max >= 1 && request.depth_max <= 255, "a ray has a depth that fits its record");
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
 }
@@ -240,14 +237,15 @@ Plan fitting_plan(const PlanRequest& request, std::size_t memory_bytes) {
 [[noreturn]] void say_too_small(const PlanRequest& request, const OtherNodeCount& other_node_count) {
   const Plan smallest = smallest_plan(request);
   const std::uint32_t largest = smallest.largest_node();
-  std::string sentence = "node_memory_bytes=" + size_text(*request.computer.node_memory_bytes) +
-                         " is too small for node_count=" + std::to_string(request.node_count()) + ": node " +
-                         std::to_string(largest) + " needs at least " + std::to_string(smallest.node_memory_max_bytes()) +
-                         " bytes, " + std::to_string(request.shares[largest].part_bytes) +
-                         " of them for its part of the scene; the smallest that works is node_memory_bytes=" +
-                         size_text(smallest.node_memory_max_bytes());
-  const std::optional<std::uint32_t> other = other_node_count ? other_node_count() : std::nullopt;
-  throw core::RoomError(other ? sentence + ", or with this memory node_count=" + std::to_string(*other) : sentence);
+  core::Sentence sentence(memory_field, "=", size_text(*request.computer.node_memory_bytes), " is too small for ", nodes_field,
+                          "=", request.node_count(), ": node ", largest, " needs at least ", smallest.node_memory_max_bytes(),
+                          " bytes, ", request.shares[largest].part_bytes,
+                          " of them for its part of the scene; the smallest that works is ", memory_field, "=",
+                          size_text(smallest.node_memory_max_bytes()));
+  if (const std::optional<std::uint32_t> other = other_node_count ? other_node_count() : std::nullopt) {
+    sentence.add(", or with this memory ", nodes_field, "=", *other);
+  }
+  throw core::Refusal<core::RoomError>(sentence);
 }
 
 void note_reductions(Plan& plan) {
@@ -272,12 +270,8 @@ void note_reductions(Plan& plan) {
 std::uint32_t Plan::dealing_credits() const { return request.is_dealt() ? dealt_packets : 0; }
 
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
-  nodes::MemoryPlan plan;
-  NodeProgram::add_needs(plan, *this, index);
-  plan[Category::mailbox] += node_mailbox.bytes();
-  plan[Category::queues] += nodes::credit_table_bytes(node_count() + 1) + held_bytes;
-  plan[Category::reserve] += request.computer.stack_reserve_bytes;
-  return plan;
+  return nodes::memory_beside_program(node_mailbox, node_count() + 1, held_bytes, request.computer.stack_reserve_bytes) +
+         NodeProgram::layout(*this, index);
 }
 
 std::size_t Plan::unit_packet_bytes() const {
@@ -287,7 +281,7 @@ std::size_t Plan::unit_packet_bytes() const {
 UnitPages::Capacity Plan::pages_of_node(std::uint32_t index) const {
   const Share& share = request.shares[index];
   return {.page_bytes = share.page_bytes,
-          .frames = is_moving() ? static_cast<std::uint32_t>(share.part_bytes / share.page_bytes) + spare_frames : 0};
+          .frames = static_cast<std::uint32_t>(share.part_bytes / share.page_bytes) + spare_frames};
 }
 
 UnitPrimaries::Capacity Plan::primaries_of_node(std::uint32_t index) const {
@@ -296,9 +290,7 @@ UnitPrimaries::Capacity Plan::primaries_of_node(std::uint32_t index) const {
     runs += share.primary_runs;
   }
   const std::size_t mean = core::ceil_divide<std::size_t>(runs, node_count());
-  return is_moving() ? UnitPrimaries::Capacity{.units = request.rays.balance.regions_a_node,
-                                               .runs = std::max(request.shares[index].primary_runs, mean)}
-                     : UnitPrimaries::Capacity{};
+  return {.units = request.rays.balance.regions_a_node, .runs = std::max(request.shares[index].primary_runs, mean)};
 }
 
 std::uint32_t Plan::largest_node() const {
@@ -313,12 +305,7 @@ std::uint32_t Plan::largest_node() const {
 }
 
 nodes::MemoryPlan Plan::host_memory() const {
-  nodes::MemoryPlan plan;
-  HostProgram::add_needs(plan, *this);
-  plan[Category::mailbox] += host_mailbox.bytes();
-  plan[Category::queues] += nodes::credit_table_bytes(node_count() + 1) + held_bytes;
-  plan[Category::reserve] += host_stack_bytes;
-  return plan;
+  return nodes::memory_beside_program(host_mailbox, node_count() + 1, held_bytes, host_stack_bytes) + HostProgram::layout(*this);
 }
 
 std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return smallest_plan(request).node_memory_max_bytes(); }

@@ -12,8 +12,8 @@
 #include "dataflow/packets.h"
 #include "dataflow/ray_options.h"
 #include "dataflow/regions/regions.h"
-#include "dataflow/unit_pages.h"
-#include "dataflow/unit_primaries.h"
+#include "dataflow/units/unit_pages.h"
+#include "dataflow/units/unit_primaries.h"
 #include "nodes/computer_request.h"
 #include "nodes/local_memory.h"
 #include "nodes/runner.h"
@@ -76,12 +76,12 @@ struct Plan {
   bool is_moving() const { return request.is_moving(); }
   /// Units in all, if regions move.
   std::uint32_t unit_count() const { return is_moving() ? node_count() * request.rays.balance.regions_a_node : 0; }
-  /// Of a page of a unit with its header.
+  /// A page of a unit with its header takes so much.
   std::size_t unit_packet_bytes() const;
-  /// The primary rays that node `index` has room for by unit, if regions move: a node that takes a unit may have had fewer of its
-  /// own than the mean.
+  /// The primary rays that node `index` has room for by unit: a node that takes a unit may have had fewer of its own than the
+  /// mean. Requires that regions move, here and below.
   UnitPrimaries::Capacity primaries_of_node(std::uint32_t index) const;
-  /// The pages that node `index` has room for, if regions move.
+  /// The pages that node `index` has room for.
   UnitPages::Capacity pages_of_node(std::uint32_t index) const;
 
   /// Packets of primary rays that the host may have under way to each node.
@@ -100,9 +100,9 @@ struct Plan {
 /// The smallest number of nodes above the request's that works with the request's memory, if there is one.
 using OtherNodeCount = std::function<std::optional<std::uint32_t>()>;
 
-/// Throws core::UsageError for a value out of range, and core::RoomError if the memory is too small: naming the node that needs
-/// most, what it needs, the smallest node memory that works for this node count, and the node count that `other_node_count` finds
-/// (asked in this case only).
+/// Throws core::Refusal<core::UsageError> for a value out of range, of core::RoomError if the memory is too small: naming the
+/// node that needs most, what it needs, the smallest node memory that works for this node count, and the node count that
+/// `other_node_count` finds (asked in this case only).
 Plan make_plan(const PlanRequest& request, const OtherNodeCount& other_node_count = {});
 
 /// The smallest node memory with which make_plan(request) succeeds, whatever request.node_memory_bytes says.

@@ -18,30 +18,28 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include "core/build/extract.h"
-#include "core/picture/pixel_task.h"
 #include "core/trace/operations.h"
 #include "dataflow/backpressure.h"
-#include "dataflow/bundle_task.h"
 #include "dataflow/film_gather.h"
 #include "dataflow/flow_control.h"
-#include "dataflow/gather.h"
-#include "dataflow/movement.h"
-#include "dataflow/next_stop.h"
+#include "dataflow/moving_units.h"
+#include "dataflow/no_units.h"
+#include "dataflow/node_deal.h"
 #include "dataflow/places.h"
 #include "dataflow/plan.h"
-#include "dataflow/primaries.h"
-#include "dataflow/ray_queue.h"
-#include "dataflow/ray_task.h"
+#include "dataflow/rays/bundle_task.h"
+#include "dataflow/rays/gather.h"
+#include "dataflow/rays/next_stop.h"
+#include "dataflow/rays/primaries.h"
+#include "dataflow/rays/ray_queue.h"
+#include "dataflow/rays/ray_task.h"
 #include "dataflow/regions/regions.h"
 #include "dataflow/termination.h"
-#include "dataflow/unit_pages.h"
-#include "dataflow/unit_primaries.h"
-#include "nodes/byte_source.h"
+#include "dataflow/units/movement.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
 #include "nodes/watch/meter.h"
@@ -57,36 +55,28 @@ struct RayCounters {
   std::uint64_t tests_avoided = 0;  ///< lanes that rays had tested where they came from (RayOptions::tested_objects)
   std::uint64_t holds = 0;          ///< times that it asked the others to hold primary rays back
 };
-RayCounters& operator+=(RayCounters& sum, const RayCounters& more);
 
-/// All that a program counted.
-struct ProgramReport {
+/// A value.
+struct ProgramCounts {
   core::Operations operations;
   RayCounters rays;
   Gather::Counters gather;
   FilmGather::Counters film;
   MovementCounters movement;
   std::uint32_t backlog_high_water = 0;  ///< the most rays in the backlog at once
-  std::vector<PairCounters> pairs;       ///< by owner
 };
+static_assert(std::is_trivially_copyable_v<ProgramCounts>, "it travels as bytes to the host's rank");
 
-/// What a node is given before the start, read in the constructor and never again.
-struct NodeDeal {
-  const core::DatabaseHeader& header;  ///< of its part of the database
-  nodes::ByteSource records;           ///< which are these
-  std::span<const PrimaryRun> primaries;
-  const core::RenderSettings& settings;  ///< the whole picture's
-  const Regions& regions;
-  const core::DatabasePart& outline;                 ///< of the whole database
-  std::span<const std::uint32_t> pages = {};         ///< where regions move: the numbers of those that the part consists of
-  std::span<const std::uint32_t> runs_of_unit = {};  ///< where regions move: how many of the runs are each unit's, in turn
+/// All that a program counted.
+struct ProgramReport : ProgramCounts {
+  std::vector<PairCounters> pairs;  ///< by owner
 };
 
 /// What all node programs of dataflow are, whatever their rays share.
 class NodeProgram : public nodes::Program {
  public:
-  /// Adds to `memory` exactly what the program of the plan takes at node `index`.
-  static void add_needs(nodes::MemoryPlan& memory, const Plan& plan, std::uint32_t index);
+  /// What the program of the plan takes at node `index`.
+  static nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index);
   /// Call it only while the program is not running.
   virtual ProgramReport report() const = 0;
 
@@ -99,8 +89,8 @@ class NodeProgram : public nodes::Program {
   };
 };
 
-/// `RaysTask` is RayTask or BundleTask, as the plan says.
-template <class RaysTask>
+/// `RaysTask` is RayTask or BundleTask, `Units` NoUnits or MovingUnits, as the plan says.
+template <class RaysTask, class Units = NoUnits>
 class RayProgram final : public NodeProgram {
  public:
   /// Takes all its memory and credits from `node`. `meter` is there where somebody wants to know what is done for which pixel: a
@@ -117,7 +107,7 @@ class RayProgram final : public NodeProgram {
   ProgramReport report() const override;
 
  private:
-  /// Of the ray that was started, taken up or made last; `sample`: that of the primary ray started last.
+  /// What is known of the ray that was started, taken up or made last; `sample`: that of the primary ray started last.
   struct Newest {
     std::uint32_t pixel = 0, sample = 0, depth = 1;
   };
@@ -134,9 +124,8 @@ class RayProgram final : public NodeProgram {
   void announce();
   void send_waiting();
   void take_received();
-  void take_up(const RayMessage& message, std::uint32_t sender);
-  bool is_others(const RayMessage& message) const;
-  bool has_primaries() const { return !primaries_.empty() || !unit_primaries_.empty(); }
+  void take_up(const RayMessage& message, std::uint32_t account);
+  bool has_primaries() const { return !primaries_.empty() || units_.primaries_left() > 0; }
   void start_primaries();
   void start_primary();
   void leave_background(std::uint32_t pixel, std::uint32_t sample);
@@ -152,11 +141,9 @@ class RayProgram final : public NodeProgram {
   void count_claim(core::RayKind kind);
   void end_miss(const core::Ray& ray);
   void dispatch(nodes::NodeId owner, const RayMessage& message);
-  void receive_movement(const nodes::Packet& packet);
-  void tell_news(nodes::NodeId sender);
-  void give_back(std::uint32_t sender, bool rests);
-  std::uint32_t account_of(nodes::NodeId sender) const;
+  void give_back(std::uint32_t account, bool rests);
   void grant_places();
+  void send_credits(nodes::NodeId sender, std::uint32_t count);
   void rest();
   void be_passive();
   void settle();
@@ -164,23 +151,18 @@ class RayProgram final : public NodeProgram {
   std::optional<nodes::Meter> meter_;
   nodes::Node* node_;
   nodes::NodeId host_;
-  std::uint32_t return_batch_, return_batch_host_;
   Constants* constants_;
-  std::span<std::byte> part_;
-  UnitPages pages_;
+  Units units_;
   PartRecords records_;
   Surroundings surroundings_;
   PartTracer tracer_;
   Primaries primaries_;
-  UnitPrimaries unit_primaries_;  ///< where regions move: those dealt before the start
   RayQueue backlog_;
   Places places_;
-  bool shares_places_;
   std::uint32_t tested_objects_;
   RaysTask task_;
   Gather gather_;
   FilmGather film_;
-  Movement movement_;
   Backpressure backpressure_;
   Termination termination_ = Termination::member();
   core::Operations operations_;
@@ -195,6 +177,8 @@ class RayProgram final : public NodeProgram {
 
 extern template class RayProgram<RayTask>;
 extern template class RayProgram<BundleTask>;
+extern template class RayProgram<RayTask, MovingUnits>;
+extern template class RayProgram<BundleTask, MovingUnits>;
 
 /// The program of the plan.
 std::unique_ptr<NodeProgram> make_node_program(nodes::Node& node, const Plan& plan, const NodeDeal& deal,

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "core/base/expect.h"
+#include "core/trace/work.h"
 #include "dataflow/packets.h"
 #include "dataflow/ranks.h"
 #include "dataflow/regions/mapping.h"
-#include "dataflow/regions/work.h"
-#include "nodes/flat_bytes.h"
+#include "nodes/gathering.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -100,39 +100,6 @@ bool has_its_credits(const nodes::Node& node, const Plan& plan) {
   return true;
 }
 
-/// What a node reports, as it travels to the host's rank; the host of its credits alone.
-std::string told_by(nodes::Runner& runner, std::size_t index, const Plan& plan) {
-  nodes::Node& node = runner.node(index);
-  nodes::FlatWriter told;
-  told.put(has_its_credits(node, plan));
-  if (index == plan.node_count()) {
-    return told.take();
-  }
-  const ProgramReport program = dynamic_cast<const NodeProgram&>(runner.program(index)).report();
-  told.put(program.operations);
-  told.put(program.rays);
-  told.put(program.gather);
-  told.put(program.film);
-  told.put(program.movement);
-  told.put(program.backlog_high_water);
-  told.put_all(program.pairs);
-  told.put(nodes::figures_of(node));
-  return told.take();
-}
-
-NodeReport report_from(nodes::FlatReader& told) {
-  NodeReport report{};
-  report.program.operations = told.take<core::Operations>();
-  report.program.rays = told.take<RayCounters>();
-  report.program.gather = told.take<Gather::Counters>();
-  report.program.film = told.take<FilmGather::Counters>();
-  report.program.movement = told.take<MovementCounters>();
-  report.program.backlog_high_water = told.take<std::uint32_t>();
-  report.program.pairs = told.take_all<PairCounters>();
-  static_cast<nodes::NodeFigures&>(report) = told.take<nodes::NodeFigures>();
-  return report;
-}
-
 /// Adds what the node was dealt.
 void report_share(NodeReport& report, const Distribution& distribution, std::uint32_t index, const Share& share) {
   report.part_bytes = share.part_bytes;
@@ -185,11 +152,7 @@ void check_packets(const Report& report) {
 void fill(Report& report, nodes::Runner& runner, const Distribution& distribution, const nodes::Watching& watching) {
   const std::uint32_t node_count = report.plan.node_count();
   GatheredReports gathered = gather_reports(runner, report.plan);
-  if (nodes::RankLinks* const ranks = report.plan.request.computer.ranks) {
-    const std::vector<nodes::RankReport> told = runner.gather_ranks({});
-    report.ranks = nodes::rank_figures(nodes::peers_of(report.plan), *ranks, told);
-    nodes::add_seen(watching, told);
-  }
+  report.ranks = nodes::gather_rank_figures(runner, report.plan, report.plan.request.computer.ranks, watching.elsewhere.adds());
   const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();
   report.nodes = std::move(gathered.nodes);
   for (std::uint32_t i = 0; i < node_count; ++i) {
@@ -211,34 +174,10 @@ void fill(Report& report, nodes::Runner& runner, const Distribution& distributio
 
 }  // namespace
 
-core::Operations Report::operations() const {
-  core::Operations sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.operations;
-  }
-  return sum;
-}
-
-RayCounters Report::rays() const {
-  RayCounters sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.rays;
-  }
-  return sum;
-}
-
 Gather::Counters Report::gathers() const {
   Gather::Counters sum;
   for (const NodeReport& node : nodes) {
     sum += node.program.gather;
-  }
-  return sum;
-}
-
-MovementCounters Report::movement() const {
-  MovementCounters sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.movement;
   }
   return sum;
 }
@@ -269,19 +208,13 @@ double Report::messages_per_ray() const {
 double Report::mean_fill() const { return gathers().mean_fill(plan.ray_batch); }
 
 TrafficByKind Report::sent() const {
-  TrafficByKind sum = host.sent;
-  for (const NodeReport& node : nodes) {
-    sum += node.counters.sent;
-  }
-  return sum;
+  TrafficByKind sum = core::total_of(nodes, [](const NodeReport& node) { return node.counters.sent; });
+  return core::add_counts(sum, host.sent);
 }
 
 TrafficByKind Report::received() const {
-  TrafficByKind sum = host.received;
-  for (const NodeReport& node : nodes) {
-    sum += node.counters.received;
-  }
-  return sum;
+  TrafficByKind sum = core::total_of(nodes, [](const NodeReport& node) { return node.counters.received; });
+  return core::add_counts(sum, host.received);
 }
 
 nodes::Traffic ray_traffic(const TrafficByKind& by_kind) {
@@ -356,17 +289,24 @@ std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& pl
 }
 
 GatheredReports gather_reports(nodes::Runner& runner, const Plan& plan) {
-  const std::vector<std::string> told = runner.gather([&](std::size_t index) { return told_by(runner, index, plan); });
-  GatheredReports gathered;
-  if (!runner.is_here(plan.node_count())) {
-    return gathered;
-  }
-  for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
-    nodes::FlatReader reader(told[i]);
-    gathered.are_credits_back = reader.take<bool>() && gathered.are_credits_back;
-    gathered.nodes.push_back(report_from(reader));
-  }
-  gathered.are_credits_back = nodes::FlatReader(told[plan.node_count()]).take<bool>() && gathered.are_credits_back;
+  const std::uint32_t host = plan.node_count();
+  GatheredReports gathered{.are_credits_back = !runner.is_here(host) || has_its_credits(runner.node(host), plan)};
+  nodes::gather_nodes(
+      runner, host,
+      [&](std::size_t index, nodes::FlatWriter& told) {
+        const ProgramReport program = dynamic_cast<const NodeProgram&>(runner.program(index)).report();
+        told.put(static_cast<const ProgramCounts&>(program));
+        told.put_all(program.pairs);
+        told.put(nodes::figures_of(runner.node(index)));
+        told.put(has_its_credits(runner.node(index), plan));
+      },
+      [&](std::size_t, nodes::FlatReader& told) {
+        NodeReport& report = gathered.nodes.emplace_back();
+        static_cast<ProgramCounts&>(report.program) = told.take<ProgramCounts>();
+        report.program.pairs = told.take_all<PairCounters>();
+        static_cast<nodes::NodeFigures&>(report) = told.take<nodes::NodeFigures>();
+        gathered.are_credits_back = told.take<bool>() && gathered.are_credits_back;
+      });
   return gathered;
 }
 

@@ -10,7 +10,8 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/build/database.h"
+#include "core/base/counts.h"
+#include "core/database/database.h"
 #include "core/picture/film.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/pixel_task.h"
@@ -66,10 +67,15 @@ struct Report {
   std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
   std::vector<nodes::RankFigures> ranks;             ///< where there are several, or could be
 
-  core::Operations operations() const;  ///< summed over the nodes
-  RayCounters rays() const;
+  /// What programs count, summed over the nodes.
+  template <class Counts>
+  Counts summed(Counts ProgramCounts::*counts) const {
+    return core::total_of(nodes, [counts](const NodeReport& node) { return node.program.*counts; });
+  }
+  core::Operations operations() const { return summed(&ProgramReport::operations); }
+  RayCounters rays() const { return summed(&ProgramReport::rays); }
+  MovementCounters movement() const { return summed(&ProgramReport::movement); }
   Gather::Counters gathers() const;
-  MovementCounters movement() const;
   /// The work that each node has done, in picoseconds by measured_prices: to be held against `predicted`.
   std::vector<double> work() const;
   /// Rays from a node (row) to an owner (column), whichever way they took, row by row.
@@ -122,7 +128,7 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
                                                         const RunOptions& options, const std::stop_token& stop = {},
                                                         const core::FineDetail* detail = nullptr);
 
-/// The same where the host is elsewhere.
+/// What a runner needs where the host is elsewhere.
 std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program);
 
 /// What is told after a run.
@@ -130,7 +136,7 @@ struct GatheredReports {
   std::vector<NodeReport> nodes;  ///< as far as their programs know
   bool are_credits_back = true;   ///< to where they started
 };
-/// After a run, on all ranks alike: what its nodes report, on that of the host; on others nothing.
+/// After a run, on all ranks alike: what its nodes report, on that of the host; on others what those there do.
 GatheredReports gather_reports(nodes::Runner& runner, const Plan& plan);
 
 }  // namespace dmpc::dataflow

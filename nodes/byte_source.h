@@ -43,7 +43,7 @@ class ByteSource {
   ByteSource(std::span<const std::byte> whole) : whole_(whole), size_bytes_(whole.size()) {}
   ByteSource(ByteStream& stream, std::size_t size_bytes) : stream_(&stream), size_bytes_(size_bytes) {}
 
-  /// Of the whole.
+  /// The bytes of the whole.
   std::size_t size_bytes() const { return size_bytes_; }
   /// Copies the piece from `offset_bytes` on.
   void copy(std::size_t offset_bytes, std::span<std::byte> into) const {

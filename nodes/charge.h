@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/counts.h"
 #include "nodes/programs_name.h"
 
 namespace dmpc::nodes {
@@ -26,12 +27,7 @@ struct Charges {
     return count[static_cast<std::size_t>(charge)];
   }
 
-  Charges& operator+=(const Charges& more) {
-    for (std::size_t i = 0; i < charge_count; ++i) {
-      count[i] += more.count[i];
-    }
-    return *this;
-  }
+  Charges& operator+=(const Charges& more) { return core::add_counts(*this, more); }
 };
 
 /// A bit for each class of operations.

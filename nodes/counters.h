@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 
+#include "core/base/counts.h"
 #include "nodes/packet.h"
 
 namespace dmpc::nodes {
@@ -18,17 +20,11 @@ struct Traffic {
     ++packets;
     bytes += sizeof(PacketHeader) + payload_bytes;
   }
-  Traffic& operator+=(const Traffic& more) {
-    packets += more.packets;
-    bytes += more.bytes;
-    return *this;
-  }
+  Traffic& operator+=(const Traffic& more) { return core::add_counts(*this, more); }
 };
 
 /// By kind of packet.
 using TrafficByKind = std::array<Traffic, packet_kind_count>;
-/// Sums kind by kind.
-TrafficByKind& operator+=(TrafficByKind& sum, const TrafficByKind& more);
 
 /// One node's account of a run. Belongs to the node's thread while the run is going.
 struct NodeCounters {
@@ -45,6 +41,6 @@ struct NodeCounters {
 };
 
 /// The sum over all kinds.
-Traffic total(const TrafficByKind& traffic);
+inline Traffic total(const TrafficByKind& traffic) { return core::total_of(traffic, std::identity()); }
 
 }  // namespace dmpc::nodes

@@ -75,7 +75,7 @@ class FlatReader {
       value = take<T>();
     }
   }
-  /// Of what is read.
+  /// Bytes that stay where they are, in what is read.
   std::string_view take_bytes() {
     const auto count = take<std::size_t>();
     core::expect(count <= bytes_.size(), "flat bytes hold what is taken out of them");

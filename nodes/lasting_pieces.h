@@ -8,6 +8,7 @@
 
 #include "core/base/expect.h"
 #include "nodes/byte_source.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::nodes {
@@ -29,10 +30,11 @@ class LastingPieces {
       room_ = memory.allocate<std::byte>(category, room_bytes);
     }
   }
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(MemoryPlan& plan, Category category, std::size_t room_bytes) {
-    plan[category] += LocalMemory::bytes_for<std::byte>(room_bytes);
-    plan.lasting_bytes += LocalMemory::bytes_for<std::byte>(room_bytes);
+  /// What the constructor takes.
+  static MemoryPlan layout(Category category, std::size_t room_bytes) {
+    MemoryPlan plan = Room<std::byte>{category, room_bytes};
+    plan.lasting_bytes = plan[category];
+    return plan;
   }
 
   /// `piece` is now at `index`, in place of what was there.
@@ -44,7 +46,7 @@ class LastingPieces {
       std::copy(piece.begin(), piece.end(), room_.begin() + static_cast<std::ptrdiff_t>(index * piece_bytes_));
     }
   }
-  /// The same with the piece of `source` from `offset_bytes` on.
+  /// Puts the piece of `source` from `offset_bytes` on there.
   void put(std::size_t index, const ByteSource& source, std::size_t offset_bytes) {
     if (places_) {
       places_[index] = source.lasting(offset_bytes, piece_bytes_).data();

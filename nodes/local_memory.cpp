@@ -54,6 +54,14 @@ std::size_t MemoryPlan::total() const {
   return sum;
 }
 
+MemoryPlan& MemoryPlan::operator+=(const MemoryPlan& more) {
+  for (std::size_t category = 0; category < bytes.size(); ++category) {
+    bytes[category] += more.bytes[category];
+  }
+  lasting_bytes += more.lasting_bytes;
+  return *this;
+}
+
 LocalMemory::Block LocalMemory::reserve(std::size_t bytes) {
   try {
     Block block(reserve_zero(bytes), release);

@@ -51,6 +51,8 @@ struct MemoryPlan {
   std::size_t operator[](Category category) const { return bytes[index_of(category)]; }
   /// Bytes of all categories.
   std::size_t total() const;
+  /// Category by category.
+  MemoryPlan& operator+=(const MemoryPlan& more);
 
  private:
   static std::size_t index_of(Category category) {
@@ -58,6 +60,8 @@ struct MemoryPlan {
     return category.number();
   }
 };
+
+inline MemoryPlan operator+(MemoryPlan sum, const MemoryPlan& more) { return sum += more; }
 
 /// How a memory keeps bytes that never change and outlive the run: as copies, or, where the nodes are modelled, by their places.
 /// Either takes the same bytes of the plan, and no program can tell.

@@ -166,7 +166,7 @@ class BasicMailbox {
   /// A look without taking anything, of a receiver that is awake: may miss a packet that is just arriving.
   bool is_empty() const { return inbox_->load(std::memory_order_relaxed) == empty; }
 
-  /// The same for one who calls drain_while(): nothing waits to be offered again, either.
+  /// As is_empty(), for one who calls drain_while(): nothing waits to be offered again, either.
   bool is_drained() const { return offered_ == empty && is_empty(); }
 
   /// Whether a packet lies in it; after a run, when nobody sends.
@@ -190,7 +190,7 @@ class BasicMailbox {
     }
   }
 
-  /// The same, for `most` at most, and the receiver is awake after it. For one whose waking `awake` does not count.
+  /// Waits as the other, for `most` at most, and the receiver is awake after it. For one whose waking `awake` does not count.
   void wait(std::chrono::nanoseconds most) {
     Atomics::sleep(*inbox_, asleep, most);
     SlotIndex expected = asleep;

@@ -4,16 +4,8 @@
 
 namespace dmpc::nodes {
 
-std::size_t credit_table_bytes(std::uint32_t peer_count) {
-  return LocalMemory::bytes_for<std::uint16_t>(peer_count * channel_count);
-}
-
 Node::Node(NodeId id, std::uint32_t peer_count, LocalMemory& memory, Network& network)
-    : id_(id),
-      peer_count_(peer_count),
-      memory_(&memory),
-      network_(&network),
-      credits_(memory.allocate<std::uint16_t>(Category::queues, peer_count * channel_count)) {
+    : id_(id), peer_count_(peer_count), memory_(&memory), network_(&network), credits_(credit_table(peer_count).in(memory)) {
   core::expect(index_of(id) < peer_count && peer_count <= 0x10000, "a node's id fits a packet's header");
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/base/expect.h"
 #include "nodes/counters.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "nodes/node_id.h"
 #include "nodes/packet.h"
@@ -33,7 +34,7 @@ class Network {
   virtual ~Network() = default;
   /// Copies the packet into the mailbox of `target`, on the sender's thread.
   virtual void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) = 0;
-  /// The same for a payload with an end that lasts, of which the place will do. False, and nothing is delivered, if bytes are all
+  /// Delivers a payload with an end that lasts, of which the place will do. False, and nothing is delivered, if bytes are all
   /// that this network carries.
   virtual bool deliver_in_place(NodeId /*target*/, const PacketHeader& /*header*/, std::span<const std::byte> /*front*/,
                                 std::span<const std::byte> /*lasting*/) {
@@ -41,13 +42,13 @@ class Network {
   }
 };
 
-/// The bytes that a Node's own table of credits takes of Category::queues.
-std::size_t credit_table_bytes(std::uint32_t peer_count);
+/// What a Node's own table of credits takes.
+inline Room<std::uint16_t> credit_table(std::uint32_t peer_count) { return {Category::queues, peer_count * channel_count}; }
 
 /// One processor. Not thread-safe: belongs to the thread that runs its program.
 class Node {
  public:
-  /// `peer_count` = nodes + host. The table of credits (peer_count * channel_count * 2 bytes) is taken from `memory`.
+  /// `peer_count` = nodes + host. credit_table() is taken from `memory`.
   Node(NodeId id, std::uint32_t peer_count, LocalMemory& memory, Network& network);
 
   /// Its own name.
@@ -70,12 +71,12 @@ class Node {
   /// and go on receiving. A node may send to itself.
   [[nodiscard]] bool try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> payload);
 
-  /// The same for a payload that is `front` and then `lasting`, bytes that never change and outlive the run. They are put
+  /// Tries to send a payload that is `front` and then `lasting`, bytes that never change and outlive the run. They are put
   /// together in `room`, which is as long, unless the runner hands over what lasts where it is; both count alike.
   [[nodiscard]] bool try_send(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> front,
                               std::span<const std::byte> lasting, std::span<std::byte> room);
 
-  /// The same for a trivially copyable value.
+  /// Tries to send a trivially copyable value.
   template <PacketValue T>
   [[nodiscard]] bool try_send(NodeId target, Channel channel, PacketKind kind, const T& value) {
     return try_send(target, channel, kind, std::as_bytes(std::span(&value, 1)));
@@ -84,7 +85,7 @@ class Node {
   void send_reserved(NodeId target, Channel channel, PacketKind kind, std::span<const std::byte> payload) {
     core::expect(try_send(target, channel, kind, payload), "a reply always has room");
   }
-  /// The same for a trivially copyable value.
+  /// Sends a trivially copyable value in a reserved place.
   template <PacketValue T>
   void send_reserved(NodeId target, Channel channel, PacketKind kind, const T& value) {
     send_reserved(target, channel, kind, std::as_bytes(std::span(&value, 1)));

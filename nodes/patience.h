@@ -18,7 +18,7 @@ struct Patience {
 /// less, and shows or keeps what has come.
 inline constexpr std::uint32_t patience_quanta_max = 4096;
 
-/// Of packets of one kind for which a sender has so many credits: the last quarter lasts while the target wakes.
+/// The patience with packets of one kind for which a sender has so many credits: the last quarter lasts while the target wakes.
 constexpr Patience patience_of(PacketKind kind, std::uint32_t credits) {
   return {.kinds = 1U << kind, .packets = std::max(credits * 3 / 4, 1U)};
 }

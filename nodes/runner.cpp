@@ -1,19 +1,25 @@
 #include "nodes/runner.h"
 
-#include <string>
-
 #include "core/base/expect.h"
+#include "core/base/refusal.h"
 #include "nodes/ranks/ranks_runner.h"
 #include "nodes/threads/threads_runner.h"
 #include "nodes/virtual/virtual_runner.h"
 
 namespace dmpc::nodes {
 
+MemoryPlan memory_beside_program(const MailboxCapacity& mailbox, std::uint32_t peer_count, std::size_t held_bytes,
+                                 std::size_t stack_bytes) {
+  MemoryPlan plan = credit_table(peer_count);
+  plan[Category::queues] += held_bytes;
+  plan[Category::mailbox] = mailbox.bytes();
+  plan[Category::reserve] = stack_bytes;
+  return plan;
+}
+
 void check_nodes_for(std::uint32_t node_count, std::uint32_t rank_count) {
-  if (node_count < rank_count) {
-    throw core::UsageError("node_count=" + std::to_string(node_count) + ": expected at least one node for each of the " +
-                           std::to_string(rank_count) + " ranks");
-  }
+  core::check_use(node_count >= rank_count, core::field_of<&ComputerRequest::node_count>(), "=", node_count,
+                  ": expected at least one node for each of the ", rank_count, " ranks");
 }
 
 void check_ranks(const ComputerRequest& computer) {

@@ -38,9 +38,13 @@ struct NodeSpecification {
 };
 static_assert(packet_kind_count <= 32);
 
-/// Throws core::UsageError if there are fewer nodes than ranks.
+/// What a node takes beside its program, for its plan: where packets wait, credits for `peer_count` peers, its thread's stack.
+MemoryPlan memory_beside_program(const MailboxCapacity& mailbox, std::uint32_t peer_count, std::size_t held_bytes,
+                                 std::size_t stack_bytes);
+
+/// Throws core::Refusal<core::UsageError> if there are fewer nodes than ranks.
 void check_nodes_for(std::uint32_t node_count, std::uint32_t rank_count);
-/// The same of the ranks that are asked for: for plans.
+/// Checks the ranks that are asked for: for plans.
 void check_ranks(const ComputerRequest& computer);
 
 enum class RunEnd : std::uint8_t { finished, interrupted };

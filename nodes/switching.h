@@ -14,7 +14,7 @@ enum class Switching : std::uint8_t { circuit, packet };
 
 /// "circuit" or "packet".
 std::string_view name_of(Switching switching);
-/// The same read back; throws core::InputError, listing the names, for anything else.
+/// A name read back; throws core::InputError, listing the names, for anything else.
 Switching parse_switching(std::string_view name);
 
 }  // namespace dmpc::nodes

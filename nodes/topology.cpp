@@ -88,12 +88,6 @@ std::uint32_t Topology::hops(NodeId source, NodeId target) const {
   return 0;
 }
 
-std::vector<Link> Topology::route(NodeId source, NodeId target) const {
-  std::vector<Link> links;
-  append_route(source, target, links);
-  return links;
-}
-
 void Topology::append_route(NodeId source, NodeId target, std::vector<Link>& links) const {
   const std::uint32_t a = index_of(source), b = index_of(target);
   core::expect(a < node_count_ && b < node_count_, "a way leads from node to node");
@@ -105,16 +99,6 @@ void Topology::append_route(NodeId source, NodeId target, std::vector<Link>& lin
     links.push_back({at, next});
     at = next;
   }
-}
-
-std::uint32_t Topology::diameter() const {
-  std::uint32_t most = 0;
-  for (std::uint32_t a = 0; a < node_count_; ++a) {
-    for (std::uint32_t b = 0; b < a; ++b) {
-      most = std::max(most, hops(NodeId{a}, NodeId{b}));
-    }
-  }
-  return most;
 }
 
 /// Along one side of a mesh, or around one ring of a torus.

@@ -17,7 +17,7 @@ enum class TopologyKind : std::uint8_t { crossbar, hypercube, mesh, torus, fat_t
 
 /// "crossbar", "hypercube", "mesh", "torus" or "fat-tree".
 std::string_view name_of(TopologyKind kind);
-/// The same read back; throws core::InputError, listing the names, for anything else.
+/// A name read back; throws core::InputError, listing the names, for anything else.
 TopologyKind parse_topology(std::string_view name);
 
 /// One directed wire: from a place to a neighbouring place. Places below node_count() are nodes; the others are switches, or the
@@ -47,17 +47,12 @@ class Topology {
 
   /// The links on the way from one node to the other; 0 from a node to itself.
   std::uint32_t hops(NodeId source, NodeId target) const;
-  /// These links, in order. Hypercube: e-cube, the lowest differing address bit first (H. Sullivan, T. R. Bashkow, 1977). Mesh
-  /// and torus: along x, then along y, on a ring the shorter way, upwards if both are equal. Fat tree: up to the lowest common
-  /// switch and down; of several uplinks the one that the target's number says, so that different targets keep out of each
+  /// Appends these links, in order. Hypercube: e-cube, the lowest differing address bit first (H. Sullivan, T. R. Bashkow, 1977).
+  /// Mesh and torus: along x, then along y, on a ring the shorter way, upwards if both are equal. Fat tree: up to the lowest
+  /// common switch and down; of several uplinks the one that the target's number says, so that different targets keep out of each
   /// other's way (E. Zahavi, "D-Mod-K Routing Providing Non-Blocking Traffic for Shift Permutations on Real Life Fat Trees",
   /// 2010).
-  std::vector<Link> route(NodeId source, NodeId target) const;
-  /// The same behind what is in `links` already.
   void append_route(NodeId source, NodeId target, std::vector<Link>& links) const;
-
-  /// The longest of all shortest ways.
-  std::uint32_t diameter() const;
 
  private:
   std::uint32_t ring_hops(std::uint32_t from, std::uint32_t to, std::uint32_t size) const;

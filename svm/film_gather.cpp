@@ -8,23 +8,15 @@
 
 namespace dmpc::svm {
 
-using nodes::LocalMemory;
-
 /// A packet that is being gathered, and behind it the pixels in flight, which may all finish before it can leave; and the
 /// header.
-std::size_t FilmGather::room_bytes(const FilmCapacity& capacity) {
-  return sizeof(FilmEntry) * (std::size_t{capacity.packet_entries} + capacity.in_flight + header_entries);
-}
-
-void FilmGather::add_needs(nodes::MemoryPlan& plan, const FilmCapacity& capacity) {
-  plan[core::MemoryUse::film_tiles] += LocalMemory::bytes_for<std::byte>(room_bytes(capacity));
+nodes::Room<std::byte> FilmGather::layout(const FilmCapacity& capacity) {
+  return {core::MemoryUse::film_tiles,
+          sizeof(FilmEntry) * (std::size_t{capacity.packet_entries} + capacity.in_flight + header_entries)};
 }
 
 FilmGather::FilmGather(nodes::Node& node, const FilmCapacity& capacity)
-    : node_(&node),
-      host_(capacity.host),
-      packet_entries_(capacity.packet_entries),
-      room_(node.memory().allocate<std::byte>(core::MemoryUse::film_tiles, room_bytes(capacity))) {
+    : node_(&node), host_(capacity.host), packet_entries_(capacity.packet_entries), room_(layout(capacity).in(node.memory())) {
   node.grant(host_, bulk_channel, capacity.credits);
 }
 

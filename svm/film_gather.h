@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/picture/film.h"
+#include "nodes/layout.h"
 #include "nodes/node.h"
 #include "svm/packets.h"
 
@@ -25,8 +26,8 @@ class FilmGather {
  public:
   /// Takes the credits for film packets.
   FilmGather(nodes::Node& node, const FilmCapacity& capacity);
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, const FilmCapacity& capacity);
+  /// What the constructor takes.
+  static nodes::Room<std::byte> layout(const FilmCapacity& capacity);
 
   bool has_room_for(std::uint32_t pixels) const { return count_ + pixels <= capacity(); }
   /// Adds a finished pixel, and sends a packet if one is full and a credit is left.
@@ -48,7 +49,6 @@ class FilmGather {
 
   /// The header and the entries stand in one run of bytes; the header takes the room of one entry.
   static constexpr std::uint32_t header_entries = 1;
-  static std::size_t room_bytes(const FilmCapacity& capacity);
 
   nodes::Node* node_;
   nodes::NodeId host_;

@@ -11,7 +11,10 @@
 namespace dmpc::svm {
 namespace {
 
-std::size_t words_for(std::uint32_t pixel_count) { return core::ceil_divide<std::size_t>(pixel_count, 64); }
+/// A bit a pixel.
+nodes::Room<std::uint64_t> own_layout(const HostShape& shape) {
+  return {core::MemoryUse::film_tiles, core::ceil_divide<std::size_t>(shape.pixel_count(), 64)};
+}
 
 }  // namespace
 
@@ -22,7 +25,7 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
       progress_(std::move(progress)),
       continuation_(continuation),
       refinement_(shape.refinement, shape.first_samples, film.width(), film.height(), shape.detail),
-      arrived_(node.memory().allocate<std::uint64_t>(core::MemoryUse::film_tiles, words_for(shape.pixel_count()))),
+      arrived_(own_layout(shape).in(node.memory())),
       pixels_sent_(shape.refinement.is_wanted() ? shape.node_count : 0),
       node_count_(shape.node_count),
       worker_count_(shape.worker_count),
@@ -47,12 +50,12 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
   start_dealing();
 }
 
-void HostProgram::add_needs(nodes::MemoryPlan& plan, const HostShape& shape) {
-  plan[core::MemoryUse::film_tiles] += nodes::LocalMemory::bytes_for<std::uint64_t>(words_for(shape.pixel_count()));
+nodes::MemoryPlan HostProgram::layout(const HostShape& shape) {
+  nodes::MemoryPlan plan = own_layout(shape);
   if (shape.pages) {
-    HomePages::add_needs(plan, *shape.pages, shape.node_count);
-    PageServer::add_needs(plan, *shape.pages, shape.node_count);
+    plan += HomePages::layout(*shape.pages, shape.node_count) + PageServer::layout(*shape.pages, shape.node_count);
   }
+  return plan;
 }
 
 void HostProgram::receive(const nodes::Packet& packet) {

@@ -13,10 +13,10 @@
 #include "nodes/node.h"
 #include "nodes/program.h"
 #include "nodes/watch/watching.h"
-#include "svm/home_pages.h"
 #include "svm/packets.h"
-#include "svm/page_capacity.h"
-#include "svm/page_server.h"
+#include "svm/pages/home_pages.h"
+#include "svm/pages/page_capacity.h"
+#include "svm/pages/page_server.h"
 
 namespace dmpc::svm {
 
@@ -49,8 +49,8 @@ class HostProgram final : public nodes::Program {
   /// `progress` may be empty.
   HostProgram(nodes::Node& node, const HostShape& shape, core::Film& film, nodes::Progress progress,
               const core::Continuation& continuation = {});
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, const HostShape& shape);
+  /// What the constructor takes.
+  static nodes::MemoryPlan layout(const HostShape& shape);
 
   void receive(const nodes::Packet& packet) override;
   bool work() override { return false; }

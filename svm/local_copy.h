@@ -9,8 +9,8 @@
 #include "core/record/records.h"
 #include "nodes/lasting_pieces.h"
 #include "nodes/node.h"
-#include "svm/node_program.h"
-#include "svm/page_capacity.h"
+#include "svm/pages/node_program.h"
+#include "svm/pages/page_capacity.h"
 
 namespace dmpc::svm {
 
@@ -25,9 +25,9 @@ class LocalCopy {
       : bytes_(nodes::kept(node.memory(), core::MemoryUse::home_pages, database, database.size_bytes(), core::overread_bytes)) {
     core::expect(database.size_bytes() == capacity.database_bytes(), "the plan is the database's");
   }
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::size_t database_bytes) {
-    nodes::LastingPieces::add_needs(plan, core::MemoryUse::home_pages, database_bytes + core::overread_bytes);
+  /// What the constructor takes.
+  static nodes::MemoryPlan layout(std::size_t database_bytes) {
+    return nodes::LastingPieces::layout(core::MemoryUse::home_pages, database_bytes + core::overread_bytes);
   }
 
   const std::byte* find(core::Address address) const { return bytes_.data() + core::byte_offset(address); }

@@ -4,12 +4,12 @@
 
 #include "core/picture/bundle_task.h"
 #include "nodes/watch/meter.h"
-#include "svm/forest.h"
+#include "svm/forest/forest.h"
 #include "svm/local_copy.h"
-#include "svm/pager.h"
+#include "svm/pages/pager.h"
+#include "svm/pages/watch/counting_pager.h"
+#include "svm/pages/watch/recording_pager.h"
 #include "svm/program.h"
-#include "svm/watch/counting_pager.h"
-#include "svm/watch/recording_pager.h"
 
 namespace dmpc::svm {
 namespace {

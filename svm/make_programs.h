@@ -10,9 +10,9 @@
 #include "nodes/byte_source.h"
 #include "nodes/node.h"
 #include "nodes/watch/watching.h"
-#include "svm/node_program.h"
+#include "svm/pages/node_program.h"
+#include "svm/pages/watch/reference_log.h"
 #include "svm/plan.h"
-#include "svm/watch/reference_log.h"
 
 namespace dmpc::svm {
 

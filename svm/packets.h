@@ -1,9 +1,6 @@
-// What the nodes of svm and replicated tell each other and the host: values, without pointers.
+// What the nodes of svm and replicated tell each other and the host about pixels, beside pages: values, without pointers.
 //
 //   kind                   from -> to          channel   size   its place in the target's mailbox is reserved by
-//   page_request           node -> home        request   small  the sender's request credits for that home, a node or the host
-//   passed_request         node -> parent      request   small  the asker's request, which has places all the way up
-//   page_reply             home -> node        bulk      bulk   the request
 //   work_request           node -> next node   ring      small  its asker: one under way for each node
 //   work_reply             giver -> asker      control   small  the work request
 //   film_sums              node -> host        bulk      bulk   the sender's film credits
@@ -16,11 +13,11 @@
 //   questions              node -> owner       request   any    the sender's request credits for that owner
 //   answers                owner -> node       bulk      any    the questions
 //
-// Where nodes ask the host by way of a tree (svm/request_tree.h) page requests go to the parent, and the reply comes from whoever
-// above has the page. Work requests go to the host where that deals the items. Questions and answers stand in place of the first
-// two where the tree's forest is at every node (svm/forest.h). They are small or bulk, as it comes: their credits reserve places
-// of both. Masks and passes exist only where the picture is refined: when all nodes are done with a pass, each gets the mask of
-// its share, which tells how many more samples each pixel has, part by part, and when all nodes have theirs the pass begins.
+// Work requests go to the host where that deals the items. Questions and answers stand in place of page requests and replies
+// (svm/pages/packets.h) where the tree's forest is at every node (svm/forest/forest.h). They are small or bulk, as it comes:
+// their credits reserve places of both. Masks and passes exist only where the picture is refined: when all nodes are done with a
+// pass, each gets the mask of its share, which tells how many more samples each pixel has, part by part, and when all nodes have
+// theirs the pass begins.
 #pragma once
 
 #include <array>
@@ -31,45 +28,11 @@
 #include "core/base/expect.h"
 #include "core/picture/film.h"
 #include "core/picture/sample_pass.h"
-#include "nodes/node.h"
 #include "nodes/packet.h"
-#include "svm/page.h"
+#include "svm/pages/packets.h"
 #include "svm/work_items.h"
 
 namespace dmpc::svm {
-
-enum class Kind : nodes::PacketKind {
-  page_request,
-  page_reply,
-  work_request,
-  work_reply,
-  film_sums,
-  film_acknowledgement,
-  done,
-  stop,
-  mask_part,
-  mask_acknowledgement,
-  begin_pass,
-  questions,
-  answers,
-  passed_request
-};
-constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
-static_assert(number_of(Kind::passed_request) < nodes::packet_kind_count);
-inline constexpr std::array<const char*, 14> kind_names = {
-    "page_request", "page_reply",           "work_request", "work_reply", "film_sums", "film_acknowledgement", "done", "stop",
-    "mask_part",    "mask_acknowledgement", "begin_pass",   "questions",  "answers",   "passed_request"};
-/// The packet's name, for reports.
-constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
-
-inline constexpr nodes::Channel request_channel = 0;
-inline constexpr nodes::Channel bulk_channel = 1;
-inline constexpr nodes::Channel ring_channel = 2;
-inline constexpr nodes::Channel control_channel = 3;
-static_assert(control_channel < nodes::channel_count);
-
-template <class T>
-inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;
 
 /// What a question asks for: what a ray meets below a child, or a record for shading.
 enum class QuestionKind : std::uint8_t { below, block, normals, tile };
@@ -88,35 +51,6 @@ struct AnswerHeader {
   std::uint16_t bytes = 0;
 };
 static_assert(sizeof(AnswerHeader) == 4);
-
-struct PageRequest {
-  PageId page = no_page;
-};
-static_assert(is_small_packet<PageRequest>);
-
-/// A page request that its receiver does not have the page for, on its way up the tree.
-struct PassedRequest {
-  PageId page = no_page;
-  std::uint32_t asker = 0;
-};
-static_assert(is_small_packet<PassedRequest>);
-
-/// What a page request, passed on or not, asks for, and for whom.
-inline PassedRequest request_in(const nodes::Packet& packet) {
-  return Kind{packet.kind} == Kind::passed_request ? packet.as<PassedRequest>()
-                                                   : PassedRequest{packet.as<PageRequest>().page, nodes::index_of(packet.source)};
-}
-
-/// Stands before the page's bytes.
-struct PageReplyHeader {
-  PageId page = no_page;
-  std::uint32_t padding = 0;
-};
-static_assert(sizeof(PageReplyHeader) == 8 && std::is_trivially_copyable_v<PageReplyHeader>);
-static_assert(sizeof(PageReplyHeader) + page_size_min_bytes > nodes::small_payload_bytes, "every page reply is bulk");
-
-/// A page of this size on its way.
-constexpr std::size_t page_reply_bytes(std::size_t page_size_bytes) { return sizeof(PageReplyHeader) + page_size_bytes; }
 
 /// The node `asker` has no pixels left. Hops from node to node along the ring until one answers or `visits_left` have been
 /// asked or passed over.

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/trace/bundle.h"
-#include "svm/home.h"
-#include "svm/replacement.h"
+#include "svm/pages/home.h"
+#include "svm/pages/replacement.h"
 #include "svm/work_items.h"
 
 namespace dmpc::svm {
@@ -28,14 +28,14 @@ enum class WorkGiver : std::uint8_t {
 /// As the command line calls it.
 constexpr const char* name_of(WorkGiver giver) { return giver == WorkGiver::ring ? "ring" : "host"; }
 
-/// Of svm and, as far as no page travels, of replicated. `optional` without a value means: choose.
+/// Options of svm and, as far as no page travels, of replicated. `optional` without a value means: choose.
 struct PageOptions {
   /// Frames of each node's cache; svm only. With a memory bound and without this, the cache takes all that is left.
   std::optional<std::uint32_t> cache_pages = std::nullopt;
   /// Where pages are at home; svm only. At the host: all that a node keeps of the scene is its cache.
   PageHomes homes = PageHomes::spread;
   std::uint32_t tree_arity = default_tree_arity;  ///< children of the host, and of each node, with homes = tree
-  /// Of the frames, in percent, those with pages that every node keeps for good, those that a small picture uses most
+  /// How many percent of the frames have pages that every node keeps for good, those that a small picture uses most
   /// (svm/resident.h); svm only. At least one frame is left for others.
   std::uint32_t resident_percent = 0;
   Replacement replacement = Replacement::lru;  ///< which page of the cache makes room; svm only

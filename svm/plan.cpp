@@ -10,20 +10,24 @@
 #include "nodes/runner.h"
 #include "nodes/size_text.h"
 #include "nodes/threads/held_packets.h"
-#include "svm/forest.h"
+#include "svm/forest/forest.h"
 #include "svm/local_copy.h"
 #include "svm/packets.h"
-#include "svm/pager.h"
+#include "svm/pages/pager.h"
+#include "svm/pages/watch/counting_pager.h"
 #include "svm/slots.h"
-#include "svm/watch/counting_pager.h"
 #include "svm/work_items.h"
 
 namespace dmpc::svm {
 namespace {
 
-using nodes::Category;
-using nodes::LocalMemory;
+using core::check_use;
+using core::field_of;
 using nodes::size_text;
+
+constexpr core::Field strategy_field = field_of<&PlanRequest::strategy>(),
+                      nodes_field = field_of<&nodes::ComputerRequest::node_count>(),
+                      memory_field = field_of<&nodes::ComputerRequest::node_memory_bytes>();
 
 /// A node whose task waits for a page has others to go on with.
 constexpr std::uint32_t default_tasks = 16, default_bundles = 4;
@@ -210,64 +214,72 @@ std::size_t bytes_with(const PlanRequest& request, std::uint32_t frames, std::ui
   return plan_with(request, frames, in_flight).node_memory_max_bytes();
 }
 
-void check_use(bool right, const std::string& sentence) {
-  if (!right) {
-    throw core::UsageError(sentence);
+/// A field that only nodes which fetch pages have, and whether it is as usual.
+struct FieldOfSvm {
+  core::Field field;
+  bool (*is_usual)(const PageOptions&);
+};
+
+template <auto Member>
+constexpr FieldOfSvm of_svm() {
+  return {field_of<Member>(), [](const PageOptions& pages) { return pages.*Member == PageOptions{}.*Member; }};
+}
+
+constexpr FieldOfSvm fields_of_svm[] = {of_svm<&PageOptions::cache_pages>(), of_svm<&PageOptions::replacement>(),
+                                        of_svm<&PageOptions::homes>(),       of_svm<&PageOptions::tree_arity>(),
+                                        of_svm<&PageOptions::count_pages>(), of_svm<&PageOptions::resident_percent>()};
+
+void check_fields_of_svm(const PlanRequest& request) {
+  for (const FieldOfSvm& of_svm : fields_of_svm) {
+    check_use(goes_with(of_svm.field, request.strategy) || of_svm.is_usual(request.pages), of_svm.field, " goes with ",
+              strategy_field, "=svm");
   }
 }
 
 /// Work that moves, or a pixel that goes on while another waits, would make the order of references depend on page misses.
 void check_recording(const PlanRequest& request) {
   if (request.pages.record_references) {
-    check_use(request.strategy == Strategy::svm, "page references are recorded with strategy=svm only");
+    check_use(request.strategy == Strategy::svm, "page references are recorded with ", strategy_field, "=svm only");
     check_use(request.pages.work_item_side == 0U,
-              "page references are recorded only if no node gives work away: work_item_side=0");
-    check_use(request.pages.in_flight == 1U, "page references are recorded only with one pixel in flight: in_flight=1");
+              "page references are recorded only if no node gives work away: ", field_of<&PageOptions::work_item_side>(), "=0");
+    check_use(request.pages.in_flight == 1U,
+              "page references are recorded only with one pixel in flight: ", field_of<&PageOptions::in_flight>(), "=1");
     check_use(request.computer.ranks == nullptr, "page references are recorded in one process, not on ranks");
     check_use(!request.pages.count_pages, "page references are recorded, or distinct pages counted, not both");
   }
 }
 
+void check_work(const PlanRequest& request) {
+  constexpr core::Field giver = field_of<&PageOptions::work_giver>();
+  const std::uint32_t workers = worker_count_of(request), in_flight = request.pages.in_flight.value_or(1);
+  check_use(workers >= 1 && workers <= request.computer.node_count, field_of<&PageOptions::worker_count>(), "=", workers,
+            ": expected at least one worker, and at most as many as there are nodes, ", request.computer.node_count);
+  check_use(!is_dealt(request) || request.pages.work_item_side != 0U, giver, "=host does not go with ",
+            field_of<&PageOptions::work_item_side>(), "=0: the host deals items of a pixel or more");
+  check_use(!is_dealt(request) || request.pages.pixel_shares == PixelShares::submaps, field_of<&PageOptions::pixel_shares>(),
+            "=interleaved does not go with ", giver, "=host: where the host deals items, no pixel is a node's own");
+  check_use(in_flight >= 1 && in_flight <= in_flight_max, field_of<&PageOptions::in_flight>(), "=", in_flight, ": from 1 to ",
+            in_flight_max, " pixels");
+}
+
 void check(const PlanRequest& request) {
-  check_use(is_page_size(request.page_size_bytes),
-            "page_size_bytes=" + size_text(request.page_size_bytes) + ": a page is a power of two from 512B to 64KiB");
-  check_use(request.computer.node_count >= 1 && request.computer.node_count <= nodes::node_count_max,
-            "node_count=" + std::to_string(request.computer.node_count) + ": from 1 to " + std::to_string(nodes::node_count_max) +
-                " nodes");
+  check_use(is_page_size(request.page_size_bytes), field_of<&PlanRequest::page_size_bytes>(), "=",
+            size_text(request.page_size_bytes), ": a page is a power of two from 512B to 64KiB");
+  check_use(request.computer.node_count >= 1 && request.computer.node_count <= nodes::node_count_max, nodes_field, "=",
+            request.computer.node_count, ": from 1 to ", nodes::node_count_max, " nodes");
   nodes::check_ranks(request.computer);
-  const std::uint32_t workers = worker_count_of(request);
-  check_use(workers >= 1 && workers <= request.computer.node_count,
-            "worker_count=" + std::to_string(workers) +
-                ": expected at least one worker, and at most as many as there are nodes, " +
-                std::to_string(request.computer.node_count));
-  check_use(!is_dealt(request) || request.pages.work_item_side != 0U,
-            "work_giver=host does not go with work_item_side=0: the host deals items of a pixel or more");
-  check_use(!is_dealt(request) || request.pages.pixel_shares == PixelShares::submaps,
-            "pixel_shares=interleaved does not go with work_giver=host: where the host deals items, no pixel is a node's own");
-  const std::uint32_t in_flight = request.pages.in_flight.value_or(1);
-  check_use(in_flight >= 1 && in_flight <= in_flight_max,
-            "in_flight=" + std::to_string(in_flight) + ": from 1 to " + std::to_string(in_flight_max) + " pixels");
-  check_use(request.strategy == Strategy::svm || !request.pages.cache_pages,
-            "cache_pages=" + std::to_string(request.pages.cache_pages.value_or(0)) +
-                " goes with strategy=svm: the others have no cache, their nodes need no page of another node");
-  check_use(request.strategy == Strategy::svm || request.pages.replacement == Replacement::lru,
-            "replacement=" + std::string(name_of(request.pages.replacement)) +
-                " goes with strategy=svm: the others have no cache, their nodes need no page of another node");
-  check_use(request.strategy == Strategy::svm || !is_host_home(request),
-            "homes=" + std::string(name_of(request.pages.homes)) +
-                " goes with strategy=svm: the others' nodes hold what they need or ask about, and fetch no page");
-  check_use(request.pages.tree_arity >= 1, "tree_arity=0: a parent has a child or more");
-  check_use(request.pages.resident_percent <= 100,
-            "resident_percent=" + std::to_string(request.pages.resident_percent) + ": from 0 to 100");
-  check_use(request.strategy == Strategy::svm || request.pages.resident_percent == 0,
-            "resident_percent=" + std::to_string(request.pages.resident_percent) +
-                " goes with strategy=svm: the others have no frames to keep pages in");
-  check_use(request.strategy == Strategy::svm || !request.pages.count_pages, "distinct pages are counted with strategy=svm only");
+  check_work(request);
+  check_fields_of_svm(request);
+  check_use(request.pages.tree_arity >= 1, field_of<&PageOptions::tree_arity>(), "=0: a parent has a child or more");
+  check_use(request.pages.resident_percent <= 100, field_of<&PageOptions::resident_percent>(), "=",
+            request.pages.resident_percent, ": from 0 to 100");
   check_use(!request.pages.count_pages || !request.refinement.is_wanted(),
             "distinct pages are counted where all pixels have the same samples, not with refinement");
-  check_use(request.pages.cache_pages.value_or(1) >= 1, "cache_pages=0: a node needs at least one frame for the pages of others");
-  check_use(request.strategy != Strategy::forest || request.forest_page_count > 0,
-            "strategy=forest needs one tree of boxes whose subtrees lie in pages: structure=extents and record_order=spatial");
+  check_use(request.pages.cache_pages != 0U, field_of<&PageOptions::cache_pages>(),
+            "=0: a node needs at least one frame for the pages of others");
+  check_use(request.strategy != Strategy::forest || request.forest_page_count > 0, strategy_field,
+            "=forest needs one tree of boxes whose subtrees lie in pages: ", field_of<&core::BuildOptions::structure>(),
+            "=extents and ", field_of<&core::BuildOptions::record_order>(), "=spatial");
   check_recording(request);
   core::expect(request.page_count >= 1 && request.depth_max >= 1, "a database has a page, and a ray a depth");
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
@@ -337,17 +349,17 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
 }
 
 [[noreturn]] void say_too_small(const PlanRequest& request) {
-  std::string sentence = "node_memory_bytes=" + size_text(*request.computer.node_memory_bytes) +
-                         " is too small for node_count=" + std::to_string(request.computer.node_count) +
-                         ": the smallest that works is node_memory_bytes=" + size_text(smallest_node_memory_bytes(request));
+  core::Sentence sentence(memory_field, "=", size_text(*request.computer.node_memory_bytes), " is too small for ", nodes_field,
+                          "=", request.computer.node_count, ": the smallest that works is ", memory_field, "=",
+                          size_text(smallest_node_memory_bytes(request)));
   if (const auto nodes = smallest_node_count(request)) {
-    sentence += ", or with this memory node_count=" + std::to_string(*nodes);
+    sentence.add(", or with this memory ", nodes_field, "=", *nodes);
   } else if (request.strategy == Strategy::replicated) {
-    sentence += "; every node of strategy=replicated holds the whole database, strategy=svm spreads it";
+    sentence.add("; every node of ", strategy_field, "=replicated holds the whole database, ", strategy_field, "=svm spreads it");
   } else {
-    sentence += "; no number of nodes up to " + std::to_string(nodes::node_count_max) + " works with this memory";
+    sentence.add("; no number of nodes up to ", nodes::node_count_max, " works with this memory");
   }
-  throw core::RoomError(sentence);
+  throw core::Refusal<core::RoomError>(sentence);
 }
 
 void note_reductions(Plan& plan) {
@@ -373,6 +385,11 @@ void note_reductions(Plan& plan) {
 }
 
 }  // namespace
+
+bool goes_with(const core::Field& field, Strategy strategy) {
+  return strategy == Strategy::svm || std::none_of(std::begin(fields_of_svm), std::end(fields_of_svm),
+                                                   [&](const FieldOfSvm& of_svm) { return of_svm.field == field; });
+}
 
 std::uint32_t Plan::faults_max() const { return std::min(task_count(), foreign_pages_max(request)); }
 
@@ -430,29 +447,26 @@ HostShape Plan::host() const {
 nodes::Patience Plan::patience() const { return nodes::patience_of(number_of(Kind::film_sums), film_credits); }
 
 nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
-  nodes::MemoryPlan plan;
+  nodes::MemoryPlan plan = nodes::memory_beside_program(node_mailbox, request.computer.node_count + 1, held_bytes,
+                                                        request.computer.stack_reserve_bytes) +
+                           nodes::LastingPieces::layout(core::MemoryUse::constants, sizeof(core::RenderSettings)) +
+                           FilmGather::layout(film()) + WorkSource::layout(work(), index);
   if (request.strategy == Strategy::svm) {
-    Pager::add_needs(plan, pages(), index);
+    plan += Pager::layout(pages(), index);
   } else if (request.strategy == Strategy::forest) {
-    Forest::add_needs(plan, pages(), index);
+    plan += Forest::layout(pages(), index);
   } else {
-    LocalCopy::add_needs(plan, pages().database_bytes());
+    plan += LocalCopy::layout(pages().database_bytes());
   }
   if (request.pages.count_pages) {
-    CountingPager::add_needs(plan, pages());
+    plan += CountingPager::own_layout(pages());
   }
   const auto depth_max = static_cast<std::uint32_t>(request.depth_max);
   if (pixels_a_task > 1) {
-    Slots<core::BundleTask>::add_needs(plan, task_count(), depth_max);
+    plan += Slots<core::BundleTask>::layout(task_count(), depth_max);
   } else {
-    Slots<core::PixelTask>::add_needs(plan, task_count(), depth_max);
+    plan += Slots<core::PixelTask>::layout(task_count(), depth_max);
   }
-  FilmGather::add_needs(plan, film());
-  WorkSource::add_needs(plan, work(), index);
-  nodes::LastingPieces::add_needs(plan, core::MemoryUse::constants, sizeof(core::RenderSettings));
-  plan[Category::mailbox] += node_mailbox.bytes();
-  plan[Category::queues] += nodes::credit_table_bytes(request.computer.node_count + 1) + held_bytes;
-  plan[Category::reserve] += request.computer.stack_reserve_bytes;
   return plan;
 }
 
@@ -465,12 +479,8 @@ std::size_t Plan::node_memory_max_bytes() const {
 }
 
 nodes::MemoryPlan Plan::host_memory() const {
-  nodes::MemoryPlan plan;
-  HostProgram::add_needs(plan, host());
-  plan[Category::mailbox] += host_mailbox.bytes();
-  plan[Category::queues] += nodes::credit_table_bytes(request.computer.node_count + 1) + held_bytes;
-  plan[Category::reserve] += host_stack_bytes;
-  return plan;
+  return nodes::memory_beside_program(host_mailbox, request.computer.node_count + 1, held_bytes, host_stack_bytes) +
+         HostProgram::layout(host());
 }
 
 std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return bytes_with(request, frames_min(request), 1); }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/refusal.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/refinement.h"
 #include "nodes/computer_request.h"
@@ -16,9 +17,9 @@
 #include "nodes/patience.h"
 #include "svm/film_gather.h"
 #include "svm/host.h"
-#include "svm/page.h"
-#include "svm/page_capacity.h"
 #include "svm/page_options.h"
+#include "svm/pages/page.h"
+#include "svm/pages/page_capacity.h"
 #include "svm/work_source.h"
 
 namespace dmpc::svm {
@@ -26,6 +27,9 @@ namespace dmpc::svm {
 /// svm: pages travel. replicated: every node holds the whole database, nothing travels but work and film. forest: every node
 /// holds the upper part of the tree, and asks the owners of its subtrees what rays meet there.
 enum class Strategy : std::uint8_t { svm, replicated, forest };
+
+/// Whether the strategy has this field of PageOptions: only nodes of svm fetch pages.
+bool goes_with(const core::Field& field, Strategy strategy);
 
 /// What a plan is made from. `optional` without a value means: choose.
 struct PlanRequest {
@@ -49,8 +53,6 @@ struct PlanRequest {
   /// Some pass may leave pixels out, so that each node keeps a byte for each pixel of its share.
   bool is_masked() const { return refinement.is_wanted() || start != nullptr; }
 };
-
-inline constexpr std::uint32_t in_flight_max = 4096;
 
 /// The answer. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
 struct Plan {
@@ -91,9 +93,9 @@ struct Plan {
   std::uint32_t faults_max() const;
 };
 
-/// Throws core::UsageError for a value out of range or a wrong combination, and core::RoomError if the memory is too small;
-/// the latter names the smallest node memory that works for this node count and, if there is one up to nodes::node_count_max, the
-/// smallest node count that works with this memory.
+/// Throws core::Refusal<core::UsageError> for a value out of range or a wrong combination, of core::RoomError if the memory is
+/// too small; the latter names the smallest node memory that works for this node count and, if there is one up to
+/// nodes::node_count_max, the smallest node count that works with this memory.
 Plan make_plan(const PlanRequest& request);
 
 /// The smallest node memory with which make_plan(request) succeeds, whatever request.node_memory_bytes says.

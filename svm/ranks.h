@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "nodes/ranks/followed.h"
 #include "nodes/ranks/following.h"
 #include "nodes/ranks/rank_links.h"
+#include "svm/pages/watch/reference_log.h"
 #include "svm/plan.h"
-#include "svm/watch/reference_log.h"
 
 namespace dmpc::svm {
 

@@ -5,9 +5,9 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/pixel_task.h"
-#include "svm/page.h"
+#include "svm/pages/page.h"
 
 namespace dmpc::svm {
 

@@ -5,7 +5,7 @@
 
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
-#include "nodes/flat_bytes.h"
+#include "nodes/gathering.h"
 #include "nodes/ranks/life_signs.h"
 #include "svm/host.h"
 #include "svm/ranks.h"
@@ -44,20 +44,6 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
           .refinement = settings.refinement,
           .start = options.continuation.start,
           .bundles = settings.skips.bundles && strategy != Strategy::forest && walks_in_bundles(options)};
-}
-
-/// A node's report, as it travels to the host's rank.
-std::string told_by(nodes::Runner& runner, std::size_t index) {
-  nodes::FlatWriter told;
-  told.put(dynamic_cast<const NodeProgram&>(runner.program(index)).report());
-  told.put(nodes::figures_of(runner.node(index)));
-  return told.take();
-}
-
-NodeReport report_from(const std::string& told) {
-  nodes::FlatReader reader(told);
-  const auto program = reader.take<ProgramReport>();
-  return {{reader.take<nodes::NodeFigures>()}, program};
 }
 
 std::uint64_t packets_of(const nodes::TrafficByKind& traffic, Kind kind) { return traffic[number_of(kind)].packets; }
@@ -131,46 +117,20 @@ Report run_recording(const core::Database& database, const core::RenderSettings&
   return report;
 }
 
+/// Runs a strategy by which no page travels.
+Report run_without_pages(Strategy strategy, const core::Database& database, const core::RenderSettings& settings,
+                         const RunOptions& options, std::stop_token stop) {
+  Plan plan = plan_of(strategy, database, settings, options);
+  const core::FineDetail detail = settings.fine_detail(database);
+  plan.request.detail = &detail;
+  return run_with_grid(database, settings, plan, options, std::move(stop));
+}
+
 }  // namespace
 
-core::Operations Report::operations() const {
-  core::Operations sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.operations;
-  }
-  return sum;
-}
-
-PageCounters Report::pages() const {
-  PageCounters sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.pages;
-  }
-  return sum;
-}
-
-WorkCounters Report::work() const {
-  WorkCounters sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.work;
-  }
-  return sum;
-}
-
-QuestionCounters Report::questions() const {
-  QuestionCounters sum;
-  for (const NodeReport& node : nodes) {
-    sum += node.program.questions;
-  }
-  return sum;
-}
-
 nodes::TrafficByKind Report::sent() const {
-  nodes::TrafficByKind sum = host.sent;
-  for (const NodeReport& node : nodes) {
-    sum += node.counters.sent;
-  }
-  return sum;
+  nodes::TrafficByKind sum = core::total_of(nodes, [](const NodeReport& node) { return node.counters.sent; });
+  return core::add_counts(sum, host.sent);
 }
 
 Plan plan_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings, const RunOptions& options) {
@@ -200,13 +160,17 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
 }
 
 std::vector<NodeReport> gather_reports(nodes::Runner& runner, const Plan& plan) {
-  const std::uint32_t host_index = plan.request.computer.node_count;
-  const std::vector<std::string> told =
-      runner.gather([&](std::size_t index) { return index == host_index ? std::string() : told_by(runner, index); });
   std::vector<NodeReport> reports;
-  for (std::uint32_t i = 0; i < host_index && runner.is_here(host_index); ++i) {
-    reports.push_back(report_from(told[i]));
-  }
+  nodes::gather_nodes(
+      runner, plan.request.computer.node_count,
+      [&](std::size_t index, nodes::FlatWriter& told) {
+        told.put(dynamic_cast<const NodeProgram&>(runner.program(index)).report());
+        told.put(nodes::figures_of(runner.node(index)));
+      },
+      [&](std::size_t, nodes::FlatReader& told) {
+        const auto program = told.take<ProgramReport>();
+        reports.push_back({{told.take<nodes::NodeFigures>()}, program});
+      });
   return reports;
 }
 
@@ -232,11 +196,7 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   report.end = runner->run(std::move(stop));
   const std::uint32_t host_index = plan.request.computer.node_count;
   report.nodes = gather_reports(*runner, plan);
-  if (options.computer.ranks != nullptr) {
-    const std::vector<nodes::RankReport> told = runner->gather_ranks({});
-    report.ranks = nodes::rank_figures(nodes::peers_of(plan), *options.computer.ranks, told);
-    nodes::add_seen(options.watching, told);
-  }
+  report.ranks = nodes::gather_rank_figures(*runner, plan, options.computer.ranks, options.watching.elsewhere.adds());
   report.host = runner->node(host_index).counters();
   const auto& host = dynamic_cast<const HostProgram&>(runner->program(host_index));
   report.host_deposits_saturated = host.deposits_saturated();
@@ -270,18 +230,12 @@ Report run_svm(const core::Database& database, const core::RenderSettings& setti
 
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop) {
-  Plan plan = plan_of(Strategy::replicated, database, settings, options);
-  const core::FineDetail detail = settings.fine_detail(database);
-  plan.request.detail = &detail;
-  return run_with_grid(database, settings, plan, options, std::move(stop));
+  return run_without_pages(Strategy::replicated, database, settings, options, std::move(stop));
 }
 
 Report run_forest(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                   std::stop_token stop) {
-  Plan plan = plan_of(Strategy::forest, database, settings, options);
-  const core::FineDetail detail = settings.fine_detail(database);
-  plan.request.detail = &detail;
-  return run_with_grid(database, settings, plan, options, std::move(stop));
+  return run_without_pages(Strategy::forest, database, settings, options, std::move(stop));
 }
 
 }  // namespace dmpc::svm

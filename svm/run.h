@@ -13,8 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/counts.h"
 #include "core/base/expect.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/film.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/pixel_task.h"
@@ -29,11 +30,11 @@
 #include "svm/host.h"
 #include "svm/local_copy.h"
 #include "svm/make_programs.h"
-#include "svm/node_program.h"
 #include "svm/page_options.h"
+#include "svm/pages/node_program.h"
+#include "svm/pages/watch/reference_log.h"
 #include "svm/plan.h"
 #include "svm/program.h"
-#include "svm/watch/reference_log.h"
 
 namespace dmpc::svm {
 
@@ -66,10 +67,15 @@ struct Report {
   core::RefinementResult refinement;
   std::vector<nodes::RankFigures> ranks;  ///< where there are several, or could be
 
-  core::Operations operations() const;  ///< summed over the nodes
-  PageCounters pages() const;
-  WorkCounters work() const;
-  QuestionCounters questions() const;
+  /// What programs count, summed over the nodes.
+  template <class Counts>
+  Counts summed(Counts ProgramReport::*counts) const {
+    return core::total_of(nodes, [counts](const NodeReport& node) { return node.program.*counts; });
+  }
+  core::Operations operations() const { return summed(&ProgramReport::operations); }
+  PageCounters pages() const { return summed(&ProgramReport::pages); }
+  WorkCounters work() const { return summed(&ProgramReport::work); }
+  QuestionCounters questions() const { return summed(&ProgramReport::questions); }
   /// Packets and bytes sent by all nodes and the host, by Kind's number.
   nodes::TrafficByKind sent() const;
 };
@@ -89,10 +95,10 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
                                                         const nodes::Progress& progress,
                                                         const core::Continuation& continuation = {});
 
-/// The same where the host is elsewhere.
+/// What a runner needs where the host is elsewhere.
 std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program);
 
-/// After a run, on all ranks alike: what its nodes report, on that of the host; on others nothing.
+/// After a run, on all ranks alike: what its nodes report, on that of the host; on others what those there do.
 std::vector<NodeReport> gather_reports(nodes::Runner& runner, const Plan& plan);
 
 /// Runs any programs of this family under `plan`, checks the laws of conservation and reports.

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "svm/home_pages.h"
+#include "svm/pages/home_pages.h"
 #include "svm/plan.h"
 
 namespace dmpc::svm {

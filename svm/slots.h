@@ -7,6 +7,7 @@
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
 #include "core/picture/shade.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 
 namespace dmpc::svm {
@@ -16,25 +17,23 @@ namespace dmpc::svm {
 template <class Task>
 class Slots {
   using Hits = typename Task::Hits;
+  struct Slot;
 
  public:
-  Slots(nodes::LocalMemory& memory, std::uint32_t count, std::uint32_t depth_max)
-      : tasks_(memory.allocate<Slot>(core::MemoryUse::ray_stacks, count)),
-        runnable_(memory.allocate<std::uint32_t>(nodes::Category::queues, count)),
-        free_(memory.allocate<std::uint32_t>(nodes::Category::queues, count)) {
-    const std::span<Hits> stacks = memory.allocate<Hits>(core::MemoryUse::ray_stacks, std::size_t{count} * depth_max);
+  Slots(nodes::LocalMemory& memory, std::uint32_t count, std::uint32_t depth_max) {
+    std::span<Hits> stacks;
+    std::tie(tasks_, runnable_, free_, stacks) = layout(count, depth_max).in(memory);
     for (std::uint32_t slot = 0; slot < count; ++slot) {
       tasks_[slot].task = Task(stacks.subspan(std::size_t{slot} * depth_max, depth_max));
       free_[free_count_++] = count - 1 - slot;
     }
   }
-  /// Adds to `plan` exactly what the constructor takes.
-  static void add_needs(nodes::MemoryPlan& plan, std::uint32_t count, std::uint32_t depth_max) {
-    using nodes::Category;
-    using nodes::LocalMemory;
-    plan[core::MemoryUse::ray_stacks] += LocalMemory::bytes_for<Slot>(count);
-    plan[core::MemoryUse::ray_stacks] += LocalMemory::bytes_for<Hits>(std::size_t{count} * depth_max);
-    plan[Category::queues] += 2 * LocalMemory::bytes_for<std::uint32_t>(count);
+  /// What the constructor takes.
+  static nodes::Layout<Slot, std::uint32_t, std::uint32_t, Hits> layout(std::uint32_t count, std::uint32_t depth_max) {
+    return {{core::MemoryUse::ray_stacks, count},
+            {nodes::Category::queues, count},
+            {nodes::Category::queues, count},
+            {core::MemoryUse::ray_stacks, std::size_t{count} * depth_max}};
   }
 
   Task& task(std::uint32_t slot) { return tasks_[slot].task; }

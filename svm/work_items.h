@@ -21,7 +21,7 @@ struct PixelRectangle {
   constexpr std::uint32_t pixel(std::uint32_t column, std::uint32_t row, std::uint32_t image_width) const {
     return (y + row * step_y) * image_width + x + column * step_x;
   }
-  /// Of the pixel at this place, row by row. Requires a place below pixel_count().
+  /// The index of the pixel at this place, row by row. Requires a place below pixel_count().
   constexpr std::uint32_t pixel_at(std::uint64_t place, std::uint32_t image_width) const {
     return pixel(static_cast<std::uint32_t>(place % width), static_cast<std::uint32_t>(place / width), image_width);
   }
@@ -77,7 +77,7 @@ class WorkItems {
 
 /// A masked item has as many pixels a side at most, so that a small packet has a step for each of its pixels.
 inline constexpr std::uint32_t masked_side_max = 4;
-/// Of the pixels of a masked item, row by row; those beyond it bring no samples.
+/// The steps of the pixels of a masked item, row by row; those beyond it bring no samples.
 using ItemSteps = std::array<core::SampleStep, std::size_t{masked_side_max} * masked_side_max>;
 
 /// Pixels that one task takes at a time.

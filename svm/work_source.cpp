@@ -54,13 +54,12 @@ WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape, bool passes_ov
       passes_over_idle_(passes_over_idle),
       tile_(shape.tile),
       share_(own_share(shape, self_)),
-      mask_(node.memory().allocate<core::SampleStep>(nodes::Category::queues, mask_pixels(shape, self_))),
       items_(share_, item_side_),
       first_giver_(shape.dealer.value_or((self_ + 1) % worker_count_)),
       last_giver_(first_giver_),
-      kept_(node.memory().allocate<WorkRequest>(nodes::Category::queues, kept_max)),
       is_alone_(is_alone(shape, self_)),
       no_more_(is_alone_) {
+  std::tie(mask_, kept_) = layout(shape, self_).in(node.memory());
   std::fill(mask_.begin(), mask_.end(), core::SampleStep::first());
   if (shape.start != nullptr) {
     want_missing(*shape.start);
@@ -76,9 +75,8 @@ void WorkSource::want_missing(const core::PartialPicture& start) {
   skip_unwanted();
 }
 
-void WorkSource::add_needs(nodes::MemoryPlan& memory, const WorkShape& shape, std::uint32_t index) {
-  memory[nodes::Category::queues] += nodes::LocalMemory::bytes_for<core::SampleStep>(mask_pixels(shape, index)) +
-                                     nodes::LocalMemory::bytes_for<WorkRequest>(kept_max);
+nodes::Layout<core::SampleStep, WorkRequest> WorkSource::layout(const WorkShape& shape, std::uint32_t index) {
+  return {{nodes::Category::queues, mask_pixels(shape, index)}, {nodes::Category::queues, kept_max}};
 }
 
 void WorkSource::take_mask(const MaskPart& part) {
@@ -96,7 +94,7 @@ void WorkSource::begin_pass() {
   skip_unwanted();
 }
 
-/// Of an item of the share.
+/// The steps of an item of the share.
 ItemSteps WorkSource::steps_of(const PixelRectangle& item) const {
   ItemSteps steps;
   auto step = steps.begin();

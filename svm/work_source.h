@@ -7,9 +7,10 @@
 #include <string>
 
 #include "core/picture/partial_picture.h"
+#include "nodes/layout.h"
 #include "nodes/node.h"
-#include "svm/node_program.h"
 #include "svm/packets.h"
+#include "svm/pages/node_program.h"
 #include "svm/work_items.h"
 
 namespace dmpc::svm {
@@ -48,14 +49,14 @@ class WorkSource {
  public:
   /// In the first pass all samples are wanted that shape.start lacks.
   WorkSource(nodes::Node& node, const WorkShape& shape, bool passes_over_idle = true);
-  /// Adds to `memory` exactly what the constructor takes at node `index`.
-  static void add_needs(nodes::MemoryPlan& memory, const WorkShape& shape, std::uint32_t index);
+  /// What the constructor takes at node `index`.
+  static nodes::Layout<core::SampleStep, WorkRequest> layout(const WorkShape& shape, std::uint32_t index);
 
   /// A pixel of the current item, of the share, or of an item received is left.
   bool has_pixel() const { return !scan_.empty() || !items_.empty(); }
   /// Requires has_pixel().
   std::uint32_t next_pixel();
-  /// Of the next pixel, in this pass. Requires has_pixel().
+  /// The samples of the next pixel, in this pass. Requires has_pixel().
   core::SampleRange next_samples();
   /// The next pixel lies in the tile of the one before.
   bool stays_in_tile() const { return scan_.stays_in_tile(); }

@@ -10,10 +10,7 @@ std::string with_name(const std::string& what, const std::string& name) { return
 }  // namespace
 
 HostedNode::HostedNode(nodes::Node& node, const ProgramPlan& plan)
-    : node_(node),
-      plan_(plan),
-      rights_(node.memory().allocate<std::uint16_t>(nodes::Category::queues, plan.table_size())),
-      used_bytes_(plan.needs().memory.size()) {
+    : node_(node), plan_(plan), rights_(plan.rights().in(node.memory())), used_bytes_(plan.needs().memory.size()) {
   for (std::uint32_t target = 0; target < plan.node_count(); ++target) {
     for (Index packet = 0; packet < plan.needs().packets.size(); ++packet) {
       const std::uint32_t count = plan.credits(id(), target, packet);

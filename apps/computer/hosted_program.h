@@ -41,7 +41,7 @@ class HostedNode final : public Node {
  private:
   std::byte* allocate_bytes(Index memory, std::size_t bytes) override;
   nodes::Channel channel_of(Index packet) const { return plan_.is_small(packet) ? 0 : 1; }
-  /// Of a request the credits left, of an answer those that are owed.
+  /// The credits that are left for a request, or those that are owed for an answer.
   std::uint16_t& rights(std::uint32_t target, Index packet) const;
   void check(std::uint32_t target, Index packet, std::size_t payload_bytes) const;
 
@@ -70,15 +70,6 @@ class HostedProgram final : public nodes::Program {
  private:
   HostedNode node_;
   std::unique_ptr<dmpc::Program> program_;
-};
-
-/// The host's, which has nothing to do.
-class IdleProgram final : public nodes::Program {
- public:
-  void receive(const nodes::Packet& /*packet*/) override {}
-  bool work() override { return false; }
-  bool finished() const override { return true; }
-  std::string describe() const override { return "nothing to do"; }
 };
 
 }  // namespace dmpc::apps

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "apps/computer/dmpc/computer.h"
-#include "apps/line/number_text.h"
-#include "apps/ranks/parts.h"
-#include "apps/ranks/rank_group.h"
-#include "apps/run/option_words.h"
-#include "apps/system/digest.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/ranks/parts.h"
+#include "apps/edge/ranks/rank_group.h"
+#include "apps/edge/run/option_words.h"
+#include "apps/edge/system/digest.h"
 #include "core/base/expect.h"
 #include "nodes/runner.h"
 
@@ -43,7 +43,7 @@ void choose_nodes(ProgramOptions& options, const RankGroup& group) {
   if (!options.is_node_count_given) {
     options.computer.node_count = std::min(group.default_node_count(), program_nodes_max);
   }
-  with_options_named([&] { nodes::check_nodes_for(options.computer.node_count, group.rank_count()); });
+  with_options_named(computer_words, [&] { nodes::check_nodes_for(options.computer.node_count, group.rank_count()); });
   if (!options.idle) {
     options.idle = group.default_idle(options.computer.node_count);
   }

@@ -7,7 +7,7 @@
 #include "apps/computer/options.h"
 #include "apps/computer/program_main.h"
 #include "apps/computer/rank_rounds.h"
-#include "apps/ranks/likeness.h"
+#include "apps/edge/ranks/likeness.h"
 
 namespace dmpc::apps {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/line/option_values.h"
-#include "apps/machine/machine_file.h"
-#include "apps/machine/machines.h"
-#include "apps/table/table_options.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/machine/machine_file.h"
+#include "apps/edge/machine/machines.h"
+#include "apps/edge/table/table_options.h"
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
 

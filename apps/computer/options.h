@@ -9,11 +9,11 @@
 
 #include "apps/computer/dmpc/computer.h"
 #include "apps/computer/vocabulary.h"
-#include "apps/line/command_line.h"
-#include "apps/run/runner_kind.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/run/runner_kind.h"
 #include "nodes/computer_request.h"
 #include "nodes/ranks/nap.h"
-#include "svm/task_plan.h"
+#include "svm/pages/task_plan.h"
 
 namespace dmpc::apps {
 

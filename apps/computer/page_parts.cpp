@@ -5,9 +5,9 @@
 #include "apps/computer/page_words.h"
 #include "apps/computer/readable_nodes.h"
 #include "apps/computer/record.h"
-#include "apps/line/number_text.h"
-#include "apps/show/page/traffic.h"
-#include "apps/show/page/view_conclusions.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/show/page/traffic.h"
+#include "apps/edge/show/page/view_conclusions.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps::html {

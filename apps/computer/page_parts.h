@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "apps/computer/options.h"
-#include "apps/show/page/losses.h"
-#include "apps/show/page/origin.h"
-#include "apps/show/page/page.h"
-#include "apps/show/page/view_tables.h"
-#include "apps/table/plot.h"
-#include "apps/table/table.h"
+#include "apps/edge/show/page/losses.h"
+#include "apps/edge/show/page/origin.h"
+#include "apps/edge/show/page/page.h"
+#include "apps/edge/show/page/view_tables.h"
+#include "apps/edge/table/plot.h"
+#include "apps/edge/table/table.h"
 #include "nodes/machine.h"
 #include "nodes/ranks/rank_figures.h"
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "apps/help/glossary.h"
+#include "apps/edge/help/glossary.h"
 
 namespace dmpc::apps {
 

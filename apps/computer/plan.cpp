@@ -6,17 +6,15 @@
 
 #include "apps/computer/declared.h"
 #include "apps/computer/own_name.h"
-#include "apps/line/number_text.h"
-#include "apps/system/digest.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/system/digest.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
-#include "nodes/node.h"
+#include "nodes/runner.h"
 #include "nodes/threads/held_packets.h"
 
 namespace dmpc::apps {
 namespace {
-
-using nodes::Category;
 
 static_assert(small_bytes_max == nodes::small_payload_bytes && packets_max == nodes::packet_kind_count &&
               operations_max == nodes::charge_count);
@@ -168,21 +166,17 @@ std::uint32_t ProgramPlan::credits(std::uint32_t source, std::uint32_t target, I
 }
 
 nodes::MemoryPlan ProgramPlan::memory(std::uint32_t node) const {
-  nodes::MemoryPlan plan = host_memory();
-  plan[Category::mailbox] = mailboxes_[node].bytes();
-  plan[Category::queues] += nodes::LocalMemory::bytes_for<std::uint16_t>(table_size());
+  nodes::MemoryPlan plan = memory_beside_program(mailboxes_[node]) + rights();
   for (const MemoryNeed& need : needs_.memory) {
     plan[ProgramMemory::declared] += core::round_up(need.bytes, nodes::LocalMemory::alignment);
   }
   return plan;
 }
 
-nodes::MemoryPlan ProgramPlan::host_memory() const {
-  nodes::MemoryPlan plan;
-  plan[Category::mailbox] = nodes::MailboxCapacity{}.bytes();
-  plan[Category::queues] = nodes::credit_table_bytes(node_count_ + 1) + held_bytes_;
-  plan[Category::reserve] = stack_bytes_;
-  return plan;
+nodes::MemoryPlan ProgramPlan::host_memory() const { return memory_beside_program({}); }
+
+nodes::MemoryPlan ProgramPlan::memory_beside_program(const nodes::MailboxCapacity& mailbox) const {
+  return nodes::memory_beside_program(mailbox, node_count_ + 1, held_bytes_, stack_bytes_);
 }
 
 void ProgramPlan::check_memory(const nodes::ComputerRequest& computer) const {

@@ -8,6 +8,7 @@
 
 #include "apps/computer/dmpc/computer.h"
 #include "nodes/computer_request.h"
+#include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "nodes/mailbox.h"
 
@@ -32,19 +33,19 @@ class ProgramPlan {
   /// How many of them `source` may have under way to `target`; fewer than there is room for under chaos.
   std::uint32_t credits(std::uint32_t source, std::uint32_t target, Index packet) const;
 
-  /// Of all packets.
+  /// The longest payload of all packets.
   std::size_t payload_bytes_max() const;
   /// Equal plans, equal digests.
   std::uint64_t digest() const;
 
   const nodes::MailboxCapacity& mailbox(std::uint32_t node) const { return mailboxes_[node]; }
-  /// Of a node, all of its program's memory included.
+  /// The memory of a node, all of its program's included.
   nodes::MemoryPlan memory(std::uint32_t node) const;
-  /// Of the host, which has nothing to do.
+  /// The memory of the host, which has nothing to do.
   nodes::MemoryPlan host_memory() const;
   std::size_t held_bytes() const { return held_bytes_; }
-  /// Of the table of credits and unanswered packets of a program's own, by packet and node.
-  std::size_t table_size() const { return needs_.packets.size() * node_count_; }
+  /// The table of credits and unanswered packets of a program's own, by packet and node.
+  nodes::Room<std::uint16_t> rights() const { return {nodes::Category::queues, needs_.packets.size() * node_count_}; }
 
  private:
   void check_names() const;
@@ -52,6 +53,7 @@ class ProgramPlan {
   void match_answers();
   void count_places();
   std::uint32_t places(std::uint32_t source, std::uint32_t target, Index packet) const;
+  nodes::MemoryPlan memory_beside_program(const nodes::MailboxCapacity& mailbox) const;
   void check_memory(const nodes::ComputerRequest& computer) const;
 
   Needs needs_;

@@ -8,11 +8,11 @@
 #include <variant>
 #include <vector>
 
-#include "apps/line/exit_status.h"
-#include "apps/ranks/launcher.h"
-#include "apps/ranks/rank_group.h"
-#include "apps/system/memory_room.h"
-#include "apps/system/output_set.h"
+#include "apps/edge/line/exit_status.h"
+#include "apps/edge/ranks/launcher.h"
+#include "apps/edge/ranks/rank_group.h"
+#include "apps/edge/system/memory_room.h"
+#include "apps/edge/system/output_set.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

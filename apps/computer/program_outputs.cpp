@@ -9,10 +9,10 @@
 
 #include "apps/computer/program_page.h"
 #include "apps/computer/task_heat_file.h"
-#include "apps/machine/machines.h"
-#include "apps/show/references/reference_file.h"
-#include "apps/system/attempts.h"
-#include "apps/system/scratch_folder.h"
+#include "apps/edge/machine/machines.h"
+#include "apps/edge/show/references/reference_file.h"
+#include "apps/edge/system/attempts.h"
+#include "apps/edge/system/scratch_folder.h"
 
 namespace dmpc::apps {
 namespace {

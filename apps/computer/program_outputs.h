@@ -3,7 +3,7 @@
 
 #include "apps/computer/options.h"
 #include "apps/computer/record.h"
-#include "apps/system/output_set.h"
+#include "apps/edge/system/output_set.h"
 
 namespace dmpc::apps {
 

@@ -8,9 +8,9 @@
 #include "apps/computer/program_work.h"
 #include "apps/computer/readable_nodes.h"
 #include "apps/computer/task_tables.h"
-#include "apps/line/amount.h"
-#include "apps/line/number_text.h"
-#include "apps/show/page/view_conclusions.h"
+#include "apps/edge/line/amount.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/show/page/view_conclusions.h"
 #include "core/base/expect.h"
 #include "nodes/size_text.h"
 

@@ -7,10 +7,10 @@
 
 #include "apps/computer/own_name.h"
 #include "apps/computer/plan.h"
-#include "apps/line/number_text.h"
-#include "apps/show/page/node_table.h"
-#include "apps/show/page/shares.h"
-#include "svm/packets.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/show/page/node_table.h"
+#include "apps/edge/show/page/shares.h"
+#include "svm/pages/packets.h"
 
 namespace dmpc::apps::html {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "apps/computer/page_parts.h"
 #include "apps/computer/record.h"
-#include "apps/show/page/losses.h"
-#include "apps/show/page/traffic.h"
-#include "apps/show/page/view_tables.h"
-#include "apps/table/plot.h"
-#include "apps/table/table.h"
+#include "apps/edge/show/page/losses.h"
+#include "apps/edge/show/page/traffic.h"
+#include "apps/edge/show/page/view_tables.h"
+#include "apps/edge/table/plot.h"
+#include "apps/edge/table/table.h"
 
 namespace dmpc::apps::html {
 

@@ -4,7 +4,7 @@
 
 #include "apps/computer/program_work.h"
 #include "apps/computer/readable_nodes.h"
-#include "apps/run/miss_estimate.h"
+#include "apps/edge/run/miss_estimate.h"
 #include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {

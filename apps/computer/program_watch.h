@@ -13,10 +13,10 @@
 #include "nodes/watch/activity_profile.h"
 #include "nodes/watch/observer_group.h"
 #include "nodes/watch/trace.h"
-#include "svm/run_tasks.h"
-#include "svm/task_heat.h"
-#include "svm/watch/fetch_watch.h"
-#include "svm/watch/reference_log.h"
+#include "svm/pages/run_tasks.h"
+#include "svm/pages/task_heat.h"
+#include "svm/pages/watch/fetch_watch.h"
+#include "svm/pages/watch/reference_log.h"
 
 namespace dmpc::apps {
 

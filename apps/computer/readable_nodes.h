@@ -5,7 +5,7 @@
 
 namespace dmpc::apps {
 
-/// Of more nodes neither bars nor pairs can be told apart, and they would make a page of tens of megabytes.
+/// Neither bars nor pairs of more nodes can be told apart, and they would make a page of tens of megabytes.
 inline constexpr std::uint32_t readable_nodes_max = 256;
 
 }  // namespace dmpc::apps

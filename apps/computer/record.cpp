@@ -2,15 +2,15 @@
 
 #include <array>
 
-#include "apps/line/amount.h"
-#include "apps/line/number_text.h"
-#include "apps/run/time_parts.h"
-#include "apps/show/trace/chrome.h"
-#include "apps/show/trace/paje.h"
-#include "apps/show/trace/view.h"
+#include "apps/edge/line/amount.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/run/time_parts.h"
+#include "apps/edge/show/trace/chrome.h"
+#include "apps/edge/show/trace/paje.h"
+#include "apps/edge/show/trace/view.h"
 #include "core/base/counts.h"
 #include "core/base/expect.h"
-#include "svm/packets.h"
+#include "svm/pages/packets.h"
 
 namespace dmpc::apps {
 namespace {

@@ -11,17 +11,17 @@
 #include "apps/computer/options.h"
 #include "apps/computer/packet_pairs.h"
 #include "apps/computer/vocabulary.h"
-#include "apps/run/run_view.h"
+#include "apps/edge/run/run_view.h"
 #include "nodes/counters.h"
 #include "nodes/local_memory.h"
 #include "nodes/ranks/rank_figures.h"
 #include "nodes/virtual/virtual_times.h"
 #include "nodes/watch/trace.h"
-#include "svm/node_program.h"
-#include "svm/run_tasks.h"
-#include "svm/task_heat.h"
-#include "svm/task_plan.h"
-#include "svm/watch/reference_log.h"
+#include "svm/pages/node_program.h"
+#include "svm/pages/run_tasks.h"
+#include "svm/pages/task_heat.h"
+#include "svm/pages/task_plan.h"
+#include "svm/pages/watch/reference_log.h"
 
 namespace dmpc::apps {
 

@@ -17,11 +17,12 @@
 #include "apps/computer/rank_rounds.h"
 #include "apps/computer/record.h"
 #include "apps/computer/vocabulary.h"
-#include "apps/line/number_text.h"
-#include "apps/run/computer_room.h"
-#include "apps/system/interrupt.h"
-#include "apps/system/stopwatch.h"
-#include "nodes/flat_bytes.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/run/computer_room.h"
+#include "apps/edge/system/interrupt.h"
+#include "apps/edge/system/stopwatch.h"
+#include "nodes/gathering.h"
+#include "nodes/idle_program.h"
 #include "nodes/runner.h"
 #include "nodes/standstill.h"
 
@@ -40,7 +41,7 @@ std::vector<nodes::NodeSpecification> specifications(const ProgramPlan& plan, co
   }
   all.push_back({.plan = plan.host_memory(),
                  .mailbox = {},
-                 .make_program = [](nodes::Node&) { return std::make_unique<IdleProgram>(); },
+                 .make_program = [](nodes::Node&) { return std::make_unique<nodes::IdleProgram>(); },
                  .held_bytes = plan.held_bytes()});
   return all;
 }
@@ -89,43 +90,28 @@ bool run_to_end(nodes::Runner& runner, const ProgramPlan& plan, const Interrupt&
   }
 }
 
-std::string told_by_program(nodes::Runner& runner, std::size_t index, const AnyApplication& application) {
-  const HostedProgram& hosted_program = hosted(runner, index);
-  nodes::FlatWriter flat;
-  flat.put(runner.node(index).counters());
-  flat.put(hosted_program.charges());
-  flat.put_all(hosted_program.node().used_bytes());
-  flat.put_bytes(application.outcome(hosted_program.program()));
-  return flat.take();
-}
-
 /// What the programs leave, on rank 0. To be called on all ranks.
 std::vector<std::string> gather_outcomes(ProgramRecord& record, nodes::Runner& runner, const ProgramPlan& plan,
                                          const AnyApplication& application) {
-  const std::uint32_t node_count = plan.node_count();
-  const auto told = runner.gather(
-      [&](std::size_t index) { return index == node_count ? std::string() : told_by_program(runner, index, application); });
   std::vector<std::string> outcomes;
-  for (std::uint32_t node = 0; node < node_count && !told[node].empty(); ++node) {
-    nodes::FlatReader flat(told[node]);
-    ProgramNode& own = record.nodes.emplace_back();
-    own.counters = flat.take<nodes::NodeCounters>();
-    own.charges = flat.take<nodes::Charges>();
-    own.memory = plan.memory(node);
-    own.used_bytes = flat.take_all<std::size_t>();
-    outcomes.emplace_back(flat.take_bytes());
-  }
+  nodes::gather_nodes(
+      runner, plan.node_count(),
+      [&](std::size_t index, nodes::FlatWriter& told) {
+        const HostedProgram& program = hosted(runner, index);
+        told.put(runner.node(index).counters());
+        told.put(program.charges());
+        told.put_all(program.node().used_bytes());
+        told.put_bytes(application.outcome(program.program()));
+      },
+      [&](std::uint32_t node, nodes::FlatReader& told) {
+        ProgramNode& own = record.nodes.emplace_back();
+        own.counters = told.take<nodes::NodeCounters>();
+        own.charges = told.take<nodes::Charges>();
+        own.memory = plan.memory(node);
+        own.used_bytes = told.take_all<std::size_t>();
+        outcomes.emplace_back(told.take_bytes());
+      });
   return outcomes;
-}
-
-void gather_from_ranks(ProgramRecord& record, nodes::Runner& runner, std::span<const nodes::PeerMemory> peers,
-                       ProgramWatch& watch) {
-  if (const nodes::RankLinks* const links = record.options.computer.ranks) {
-    const std::vector<nodes::RankReport> told = runner.gather_ranks(watch.seen());
-    nodes::add_seen(told, [&watch](std::string_view seen, const nodes::ClockDrift& clock) { watch.add(seen, clock); });
-    record.ranks = nodes::rank_figures(peers, *links, told);
-    nodes::expect_nothing_lost(record.ranks);
-  }
 }
 
 /// Each packet that has an answer was answered, by the end.
@@ -162,7 +148,9 @@ int run_plan(const ProgramCall& call, const ProgramOptions& options, const Progr
   }
   record.wall_seconds = stopwatch.lap();
   const std::vector<std::string> outcomes = gather_outcomes(record, *runner, plan, application);
-  gather_from_ranks(record, *runner, nodes::peers_of(all), watch);
+  const auto add = [&watch](std::string_view seen, const nodes::ClockDrift& clock) { watch.add(seen, clock); };
+  record.ranks = nodes::gather_rank_figures(*runner, all, options.computer.ranks, add, [&watch] { return watch.seen(); });
+  nodes::expect_nothing_lost(record.ranks);
   if (!is_first) {
     return 0;
   }

@@ -15,14 +15,14 @@
 #include "apps/computer/record.h"
 #include "apps/computer/task_options.h"
 #include "apps/computer/vocabulary.h"
-#include "apps/line/number_text.h"
-#include "apps/run/computer_room.h"
-#include "apps/run/option_words.h"
-#include "apps/system/digest.h"
-#include "apps/system/stopwatch.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/run/computer_room.h"
+#include "apps/edge/run/option_words.h"
+#include "apps/edge/system/digest.h"
+#include "apps/edge/system/stopwatch.h"
 #include "core/base/units.h"
-#include "svm/packets.h"
-#include "svm/run_tasks.h"
+#include "svm/pages/packets.h"
+#include "svm/pages/run_tasks.h"
 
 namespace dmpc::apps {
 namespace {
@@ -146,7 +146,8 @@ class AskedComputer final : public PagedComputer {
   /// On ranks rank 0 alone gets all results.
   void run_kinds(const svm::TaskKinds& kinds, std::span<const std::byte> data, std::uint32_t count,
                  std::span<std::byte> results) {
-    const auto plan = with_options_named([&] { return svm::TaskPlan(options_.tasks, data.size(), count, kinds.plain.sizes); });
+    const auto plan =
+        with_options_named(computer_words, [&] { return svm::TaskPlan(options_.tasks, data.size(), count, kinds.plain.sizes); });
     check_room(plan);
     const WatchedRun watched = {plan.node_count(), plan.pages().page_count, count};
     last_watch_ = std::make_unique<ProgramWatch>(options_, record_.vocabulary, watched);

@@ -2,10 +2,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/computer/record.h"
-#include "apps/line/json_format.h"
-#include "apps/line/number_text.h"
-#include "apps/show/stats/counters_json.h"
-#include "apps/show/stats/ranks.h"
+#include "apps/edge/line/json_format.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/show/stats/counters_json.h"
+#include "apps/edge/show/stats/ranks.h"
 
 namespace dmpc::apps {
 namespace {

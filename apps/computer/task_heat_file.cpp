@@ -3,7 +3,7 @@
 #include <ostream>
 #include <string>
 
-#include "apps/table/table.h"
+#include "apps/edge/table/table.h"
 
 namespace dmpc::apps {
 namespace {

@@ -2,11 +2,10 @@
 
 #include <string>
 
-#include "apps/line/option_values.h"
+#include "apps/edge/line/option_values.h"
 #include "core/base/expect.h"
-#include "svm/page.h"
-#include "svm/plan.h"
-#include "svm/replacement.h"
+#include "svm/pages/page.h"
+#include "svm/pages/replacement.h"
 
 namespace dmpc::apps {
 namespace {

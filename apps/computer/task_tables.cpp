@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
-#include "apps/line/number_text.h"
-#include "apps/show/page/shares.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/show/page/shares.h"
 
 namespace dmpc::apps::html {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/computer/record.h"
-#include "apps/show/page/number_map.h"
-#include "apps/table/table.h"
+#include "apps/edge/show/page/number_map.h"
+#include "apps/edge/table/table.h"
 
 namespace dmpc::apps::html {
 

@@ -5,7 +5,7 @@
 
 #include "apps/computer/declared.h"
 #include "apps/computer/dmpc/pages.h"
-#include "svm/packets.h"
+#include "svm/pages/packets.h"
 
 namespace dmpc::apps {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <ostream>
 
-#include "apps/line/number_text.h"
-#include "apps/system/progress.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/system/progress.h"
 
 namespace dmpc::apps {
 namespace {

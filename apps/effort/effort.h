@@ -7,7 +7,7 @@
 
 namespace dmpc::apps {
 
-/// Of the real computer. A guess: good to a factor of two or so on a computer that does nothing else.
+/// What the real computer will take. It is a guess, good to a factor of two or so on a computer that does nothing else.
 struct Effort {
   double seconds = 0;     ///< by the wall clock
   std::size_t bytes = 0;  ///< of memory, at most; 0: little, or not known

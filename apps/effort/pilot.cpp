@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/system/stopwatch.h"
+#include "apps/edge/system/stopwatch.h"
 #include "core/picture/render.h"
 #include "core/trace/operations.h"
 

@@ -1,7 +1,7 @@
 // A few pixels of a picture, rendered to know how long all of them will take.
 #pragma once
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 
 namespace dmpc::apps {

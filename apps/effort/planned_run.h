@@ -15,7 +15,7 @@ struct PlannedRun {
   double times = 1;         ///< as long as usual
 };
 
-/// Of one run, from what the one-thread renderer takes for the picture. By processor time.
+/// The processor time of one run, from what the one-thread renderer takes for the picture.
 double seconds_of(const PlannedRun& run, double picture_seconds);
 
 }  // namespace dmpc::apps

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "apps/edge/system/real_load.h"
 #include "apps/effort/pilot.h"
 #include "apps/effort/planned_run.h"
-#include "apps/system/real_load.h"
 
 namespace dmpc::apps {
 namespace {

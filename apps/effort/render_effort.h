@@ -7,11 +7,11 @@
 
 namespace dmpc::apps {
 
-/// Of a render, from a few pixels of the picture; of a refined picture its first pass alone, so at least so long. `subject` has
-/// its records still.
+/// The effort of a render, from a few pixels of the picture; for a refined picture of its first pass alone, so at least so long.
+/// `subject` has its records still.
 Effort render_effort(const StrategyOptions& options, const Subject& subject);
 
-/// Of `check`, on one thread.
+/// The effort of `check`, on one thread.
 Effort check_effort(const Subject& subject);
 
 }  // namespace dmpc::apps

@@ -58,14 +58,14 @@ class StaticMap {
 
   const dmpc::Scene& scene() const { return scene_; }
   std::uint32_t home(PageNumber number) const { return number % node_count_; }
-  /// Of a node's part, which goes on to that of the next.
+  /// The first pixel of a node's part, which goes on to that of the next.
   std::uint32_t first_pixel(std::uint32_t node) const {
     return static_cast<std::uint32_t>(std::uint64_t{scene_.pixel_count()} * node / node_count_);
   }
   /// Those at home at the node, and those that it keeps.
   const std::vector<PageNumber>& pages(std::uint32_t node) const { return pages_[node]; }
 
-  /// Of the node with the most; the last place is for a page that is asked for.
+  /// The bytes of the node with the most; the last place is for a page that is asked for.
   std::size_t page_bytes_here() const { return (most_pages_ + 1) * scene_.page_bytes() + dmpc::overread_bytes; }
   std::uint32_t most_pixels() const { return (scene_.pixel_count() + node_count_ - 1) / node_count_; }
 

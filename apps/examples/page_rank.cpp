@@ -110,7 +110,7 @@ class RankTask {
   double sum_ = 0;
 };
 
-/// The same in one memory, in the same order, so to the last bit.
+/// The next ranks in one memory, in the same order, so to the last bit.
 std::vector<double> next_ranks(const Graph& graph, const std::vector<double>& ranks) {
   std::vector<double> next;
   for (const auto& sources : graph.sources) {

@@ -14,7 +14,7 @@
 #include <numeric>
 #include <string>
 
-/// Of each lane.
+/// The packets of each lane.
 enum Packets : dmpc::Index { item, taken, packets_a_lane };
 enum Memory : dmpc::Index { passing };
 

@@ -19,15 +19,15 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
+#include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/mesh/material.h"
 #include "apps/foreign/mesh/mtl_text.h"
 #include "apps/foreign/mesh/obj_check.h"
 #include "apps/foreign/mesh/ply_check.h"
 #include "apps/foreign/mesh/stl_check.h"
-#include "apps/line/number_text.h"
-#include "apps/line/shown_text.h"
-#include "apps/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -239,7 +239,7 @@ bool is_figure_of_nodes(const aiScene& scene) {
          std::any_of(scene.mMaterials, scene.mMaterials + scene.mNumMaterials, is_named_so);
 }
 
-/// Of a scene that Assimp paints white where the file says nothing of colours.
+/// Whether a scene that Assimp paints white comes from a file that says nothing of colours.
 bool says_no_colour(const std::string& path, const std::string& ending, SceneFiles& files) {
   if (ending != "ply" && ending != "stl") {
     return false;

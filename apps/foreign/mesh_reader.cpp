@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/foreign/import.h"
 #include "apps/foreign/mesh/features.h"
 #include "apps/foreign/mesh/geometry.h"
@@ -11,7 +12,6 @@
 #include "apps/foreign/mesh/placement.h"
 #include "apps/foreign/mesh/textures.h"
 #include "apps/formats/whole_view.h"
-#include "apps/line/number_text.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
 

@@ -13,14 +13,14 @@
 #include "apps/picture/texture_size.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
-#include "core/build/record_writer.h"
+#include "core/database/record_writer.h"
 #include "core/scene/texel.h"
 
 namespace dmpc::apps {
 namespace {
 
 constexpr int channels = 3;
-/// Of the finest level: four bytes each, and a third of that for the other levels.
+/// So many texels has the finest level at most: four bytes each, and a third of that for the other levels.
 constexpr std::size_t texels_max = core::RecordWriter::bytes_max / 16 * 3;
 
 std::size_t texel_count(const OIIO::ImageSpec& spec) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/system/opened_files.h"
 #include "apps/formats/mesh_options.h"
-#include "apps/system/opened_files.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {

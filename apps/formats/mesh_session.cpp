@@ -9,9 +9,9 @@
 #include <span>
 #include <utility>
 
+#include "apps/edge/system/input_memory.h"
 #include "apps/formats/named_file.h"
 #include "apps/picture/texture_size.h"
-#include "apps/system/input_memory.h"
 #include "core/base/expect.h"
 #include "core/scene/texture.h"
 
@@ -24,7 +24,7 @@ namespace {
 /// Beside what a file becomes: libraries' own, and instances, of which few bytes make many.
 constexpr std::uint64_t spare_bytes = std::uint64_t{2} << 30U;
 constexpr std::uint64_t memory_per_byte = 1024;
-/// Of a texture within a file.
+/// So long is a texture within a file at most.
 constexpr std::uint64_t texture_bytes_max = std::uint64_t{2} << 30U;
 constexpr std::uint64_t note_bytes_max = std::uint64_t{1} << 20U;
 
@@ -32,7 +32,7 @@ std::uint64_t memory_bytes_for(std::uint64_t file_bytes) {
   return std::min(spare_bytes + memory_per_byte * file_bytes, reader_memory_bytes_max());
 }
 
-/// Of the files that may belong to the scene, which are no larger than what lies beside it.
+/// The bytes of a file that may belong to the scene: it is no larger than what lies beside that.
 std::uint64_t bytes_of(const std::string& path) { return find_input_file(path).bytes; }
 
 std::uint64_t bytes_around(const std::string& path) {

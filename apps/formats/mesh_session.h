@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/system/progress.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/scene_blocks.h"
 #include "apps/picture/picture_reader.h"
 #include "apps/reader/file_access.h"
 #include "apps/reader/process.h"
-#include "apps/system/progress.h"
 
 namespace dmpc::apps {
 

@@ -14,7 +14,7 @@ namespace dmpc::apps {
 
 /// More vertices than this in one polygon are taken for a mistake in the file.
 inline constexpr int polygon_vertices_max = 65'535;
-/// Of what has no material, matt: as in mesh files without one.
+/// The colour of what has no material, matt: as in mesh files without one.
 inline constexpr core::Vec3d plain_color{0.6, 0.6, 0.6};
 /// Pixels along a side.
 inline constexpr int resolution_max = 65'535;
@@ -29,7 +29,7 @@ inline constexpr int resolution_max = 65'535;
 /// pixels, points beyond view_coordinate_max, or an angle outside (0, 180); an empty stream; no view at all.
 core::Scene read_nff(std::istream& input, const std::string& name, std::int64_t pixels_max = picture_pixels_max);
 
-/// The same from a file; also throws for what is no file and no pipe (apps/system/text_input.h). `progress`, if any, is called
+/// Reads a file; also throws for what is no file and no pipe (apps/edge/system/text_input.h). `progress`, if any, is called
 /// now and then with the bytes read and the bytes of the file, unless that is a pipe or the like.
 core::Scene read_nff_file(const std::string& path, std::int64_t pixels_max = picture_pixels_max,
                           const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});

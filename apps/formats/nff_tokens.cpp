@@ -7,8 +7,8 @@
 #include <istream>
 #include <optional>
 
-#include "apps/line/number_text.h"
-#include "apps/system/byte_order_mark.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
 
-/// Of one line; a polygon of the most corners has a third of that. And of what may stand between two tokens.
+/// The most of one line; a polygon of the most corners has a third of that. And the most of what may stand between two tokens.
 constexpr std::size_t line_bytes_max = std::size_t{16} << 20U, blank_bytes_max = std::size_t{64} << 20U;
 
 /// Most lines are much shorter.

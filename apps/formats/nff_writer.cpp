@@ -7,7 +7,7 @@
 #include <fstream>
 #include <ostream>
 
-#include "apps/system/output_file.h"
+#include "apps/edge/system/output_file.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -174,7 +174,7 @@ void SceneReceiver::check_material(const core::Material& material) const {
   Unpacker::require(material.texture == core::Material::no_texture || material.texture < scene_.textures.size());
 }
 
-/// Normals and places on textures may have any bits (core/build/conversion.cpp).
+/// Normals and places on textures may have any bits (core/database/conversion.cpp).
 core::Scene SceneReceiver::finish() {
   const core::View& view = scene_.view;
   Unpacker::require(has_head_ && view.width >= 1 && view.height >= 1 && view.width <= resolution_max &&

@@ -8,7 +8,7 @@
 
 namespace dmpc::apps {
 
-/// Of the view's points and of lights: farther out, squares of distances leave the range of floats.
+/// So far out may the view's points and lights lie: farther out, squares of distances leave the range of floats.
 inline constexpr double view_coordinate_max = 1e30;
 /// Whether all coordinates are numbers within it.
 bool is_in_reach(const core::Vec3d& point);

@@ -2,17 +2,17 @@
 
 #include <array>
 
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/words.h"
+#include "apps/edge/machine/machines.h"
 #include "apps/formats/mesh_file.h"
-#include "apps/line/number_text.h"
-#include "apps/line/words.h"
-#include "apps/machine/machines.h"
 #include "apps/run/strategy_options.h"
 #include "apps/run/systems.h"
 #include "core/families/scenes.h"
 #include "core/picture/heat_kind.h"
 #include "core/trace/skips.h"
 #include "nodes/topology.h"
-#include "svm/replacement.h"
+#include "svm/pages/replacement.h"
 
 namespace dmpc::apps {
 namespace {

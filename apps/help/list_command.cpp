@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <ostream>
 
+#include "apps/edge/line/typed_line.h"
+#include "apps/edge/system/output_file.h"
+#include "apps/edge/table/table.h"
 #include "apps/help/choices.h"
-#include "apps/line/typed_line.h"
-#include "apps/system/output_file.h"
-#include "apps/table/table.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/line/command_line.h"
+#include "apps/edge/line/command_line.h"
 
 namespace dmpc::apps {
 

@@ -6,17 +6,17 @@
 #include <string>
 #include <utility>
 
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/system/output_file.h"
+#include "apps/edge/system/progress.h"
+#include "apps/edge/system/stopwatch.h"
 #include "apps/info/json.h"
 #include "apps/info/record.h"
 #include "apps/info/text.h"
-#include "apps/line/option_values.h"
 #include "apps/run/region_options.h"
 #include "apps/run/strategy_options.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
-#include "apps/system/output_file.h"
-#include "apps/system/progress.h"
-#include "apps/system/stopwatch.h"
 #include "svm/plan.h"
 
 namespace dmpc::apps {
@@ -60,11 +60,9 @@ void add_options(OptionSet options, InfoOptions& info) {
       [&info](const std::string& text) { info.node_counts = parse_different_numbers(text, "--nodes", nodes::node_count_max); },
       "Nodes of the computers whose memory is forecast");
   add_system_option(options, info.system);
-  add_homes_options(options, info.pages.homes, info.pages.tree_arity);
-  add_balance_option(options, info.balance.balance);
-  add_cuts_option(options, info.balance.bsp.order);
-  add_scattered_option(options, info.balance);
-  add_region_options(options, info.balance);
+  add_option(options, core::field_of<&svm::PageOptions::homes>(), info.pages);
+  add_option(options, core::field_of<&svm::PageOptions::tree_arity>(), info.pages);
+  add_balance_options(options, info.balance);
   options.add_choice<InfoFormat>("--format", info.format, {{"text", InfoFormat::text}, {"json", InfoFormat::json}},
                                  "Lines and tables to read, or an object with stable keys");
   options.add_quiet(info.quiet);

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "apps/line/command_line.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/system/interrupt.h"
 #include "apps/run/systems.h"
 #include "apps/scene/database_options.h"
 #include "apps/scene/picture_options.h"
-#include "apps/system/interrupt.h"
 #include "dataflow/regions/balance.h"
 #include "svm/page_options.h"
 

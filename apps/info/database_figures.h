@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/info/scene_figures.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 
 namespace dmpc::apps {
 

@@ -1,7 +1,7 @@
 #include "apps/info/forecast.h"
 
+#include "apps/edge/system/stopwatch.h"
 #include "apps/run/strategy_options.h"
-#include "apps/system/stopwatch.h"
 #include "dataflow/regions/mapping.h"
 #include "dataflow/run.h"
 #include "svm/run.h"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "dataflow/regions/balance.h"
 #include "svm/page_options.h"

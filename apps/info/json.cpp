@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "apps/edge/line/json_format.h"
 #include "apps/info/record.h"
-#include "apps/line/json_format.h"
 #include "apps/run/region_options.h"
 #include "apps/scene/staging.h"
 

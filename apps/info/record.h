@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <optional>
 
+#include "apps/edge/system/memory_room.h"
 #include "apps/info/database_figures.h"
 #include "apps/info/forecast.h"
 #include "apps/info/scene_figures.h"
 #include "apps/run/systems.h"
-#include "apps/system/memory_room.h"
 #include "core/picture/rounding_loss.h"
 
 namespace dmpc::apps {

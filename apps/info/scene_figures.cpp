@@ -1,7 +1,7 @@
 #include "apps/info/scene_figures.h"
 
-#include "core/base/parallel.h"
-#include "core/build/conversion.h"
+#include "core/database/conversion.h"
+#include "core/database/parallel.h"
 #include "core/record/texture_layout.h"
 
 namespace dmpc::apps {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
+#include "apps/edge/table/table.h"
 #include "apps/info/record.h"
-#include "apps/line/number_text.h"
-#include "apps/line/shown_text.h"
 #include "apps/run/region_options.h"
 #include "apps/scene/staging.h"
 #include "apps/scene/subject.h"
-#include "apps/table/table.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps {

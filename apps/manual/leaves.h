@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/line/command_description.h"
+#include "apps/edge/line/command_description.h"
 
 namespace dmpc::apps {
 

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <string>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/manual/completion.h"
 #include "apps/manual/man_page.h"
 #include "core/base/expect.h"

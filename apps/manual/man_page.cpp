@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/line/exit_status.h"
-#include "apps/line/typed_line.h"
+#include "apps/edge/line/exit_status.h"
+#include "apps/edge/line/typed_line.h"
 #include "apps/manual/leaves.h"
 #include "apps/manual/lines.h"
 #include "apps/manual/roff.h"

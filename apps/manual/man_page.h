@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/line/command_description.h"
+#include "apps/edge/line/command_description.h"
 
 namespace dmpc::apps {
 

@@ -18,8 +18,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/ranks/mpi_library.h"
-#include "apps/system/module.h"
+#include "apps/edge/ranks/mpi_library.h"
+#include "apps/edge/system/module.h"
 #include "core/base/expect.h"
 #include "core/base/usual_arithmetic.h"
 #include "nodes/ranks/fabric.h"

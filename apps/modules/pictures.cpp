@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "apps/edge/system/memory_file.h"
+#include "apps/edge/system/module.h"
 #include "apps/picture/picture_library.h"
-#include "apps/system/memory_file.h"
-#include "apps/system/module.h"
 
 namespace dmpc::apps {
 namespace {

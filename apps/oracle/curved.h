@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/record/ray.h"
 
 namespace dmpc::apps {

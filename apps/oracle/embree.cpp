@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
+#include "apps/edge/system/module.h"
 #include "apps/oracle/curved.h"
-#include "apps/system/module.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::embree {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/record/ray.h"
 
 #if __has_include(<embree3/rtcore.h>)
@@ -125,7 +125,7 @@ inline void intersect(const Library& library, RTCScene scene, Context& context, 
 inline void occlude(const Library& library, RTCScene scene, Context& context, RTCRay& ray) {
   library.occluded(scene, &context, &ray);
 }
-/// The same of those of 16 rays that the packet has.
+/// Intersects those of 16 rays that the packet has.
 inline void intersect(const Library& library, RTCScene scene, Context& context, const Packet& packet, RTCRayHit16& rays) {
   context.flags = packet.is_coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   library.intersect_packet(packet.valid.data(), scene, &context, &rays);

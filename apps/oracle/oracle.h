@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "core/record/hit.h"
 #include "core/record/records.h"

@@ -6,11 +6,11 @@
 #include <span>
 #include <string>
 
+#include "apps/edge/system/output_file.h"
 #include "apps/picture/exr_file.h"
 #include "apps/picture/picture_library.h"
 #include "apps/picture/picture_reader.h"
 #include "apps/picture/png_file.h"
-#include "apps/system/output_file.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
 

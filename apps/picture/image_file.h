@@ -45,7 +45,7 @@ void write_image(const std::filesystem::path& path, const Image& image);
 /// What write_image() would write to `path`, which is not touched.
 std::string encoded_picture(const std::filesystem::path& path, const Image& image);
 
-/// The same for the channel alone, as 32-bit floats. Requires a path that ends in .exr, and a number for each pixel.
+/// The bytes of the channel alone, as 32-bit floats. Requires a path that ends in .exr, and a number for each pixel.
 std::string encoded_picture(const std::filesystem::path& path, const Channel& channel);
 
 /// Reads the first three channels (one channel is taken thrice). Floats are taken as linear radiance; integers as sRGB and made

@@ -7,8 +7,8 @@
 
 namespace dmpc::apps {
 
-/// Of linear floats over all channels of all pixels, but for the perceived ones. A value that is not finite on one side only, or
-/// differently, makes the sums infinite.
+/// Errors of linear floats over all channels of all pixels, but for the perceived ones. A value that is not finite on one side
+/// only, or differently, makes the sums infinite.
 struct PictureError {
   double root_mean_square = 0;
   double largest = 0;

@@ -6,14 +6,14 @@
 #include <string>
 #include <string_view>
 
-#include "apps/system/descriptor.h"
+#include "apps/edge/system/descriptor.h"
 
 namespace dmpc::apps {
 
 /// OpenImageIO's name ("png", "jpeg", "openexr", "tiff", "bmp", "hdr", "webp", "gif", "pnm", "dds") by the first bytes of a file;
 /// "targa", which begins anyhow, if `ending` (of a name, "tga") says so; else nothing.
 std::optional<std::string> picture_format(std::string_view beginning, std::string_view ending);
-/// The same of an open file.
+/// The format of an open file.
 std::optional<std::string> picture_format(const Descriptor& file, std::string_view ending);
 
 /// "PNG, JPEG, ...", for messages.

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "apps/system/module.h"
+#include "apps/edge/system/module.h"
 
 namespace dmpc::apps {
 

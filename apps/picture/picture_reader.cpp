@@ -8,11 +8,11 @@
 #include <cstring>
 #include <vector>
 
+#include "apps/edge/system/input_memory.h"
+#include "apps/edge/system/shortage.h"
 #include "apps/picture/picture_format.h"
 #include "apps/picture/texture_size.h"
 #include "apps/reader/input_file.h"
-#include "apps/system/input_memory.h"
-#include "apps/system/shortage.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -6,10 +6,10 @@
 #include <span>
 #include <string>
 
+#include "apps/edge/system/descriptor.h"
 #include "apps/picture/image_file.h"
 #include "apps/picture/texture_file.h"
 #include "apps/reader/process.h"
-#include "apps/system/descriptor.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::apps {

@@ -22,7 +22,7 @@ struct TextureEdges {
 /// or than any database, has no texels, several layers, or several samples a texel.
 core::Texture read_texture(const std::filesystem::path& path, const TextureEdges& edges);
 
-/// The same of a file that lies in memory, as in a scene's own file; `name` is for messages, `format_hint` an extension such as
+/// Reads a file that lies in memory, as in a scene's own file; `name` is for messages, `format_hint` an extension such as
 /// "png" or "jpg", or nothing if that is not known.
 core::Texture read_texture(std::span<const std::byte> file, const std::string& name, const std::string& format_hint,
                            const TextureEdges& edges);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "apps/system/shortage.h"
+#include "apps/edge/system/shortage.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/system/opened_files.h"
 #include "apps/reader/input_file.h"
-#include "apps/system/opened_files.h"
 
 namespace dmpc::apps {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "apps/system/shortage.h"
+#include "apps/edge/system/shortage.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "apps/system/descriptor.h"
+#include "apps/edge/system/descriptor.h"
 
 namespace dmpc::apps {
 

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "apps/system/shortage.h"
+#include "apps/edge/system/shortage.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/edge/system/descriptor.h"
 #include "apps/reader/packing.h"
 #include "apps/reader/saying.h"
-#include "apps/system/descriptor.h"
 
 namespace dmpc::apps {
 

@@ -16,10 +16,10 @@
 #include <iostream>
 #include <utility>
 
-#include "apps/line/number_text.h"
-#include "apps/system/companion_path.h"
-#include "apps/system/memory_file.h"
-#include "apps/system/shortage.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/system/companion_path.h"
+#include "apps/edge/system/memory_file.h"
+#include "apps/edge/system/shortage.h"
 #include "core/base/expect.h"
 
 // NOLINTNEXTLINE(readability-redundant-declaration): POSIX leaves its declaration to the program

@@ -50,7 +50,7 @@ class ReaderProcess {
   void start(const std::string& program, const Descriptor& its_end, int errors);
   void hear_that_it_is_ready();
   void allow(std::uint64_t file_bytes);
-  /// Of processor time, rounded up.
+  /// Seconds of processor time, rounded up.
   std::uint64_t seconds_taken() const;
   void wait_for_message();
   [[noreturn]] void end(const char* unless_by_signal);

@@ -6,7 +6,7 @@
 
 namespace dmpc::apps {
 
-/// Of the messages and of what they hold; processes of different builds do not understand each other.
+/// The version of the messages and of what they hold; processes of different builds do not understand each other.
 inline constexpr std::uint32_t protocol = 1;
 
 /// A message is no longer; more is sent in pieces.

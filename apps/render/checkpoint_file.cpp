@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/system/digest.h"
-#include "apps/system/file_source.h"
+#include "apps/edge/system/digest.h"
+#include "apps/edge/system/file_source.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 

@@ -8,8 +8,8 @@
 
 #include <filesystem>
 
+#include "apps/edge/system/output_file.h"
 #include "apps/render/picture_identity.h"
-#include "apps/system/output_file.h"
 #include "core/picture/partial_picture.h"
 
 namespace dmpc::apps {

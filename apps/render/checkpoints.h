@@ -6,10 +6,10 @@
 #include <optional>
 #include <stop_token>
 
+#include "apps/edge/system/file_lock.h"
+#include "apps/edge/system/files.h"
 #include "apps/render/picture_identity.h"
 #include "apps/run/checkpoint_options.h"
-#include "apps/system/file_lock.h"
-#include "apps/system/files.h"
 #include "core/picture/partial_picture.h"
 
 namespace dmpc::apps {

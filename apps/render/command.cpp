@@ -8,28 +8,31 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <string>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
+#include "apps/edge/ranks/rank_group.h"
+#include "apps/edge/system/attempts.h"
+#include "apps/edge/system/output_file.h"
+#include "apps/edge/system/progress.h"
+#include "apps/edge/system/stopwatch.h"
 #include "apps/effort/render_effort.h"
 #include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
-#include "apps/ranks/rank_group.h"
-#include "apps/ranks/self_test.h"
 #include "apps/render/checkpoints.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/outputs.h"
 #include "apps/render/preview.h"
 #include "apps/render/ranks.h"
+#include "apps/render/self_test.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/show/stats/stats.h"
 #include "apps/show/summary.h"
 #include "apps/show/trace/file.h"
-#include "apps/system/attempts.h"
-#include "apps/system/output_file.h"
-#include "apps/system/progress.h"
-#include "apps/system/stopwatch.h"
 #include "nodes/ranks/life_signs.h"
 
 namespace dmpc::apps {
@@ -47,37 +50,6 @@ ProcessorTime processor_time() {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
   };
   return {seconds(usage.ru_utime), seconds(usage.ru_stime)};
-}
-
-/// What is rendered, and the digest of its scene if a page tells it.
-struct Loaded {
-  Subject subject;
-  std::optional<std::uint64_t> scene_digest;
-};
-
-/// Reads and builds, and makes `checkpoints` if some are asked for; a signal ends the process here and now.
-Loaded load(const RenderOptions& options, const OutputSet<RenderRecord>& outputs, Files& files,
-            std::optional<Checkpoints>& checkpoints, Interrupt& interrupt, Seconds& seconds) {
-  const Interrupt::EndAtOnce end_at_once(interrupt);
-  Stopwatch stopwatch;
-  OpenedFiles opened;
-  core::Scene scene = load_scene(options.picture, options.quiet ? LoadNotes::silent : LoadNotes::said, &opened);
-  check_not_read(opened, files_of(outputs.names()));
-  if (options.checkpoint.file) {
-    checkpoints.emplace(options.checkpoint, identity_of(options, scene), std::cerr, options.quiet, interrupt.token(), files);
-  }
-  const auto digest = options.report ? std::optional(scene_digest(scene)) : std::nullopt;
-  seconds.load = stopwatch.lap();
-  Subject subject = build_subject(std::move(scene), options.picture, options.database, true);
-  if (options.tracer != TracerChoice::embree) {
-    subject.database.forget_primitives();
-  }
-  seconds.build = stopwatch.lap();
-  return {std::move(subject), digest};
-}
-
-WatchOrder watch_order_for(const RenderOptions& options, const Subject& subject) {
-  return watch_order(options, static_cast<std::uint32_t>(subject.database.page_count()), subject.settings.camera.pixel_count());
 }
 
 /// Who looks on; nothing if nobody wants to or listens.
@@ -114,159 +86,212 @@ core::Continuation continuation_of(Checkpoints* checkpoints, Preview* preview, I
   return continuation;
 }
 
-/// What the onlookers have seen; says so if some of a trace was lost, or there is none.
-Sights take_sights(const RenderOptions& options, Onlookers& onlookers) {
-  Sights sights = onlookers.take();
-  if (!sights.trace || options.quiet) {
-    return sights;
+/// One call of `render`, on ranks that of the first one: stages, of which each has what those before it made.
+class Rendering {
+ public:
+  Rendering(const RenderOptions& options, Interrupt& interrupt, std::ostream& output, Files& files)
+      : options_(options), interrupt_(interrupt), output_(output), files_(files) {}
+
+  int run() {
+    claim();
+    apart([this] { load(); });
+    look_on();
+    apart([this] { plan(); });
+    render();
+    return apart([this] { return write(); });
   }
-  for (const std::string& note : {loss_note(*sights.trace, options.trace), empty_note(*sights.trace)}) {
-    if (!note.empty()) {
-      std::cerr << "dmpc: " << note << '\n';
+
+ private:
+  /// Where there are other ranks, they are shown that this one lives while it does something that has nothing to do with them.
+  template <class Work>
+  std::invoke_result_t<const Work&> apart(const Work& work) {
+    return options_.computer.ranks == nullptr ? work() : nodes::with_life_signs(*options_.computer.ranks, work);
+  }
+
+  /// What can be seen before the scene is: paths, libraries, the machine.
+  void claim() {
+    check_outputs(options_, outputs_);
+    if (options_.tracer == TracerChoice::embree) {
+      open_embree();
+    }
+    if (std::optional<FileLock> lock = claim_checkpoint(options_.checkpoint)) {
+      lock_.emplace(std::move(*lock));
+    }
+    choose_machine(options_);
+  }
+
+  /// Reads and builds; a signal ends the process here and now.
+  void load() {
+    const Interrupt::EndAtOnce end_at_once(interrupt_);
+    Stopwatch stopwatch;
+    OpenedFiles opened;
+    core::Scene scene = load_scene(options_.picture, options_.quiet ? LoadNotes::silent : LoadNotes::said, &opened);
+    check_not_read(opened, files_of(outputs_.names()));
+    if (options_.checkpoint.file) {
+      checkpoints_.emplace(options_.checkpoint, identity_of(options_, scene), std::cerr, options_.quiet, interrupt_.token(),
+                           files_);
+    }
+    scene_digest_ = options_.report ? std::optional(scene_digest(scene)) : std::nullopt;
+    seconds_.load = stopwatch.lap();
+    subject_.emplace(build_subject(std::move(scene), options_.picture, options_.database, true));
+    if (options_.tracer != TracerChoice::embree) {
+      subject_->database.forget_primitives();
+    }
+    seconds_.build = stopwatch.lap();
+  }
+
+  void look_on() {
+    const core::Camera& camera = subject_->settings.camera;
+    onlookers_.emplace(watch_order(options_, static_cast<std::uint32_t>(subject_->database.page_count()), camera.pixel_count()));
+    options_.pages.reference_logs = onlookers_->reference_logs();
+    preview_ = make_preview(options_, camera, checkpoints_ ? checkpoints_->start() : nullptr, interrupt_.token());
+    continuation_ = continuation_of(checkpoints_ ? &*checkpoints_ : nullptr, preview_.get(), interrupt_);
+  }
+
+  /// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
+  void plan() {
+    announce_long();
+    const Interrupt::EndAtOnce end_at_once(interrupt_);
+    nodes::Watching watching = onlookers_->watching();
+    watching.distributed = [this] { subject_->database.forget_records(); };  // the nodes have theirs
+    Stopwatch stopwatch;
+    ready_ = make_ready(options_, subject_->database, subject_->settings, {}, watching, continuation_);
+    seconds_.prepare = stopwatch.lap();
+    say(ready_.notes);
+  }
+
+  /// How long a long render will take, where somebody waits; without what is done already.
+  void announce_long() {
+    if (options_.quiet || !stderr_is_terminal()) {
+      return;
+    }
+    const Interrupt::EndAtOnce end_at_once(interrupt_);
+    const double samples = static_cast<double>(subject_->settings.camera.pixel_count()) * options_.picture.samples;
+    Effort effort = render_effort(options_, *subject_);
+    effort.seconds *= std::max(0.0, 1 - static_cast<double>(samples_found_done()) / samples);
+    if (is_long(effort)) {
+      announce("render " + options_.picture.scene + (options_.picture.is_refined ? ", at least" : ""), effort, options_.quiet,
+               std::cerr);
     }
   }
-  return sights;
-}
 
-/// Says how long a long render will take, where somebody waits; a signal ends the process here and now. Without what is done
-/// already.
-void announce_effort(const RenderOptions& options, const Subject& subject, const Checkpoints* checkpoints, Interrupt& interrupt) {
-  if (options.quiet || !stderr_is_terminal()) {
-    return;
-  }
-  const Interrupt::EndAtOnce end_at_once(interrupt);
-  const double samples = static_cast<double>(subject.settings.camera.pixel_count()) * options.picture.samples;
-  const double done = checkpoints == nullptr ? 0 : static_cast<double>(checkpoints->samples_found_done());
-  Effort effort = render_effort(options, subject);
-  effort.seconds *= std::max(0.0, 1 - done / samples);
-  if (is_long(effort)) {
-    announce("render " + options.picture.scene + (options.picture.is_refined ? ", at least" : ""), effort, options.quiet,
-             std::cerr);
-  }
-}
-
-/// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
-ReadyRun prepare(const RenderOptions& options, const Subject& subject, const nodes::Watching& watching,
-                 const core::Continuation& continuation, Interrupt& interrupt, Seconds& seconds) {
-  const Interrupt::EndAtOnce end_at_once(interrupt);
-  Stopwatch stopwatch;
-  ReadyRun run = make_ready(options, subject.database, subject.settings, {}, watching, continuation);
-  seconds.prepare = stopwatch.lap();
-  for (const std::string& note : run.notes) {
-    if (!options.quiet) {
-      std::cerr << "dmpc: " << note << '\n';
+  void render() {
+    if (checkpoints_) {
+      interrupt_.set_consequence(consequence_of(*checkpoints_));
     }
+    Stopwatch stopwatch;
+    const ProcessorTime before = processor_time();
+    Progress progress(std::cerr, !options_.quiet && stderr_is_terminal());
+    const auto update = [&progress](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
+    report_.emplace(ready_.start(update, interrupt_.token()));
+    if (account_of(*report_).end != nodes::RunEnd::finished) {  // else the picture is done, and a signal comes too late for it
+      interrupt_.check();
+      core::expect(options_.computer.ranks != nullptr, "a run that nobody stopped is finished");
+      throw Interrupted{};  // by a signal that came to another rank
+    }
+    const ProcessorTime after = processor_time();
+    seconds_.render = stopwatch.lap();
+    seconds_.render_user = after.user - before.user;
+    seconds_.render_system = after.system - before.system;
   }
-  return run;
-}
 
-Report run_timed(const RenderOptions& options, const ReadyRun& run, const Interrupt& interrupt, Seconds& seconds) {
-  Stopwatch stopwatch;
-  const ProcessorTime before = processor_time();
-  Progress progress(std::cerr, !options.quiet && stderr_is_terminal());
-  const auto update = [&progress](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
-  Report report = run.start(update, interrupt.token());
-  if (account_of(report).end != nodes::RunEnd::finished) {  // else the picture is done, and a signal comes too late for it
-    interrupt.check();
-    core::expect(options.computer.ranks != nullptr, "a run that nobody stopped is finished");
-    throw Interrupted{};  // by a signal that came to another rank
-  }
-  const ProcessorTime after = processor_time();
-  seconds.render = stopwatch.lap();
-  seconds.render_user = after.user - before.user;
-  seconds.render_system = after.system - before.system;
-  return report;
-}
-
-/// Before all else that is to be done, so that nothing that fails takes it away.
-void write_picture(const RenderOptions& options, const core::Film& film, Files& files, Interrupt& interrupt, Seconds& seconds) {
-  interrupt.set_consequence("the picture was not written");
-  const Interrupt::EndAtOnce end_at_once(interrupt, Interrupt::EndAtOnce::Before::is_passed_over);
-  Stopwatch stopwatch;
-  OutputFile picture(options.image, {.option = "-o"}, files);
-  picture.write(encoded_picture(options.image, image_of(film)));
-  interrupt.set_consequence("perhaps the picture was not written");
-  picture.commit();
-  interrupt.set_consequence("the picture was written, what follows it is incomplete");
-  seconds.write = stopwatch.lap();
-}
-
-/// What goes to the standard output: counters if they were asked for there, then the closing lines.
-void print_closing(const RenderRecord& record, std::ostream& output) {
-  if (has_counters_on_standard_output(record.options)) {
-    output << stats_json(record);
-  }
-  if (!record.options.quiet) {
-    print_summary(output, record);
-  }
-  finish_output(output, "what follows the picture");
-}
-
-void write_others(RenderRecord record, const OutputSet<RenderRecord>& outputs, Files& files, Interrupt& interrupt,
-                  Attempts& attempts, std::ostream& output) {
-  const Interrupt::EndAtOnce end_at_once(interrupt);
-  const ProcessorTime all = processor_time();
-  record.seconds.user = all.user;
-  record.seconds.system = all.system;
-  outputs.write(record, attempts, files);
-  attempts.make([&] { print_closing(record, output); });
-}
-
-/// Where there are other ranks, they are shown that this one lives while it does something that has nothing to do with them.
-template <class Work>
-auto apart(const RenderOptions& options, const Work& work) {
-  return options.computer.ranks == nullptr ? work() : nodes::with_life_signs(*options.computer.ranks, work);
-}
-
-/// Renders, on ranks the first one.
-int render(RenderOptions options, Interrupt& interrupt, std::ostream& output, Files& files) {
-  const OutputSet<RenderRecord> outputs = outputs_of(options);
-  check_outputs(options, outputs);
-  if (options.tracer == TracerChoice::embree) {
-    open_embree();
-  }
-  const std::optional<FileLock> lock = claim_checkpoint(options.checkpoint);
-  choose_machine(options);
-  Seconds seconds;
-  std::optional<Checkpoints> checkpoints;
-  Loaded loaded = apart(options, [&] { return load(options, outputs, files, checkpoints, interrupt, seconds); });
-  Subject& subject = loaded.subject;
-  Onlookers onlookers(watch_order_for(options, subject));
-  const std::unique_ptr<Preview> preview =
-      make_preview(options, subject.settings.camera, checkpoints ? checkpoints->start() : nullptr, interrupt.token());
-  nodes::Watching watching = onlookers.watching();
-  watching.distributed = [&subject] { subject.database.forget_records(); };  // the nodes have theirs
-  options.pages.reference_logs = onlookers.reference_logs();
-  const core::Continuation continuation = continuation_of(checkpoints ? &*checkpoints : nullptr, preview.get(), interrupt);
-  const ReadyRun run = apart(options, [&] {
-    announce_effort(options, subject, checkpoints ? &*checkpoints : nullptr, interrupt);
-    return prepare(options, subject, watching, continuation, interrupt, seconds);
-  });
-  if (checkpoints) {
-    interrupt.set_consequence(consequence_of(*checkpoints));
-  }
-  const Report report = run_timed(options, run, interrupt, seconds);
-  return apart(options, [&] {
-    const core::Film& film = account_of(report).film;
+  /// The picture before all else, so that nothing that fails takes it away. Returns the exit status.
+  int write() {
+    const core::Film& film = account_of(*report_).film;
     Attempts attempts(std::cerr);
-    const bool is_written = attempts.make([&] { write_picture(options, film, files, interrupt, seconds); });
-    if (checkpoints && is_written) {
-      attempts.make([&] { checkpoints->finish(); });
-    } else if (checkpoints && checkpoints->has_one()) {
+    const bool is_written = attempts.make([&] { write_picture(film); });
+    if (checkpoints_ && is_written) {
+      attempts.make([&] { checkpoints_->finish(); });
+    } else if (checkpoints_ && checkpoints_->has_one()) {
       std::cerr << "dmpc: the checkpoint stays, --resume goes on from it\n";
     }
     Sights sights;
-    attempts.make([&] { sights = take_sights(options, onlookers); });
-    write_others({options, subject.database, report, seconds, onlookers.heat(), sights.trace ? &*sights.trace : nullptr,
-                  sights.view ? &*sights.view : nullptr, sights.references.empty() ? nullptr : &sights.references,
-                  checkpoints ? checkpoints->samples_found_done() : 0, loaded.scene_digest},
-                 outputs, files, interrupt, attempts, output);
-    if (preview) {
-      preview->finish(film);
+    attempts.make([&] { sights = take_sights(); });
+    write_others(sights, attempts);
+    if (preview_) {
+      preview_->finish(film);
     }
     return attempts.status();
-  });
-}
+  }
+
+  void write_picture(const core::Film& film) {
+    interrupt_.set_consequence("the picture was not written");
+    const Interrupt::EndAtOnce end_at_once(interrupt_, Interrupt::EndAtOnce::Before::is_passed_over);
+    Stopwatch stopwatch;
+    OutputFile picture(options_.image, {.option = "-o"}, files_);
+    picture.write(encoded_picture(options_.image, image_of(film)));
+    interrupt_.set_consequence("perhaps the picture was not written");
+    picture.commit();
+    interrupt_.set_consequence("the picture was written, what follows it is incomplete");
+    seconds_.write = stopwatch.lap();
+  }
+
+  /// What the onlookers have seen; says so if some of a trace was lost, or there is none.
+  Sights take_sights() {
+    Sights sights = onlookers_->take();
+    if (sights.trace) {
+      say({loss_note(*sights.trace, options_.trace), empty_note(*sights.trace)});
+    }
+    return sights;
+  }
+
+  void write_others(const Sights& sights, Attempts& attempts) {
+    RenderRecord record = {options_,
+                           subject_->database,
+                           *report_,
+                           seconds_,
+                           onlookers_->heat(),
+                           sights.trace ? &*sights.trace : nullptr,
+                           sights.view ? &*sights.view : nullptr,
+                           sights.references.empty() ? nullptr : &sights.references,
+                           samples_found_done(),
+                           scene_digest_};
+    const Interrupt::EndAtOnce end_at_once(interrupt_);
+    const ProcessorTime all = processor_time();
+    record.seconds.user = all.user;
+    record.seconds.system = all.system;
+    outputs_.write(record, attempts, files_);
+    attempts.make([&] { print_closing(record); });
+  }
+
+  /// What goes to the standard output: counters if they were asked for there, then the closing lines.
+  void print_closing(const RenderRecord& record) {
+    if (has_counters_on_standard_output(options_)) {
+      output_ << stats_json(record);
+    }
+    if (!options_.quiet) {
+      print_summary(output_, record);
+    }
+    finish_output(output_, "what follows the picture");
+  }
+
+  /// Those of `notes` that say something, unless quiet.
+  void say(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+      if (!options_.quiet && !note.empty()) {
+        std::cerr << "dmpc: " << note << '\n';
+      }
+    }
+  }
+
+  std::uint64_t samples_found_done() const { return checkpoints_ ? checkpoints_->samples_found_done() : 0; }
+
+  RenderOptions options_;  ///< with the machine, once it is read, and where references are noted
+  Interrupt& interrupt_;
+  std::ostream& output_;
+  Files& files_;
+  const OutputSet<RenderRecord> outputs_ = outputs_of(options_);
+  Seconds seconds_;
+  std::optional<FileLock> lock_;
+  std::optional<Checkpoints> checkpoints_;
+  std::optional<std::uint64_t> scene_digest_;  ///< if a page tells it
+  std::optional<Subject> subject_;
+  std::optional<Onlookers> onlookers_;
+  std::unique_ptr<Preview> preview_;
+  core::Continuation continuation_;
+  ReadyRun ready_;
+  std::optional<Report> report_;
+};
 
 int render_by_mpi(RenderOptions options, RankGroup& group, Interrupt& interrupt, std::ostream& output, Files& files) {
   if (!options.is_node_count_given) {
@@ -288,7 +313,7 @@ int render_command(const RenderOptions& options, Interrupt& interrupt, std::ostr
     return run_as_rank({.own = renderer_likeness()},
                        [&](RankGroup& group) { return render_by_mpi(options, group, interrupt, output, files); });
   }
-  return render(options, interrupt, output, files);
+  return Rendering(options, interrupt, output, files).run();
 }
 
 int render_over(nodes::Fabric& fabric, const RenderOptions& options, Interrupt& interrupt, std::ostream& output, Files& files) {
@@ -299,7 +324,7 @@ int render_over(nodes::Fabric& fabric, const RenderOptions& options, Interrupt& 
     }
     RenderOptions here = options;
     here.computer.ranks = &links;
-    return render(here, interrupt, output, files);
+    return Rendering(here, interrupt, output, files).run();
   };
   return render_as_rank(fabric, options, render_here, interrupt.token());
 }

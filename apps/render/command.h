@@ -3,9 +3,9 @@
 
 #include <iosfwd>
 
+#include "apps/edge/system/files.h"
+#include "apps/edge/system/interrupt.h"
 #include "apps/run/render_options.h"
-#include "apps/system/files.h"
-#include "apps/system/interrupt.h"
 #include "nodes/ranks/fabric.h"
 
 namespace dmpc::apps {

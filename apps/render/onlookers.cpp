@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "apps/run/work.h"
+#include "apps/edge/run/work.h"
 #include "core/base/expect.h"
 #include "nodes/flat_bytes.h"
 

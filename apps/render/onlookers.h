@@ -7,14 +7,14 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/edge/run/run_view.h"
 #include "apps/render/watch_order.h"
-#include "apps/run/run_view.h"
 #include "nodes/ranks/clock_drift.h"
 #include "nodes/watch/heat_map.h"
 #include "nodes/watch/observer_group.h"
 #include "nodes/watch/trace.h"
 #include "nodes/watch/watching.h"
-#include "svm/watch/reference_log.h"
+#include "svm/pages/watch/reference_log.h"
 
 namespace dmpc::apps {
 

@@ -3,16 +3,16 @@
 #include <iostream>
 #include <vector>
 
-#include "apps/machine/machines.h"
+#include "apps/edge/machine/machines.h"
+#include "apps/edge/show/page/origin.h"
+#include "apps/edge/show/references/reference_file.h"
+#include "apps/edge/system/scratch_folder.h"
 #include "apps/picture/image_file.h"
 #include "apps/scene/load_scene.h"
 #include "apps/show/heat/files.h"
-#include "apps/show/page/origin.h"
 #include "apps/show/page/render_page.h"
-#include "apps/show/references/reference_file.h"
 #include "apps/show/stats/stats.h"
 #include "apps/show/trace/file.h"
-#include "apps/system/scratch_folder.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -1,12 +1,12 @@
 // The files that a render leaves.
 #pragma once
 
+#include "apps/edge/system/output_set.h"
 #include "apps/run/render_record.h"
-#include "apps/system/output_set.h"
 
 namespace dmpc::apps {
 
-/// Of the picture and the checkpoint the names alone: they are written when it is their time.
+/// All outputs; of the picture and the checkpoint it has the names alone: they are written when it is their time.
 OutputSet<RenderRecord> outputs_of(const RenderOptions& options);
 
 /// Throws core::InputError unless what the options ask for can be written, as far as can be known beforehand, and none of it

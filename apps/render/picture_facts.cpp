@@ -12,7 +12,7 @@ const PictureFact* find(const std::vector<PictureFact>& facts, const std::string
   return found == facts.end() ? nullptr : &*found;
 }
 
-/// Of one fact; nullptr if a picture has none of the name.
+/// How one fact differs; nullptr if a picture has none of the name.
 std::string difference_text(const std::string& name, const PictureFact* other, const PictureFact* here) {
   if (other != nullptr && here != nullptr && other->value == here->value) {
     return "";

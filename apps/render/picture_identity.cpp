@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <span>
 
-#include "apps/line/number_text.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/system/digest.h"
 #include "apps/run/render_record.h"
-#include "apps/system/digest.h"
 
 namespace dmpc::apps {
 

@@ -20,7 +20,7 @@ struct PictureIdentity {
 /// `scene` as it is rendered: staged, and not yet built from.
 PictureIdentity identity_of(const RenderOptions& options, const core::Scene& scene);
 
-/// Of all that the scene is: equal scenes, equal digests, whatever file or name they come from.
+/// A digest of all that the scene is: equal scenes, equal digests, whatever file or name they come from.
 std::uint64_t scene_digest(const core::Scene& scene);
 
 }  // namespace dmpc::apps

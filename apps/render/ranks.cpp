@@ -4,11 +4,11 @@
 #include <optional>
 #include <string_view>
 
-#include "apps/ranks/parts.h"
+#include "apps/edge/ranks/parts.h"
+#include "apps/edge/run/computer_room.h"
+#include "apps/edge/run/option_words.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/watch_order.h"
-#include "apps/run/computer_room.h"
-#include "apps/run/option_words.h"
 #include "dataflow/packets.h"
 #include "dataflow/ranks.h"
 #include "nodes/ranks/following.h"
@@ -54,7 +54,7 @@ std::size_t payload_bytes_max(const RenderOptions& options) {
 }
 
 void check_nodes_on_ranks(const RenderOptions& options, std::uint32_t rank_count) {
-  with_options_named([&] { nodes::check_nodes_for(options.computer.node_count, rank_count); });
+  with_options_named(computer_words, [&] { nodes::check_nodes_for(options.computer.node_count, rank_count); });
 }
 
 int render_as_rank(nodes::Fabric& fabric, const RenderOptions& options, const RenderOnRanks& render,

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/run/miss_estimate.h"
+#include "apps/edge/run/miss_estimate.h"
 #include "apps/run/render_options.h"
 #include "core/picture/heat_kind.h"
 #include "nodes/watch/trace.h"
-#include "svm/home.h"
+#include "svm/pages/home.h"
 
 namespace dmpc::apps {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "apps/line/command_line.h"
+#include "apps/edge/line/command_line.h"
 
 namespace dmpc::apps {
 

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <string>
 
-#include "apps/line/option_values.h"
-#include "apps/run/region_options.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/table/table_options.h"
 #include "apps/run/viewer_address.h"
-#include "apps/table/table_options.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
-#include "dataflow/packets.h"
-#include "dataflow/plan.h"
-#include "svm/plan.h"
 
 namespace dmpc::apps {
 
@@ -163,8 +159,7 @@ void add_options(OptionSet options, RenderOptions& render) {
   add_computer_options(options, render);
   add_runner_options(options, render);
   add_page_options(options, render.pages);
-  options.add_flag("--count-pages", render.pages.count_pages,
-                   "Count the distinct pages of each pixel for --stats (svm; takes memory and time)");
+  add_option(options, core::field_of<&svm::PageOptions::count_pages>(), render.pages);
   add_ray_options(options, render.rays);
   add_topology_option(options, *render.rays.topology);
   add_study_options(options, render);

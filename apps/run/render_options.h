@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/line/command_line.h"
+#include "apps/edge/line/command_line.h"
 #include "apps/run/checkpoint_options.h"
 #include "apps/run/heat_options.h"
 #include "apps/run/strategy_options.h"

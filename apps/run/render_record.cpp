@@ -1,6 +1,6 @@
 #include "apps/run/render_record.h"
 
-#include "apps/line/number_text.h"
+#include "apps/edge/line/number_text.h"
 
 namespace dmpc::apps {
 

@@ -8,7 +8,7 @@
 
 #include "apps/run/render_options.h"
 #include "apps/run/report.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "nodes/watch/heat_map.h"
 
 namespace dmpc::nodes {

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "apps/run/time_parts.h"
+#include "apps/edge/run/time_parts.h"
 #include "core/picture/film.h"
 #include "core/trace/operations.h"
 #include "dataflow/run.h"

@@ -1,12 +1,14 @@
 #include "apps/run/run_strategy.h"
 
 #include <memory>
+#include <optional>
 #include <utility>
 
-#include "apps/machine/machine_file.h"
+#include "apps/edge/machine/machine_file.h"
+#include "apps/edge/run/computer_room.h"
+#include "apps/edge/run/option_words.h"
 #include "apps/oracle/oracle.h"
-#include "apps/run/computer_room.h"
-#include "apps/run/option_words.h"
+#include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "core/record/records.h"
 #include "nodes/ranks/rank_links.h"
@@ -37,7 +39,7 @@ void check_room_for(const Plan& plan) {
   check_room(nodes::rank_memory(nodes::peers_of(plan), plan.request.computer.ranks, 0));
 }
 
-/// Of the rank that has most.
+/// The network memory of the rank that has most.
 template <class Plan>
 nodes::NetworkMemory network_memory_max(const Plan& plan, const nodes::RankLinks& links) {
   nodes::NetworkMemory most;
@@ -60,12 +62,6 @@ std::vector<std::string> notes_of(const Plan& plan) {
   return notes;
 }
 
-svm::Strategy page_strategy(Strategy strategy) {
-  return strategy == Strategy::svm      ? svm::Strategy::svm
-         : strategy == Strategy::forest ? svm::Strategy::forest
-                                        : svm::Strategy::replicated;
-}
-
 svm::Report run_with_pages(svm::Strategy strategy, const core::Database& database, const core::RenderSettings& settings,
                            const svm::RunOptions& run, std::stop_token stop) {
   switch (strategy) {
@@ -80,9 +76,9 @@ svm::Report run_with_pages(svm::Strategy strategy, const core::Database& databas
 }
 
 /// svm, replicated and forest.
-ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
-                          const nodes::Watching& watching, const core::Continuation& continuation) {
-  const svm::Strategy strategy = page_strategy(options.strategy);
+ReadyRun ready_with_pages(svm::Strategy strategy, const StrategyOptions& options, const core::Database& database,
+                          const core::RenderSettings& settings, const nodes::Watching& watching,
+                          const core::Continuation& continuation) {
   const bool by_embree = options.tracer == TracerChoice::embree;
   svm::RunOptions run{.computer = options.computer, .pages = options.pages, .watching = watching, .continuation = continuation};
   run.pages.in_flight = in_flight(options);
@@ -96,7 +92,7 @@ ReadyRun ready_with_pages(const StrategyOptions& options, const core::Database& 
     }
     return run_with_pages(strategy, database, settings, watched, std::move(stop));
   };
-  const svm::Plan plan = with_options_named([&] { return svm::plan_of(strategy, database, settings, run); });
+  const svm::Plan plan = with_options_named(strategy_words(), [&] { return svm::plan_of(strategy, database, settings, run); });
   check_room_for(plan);
   return {notes_of(plan), start};
 }
@@ -105,8 +101,8 @@ ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& d
                          const std::stop_token& stop, const nodes::Watching& watching, const core::Continuation& continuation) {
   dataflow::RunOptions run{
       .computer = options.computer, .rays = options.rays, .watching = watching, .continuation = continuation};
-  const auto prepared =
-      std::make_shared<dataflow::Prepared>(with_options_named([&] { return dataflow::prepare(database, settings, run, stop); }));
+  const auto prepared = std::make_shared<dataflow::Prepared>(
+      with_options_named(strategy_words(), [&] { return dataflow::prepare(database, settings, run, stop); }));
   check_room_for(prepared->plan);
   if (watching.distributed) {
     watching.distributed();
@@ -147,8 +143,9 @@ ReadyRun make_ready(const StrategyOptions& options, const core::Database& databa
                     const std::stop_token& stop, const nodes::Watching& watching, const core::Continuation& continuation) {
   core::expect(options.computer.machine.has_value() == (options.runner.kind == RunnerKind::virtual_time),
                "a modelled machine has been read");
-  return options.strategy == Strategy::dataflow ? ready_with_rays(options, database, settings, stop, watching, continuation)
-                                                : ready_with_pages(options, database, settings, watching, continuation);
+  const std::optional<svm::Strategy> with_pages = page_strategy(options.strategy);
+  return with_pages ? ready_with_pages(*with_pages, options, database, settings, watching, continuation)
+                    : ready_with_rays(options, database, settings, stop, watching, continuation);
 }
 
 }  // namespace dmpc::apps

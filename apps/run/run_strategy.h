@@ -8,7 +8,7 @@
 
 #include "apps/run/report.h"
 #include "apps/run/strategy_options.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/pixel_task.h"
 #include "nodes/watch/watching.h"
@@ -27,7 +27,7 @@ struct ReadyRun {
 /// which regions are mapped; without contention there are no ports. Throws core::InputError as load_machine() does, and
 /// core::UsageError for memory ports that are asked for on a machine whose file has no contention.
 void choose_machine(StrategyOptions& options);
-/// The same with this machine as it is.
+/// Chooses this machine as it is.
 void choose_machine(StrategyOptions& options, const nodes::Machine& machine);
 
 /// The options are such as choose_machine() leaves them. For dataflow it renders the subsampled picture, in haste once a stop is

@@ -1,15 +1,14 @@
 #include "apps/run/strategy_options.h"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
-#include "apps/line/option_values.h"
-#include "apps/machine/machines.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/machine/machines.h"
 #include "apps/run/region_options.h"
+#include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
-#include "dataflow/packets.h"
-#include "dataflow/plan.h"
-#include "svm/plan.h"
 
 namespace dmpc::apps {
 
@@ -17,57 +16,65 @@ namespace {
 
 using core::UsageError;
 
-/// An option that only some strategies have, and why.
-struct Belonging {
-  const char* option;
-  std::vector<Strategy> strategies;
-  const char* reason;
-
-  bool has(Strategy strategy) const { return std::find(strategies.begin(), strategies.end(), strategy) != strategies.end(); }
-  std::string names() const {
-    std::string names;
-    for (const Strategy strategy : strategies) {
-      names += std::string(names.empty() ? "" : " or ") + "--strategy=" + name_of(strategy);
-    }
-    return names;
-  }
+struct StrategyKind {
+  Strategy strategy;
+  const char* name;
+  std::optional<svm::Strategy> with_pages;
 };
+constexpr StrategyKind strategy_kinds[] = {{Strategy::svm, "svm", svm::Strategy::svm},
+                                           {Strategy::replicated, "replicated", svm::Strategy::replicated},
+                                           {Strategy::dataflow, "dataflow", std::nullopt},
+                                           {Strategy::forest, "forest", svm::Strategy::forest}};
 
-const std::vector<Belonging>& belongings() {
-  static const std::vector<Strategy> of_pixels = {Strategy::svm, Strategy::replicated,
-                                                  Strategy::forest};  // whose nodes have them
-  static const std::vector<Belonging> all = {
-      {"--cache-pages", {Strategy::svm}, "a node of the others needs no page of another node"},
-      {"--homes", {Strategy::svm}, "a node of the others fetches no page"},
-      {"--tree-arity", {Strategy::svm}, "a node of the others fetches no page"},
-      {"--resident", {Strategy::svm}, "a node of the others has no frames for pages"},
-      {"--replacement", {Strategy::svm}, "a node of the others keeps no page of another node"},
-      {"--count-pages", {Strategy::svm}, "the others look up no pages"},
-      {"--in-flight", of_pixels, "a node of dataflow traces one ray at a time"},
-      {"--work-item", of_pixels, "a node of dataflow works on what comes to its region"},
-      {"--work-giver", of_pixels, "a node of dataflow works on what comes to its region"},
-      {"--pixels", of_pixels, "a node of dataflow works on what comes to its region"},
-      {"--workers", of_pixels, "every node of dataflow works on what comes to its region"},
-      {"--balance", {Strategy::dataflow}, "the others share out pixels, not space"},
-      {"--cuts", {Strategy::dataflow}, "the others share out pixels, not space"},
-      {"--subsample", {Strategy::dataflow}, "the others share out pixels, not space"},
-      {"--balance-grid", {Strategy::dataflow}, "the others share out pixels, not space"},
-      {"--ray-batch", {Strategy::dataflow}, "rays of the others do not travel"},
-      {"--ray-credits", {Strategy::dataflow}, "rays of the others do not travel"},
-      {"--ray-places", {Strategy::dataflow}, "rays of the others do not travel"},
-      {"--tested-objects", {Strategy::dataflow}, "rays of the others do not travel"},
-      {"--ray-queue", {Strategy::dataflow}, "rays of the others do not travel"},
-      {"--no-backpressure", {Strategy::dataflow}, "rays of the others do not travel"},
-      {"--topology", {Strategy::dataflow}, "the others map no regions onto nodes"},
-  };
-  return all;
+const StrategyKind& kind_of(Strategy strategy) {
+  const auto* const kind = std::find_if(std::begin(strategy_kinds), std::end(strategy_kinds),
+                                        [&](const StrategyKind& each) { return each.strategy == strategy; });
+  core::expect(kind != std::end(strategy_kinds), "a strategy has a name");
+  return *kind;
 }
 
-void check_strategy(const OptionSet& options, const StrategyOptions& run) {
-  for (const Belonging& belonging : belongings()) {
-    if (options.is_given(belonging.option) && !belonging.has(run.strategy)) {
-      throw UsageError(std::string(belonging.option) + " goes with " + belonging.names() + ": " + belonging.reason);
+template <class Row>
+std::vector<std::string> strategies_with(const Row& row) {
+  std::vector<std::string> names;
+  for (const StrategyKind& kind : strategy_kinds) {
+    if (has(kind.strategy, row)) {
+      names.push_back(std::string("--strategy=") + kind.name);
     }
+  }
+  return names;
+}
+
+template <class Row>
+const Row& row_of(const std::vector<Row>& rows, const core::Field& field) {
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& each) { return each.takes.field == field; });
+  core::expect(row != rows.end(), "a field that an option sets has a row");
+  return *row;
+}
+
+std::string joined_by_or(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : " or ") + word;
+  }
+  return text;
+}
+
+/// Names, of several that do not go with the strategy, the first one that fewest strategies have.
+void check_strategy(const OptionSet& options, const StrategyOptions& run) {
+  std::size_t fewest = std::size(strategy_kinds);
+  std::string sentence;
+  for_each_row([&](const auto& row) {
+    if (row.why == nullptr || has(run.strategy, row) || !options.is_given(row.name)) {
+      return;
+    }
+    const std::vector<std::string> strategies = strategies_with(row);
+    if (strategies.size() < fewest) {
+      fewest = strategies.size();
+      sentence = std::string(row.name) + " goes with " + joined_by_or(strategies) + ": " + row.why;
+    }
+  });
+  if (!sentence.empty()) {
+    throw UsageError(sentence);
   }
   check_homes(options, run.pages.homes);
   check_regions(options, run.rays.balance);
@@ -75,28 +82,17 @@ void check_strategy(const OptionSet& options, const StrategyOptions& run) {
 
 }  // namespace
 
-const char* name_of(Strategy strategy) {
-  switch (strategy) {
-    case Strategy::svm:
-      return "svm";
-    case Strategy::replicated:
-      return "replicated";
-    case Strategy::dataflow:
-      return "dataflow";
-    case Strategy::forest:
-      return "forest";
-  }
-  core::expect(false, "a strategy has a name");
-  return "";
-}
+const char* name_of(Strategy strategy) { return kind_of(strategy).name; }
+
+std::optional<svm::Strategy> page_strategy(Strategy strategy) { return kind_of(strategy).with_pages; }
 
 void add_strategy_option(OptionSet options, Strategy& strategy) {
+  OptionSet::Choices<Strategy> choices;
+  for (const StrategyKind& kind : strategy_kinds) {
+    choices.emplace_back(kind.name, kind.strategy);
+  }
   options.add_choice<Strategy>(
-      "--strategy", strategy,
-      {{"svm", Strategy::svm},
-       {"replicated", Strategy::replicated},
-       {"dataflow", Strategy::dataflow},
-       {"forest", Strategy::forest}},
+      "--strategy", strategy, choices,
       "svm: the scene is spread over the nodes and its pages travel. replicated: every node holds it all. dataflow: every node "
       "holds a region of space and rays travel. forest: every node holds the top of the tree of boxes, and subtrees about which "
       "others ask (--structure=extents)");
@@ -118,16 +114,6 @@ void add_machine_options(OptionSet options, RunnerOptions& runner, const std::st
                    "A node sends one message at a time and receives one at a time, over whatever links" + when);
 }
 
-void add_homes_options(OptionSet options, svm::PageHomes& homes, std::uint32_t& tree_arity) {
-  using svm::PageHomes;
-  options.add_choice<PageHomes>("--homes", homes,
-                                {{"spread", PageHomes::spread}, {"host", PageHomes::host}, {"tree", PageHomes::tree}},
-                                "Who keeps the pages for good: all nodes, each its part, or the host; tree: the host, and nodes "
-                                "ask their parents in a tree below it, of which the first that has the page replies (svm)");
-  options.add_number("--tree-arity", tree_arity, 1, nodes::node_count_max, std::to_string(svm::default_tree_arity),
-                     "Children of the host, and of each node, with --homes=tree");
-}
-
 void check_homes(const OptionSet& options, svm::PageHomes homes) {
   if (options.is_given("--tree-arity") && homes != svm::PageHomes::tree) {
     throw UsageError("--tree-arity goes with --homes=tree: other homes are asked directly");
@@ -136,56 +122,38 @@ void check_homes(const OptionSet& options, svm::PageHomes homes) {
 
 void add_page_options(OptionSet options, svm::PageOptions& pages, const std::string& in_flight_default) {
   options.begin_group("Strategies svm, replicated and forest");
-  options.add_number("--cache-pages", pages.cache_pages, 1, 0x7fffffff,
-                     "a quarter of the database; with --node-memory what it holds",
-                     "Pages of other nodes that a node can keep (svm)");
-  add_homes_options(options, pages.homes, pages.tree_arity);
-  options.add_number("--resident", pages.resident_percent, 0, 100, "0",
-                     "Percent of those that every node keeps for good: what a small picture uses most (svm)");
-  std::vector<std::pair<std::string, svm::Replacement>> policies;
-  for (const svm::PolicyKind& kind : svm::policy_kinds()) {
-    policies.emplace_back(kind.name, static_cast<svm::Replacement>(policies.size()));
+  for (const PageRow& row : page_rows()) {
+    if (row.takes.field == core::field_of<&svm::PageOptions::in_flight>()) {
+      row.add_to(options, pages, in_flight_default);
+    } else if (row.takes.field != core::field_of<&svm::PageOptions::count_pages>()) {
+      row.add_to(options, pages);
+    }
   }
-  options.add_choice<svm::Replacement>("--replacement", pages.replacement, policies,
-                                       "Which of them makes room for another (svm)");
-  options.add_number("--in-flight", pages.in_flight, 1, svm::in_flight_max, in_flight_default,
-                     "Pixels that a node works on at once; on threads the rays of 16 walk together, of fewer alone");
-  options.add_number("--work-item", pages.work_item_side, 0, 1024, "4, or 3 if rays walk alone",
-                     "Side in pixels of what a node gives to an idle one; 0: nothing is given");
-  using svm::WorkGiver;
-  options.add_choice<WorkGiver>("--work-giver", pages.work_giver, {{"ring", WorkGiver::ring}, {"host", WorkGiver::host}},
-                                "ring: nodes start with their parts of the picture and ask each other; host: for each item they "
-                                "ask the host");
-  using svm::PixelShares;
-  options.add_choice<PixelShares>(
-      "--pixels", pages.pixel_shares, {{"submaps", PixelShares::submaps}, {"interleaved", PixelShares::interleaved}},
-      "submaps: a node starts with a part of the picture. interleaved: with every m-th pixel of every n-th line, on m x n nodes");
-  options.add_number("--workers", pages.worker_count, 1, nodes::node_count_max, "all nodes",
-                     "Nodes that render; the others lend their memories, and serve pages or answer");
 }
 
 void add_ray_options(OptionSet options, dataflow::RayOptions& rays) {
   options.begin_group("Strategy dataflow");
-  add_balance_option(options, rays.balance.balance);
-  add_cuts_option(options, rays.balance.bsp.order);
-  add_scattered_option(options, rays.balance);
-  add_region_options(options, rays.balance);
-  options.add_number("--ray-batch", rays.ray_batch, 1, dataflow::ray_batch_max,
-                     "what fills 4 KiB; 2 KiB if rays walk alone, modelled machines 1 KiB", "Rays in a packet, at most");
-  options.add_number("--ray-credits", rays.ray_credits, 0, dataflow::ray_credits_max,
-                     "4; up to 64 of few nodes whose rays walk together",
-                     "Packets of rays that each node may have under way to each other; 0: all go by way of the host");
-  options.add_number(
-      "--ray-places", rays.ray_places, 1, dataflow::ray_places_max, "64 of more than 128 nodes; else credits",
-      "Packets of rays from all others that each node has room for, and that they ask for; not with --ray-credits");
-  options.add_number("--ray-queue", rays.queue_packets, 0, dataflow::queue_packets_max,
-                     "256; 512 if rays walk alone; 128 with --ray-places",
-                     "Packets of rays that can wait on a node for credit before more go by way of the host");
-  options.add_number("--tested-objects", rays.tested_objects, 0, dataflow::tested_objects_max, "",
-                     "Blocks that a ray remembers to have tested, so that other regions need not; rays then walk alone");
-  options.add_flag("--no-backpressure", rays.without_backpressure,
-                   "Nodes start primary rays whatever waits, as in 1994: what a full queue leaves goes by way of the host");
+  add_balance_options(options, rays.balance);
+  for (const RayRow& row : ray_rows()) {
+    row.add_to(options, rays);
+  }
 }
+
+void add_balance_options(OptionSet options, dataflow::BalanceOptions& balance) {
+  for (const BalanceRow& row : balance_rows()) {
+    row.add_to(options, balance);
+  }
+}
+
+void add_option(OptionSet options, const core::Field& field, svm::PageOptions& pages) {
+  row_of(page_rows(), field).add_to(options, pages);
+}
+
+void add_option(OptionSet options, const core::Field& field, dataflow::BalanceOptions& balance) {
+  row_of(balance_rows(), field).add_to(options, balance);
+}
+
+void add_topology_option(OptionSet options, nodes::TopologyKind& topology) { topology_row().add_to(options, topology); }
 
 void check_together(const OptionSet& options, const StrategyOptions& run) {
   check_strategy(options, run);

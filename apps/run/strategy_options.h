@@ -6,9 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "apps/line/command_line.h"
-#include "apps/run/runner_kind.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/run/runner_kind.h"
 #include "apps/scene/database_options.h"
+#include "core/base/refusal.h"
 #include "dataflow/ray_options.h"
 #include "nodes/computer_request.h"
 #include "nodes/ranks/nap.h"
@@ -50,16 +51,20 @@ void add_strategy_option(OptionSet options, Strategy& strategy);
 void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memory_bytes);
 /// Declares --machine, --no-contention and --memory-port; `when` is what their help says of when they go, such as " (virtual)".
 void add_machine_options(OptionSet options, RunnerOptions& runner, const std::string& when);
-/// Declares --homes and --tree-arity.
-void add_homes_options(OptionSet options, svm::PageHomes& homes, std::uint32_t& tree_arity);
 /// For OptionSet::check_in_the_end(): throws core::UsageError for --tree-arity without a tree.
 void check_homes(const OptionSet& options, svm::PageHomes homes);
-/// Declares the options of svm and replicated but --count-pages, in a group of their own. `in_flight_default` is what help says
-/// of the default of --in-flight; as it stands here it covers every runner.
-void add_page_options(OptionSet options, svm::PageOptions& pages,
-                      const std::string& in_flight_default = "64, replicated 16, runner virtual 1, mpi up to 256");
+/// Declares the options of svm, replicated and forest but --count-pages, in a group of their own. `in_flight_default`: what help
+/// says of the default of --in-flight in place of what covers every runner.
+void add_page_options(OptionSet options, svm::PageOptions& pages, const std::string& in_flight_default = "");
 /// Declares the options of dataflow but --topology in a group of their own.
 void add_ray_options(OptionSet options, dataflow::RayOptions& rays);
+/// Those of them that say how regions are cut.
+void add_balance_options(OptionSet options, dataflow::BalanceOptions& balance);
+/// The option of a field alone.
+void add_option(OptionSet options, const core::Field& field, svm::PageOptions& pages);
+void add_option(OptionSet options, const core::Field& field, dataflow::BalanceOptions& balance);
+/// Declares --topology.
+void add_topology_option(OptionSet options, nodes::TopologyKind& topology);
 
 /// For OptionSet::check_in_the_end(): throws core::UsageError for options, of those declared above or --topology or
 /// --count-pages, that do not go with the strategy, the machine or each other.

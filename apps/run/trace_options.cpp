@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "apps/line/option_values.h"
+#include "apps/edge/line/option_values.h"
 #include "core/base/expect.h"
 #include "nodes/watch/trace.h"
 

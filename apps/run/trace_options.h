@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/line/command_line.h"
+#include "apps/edge/line/command_line.h"
 
 namespace dmpc::nodes {
 struct TraceChoice;

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/line/command_line.h"
-#include "core/build/database.h"
+#include "apps/edge/line/command_line.h"
+#include "core/database/database.h"
 
 namespace dmpc::apps {
 

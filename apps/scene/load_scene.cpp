@@ -6,10 +6,10 @@
 #include <set>
 #include <system_error>
 
+#include "apps/edge/system/progress.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/nff_reader.h"
-#include "apps/system/progress.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
 
@@ -26,7 +26,7 @@ void say_once(const std::vector<std::string>& notes) {
   }
 }
 
-/// Of pictures that are black, or nothing but background, because the scene is.
+/// Warns of pictures that are black, or nothing but background, because the scene is.
 void say_what_is_missing(const core::Scene& scene) {
   if (scene.objects.empty()) {
     say_once({scene.name + ": there is nothing in it: the picture shows the background alone"});

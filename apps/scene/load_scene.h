@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/system/distinct_files.h"
+#include "apps/edge/system/opened_files.h"
 #include "apps/scene/picture_options.h"
-#include "apps/system/distinct_files.h"
-#include "apps/system/opened_files.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
@@ -29,7 +29,8 @@ enum class LoadNotes : std::uint8_t { said, silent };
 /// if given, gets all files that were read.
 core::Scene load_scene(const PictureOptions& picture, LoadNotes notes = LoadNotes::said, OpenedFiles* opened = nullptr);
 
-/// The same with notes said; throws core::UsageError, too, if one of the outputs is a file that the scene is read from.
+/// Loads the scene, and says the notes; throws core::UsageError, too, if one of the outputs is a file that the scene is read
+/// from.
 core::Scene load_scene_beside(const PictureOptions& picture, const std::vector<NamedFile>& outputs);
 
 }  // namespace dmpc::apps

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/line/option_values.h"
+#include "apps/edge/line/option_values.h"
 #include "core/base/expect.h"
 #include "core/picture/background.h"
 

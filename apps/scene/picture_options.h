@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
+#include "apps/edge/line/command_line.h"
 #include "apps/formats/resolution.h"
-#include "apps/line/command_line.h"
 #include "apps/scene/staging.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "core/picture/shade.h"
 #include "core/scene/scene.h"

@@ -2,9 +2,9 @@
 
 #include <ostream>
 
+#include "apps/edge/system/output_file.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/nff_writer.h"
-#include "apps/system/output_file.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
 

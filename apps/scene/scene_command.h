@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "apps/line/command_line.h"
-#include "apps/system/interrupt.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/system/interrupt.h"
 
 namespace dmpc::apps {
 

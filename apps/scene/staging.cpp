@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/line/words.h"
 #include "apps/formats/view_faults.h"
-#include "apps/line/number_text.h"
-#include "apps/line/option_values.h"
-#include "apps/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

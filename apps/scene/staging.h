@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/line/command_line.h"
 #include "apps/formats/mesh_options.h"
-#include "apps/line/command_line.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {

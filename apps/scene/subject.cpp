@@ -3,8 +3,8 @@
 #include <iostream>
 #include <utility>
 
-#include "apps/line/number_text.h"
-#include "apps/system/progress.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/system/progress.h"
 #include "core/scene/frame.h"
 
 namespace dmpc::apps {

@@ -6,7 +6,7 @@
 
 #include "apps/scene/database_options.h"
 #include "apps/scene/picture_options.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "core/picture/rounding_loss.h"
 #include "core/scene/scene.h"
@@ -26,12 +26,12 @@ struct Subject {
 Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options = {},
                       bool shows_progress = false);
 
-/// The same without a word.
+/// Builds it without a word.
 Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options);
 
 /// A sentence about the primitives that a database left out; empty if it left out none.
 std::string dropped_text(std::uint64_t count);
-/// The same about triangles that have the corners of others.
+/// What is said about triangles that have the corners of others.
 std::string duplicates_text(std::uint64_t count);
 
 /// A sentence about what rounding takes from a picture, in pixels, and what to do; empty if that is nothing.

@@ -4,13 +4,13 @@
 #include <ostream>
 #include <variant>
 
-#include "apps/line/number_text.h"
-#include "apps/line/shown_text.h"
-#include "apps/machine/machines.h"
-#include "apps/run/computer_room.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
+#include "apps/edge/machine/machines.h"
+#include "apps/edge/run/computer_room.h"
+#include "apps/edge/run/time_parts.h"
 #include "apps/run/memory_categories.h"
 #include "apps/run/ray_hops.h"
-#include "apps/run/time_parts.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps {

@@ -10,8 +10,8 @@ double cos_radians(double radians);
 /// Their quotient: relative error below 1e-15.
 double tan_radians(double radians);
 
-/// The same of an angle in degrees, |degrees| <= 1e6, with the same errors; exact where the value is 0, 1/2 or 1 in magnitude
-/// (the multiples of 30 and 90 degrees that have such a value).
+/// Sine and cosine of an angle in degrees, |degrees| <= 1e6, with the same errors; exact where the value is 0, 1/2 or 1 in
+/// magnitude (the multiples of 30 and 90 degrees that have such a value).
 double sin_degrees(double degrees);
 double cos_degrees(double degrees);
 /// Relative error below 1e-15; requires an angle whose cosine is not 0.

@@ -45,7 +45,7 @@ inline double scaled_by_2(double value, int exponent) {
   return value * power_of_2(first) * power_of_2(exponent - first);
 }
 
-/// Of |x| up to log(2)/2: Taylor's series to the 14th power, whose first term left out is below 1e-19.
+/// The exponential of |x| up to log(2)/2, by Taylor's series to the 14th power, whose first term left out is below 1e-19.
 inline double exponential_reduced(double x) {
   constexpr std::array<double, 13> series = {1 / 87178291200.0, 1 / 6227020800.0, 1 / 479001600.0, 1 / 39916800.0, 1 / 3628800.0,
                                              1 / 362880.0,      1 / 40320.0,      1 / 5040.0,      1 / 720.0,      1 / 120.0,

@@ -60,7 +60,7 @@ struct Interval {
   bool holds(double x) const { return low <= x && x <= high; }
   bool is_bounded() const { return std::isfinite(low) && std::isfinite(high); }
   double width() const { return directed::sum_ceiling(high, -low); }
-  /// Of all reals that it holds, the largest and the least without their signs.
+  /// The largest and the least of all reals that it holds, without their signs.
   double most() const { return std::max(-low, high); }
   double least() const { return std::max({low, -high, 0.0}); }
 };
@@ -97,7 +97,7 @@ inline Interval operator/(const Interval& a, const Interval& b) {
   return checked(directed::below(least), directed::above(most));
 }
 
-/// Of |x| for all x that it holds.
+/// Holds |x| for all x that `a` holds.
 inline Interval magnitude(const Interval& a) { return {a.least(), a.most()}; }
 
 }  // namespace dmpc::core

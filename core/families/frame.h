@@ -38,7 +38,7 @@ inline Frame rotation_z(const Turn& t) { return {{t.cosine, t.sine, 0}, {-t.sine
 inline Vec3d rotated(const Vec3d& v, const Vec3d& axis, const Turn& t) {
   return v * t.cosine + cross(axis, v) * t.sine + axis * (dot(axis, v) * (1 - t.cosine));
 }
-/// The same as a frame.
+/// This turn as a frame.
 inline Frame rotation(const Vec3d& axis, const Turn& t) {
   return {rotated({1, 0, 0}, axis, t), rotated({0, 1, 0}, axis, t), rotated({0, 0, 1}, axis, t), {}};
 }

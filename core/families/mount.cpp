@@ -11,7 +11,7 @@
 namespace dmpc::core::scenes {
 namespace {
 
-/// Of the generator of uniform numbers that seeds are for; its period, too.
+/// The modulus of the generator of uniform numbers that seeds are for; its period, too.
 constexpr std::uint32_t modulus = 134456;
 
 /// A normally distributed number from a seed, without state (the polar method of Box, Muller and Marsaglia).
@@ -63,7 +63,7 @@ class Mountain {
   void add() { divide(cells_, 0, 0, {}); }
 
  private:
-  /// Of a grid point, for a step of 1.
+  /// The displacement of a grid point, for a step of 1.
   double displacement(std::uint32_t x, std::uint32_t y) const {
     const auto shift = static_cast<unsigned>(finest_bits - size_);
     return gauss(seed_of(x << shift, y << shift));

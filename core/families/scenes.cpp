@@ -106,7 +106,8 @@ int size_max(const Family& family) {
 std::string family_list() {
   std::string list;
   for (const Family& family : families) {
-    list += (list.empty() ? "" : " ") + std::string(family.name);
+    list += list.empty() ? "" : " ";
+    list += family.name;
   }
   return list;
 }

@@ -27,7 +27,7 @@ struct SceneName {
 /// Throws InputError with what is allowed if the rest makes no sense or the scene is too large (more than 16,777,216 primitives).
 std::optional<SceneName> find_scene_name(std::string_view text);
 
-/// The same for a text that must be a built-in name: throws InputError, listing the families, if it is none.
+/// Parses a text that must be a built-in name: throws InputError, listing the families, if it is none.
 SceneName parse_scene_name(std::string_view text);
 
 /// Throws InputError unless the family exists, and size and tessellation lie in its ranges.
@@ -47,7 +47,7 @@ std::uint64_t primitive_count(const SceneName& name);
 /// one), every number rounded to 6 significant digits as its files are. Throws InputError as check_scene_name does.
 void generate_scene(const SceneName& name, SceneSink& sink);
 
-/// The same in the full precision of the generators: for measuring them.
+/// Generates it in the full precision of the generators: for measuring them.
 void generate_unrounded_scene(const SceneName& name, SceneSink& sink);
 
 /// The scene as generate_scene sends it; its name is name.text().

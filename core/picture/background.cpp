@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "core/build/overlap.h"
+#include "core/database/overlap.h"
 #include "core/record/directory.h"
 #include "core/record/records.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/camera.h"
 #include "core/picture/tile_footprint.h"
 
@@ -18,10 +18,10 @@ class BackgroundTiles {
   using Bits = std::array<std::uint64_t, tiles_per_side>;
 
   BackgroundTiles() = default;
-  /// Of the camera's picture.
+  /// The tiles of the camera's picture.
   BackgroundTiles(const Camera& camera, const Bits& bits);
 
-  /// Of a pixel of the picture.
+  /// Whether a pixel of the picture lies in one of them.
   bool has(std::uint32_t pixel) const {
     return count_ > 0 && (bits_[down_.tile_of(pixel / width_)] >> across_.tile_of(pixel % width_) & 1U) != 0;
   }

@@ -24,7 +24,7 @@ class BundleTask {
   /// `stack` has at least settings.shade.depth_max entries and outlives the task.
   explicit BundleTask(std::span<BundleHit> stack) : stack_(stack) {}
 
-  /// Of each of `pixels`, at most 16; only one, if there are more than 16 samples of them all.
+  /// Starts on each of `pixels`, at most 16; only one, if there are more than 16 samples of them all.
   void start(std::span<const std::uint32_t> pixels, const SampleRange& samples, const RenderSettings& settings,
              Operations& operations);
 

@@ -14,7 +14,7 @@ namespace dmpc::core {
 /// Up to bundle_rays_max hits side by side, a row for each of their numbers.
 class ChildLanes {
  public:
-  /// Of a hit that sends such a ray; its relative_index() is read for bent ones only. Requires room.
+  /// Adds a hit that sends such a ray; its relative_index() is read for bent ones only. Requires room.
   void add(const HitState& state, double index) {
     put(direction_, count_, state.ray.full_direction());
     put(normal_, count_, state.normal);

@@ -107,7 +107,7 @@ void ErrorEstimate::note_variance(const Film& film, std::uint32_t pixel) {
   variances_[pixel] = samples > 1 ? static_cast<float>(square_mean(film.half_difference(pixel)) * spread(samples)) : 0.0F;
 }
 
-/// Of one met by few samples nobody knows how bright others are: what is expected counts as much as one that was met. Pixels
+/// Where few samples met a detail nobody knows how bright others are: what is expected counts as much as one that was met. Pixels
 /// whose details are met by many count as if each of them was met once.
 void ErrorEstimate::find_contrast(const Film& film) {
   if (detail_ == nullptr || detail_->is_empty()) {
@@ -126,7 +126,8 @@ void ErrorEstimate::find_contrast(const Film& film) {
   contrast_ = found / expected;
 }
 
-/// Of the pixel's mean, by its details: they are met at random where there are few samples, evenly where there are many.
+/// The variance of the pixel's mean, by its details: they are met at random where there are few samples, evenly where there are
+/// many.
 double ErrorEstimate::detail_variance(std::uint32_t pixel, std::uint32_t samples) const {
   const double met = std::max(1.0, samples * detail_->coverage(pixel));
   return contrast_ * detail_->variance(pixel) / (samples * std::sqrt(met));

@@ -52,7 +52,7 @@ class ErrorEstimate {
   /// Remembers what is expected now, before the next pass.
   void begin_pass();
 
-  /// Of a pixel's mean, as it is on the film.
+  /// The square of the error of a pixel's mean, as it is on the film.
   double square_error(const Film& film, std::uint32_t pixel) const;
   /// Nothing is known of why it should be uneven.
   bool looks_even(std::uint32_t pixel) const { return double{seen_[pixel]} < even_ && !has_detail(pixel); }

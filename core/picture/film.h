@@ -43,7 +43,7 @@ class Film {
   /// Says that a pixel's deposits are those of so many more samples, half of them even or one more.
   void add_samples(std::uint32_t pixel, std::uint32_t count) { samples_[pixel] += count; }
   std::uint32_t samples(std::uint32_t pixel) const { return samples_[pixel]; }
-  /// Of all pixels.
+  /// The samples of all pixels.
   std::uint64_t samples() const;
   /// Mean linear radiance of a pixel; requires samples(pixel) > 0.
   Vec3d radiance(std::uint32_t pixel) const;

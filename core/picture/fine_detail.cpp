@@ -86,7 +86,7 @@ class FineDetailFinder {
   }
 
  private:
-  /// Of light that all lights send and a matt surface halves on the way.
+  /// The contrast of light that all lights send and a matt surface halves on the way.
   double contrast() const {
     Vec3d sum;
     for (std::uint32_t i = 0; i < database_.header().light_count; ++i) {
@@ -213,7 +213,7 @@ class FineDetailFinder {
     }
   }
 
-  /// Of the primitive that is looked at, which comes back to a pixel soon or not at all.
+  /// Notes what the primitive that is looked at covers; it comes back to a pixel soon or not at all.
   void cover(int column, int row, double area) {
     if (!(area > 0) || column < 0 || row < 0 || column >= camera_.width() || row >= camera_.height()) {
       return;

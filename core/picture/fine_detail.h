@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/camera.h"
 
 namespace dmpc::core {
@@ -14,7 +14,7 @@ namespace dmpc::core {
 /// crowds: a pixel that small things fill looks uneven to any few samples. Immutable once found.
 class FineDetail {
  public:
-  /// Of nothing.
+  /// Knows of no detail.
   FineDetail() = default;
 
   bool is_empty() const { return pixels_.empty(); }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/base/mutation.h"
 #include "core/picture/triangle_hit.h"
 #include "core/record/curved_values.h"
 #include "core/trace/primitive.h"
@@ -12,7 +11,7 @@
 namespace dmpc::core {
 namespace {
 
-/// Of the largest coordinate and radius: solved in double from rays that are exact to 2^-49.
+/// A ray starts off by so much of the largest coordinate and radius: they are solved in double from rays that are exact to 2^-49.
 constexpr double curved_clearance = 0x1p-40;
 
 /// `size`: the largest coordinate and radius; `radius`: of the surface where it was hit.
@@ -125,7 +124,7 @@ CutEllipse cut_ellipse(const HitState& state, const std::byte* record) {
   const double approach = dot(direction, unit), cosine = std::fabs(approach);
   const Vec3d slope = direction - unit * approach;
   const Vec3d along = dot(slope, slope) > 0.0 ? normalize(slope) : normalize(edge1);
-  const double length = mutation == Mutation::dropped_slant ? 1.0 : 1.0 / std::max(cosine, cosine_min);
+  const double length = 1.0 / std::max(cosine, cosine_min);
   const std::array<Vec3d, 2> axes{along * length, cross(unit, along)};
   const Vec3d of_u = cross(edge2, normal), of_v = cross(normal, edge1);
   CutEllipse ellipse;

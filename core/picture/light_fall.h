@@ -40,7 +40,7 @@ inline LightFall fall_on(const HitState& state, const Vec3d& light) {
 /// Up to bundle_rays_max hits side by side, a row for each of their numbers.
 class LitLanes {
  public:
-  /// Of a hit that has come to its lights. Requires room.
+  /// Adds a hit that has come to its lights. Requires room.
   void add(const HitState& state) {
     put(point_, count_, state.point);
     put(normal_, count_, state.normal);

@@ -5,7 +5,7 @@
 
 namespace dmpc::core {
 
-/// The same for all strategies, of which each has some.
+/// One list for all strategies, each of which has some of them.
 enum class MemoryUse : std::uint8_t {
   home_pages,    ///< records that the node has from the start
   cache_frames,  ///< room for records that come

@@ -22,7 +22,7 @@ struct PartialPicture {
 
   /// Pixels of the pass that are still to be rendered.
   PixelMask missing() const;
-  /// Of all pixels, in passes that have ended and in the one under way.
+  /// The samples of all pixels, in passes that have ended and in the one under way.
   std::uint64_t samples_done() const;
 };
 

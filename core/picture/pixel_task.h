@@ -14,6 +14,7 @@
 #include "core/trace/below.h"
 #include "core/trace/bundle_walk.h"
 #include "core/trace/operations.h"
+#include "core/trace/task_state.h"
 #include "core/trace/traversal.h"
 
 namespace dmpc::core {
@@ -33,12 +34,12 @@ class GridTracer {
   Traced trace(const Ray& ray, Cursor& cursor, Operations& operations) {
     return core::trace(ray, cursor, *records_, header_, skips_, operations);
   }
-  /// The same with a test of blocks of one's own: test(record, address, best).
+  /// Traces with a test of blocks of one's own: test(record, address, best).
   template <class Test>
   Traced trace(const Ray& ray, Cursor& cursor, Operations& operations, const Test& test) {
-    return trace_blocks(ray, cursor, *records_, header_, skips_, operations, meet_children, test);
+    return RayWalk(ray, cursor, *records_, operations).trace(header_, skips_, meet_children, test);
   }
-  /// The same for rays that walk together.
+  /// Traces rays that walk together.
   bool trace(RayBundle& bundle, Operations& operations) { return core::trace(bundle, *records_, header_, skips_, operations); }
   const std::byte* find(Address address) { return records_->find(address); }
   /// In which rays walk: the header's, or that of the last move_to().
@@ -63,7 +64,7 @@ struct RenderSettings {
 
   /// Whether the pixel's primary rays are certain to miss, and need not be traced.
   bool shows_background(std::uint32_t pixel) const { return skips.background && background.has(pixel); }
-  /// The same picture, for a tracer that is to be asked about every ray.
+  /// Settings of this picture for a tracer that is to be asked about every ray.
   RenderSettings with_every_ray_traced() const {
     RenderSettings settings = *this;
     settings.skips.background = false;
@@ -97,8 +98,6 @@ inline std::optional<Color> light_of_ended(const Ray& ray, bool hit, const Rende
   return is_shadow ? ray.weight : ray.weight * settings.header.background;
 }
 
-enum class TaskState : std::uint8_t { finished, more, absent };
-
 /// Renders samples of one pixel, depth first, last in first out: a hit is shaded one child at a time, and each child is
 /// traced to its end before the next is made, so the stack holds at most one hit a depth, whatever the number of lights. Lives in
 /// memory given by its owner; never allocates. Copyable as bytes.
@@ -111,7 +110,7 @@ class PixelTask {
   explicit PixelTask(std::span<HitState> stack) : stack_(stack) {}
 
   void start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings, Operations& operations);
-  /// The same for one pixel, as tasks of several have it.
+  /// Starts on one pixel, by the interface of tasks of several.
   void start(std::span<const std::uint32_t> pixels, const SampleRange& samples, const RenderSettings& settings,
              Operations& operations) {
     start(pixels.front(), samples, settings, operations);
@@ -123,7 +122,7 @@ class PixelTask {
   TaskState run(T& tracer, const RenderSettings& settings, Operations& operations);
 
   Address absent() const { return absent_; }
-  /// Of a task that needs an absent record: whether its ray's walk does, so that somebody else may walk on below it, or the
+  /// Whether what needs an absent record is the walk of the task's ray, so that somebody else may walk on below it, or the
   /// shading of a hit.
   bool is_tracing() const { return tracing_; }
   core::Below below(const Skips& skips) const { return core::below(ray_, cursor_, skips); }

@@ -15,8 +15,8 @@ namespace {
 constexpr double doubling = 0.35355339059327373;
 /// The share of the square error asked for that a pass aims at: a little lower, or small passes come at the end.
 constexpr double aim = 0.9;
-/// Of the square error asked for: pixels below the first look even, those below the second are good enough, whatever becomes of
-/// the others.
+/// Shares of the square error asked for: pixels below the first look even, those below the second are good enough, whatever
+/// becomes of the others.
 constexpr double even_share = 0.1, negligible_share = 1e-3;
 /// Pixels are explored by two doublings, for at most this share of the samples that a pass has anyway.
 constexpr std::uint32_t explored_doublings = 2;

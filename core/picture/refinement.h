@@ -20,7 +20,7 @@ struct PartialPicture;
 struct RefinementOptions {
   /// Root mean square error of the picture's linear channels at which it is good enough; 0: no refinement.
   double error = 0;
-  /// Of a pixel. Pixels stop below it: their samples double.
+  /// A pixel has at most so many. Pixels stop below it: their samples double.
   std::uint32_t samples_max = 4096;
 
   constexpr bool is_wanted() const { return error > 0; }

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "core/build/overlap.h"
+#include "core/database/overlap.h"
 #include "core/record/coordinate.h"
 
 namespace dmpc::core {

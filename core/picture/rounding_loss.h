@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/camera.h"
 
 namespace dmpc::core {
@@ -22,8 +22,8 @@ struct RoundingLoss {
   bool is_none() const { return moved == 0 && collapsed == 0; }
 };
 
-/// Of a database that has its primitives. Takes next to no time if the eye is well outside the scene, else some nanoseconds a
-/// primitive.
+/// What rounding takes of a database that has its primitives. It takes next to no time if the eye is well outside the scene, else
+/// some nanoseconds a primitive.
 RoundingLoss find_rounding_loss(const Database& database, const Camera& camera);
 
 }  // namespace dmpc::core

@@ -71,7 +71,7 @@ class Pass {
 
   bool has(std::uint32_t pixel) const { return !steps_[pixel].is_none(); }
   SampleRange samples(std::uint32_t pixel) const { return steps_[pixel].samples(first_samples_); }
-  /// Of each pixel in the first pass.
+  /// How many each pixel has in the first pass.
   std::uint32_t first_samples() const { return first_samples_; }
   /// Pixels that it has.
   std::uint32_t pixel_count() const;

@@ -7,7 +7,6 @@
 
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
-#include "core/base/mutation.h"
 #include "core/picture/hit_geometry.h"
 
 namespace dmpc::core {
@@ -18,9 +17,7 @@ using Stage = HitState::Stage;
 /// A shadow ray ends this share of its length before the light.
 constexpr double light_gap = 1e-6;
 
-TexturePlace texture_place(const HitState& state) {
-  return mutation == Mutation::exchanged_places ? TexturePlace{state.v, state.u} : TexturePlace{state.u, state.v};
-}
+TexturePlace texture_place(const HitState& state) { return {state.u, state.v}; }
 
 /// What of the light found by a reflected ray counts: what cannot be transmitted is reflected, too.
 float mirrored_share(const HitState& state) {
@@ -58,8 +55,7 @@ Color reflected_light(const HitState& state, const LightRecord& light, double co
   const MaterialRecord& material = state.surface.material;
   const double mirrored_light = material.specular > 0.0F ? double{material.specular} * highlight : 0.0;
   const Vec3d surface =
-      Vec3d(material.color) * (double{material.diffuse} * (mutation == Mutation::dropped_cosine ? 1.0 : cosine)) +
-      Vec3d{mirrored_light, mirrored_light, mirrored_light};
+      Vec3d(material.color) * (double{material.diffuse} * cosine) + Vec3d{mirrored_light, mirrored_light, mirrored_light};
   return Color(Vec3d(state.ray.weight) * Vec3d(light.intensity) * surface);
 }
 
@@ -90,7 +86,7 @@ double sample_spacing(std::uint32_t sample, std::uint32_t first_samples) {
   while (sample >= count) {
     count *= 2;
   }
-  return mutation == Mutation::pixels_footprint ? 1.0 : 1.0 / std::sqrt(static_cast<double>(count));
+  return 1.0 / std::sqrt(static_cast<double>(count));
 }
 
 /// The width, grid-local, of the ray's cone where it hits.
@@ -217,7 +213,7 @@ bool Shader::shine(HitState& state, const LightRecord& light, const LightFall& f
 
 /// A reflected or refracted ray's cone goes on with its parent's width and angle: what a curved surface does to it is left out.
 void Shader::widen(const HitState& state, Ray& child) const {
-  if (options_.pixel_angle > 0 && mutation != Mutation::dropped_cone) {
+  if (options_.pixel_angle > 0) {
     child.cone = cone_bits(cone_at_hit(state));
   }
 }

@@ -52,9 +52,9 @@ class Shader {
   bool step(HitState& state, const std::byte* record, Ray& child) const;
   /// Whether step() does to a hit's geometry what read_geometry() does, and no more.
   bool reads_beside() const { return !(options_.pixel_angle > 0); }
-  /// The same of a hit at a light that is known to fall on it so; `highlight`: lobe_cosine() to the power of its shine.
+  /// Goes on with a hit at a light that is known to fall on it so; `highlight`: lobe_cosine() to the power of its shine.
   bool shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const;
-  /// The same of a hit that mirrors or lets through a ray, which leaves `towards` a unit direction from `start`.
+  /// Goes on with a hit that mirrors or lets through a ray, which leaves `towards` a unit direction from `start`.
   bool send(HitState& state, const Vec3d& towards, const RayStart& start, Ray& child) const;
 
  private:

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/mutation.h"
-
 namespace dmpc::core {
 namespace {
 
@@ -40,7 +38,7 @@ Ellipse ellipse_of(const Matrix& m) {
   return ellipse;
 }
 
-/// Of a line about `middle`, the part that lies between the two ends of `extent`, in lengths of the line.
+/// Cuts a line about `middle` to the part that lies between the two ends of `extent`, in lengths of the line.
 void cut(double middle, double length, const std::array<double, 2>& extent, double& from, double& to) {
   if (length == 0) {
     return;
@@ -50,7 +48,7 @@ void cut(double middle, double length, const std::array<double, 2>& extent, doub
   to = std::min(to, std::max(std::max(one, other), 0.0));
 }
 
-/// Of a triangle's corners along one side of the texture.
+/// The extent of a triangle's corners along one side of the texture.
 std::array<double, 2> extent_of(const TexturedNormals& triangle, std::size_t side) {
   const auto [low, high] = std::minmax({triangle.place[0][side], triangle.place[1][side], triangle.place[2][side]});
   return {double{low}, double{high}};
@@ -90,9 +88,6 @@ TexturePlace place_on(const TexturedNormals& triangle, double u, double v) {
 TextureFootprint footprint_of(const TexturedNormals& triangle, double u, double v, const CutEllipse& ellipse, double cone_width) {
   const Ellipse covered = covered_by(triangle, ellipse, cone_width);
   const TexturePlace place = place_on(triangle, u, v);
-  if constexpr (mutation == Mutation::round_footprint) {
-    return {.middle = place, .stride = {}, .width = covered.longer};
-  }
   // Between the middles of the first and the last probe, about the place, as far as the triangle's rectangle goes.
   const double probe = std::max(covered.shorter, 1.0), between = std::max(covered.longer - probe, 0.0);
   const TexturePlace texel{covered.direction.s / triangle.texture.width, covered.direction.t / triangle.texture.height};

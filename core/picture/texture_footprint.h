@@ -32,11 +32,11 @@ struct TextureFootprint {
 /// Probes of a look-up at most. A footprint that is longer has wider ones.
 inline constexpr double probes_max = 15;
 
-/// Of a cone of this width, grid-local, about the point of the triangle with weights u and v. What it covers of the texture is an
-/// ellipse (P. Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989), taken by probes along its longer axis (J.
-/// McCormack and others, "Feline: Fast Elliptical Lines for Anisotropic Texture Mapping", SIGGRAPH 1999). The middles of
-/// probes keep to the rectangle in which the triangle's corners lie on the texture: beyond it a texture may show something else,
-/// and whoever has the triangle need not have the tiles.
+/// The footprint of a cone of this width, grid-local, about the point of the triangle with weights u and v. What it covers of the
+/// texture is an ellipse (P. Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989), taken by probes along its
+/// longer axis (J. McCormack and others, "Feline: Fast Elliptical Lines for Anisotropic Texture Mapping", SIGGRAPH 1999). The
+/// middles of probes keep to the rectangle in which the triangle's corners lie on the texture: beyond it a texture may show
+/// something else, and whoever has the triangle need not have the tiles.
 TextureFootprint footprint_of(const TexturedNormals& triangle, double u, double v, const CutEllipse& ellipse, double cone_width);
 
 }  // namespace dmpc::core

@@ -18,7 +18,7 @@ constexpr std::uint32_t quarter_count = 4;
 /// What TextureLookup::tile can hold: addresses of 16 GiB, more than a database has.
 constexpr std::uint32_t tile_mask = 0x7fffffff;
 /// A probe that covers more is taken for this: far beyond the coarsest level.
-constexpr double width_max = 0x1p40;
+constexpr double footprint_width_max = 0x1p40;
 constexpr double octaves_per_e = 1.4426950408889634;  // 1 / ln 2
 
 /// A place's two neighbours along one side.
@@ -37,7 +37,7 @@ double floor_of(double value) {
   return whole > value ? whole - 1 : whole;
 }
 
-/// The same place with its whole turns round the texture taken off.
+/// A place with its whole turns round the texture taken off.
 double reduced(double place, TextureWrap wrap) {
   switch (wrap) {
     case TextureWrap::repeat:
@@ -50,7 +50,7 @@ double reduced(double place, TextureWrap wrap) {
   return std::clamp(place, -1.0, 2.0);
 }
 
-/// Of a texel that a reduced place may have for its neighbour.
+/// The number of a texel that a reduced place may have for its neighbour.
 std::uint32_t wrapped(std::int64_t texel, std::int64_t size, TextureWrap wrap) {
   if (wrap != TextureWrap::clamp) {
     const std::int64_t period = wrap == TextureWrap::mirror ? 2 * size : size;
@@ -218,7 +218,7 @@ TextureLookup begin_lookup(const TextureReference& texture, const TextureFootpri
                        .format = texture.format,
                        .wrap_s = texture.wrap_s,
                        .wrap_t = texture.wrap_t};
-  const double detail = footprint.width > 1 ? natural_log(std::min(footprint.width, width_max)) * octaves_per_e : 0;
+  const double detail = footprint.width > 1 ? natural_log(std::min(footprint.width, footprint_width_max)) * octaves_per_e : 0;
   const double level = floor_of(detail), coarsest = texture.level_count - 1;
   lookup.level = static_cast<std::uint32_t>(std::min(level, coarsest)) & 15U;
   lookup.coarse_share = level < coarsest ? static_cast<std::uint16_t>((detail - level) / share_unit) : std::uint16_t{0};

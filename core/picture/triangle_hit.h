@@ -13,17 +13,17 @@ namespace dmpc::core {
 // How far off its surface a ray starts: more than the point may be off, and the surfaces that go on there (after M. Pharr, W.
 // Jakob, G. Humphreys, Physically Based Rendering, section 6.8: an offset follows from the bound of the error).
 
-/// Of the largest coordinates, each by its share in the normal: vertices of triangles are rounded to float, by 2^-25, and planes
-/// through others that were one plane may be off by a few times that.
+/// It starts off by so much of the largest coordinates, each by its share in the normal: vertices of triangles are rounded to
+/// float, by 2^-25, and planes through others that were one plane may be off by a few times that.
 inline constexpr double flat_clearance = 0x1p-22;
-/// But of the way to the triangle's own edge, behind which another may stand at a sharp angle: rays that start near it must not
-/// start behind that one. Triangles that share an edge agree about it however near it is.
+/// But by no more of the way to the triangle's own edge, behind which another may stand at a sharp angle: rays that start near it
+/// must not start behind that one. Triangles that share an edge agree about it however near it is.
 inline constexpr double edge_clearance = 0x1p-6;
-/// Points keep so far from edges, of their coordinates, so that there is such a way, far longer than rays' starts are exact.
+/// Points keep off edges by so much of their coordinates, so that there is such a way, far longer than rays' starts are exact.
 inline constexpr double edge_inset = 0x1p-34;
-/// But no farther than this share of the triangle.
+/// But they keep no farther off than this share of the triangle.
 inline constexpr double weight_least_max = 0x1p-8;
-/// Of the ray's t, which is rounded to float: another surface may lie so much nearer.
+/// And it starts off by so much of the ray's t, which is rounded to float: another surface may lie so much nearer.
 inline constexpr double tie_clearance = 0x1p-23;
 
 /// The plane's unit normal, by the winding of its corners.

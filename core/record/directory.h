@@ -21,7 +21,7 @@ constexpr std::uint64_t directory_index(const std::array<std::int32_t, 3>& size,
   return top(0) + std::uint64_t{length(0)} * (top(1) + std::uint64_t{length(1)} * top(2));
 }
 
-/// The same in the directory of `header`, for a cell of the grid.
+/// The index in the directory of `header`, for a cell of the grid.
 constexpr std::uint64_t directory_index(const DatabaseHeader& header, const Corner& cell) {
   const Corner& low = header.directory_low;
   return directory_index(header.directory_size, {cell[0] - low[0], cell[1] - low[1], cell[2] - low[2]});

@@ -8,7 +8,7 @@
 //   normals     PatchNormals, TexturedNormals         } shading data, read for final hits only
 //   materials   MaterialRecord                        }
 //   lights      LightRecord                           }
-//   textures    tables of addresses, and the TextureTiles that they name: read where a final hit is textured
+//   textures    tables of addresses, and every TextureTile that they name: read where a final hit is textured
 #pragma once
 
 #include <array>
@@ -116,8 +116,8 @@ struct BlockHeader {
   PrimitiveKind kind{};
   std::uint8_t count = 0;
   bool has_plane = false;         ///< all share a plane that no axis stands on
-  std::uint8_t shared_lanes = 0;  ///< a bit for each triangle that shares its plane with others (core/build/coplanar.h)
-  /// In a part of a database (core/build/extract.h) what names the block in all parts, if its box reaches beyond each of the
+  std::uint8_t shared_lanes = 0;  ///< a bit for each triangle that shares its plane with others (core/database/coplanar.h)
+  /// In a part of a database (core/database/extract.h) what names the block in all parts, if its box reaches beyond each of the
   /// part's regions; else 0.
   std::uint32_t shared_name = 0;
 };

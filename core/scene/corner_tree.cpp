@@ -13,7 +13,7 @@ constexpr std::uint32_t leaf_corners = 8;
 /// they have always been.
 constexpr std::uint32_t listed_corners = 64;
 
-/// Of sums of a few products; far more than doubles lose.
+/// What sums of a few products may lose; far more than doubles do.
 constexpr double rounding = 0x1p-44;
 
 }  // namespace

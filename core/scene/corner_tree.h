@@ -20,7 +20,7 @@ class CornerTree {
   void remove(std::uint32_t corner);
   /// A corner that hinders the triangle from being cut off, if there is one.
   std::optional<std::uint32_t> hindrance(const CornerTriangle& triangle);
-  /// Of the tree, by all questions so far.
+  /// Nodes of the tree that all questions so far have visited.
   std::uint64_t nodes_visited() const { return nodes_visited_; }
 
  private:

@@ -64,7 +64,7 @@ struct Detail {
   double weight;
 };
 
-/// Of what is left out of the bounds, being degenerate or too far away, nothing.
+/// The details of all objects but those that are left out of the bounds, being degenerate or too far away.
 std::vector<Detail> details_of(const Scene& scene, const GridAxes& axes, const Box& bounds, double extent) {
   std::vector<Detail> details;
   const std::size_t stride = (scene.objects.size() + objects_max - 1) / objects_max;

@@ -28,7 +28,7 @@ class FlatPolygon {
   std::uint32_t count() const { return static_cast<std::uint32_t>(vertices_.size()); }
   /// -1 where it is seen from below: then what turns right by its coordinates turns left.
   double sign() const { return sign_; }
-  /// Of a corner: side 0 or 1.
+  /// A corner's place along side 0 or 1.
   double coordinate(std::uint32_t corner, std::size_t side) const { return vertices_[corner][side == 0 ? u_ : v_]; }
   bool same_place(std::uint32_t a, std::uint32_t b) const { return vertices_[a] == vertices_[b]; }
   /// Above 0 if a, b, c turn left.

@@ -1,5 +1,5 @@
 // A scene as a file says it: objects in file order, materials, lights and a view, in double precision and world
-// coordinates. It lives on the host only; core/build/database.h turns it into flat records for the nodes.
+// coordinates. It lives on the host only; core/database/database.h turns it into flat records for the nodes.
 #pragma once
 
 #include <array>

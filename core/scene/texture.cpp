@@ -17,7 +17,7 @@ struct Cover {
   std::vector<double> share;  ///< they add up to 1
 };
 
-/// Of texel `index` of `coarse` on a side that has `fine`.
+/// What texel `index` of `coarse` covers on a side that has `fine`.
 Cover cover_of(std::uint32_t index, std::uint32_t coarse, std::uint32_t fine) {
   const double width = static_cast<double>(fine) / coarse, low = index * width, high = (index + 1) * width;
   Cover cover{.first = static_cast<std::uint32_t>(low), .share = {}};

@@ -67,9 +67,11 @@ Hit trace_below(const Below& below, R& records, Operations& operations) {
   cursor.waiting.count = 0;
   cursor.waiting.t_taken = 0;
   const ShearedRay sheared(ray);
-  const bool visited = visit_children(
-      ray, BoxRay(ray, reciprocal_direction(ray)), below.any != 0, cursor, records, operations, meet_children,
-      [&](const std::byte* record, Address address, Hit& best) { test_block(ray, sheared, record, address, best, operations); });
+  const auto test = [&](const std::byte* record, Address address, Hit& best) {
+    test_block(ray, sheared, record, address, best, operations);
+  };
+  const bool visited = RayWalk(ray, cursor, records, operations)
+                           .visit_children(BoxRay(ray, reciprocal_direction(ray)), below.any != 0, meet_children, test);
   expect(visited, "whoever has a child's record has all that is below it");
   return cursor.best.primitive == below.best_primitive ? Hit{} : cursor.best;
 }

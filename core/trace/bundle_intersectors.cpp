@@ -4,7 +4,6 @@
 #include <bit>
 #include <limits>
 
-#include "core/base/mutation.h"
 #include "core/trace/bundle_kernel.h"
 
 // clang-format off
@@ -250,14 +249,9 @@ HWY_INLINE Vertices shear(const ShearedRays& rays, const TriangleRows& triangles
           fused(hn::Neg(rays.shear_y), z, hn::Sub(coordinate(rays.y), rays.origin_y)), z};
 }
 
-HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
-  if constexpr (mutation == Mutation::contracted_edges) {
-    return fused(a.x, b.y, hn::Neg(hn::Mul(a.y, b.x)));
-  }
-  return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
-}
+HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)); }
 
-/// Of the rays `asked`, which pass the triangle, those about which floats may be wrong, and some more: the scalar twin has the
+/// Those of the rays `asked`, which pass the triangle, about which floats may be wrong, and some more: the scalar twin has the
 /// last word.
 HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const Vertices& a, const Vertices& b, const Vertices& c,
                                    const Vector& margin) {
@@ -269,7 +263,7 @@ HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const Vertices& a,
   return asked & bits_of(tag, hn::Le(margin, hn::Mul(hn::Add(rounding, hn::Set(tag, rest_weight * rest)), widest)));
 }
 
-/// The same of those for which doubles judge.
+/// Those of them for which doubles judge.
 HWY_INLINE RayMask doubtful(const RayBundle& bundle, RayMask asked, const Vertices& a, const Vertices& b, const Vertices& c,
                             Vector least, Vector greatest) {
   const Floats tag;
@@ -290,7 +284,7 @@ HWY_INLINE void hit_apart(RayBundle& bundle, const TriangleRows& triangles, Addr
   }
 }
 
-/// One triangle and some of the rays from `first` on; returns which are wanted no more.
+/// One triangle and some of the rays from `first` on.
 HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays& rays, std::size_t first, RayMask active,
                              const TriangleRows& triangles, Address block, std::size_t lane) {
   const Floats tag;
@@ -312,8 +306,7 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays& rays, std::si
   const auto ignored = hn::Eq(hn::Load(ids, bundle.ignored_primitive.data() + first), hn::Set(ids, id));
   const RayMask others = active & ~bits_of(ids, ignored);
   const RayMask crossed = others & ~outside & ~bits_of(tag, hn::Eq(determinant, zero));
-  const RayMask near = crossed & bits_of(tag, hn::Lt(hn::Abs(t), hn::Set(tag, near_start)));
-  RayMask unsettled = (in_doubt & others) | near;
+  RayMask unsettled = (in_doubt & others) | (crossed & bits_of(tag, hn::Lt(hn::Abs(t), hn::Set(tag, near_start))));
   const Vector best = hn::Load(tag, bundle.best.t.data() + first);
   const auto in_time = hn::And(hn::Gt(t, zero), hn::Lt(t, hn::Load(tag, bundle.t_max.data() + first)));
   const auto has_lower_id = hn::RebindMask(tag, hn::Gt(hn::Load(ids, bundle.best.primitive.data() + first), hn::Set(ids, id)));

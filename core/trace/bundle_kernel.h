@@ -22,7 +22,7 @@ struct BundleSteps {
   /// From bundle.rays to rows, and the rays that meet the grid to their first cells: those that are in the region are `alive`,
   /// the others have `left`.
   void (*enter)(RayBundle& bundle, const GridFrame& frame, const Region& region);
-  /// Of those alive the rays in one cell: the first as the first of them goes. Sets `cell` and `group`.
+  /// Chooses of the rays alive those in one cell: that of the first of them. Sets `cell` and `group`.
   void (*next_group)(RayBundle& bundle);
   /// Where the rays of the group leave for the planes.
   void (*find_exits)(RayBundle& bundle, const PlanesAhead& ahead);

@@ -155,7 +155,7 @@ class KernelTriangle {
     return by_rounding + by_rest + (magnitude(origin_rest(z)) + by_edges) / magnitude(real_.direction[z]);
   }
 
-  /// The same of judged()'s, 5. above: SeenTriangle::plane_distance() in intervals.
+  /// The bound of what judged() errs by, 5. above: SeenTriangle::plane_distance() in intervals.
   Interval judged_error(const Interval& t) const {
     const Reals shear{Interval(double{sheared_.shear_x}), Interval(double{sheared_.shear_y}), Interval(1.0)};
     const std::array<Reals, 3> at{in_order(0), in_order(1), in_order(2)};
@@ -296,7 +296,7 @@ Interval root_about(const Curved& curved, double t, int before) {
   return Interval::everything();
 }
 
-/// Of a root that doubles found and rounded to float.
+/// The certificate of a root that doubles found and rounded to float.
 Certificate of_root(const Interval& t) {
   Certificate certificate;
   if (t.is_bounded()) {

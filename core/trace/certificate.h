@@ -13,17 +13,17 @@
 
 namespace dmpc::core {
 
-/// Of the hit of one ray on one primitive.
+/// Certifies the hit of one ray on one primitive.
 ///
 /// The exact answer is that of real numbers. The ray is O + t D, O the sum of `origin` and `origin_rest`, D that of `direction`
 /// and `direction_rest`, neither rounded. A triangle's nine floats stand for themselves, and t, u, v solve
 ///     O + t D = v0 + u (v1 - v0) + v (v2 - v0),
 /// whether or not that lies on the triangle; 1 - u - v, u and v are the weights of v0, v1 and v2. There is none where the ray is
 /// parallel to the plane, and no certificate is of a triangle that is hit in a tilted plane that it shares
-/// (core/build/coplanar.h). A sphere's centre and radius are what floats and rests add up to (core/record/curved_values.h), and t
-/// is the least positive root of |O + t D - centre| = radius, or the greater root if only the inside is visible. A cone's t is
-/// the least positive one where O + t D is as far from the axis as the radius is there, between base and apex, and where the ray
-/// gets out if only the inside is visible.
+/// (core/database/coplanar.h). A sphere's centre and radius are what floats and rests add up to (core/record/curved_values.h),
+/// and t is the least positive root of |O + t D - centre| = radius, or the greater root if only the inside is visible. A cone's t
+/// is the least positive one where O + t D is as far from the axis as the radius is there, between base and apex, and where the
+/// ray gets out if only the inside is visible.
 struct Certificate {
   static constexpr double unknown = std::numeric_limits<double>::infinity();
 

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 
-#include "core/base/mutation.h"
 #include "core/trace/vector_width.h"
 
 // clang-format off
@@ -114,14 +113,9 @@ HWY_INLINE Vertices shear(const ShearedRay& ray, const float* vertex, std::size_
           hn::NegMulAdd(hn::Set(tag, ray.shear_y), z, relative(ray.axis_y)), z};
 }
 
-HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) {
-  if constexpr (mutation == Mutation::contracted_edges) {
-    return hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x));
-  }
-  return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
-}
+HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)); }
 
-/// Of the triangles `asked`, which the ray passes, those about which floats may be wrong.
+/// Those of the triangles `asked`, which the ray passes, about which floats may be wrong.
 HWY_INLINE hn::Mask<Tag> within_rounding(const ShearedRay& ray, const Vertices& a, const Vertices& b, const Vertices& c,
                                          const Vector& margin, hn::Mask<Tag> asked) {
   const Tag tag;
@@ -133,7 +127,7 @@ HWY_INLINE hn::Mask<Tag> within_rounding(const ShearedRay& ray, const Vertices& 
   return hn::And(asked, hn::Le(margin, bound));
 }
 
-/// The same of those for which doubles judge.
+/// Those of them for which doubles judge.
 HWY_INLINE hn::Mask<Tag> doubtful(const ShearedRay& ray, const Vertices& a, const Vertices& b, const Vertices& c, Vector least,
                                   Vector greatest, hn::Mask<Tag> outside) {
   const Tag tag;

@@ -56,10 +56,10 @@ extern const TriangleKernel hit_triangles;
 std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored, float t_most,
                                    float* times);
 
-/// The same for those triangles of a block that share their planes, in scalar code: sets their bits and times alone.
+/// Tests those triangles of a block that share their planes, in scalar code: sets their bits and times alone.
 std::uint32_t hit_shared_faces(const ShearedRay& ray, const std::byte* record, std::uint32_t ignored, float t_most, float* times);
 
-/// The same for the spheres or cones of a block, in scalar code.
+/// Tests the spheres or cones of a block, in scalar code.
 std::uint32_t hit_curved(const Ray& ray, PrimitiveKind kind, const float* rows, std::size_t count, float t_most, float* times);
 
 /// The instruction set of the kernels here, for reports: "AVX3", "AVX2" or "scalar".

@@ -38,7 +38,4 @@ struct Operations {
   std::uint64_t traced_ray_count() const { return ray_count() - skipped.background; }
 };
 
-/// Sums field by field.
-Operations& operator+=(Operations& sum, const Operations& more);
-
 }  // namespace dmpc::core

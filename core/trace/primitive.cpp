@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/base/mutation.h"
 #include "core/record/block_lane.h"
 #include "core/record/curved_values.h"
 
@@ -28,12 +27,7 @@ struct ShearedVertex {
   }
 };
 
-float edge(const ShearedVertex& a, const ShearedVertex& b) {
-  if constexpr (mutation == Mutation::contracted_edges) {
-    return std::fma(a.x, b.y, -(a.y * b.x));
-  }
-  return a.x * b.y - a.y * b.x;
-}
+float edge(const ShearedVertex& a, const ShearedVertex& b) { return a.x * b.y - a.y * b.x; }
 
 /// Products of floats are exact in double, so the sign of the difference is.
 float exact_edge(const ShearedVertex& a, const ShearedVertex& b) {
@@ -41,12 +35,7 @@ float exact_edge(const ShearedVertex& a, const ShearedVertex& b) {
 }
 
 /// Whether the edge functions differ in sign; zeros are on either side, so an edge belongs to both its triangles.
-bool outside(float u, float v, float w) {
-  if constexpr (mutation == Mutation::exclusive_edges) {
-    return (u <= 0.0F || v <= 0.0F || w <= 0.0F) && (u >= 0.0F || v >= 0.0F || w >= 0.0F);
-  }
-  return (u < 0.0F || v < 0.0F || w < 0.0F) && (u > 0.0F || v > 0.0F || w > 0.0F);
-}
+bool outside(float u, float v, float w) { return (u < 0.0F || v < 0.0F || w < 0.0F) && (u > 0.0F || v > 0.0F || w > 0.0F); }
 
 /// A vertex as seen from the ray's origin, in the ray's order of axes: exact but for double's rounding.
 Vec3d seen_vertex(const ShearedRay& ray, const float* vertex, std::size_t stride) {
@@ -119,7 +108,7 @@ float judged(float t, const SeenTriangle& seen) {
   return std::fabs(exact - double{t}) <= same_distance * exact ? t : rounded(exact);
 }
 
-/// Of a triangle that floats let the ray pass at an edge.
+/// The t of a triangle that floats let the ray pass at an edge.
 float judged_outside(const SeenTriangle& seen) {
   const double exact = seen.plane_distance();
   return exact > 0.0 && exact < double{near_edge} && seen.is_crossed() ? rounded(exact) : missed;
@@ -156,8 +145,8 @@ struct ShearedTriangle {
     const float deepest = std::max(std::max(std::fabs(a.z), std::fabs(b.z)), std::fabs(c.z));
     return std::min(-least, greatest) <= (edge_rounding * std::max(widest, deepest) + rest_weight * ray.rest()) * widest;
   }
-  /// Of the hit, not scaled yet. Each weight is divided before the sum: a cubic in length would overflow and underflow far too
-  /// soon.
+  /// The depth of the hit, not scaled yet. Each weight is divided before the sum: a cubic in length would overflow and underflow
+  /// far too soon.
   float depth() const { return std::fma(u / determinant, a.z, std::fma(v / determinant, b.z, (w / determinant) * c.z)); }
 
   ShearedVertex a, b, c;

@@ -12,7 +12,7 @@ namespace dmpc::core {
 /// Source: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 struct ShearedRay {
   explicit ShearedRay(const Ray& ray);
-  /// Of what has been computed before.
+  /// Takes what has been computed before.
   ShearedRay(const Vec3f& start, const Vec3f& rest, float x_shear, float y_shear, float z_scale, std::uint32_t x, std::uint32_t y,
              std::uint32_t z)
       : origin(start), origin_rest(rest), shear_x(x_shear), shear_y(y_shear), scale_z(z_scale), axis_x(x), axis_y(y), axis_z(z) {}
@@ -34,8 +34,8 @@ inline constexpr float near_start = 0x1p-10F;
 /// Less than near_start by more than t is off, so that neighbours are judged alike.
 inline constexpr float near_edge = 0x1p-12F;
 /// Edge functions in floats are off by less than (edge_rounding * R + rest_weight * rest) * W, where W is the triangle's largest
-/// coordinate across the ray, R any of its largest, as seen from where the ray starts: 140 u R W (apps/oracle/encounter.cpp), and
-/// what the start's rest moves an edge by.
+/// coordinate across the ray, R any of its largest, as seen from where the ray starts: 140 u R W (apps/lab/oracle/encounter.cpp),
+/// and what the start's rest moves an edge by.
 inline constexpr float edge_rounding = 160 * 0x1p-24F, rest_weight = 8;
 
 /// Faces whose plane is shared are hit within this of the boxes of their corners: farther than rounding moves the plane, by less
@@ -69,7 +69,7 @@ float intersect_shared_face(const ShearedRay& ray, double plane_depth, const flo
 /// t rounded to float once. A negative radius shows the inside only. Nearest root with t > 0.
 float intersect_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
 float intersect_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
-/// The same before t is rounded; `missed` if the ray misses.
+/// The t of a sphere before it is rounded; `missed` if the ray misses.
 double sphere_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
 double cone_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);
 

@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 
-#include "core/base/mutation.h"
 #include "core/base/region.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
@@ -56,12 +55,6 @@ class RayPlanes {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float d = ray.direction[axis];
       step_[axis] = d >= smallest_component ? 1 : d <= -smallest_component ? -1 : 0;
-      if constexpr (mutation == Mutation::sign_of_minus_zero) {
-        step_[axis] = d >= 0.0F ? 1 : -1;
-      }
-      if constexpr (mutation == Mutation::world_coordinates) {
-        origin_[axis] = in_world_coordinates(origin_[axis], frame.origin[axis] * frame.scale + frame.low[axis]);
-      }
       if (step_[axis] != 0) {
         slope_[axis] = double{frame.finest_cell} * reciprocal_[axis];
         offset_[axis] = -origin_[axis] * reciprocal_[axis];
@@ -108,11 +101,6 @@ class RayPlanes {
   }
 
  private:
-  /// What is left of a local coordinate that went through the world's, in single precision.
-  static double in_world_coordinates(double local, double grid_origin) {
-    return double{static_cast<float>(local + grid_origin)} - double{static_cast<float>(grid_origin)};
-  }
-
   Vec3d origin_;  ///< from where the grid begins
   Vec3d direction_, reciprocal_;
   std::array<double, 3> slope_{}, offset_{};

@@ -85,12 +85,4 @@ constexpr Skips no_skips() {
   return skips;
 }
 
-/// Sums field by field.
-inline SkippedWork& operator+=(SkippedWork& sum, const SkippedWork& more) {
-  for (const Skip& skip : all_skips) {
-    sum.*skip.avoided += more.*skip.avoided;
-  }
-  return sum;
-}
-
 }  // namespace dmpc::core

@@ -60,53 +60,9 @@ inline Traced pass(const Ray& ray, const Walk& walk, Passage& passage, Operation
   return traced;
 }
 
-/// The same for a region by itself.
+/// Passes through a region by itself.
 inline Traced pass(const Ray& ray, const GridFrame& frame, const Region& region, Passage& passage, Operations& operations) {
   return pass(ray, Walk(ray, frame, region), passage, operations);
-}
-
-/// Where the ray enters the first box of a block in the cursor's cell, from cursor.next on; infinite if it meets none. Reads
-/// bricks alone.
-template <Records R>
-float first_block_in_cell(const Ray& ray, const BoxRay& box, Cursor& cursor, R& records, Operations& operations) {
-  const auto t_low = static_cast<float>(cursor.t_enter);
-  const float t_high = std::min({static_cast<float>(cursor.exit.t), ray.t_max, cursor.best.t});
-  float first = std::numeric_limits<float>::infinity();
-  for (BrickChild child = cursor.next; child.found();) {
-    if (child.is_block()) {
-      first = std::min(first, cursor.waiting.t_taken);
-      child = BrickChild::none();
-    } else {
-      ++operations.brick_reads;
-      const auto& brick = *reinterpret_cast<const Brick*>(records.find(child.address()));
-      child = meet_children(box, brick, t_low, std::min(t_high, first), true, cursor.waiting);
-    }
-    if (!child.found()) {
-      child = cursor.waiting.take_up_to(first);
-    }
-  }
-  return first;
-}
-
-/// Where the ray, from `passage` on, enters the first box of a block of the database, a float no greater than trace() could tell;
-/// infinite if trace() would test no primitive any more. `records` never says absent.
-template <Records R>
-float first_block(const Ray& ray, const BoxRay& box, const Walk& walk, const Passage& passage, R& records,
-                  const DatabaseHeader& header, const Skips& skips, Operations& operations) {
-  Cursor cursor = arrive(passage);
-  for (bool goes_on = true; goes_on;) {
-    if (cursor.stage == Cursor::Stage::directory) {
-      const std::uint64_t index = directory_index(header, cursor.cell);
-      const std::byte* const record = records.find(directory_address(header, index));
-      goes_on = walk.read(ray, read<DirectoryEntry>(record + directory_offset(index)), cursor, skips, operations);
-    } else if (const float first = first_block_in_cell(ray, box, cursor, records, operations);
-               first < std::numeric_limits<float>::infinity()) {
-      return first;
-    } else {
-      goes_on = walk.leave_cell(ray, cursor, operations);
-    }
-  }
-  return std::numeric_limits<float>::infinity();
 }
 
 /// Children that wait and do not lie behind the hit.
@@ -115,71 +71,125 @@ inline std::uint64_t count_before(const MetChildren& waiting, const Hit& hit) {
   return static_cast<std::uint64_t>(std::count_if(begin, begin + waiting.count, [&](float t) { return t <= hit.t; }));
 }
 
-/// Visits the children of the cursor's cell that the ray meets, from cursor.next on: `meet` finds them, `test(record, address,
-/// best)` is called for blocks. False if a record is absent. `any` hit will do: it ends the visit.
-template <Records R, class Test>
-bool visit_children(const Ray& ray, const BoxRay& box, bool any, Cursor& cursor, R& records, Operations& operations,
-                    BrickKernel meet, const Test& test) {
-  const auto t_low = static_cast<float>(cursor.t_enter), t_high = std::min(static_cast<float>(cursor.exit.t), ray.t_max);
-  for (BrickChild child = cursor.next; child.found();) {
-    cursor.next = child;
-    const Address address = child.address();
-    const std::byte* record = records.find(address);
-    if (record == nullptr) {
-      cursor.absent = address;
-      return false;
-    }
-    if (child.is_block()) {
-      test(record, address, cursor.best);
-      if (any && cursor.best.found()) {
-        operations.skipped.any_hit += count_before(cursor.waiting, cursor.best);
-        break;
-      }
-      child = BrickChild::none();
-    } else {
-      ++operations.brick_reads;
-      const auto& brick = *reinterpret_cast<const Brick*>(record);
-      child = meet(box, brick, t_low, std::min(t_high, cursor.best.t), !any, cursor.waiting);
-    }
-    if (!child.found()) {
-      child = cursor.waiting.take_up_to(cursor.best.t);
-    }
-  }
-  return true;
-}
+/// One ray's way among one kind of records. What it is made from outlives it. Thread safety: none; costs nothing to make.
+template <Records R>
+class RayWalk {
+ public:
+  RayWalk(const Ray& ray, Cursor& cursor, R& records, Operations& operations)
+      : ray_(ray), cursor_(cursor), records_(records), operations_(operations) {}
 
-/// trace() with kernels of one's own.
-template <Records R, class Test>
-Traced trace_blocks(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& header, const Skips& skips,
-                    Operations& operations, BrickKernel meet, const Test& test) {
-  if (cursor.stage == Cursor::Stage::finished) {
-    return finish(cursor);
-  }
-  const Walk walk(ray, header.frame, header.region);
-  if (cursor.stage == Cursor::Stage::start && !walk.enter(ray, cursor)) {
-    return finish(cursor);
-  }
-  const BoxRay box(ray, walk.reciprocal());
-  const bool any = skips.any_hit && ray.kind == RayKind::shadow;
-  for (;;) {
-    if (cursor.stage == Cursor::Stage::directory) {
-      const std::uint64_t index = directory_index(header, cursor.cell);
-      const Address address = directory_address(header, index);
-      const std::byte* record = records.find(address);
-      if (record == nullptr) {
-        cursor.absent = address;
+  /// trace() with kernels of one's own: `meet` finds the children of a brick that the ray meets, test(record, address, best) is
+  /// called for blocks.
+  template <class Test>
+  Traced trace(const DatabaseHeader& header, const Skips& skips, BrickKernel meet, const Test& test) {
+    if (cursor_.stage == Cursor::Stage::finished) {
+      return finish(cursor_);
+    }
+    const Walk walk(ray_, header.frame, header.region);
+    if (cursor_.stage == Cursor::Stage::start && !walk.enter(ray_, cursor_)) {
+      return finish(cursor_);
+    }
+    const BoxRay box(ray_, walk.reciprocal());
+    const bool any = skips.any_hit && ray_.kind == RayKind::shadow;
+    for (;;) {
+      if (cursor_.stage == Cursor::Stage::directory) {
+        const std::uint64_t index = directory_index(header, cursor_.cell);
+        const Address address = directory_address(header, index);
+        const std::byte* record = records_.find(address);
+        if (record == nullptr) {
+          cursor_.absent = address;
+          return Traced::absent;
+        }
+        if (!walk.read(ray_, read<DirectoryEntry>(record + directory_offset(index)), cursor_, skips, operations_)) {
+          return finish(cursor_);
+        }
+      } else if (!visit_children(box, any, meet, test)) {
         return Traced::absent;
+      } else if ((any && cursor_.best.found()) || !walk.leave_cell(ray_, cursor_, operations_)) {
+        return finish(cursor_);
       }
-      if (!walk.read(ray, read<DirectoryEntry>(record + directory_offset(index)), cursor, skips, operations)) {
-        return finish(cursor);
-      }
-    } else if (!visit_children(ray, box, any, cursor, records, operations, meet, test)) {
-      return Traced::absent;
-    } else if ((any && cursor.best.found()) || !walk.leave_cell(ray, cursor, operations)) {
-      return finish(cursor);
     }
   }
-}
+
+  /// Visits the children of the cursor's cell that the ray meets, from cursor.next on. False if a record is absent. `any` hit
+  /// will do: it ends the visit.
+  template <class Test>
+  bool visit_children(const BoxRay& box, bool any, BrickKernel meet, const Test& test) {
+    const auto t_low = static_cast<float>(cursor_.t_enter), t_high = std::min(static_cast<float>(cursor_.exit.t), ray_.t_max);
+    for (BrickChild child = cursor_.next; child.found();) {
+      cursor_.next = child;
+      const Address address = child.address();
+      const std::byte* record = records_.find(address);
+      if (record == nullptr) {
+        cursor_.absent = address;
+        return false;
+      }
+      if (child.is_block()) {
+        test(record, address, cursor_.best);
+        if (any && cursor_.best.found()) {
+          operations_.skipped.any_hit += count_before(cursor_.waiting, cursor_.best);
+          break;
+        }
+        child = BrickChild::none();
+      } else {
+        ++operations_.brick_reads;
+        const auto& brick = *reinterpret_cast<const Brick*>(record);
+        child = meet(box, brick, t_low, std::min(t_high, cursor_.best.t), !any, cursor_.waiting);
+      }
+      if (!child.found()) {
+        child = cursor_.waiting.take_up_to(cursor_.best.t);
+      }
+    }
+    return true;
+  }
+
+  /// Where the ray, from where the cursor arrives on, enters the first box of a block of the database, a float no greater than
+  /// trace() could tell; infinite if trace() would test no primitive any more. No record is absent.
+  float first_block(const Walk& walk, const DatabaseHeader& header, const Skips& skips) {
+    const BoxRay box(ray_, walk.reciprocal());
+    for (bool goes_on = true; goes_on;) {
+      if (cursor_.stage == Cursor::Stage::directory) {
+        const std::uint64_t index = directory_index(header, cursor_.cell);
+        const std::byte* const record = records_.find(directory_address(header, index));
+        goes_on = walk.read(ray_, read<DirectoryEntry>(record + directory_offset(index)), cursor_, skips, operations_);
+      } else if (const float first = first_block_in_cell(box); first < never) {
+        return first;
+      } else {
+        goes_on = walk.leave_cell(ray_, cursor_, operations_);
+      }
+    }
+    return never;
+  }
+
+ private:
+  static constexpr float never = std::numeric_limits<float>::infinity();
+
+  /// From cursor.next on. Reads bricks alone.
+  float first_block_in_cell(const BoxRay& box) {
+    const auto t_low = static_cast<float>(cursor_.t_enter);
+    const float t_high = std::min({static_cast<float>(cursor_.exit.t), ray_.t_max, cursor_.best.t});
+    float first = never;
+    for (BrickChild child = cursor_.next; child.found();) {
+      if (child.is_block()) {
+        first = std::min(first, cursor_.waiting.t_taken);
+        child = BrickChild::none();
+      } else {
+        ++operations_.brick_reads;
+        const auto& brick = *reinterpret_cast<const Brick*>(records_.find(child.address()));
+        child = meet_children(box, brick, t_low, std::min(t_high, first), true, cursor_.waiting);
+      }
+      if (!child.found()) {
+        child = cursor_.waiting.take_up_to(first);
+      }
+    }
+    return first;
+  }
+
+  const Ray& ray_;
+  Cursor& cursor_;
+  R& records_;
+  Operations& operations_;
+};
 
 /// Walks `ray` through the grid until its nearest hit in (0, ray.t_max) is known (for a shadow ray: any hit, unless
 /// that skip is off), no hit can exist, or a record is absent. After Traced::absent, call again with the same cursor once the
@@ -191,9 +201,10 @@ template <Records R>
 Traced trace(const Ray& ray, Cursor& cursor, R& records, const DatabaseHeader& header, const Skips& skips,
              Operations& operations) {
   const ShearedRay sheared(ray);
-  return trace_blocks(
-      ray, cursor, records, header, skips, operations, meet_children,
-      [&](const std::byte* record, Address address, Hit& best) { test_block(ray, sheared, record, address, best, operations); });
+  return RayWalk(ray, cursor, records, operations)
+      .trace(header, skips, meet_children, [&](const std::byte* record, Address address, Hit& best) {
+        test_block(ray, sheared, record, address, best, operations);
+      });
 }
 
 }  // namespace dmpc::core

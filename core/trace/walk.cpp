@@ -5,8 +5,6 @@
 #include <cstdlib>
 #include <limits>
 
-#include "core/base/mutation.h"
-
 namespace dmpc::core {
 namespace {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "dataflow/regions/bsp.h"
 #include "dataflow/regions/columns.h"

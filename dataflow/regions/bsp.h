@@ -94,9 +94,7 @@ class Bsp {
   nodes::NodeId owner_at(std::uint32_t index) const { return nodes::NodeId{owner_[index]}; }
   /// The node that answers for a finest cell of the grid.
   nodes::NodeId owner_of(const core::Corner& cell) const { return owner_at(region_index_of(cell)); }
-  /// What `node` answers for. Requires a node that owns a region.
-  core::Region region_of(nodes::NodeId node) const { return region_at(region_index_of(node)); }
-  /// The number of the region that `node` owns.
+  /// The number of the region that `node` owns. Requires that it owns one.
   std::uint32_t region_index_of(nodes::NodeId node) const;
 
   /// Whether region `index` is known to hold nothing.
@@ -106,9 +104,9 @@ class Bsp {
 
   /// Gives region i to node node_of_region[i]; expects a permutation of 0 .. region_count() - 1. Before, region i is node i's.
   void assign(std::span<const std::uint32_t> node_of_region);
-  /// The same regions before they were cut into units: one a node, numbered by node.
+  /// These regions before they were cut into units: one a node, numbered by node.
   Bsp without_units() const;
-  /// The same units, as if each were the region of a node of its number. Known to hold nothing are those alone whose owner holds
+  /// These units, as if each were the region of a node of its number. Known to hold nothing are those alone whose owner holds
   /// nothing at all: rays start where they would if nodes had one region, which is what loads are measured by.
   Bsp by_unit() const;
   /// From now on region `index` is `node`'s.
@@ -148,8 +146,8 @@ void Bsp::for_each_cut(std::uint32_t index, Visit visit) const {
 /// Regions of about equal load. Throws core::UsageError unless 1 <= region_count <= region_count_max. Columns without load count
 /// a little by their area, so that loads of zero throughout give regions of equal size.
 Bsp build_bsp(const ColumnLoads& loads, std::uint32_t region_count, const BspOptions& options = {});
-/// The same regions of `node_count` nodes, each cut into `units_a_node` of about equal load, which are all its node's: numbers i
-/// units_a_node and on those of region i.
+/// The regions that build_bsp() gives `node_count` nodes, each cut into `units_a_node` of about equal load, which are all its
+/// node's: numbers i units_a_node and on those of region i.
 Bsp build_units(const ColumnLoads& loads, std::uint32_t node_count, std::uint32_t units_a_node, const BspOptions& options = {});
 
 /// The naive split: regions of equal size whatever lies in them.

@@ -8,11 +8,11 @@
 #include <type_traits>
 
 #include "core/base/expect.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "core/picture/shade.h"
 #include "core/trace/traversal.h"
-#include "dataflow/regions/work.h"
+#include "core/trace/work.h"
 
 namespace dmpc::dataflow {
 

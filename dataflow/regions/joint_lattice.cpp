@@ -9,7 +9,7 @@ namespace {
 
 using Planes = std::array<std::vector<std::int32_t>, 3>;
 
-/// Of the grid's ends and of all cuts between them.
+/// The planes of the grid's ends and of all cuts between them.
 Planes planes_of(std::span<const Regions> partitions) {
   const core::Corner& size = partitions.front().grid_size();
   Planes planes;

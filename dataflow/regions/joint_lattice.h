@@ -22,7 +22,6 @@ class JointLattice {
   /// What it would hold: an owner for each partition in each cell.
   static std::size_t owner_count(std::span<const Regions> partitions);
 
-  std::size_t partition_count() const { return partition_count_; }
   /// A bit for each partition.
   std::uint64_t all_partitions() const { return ~std::uint64_t{0} >> (partitions_max - partition_count_); }
   /// The planes between cells along an axis, in finest cells, ascending: the cuts, between the grid's two ends.

@@ -67,7 +67,7 @@ class Regions {
 
   /// Regions are units that nodes hand over while rays travel.
   bool are_moving() const { return bsp() != nullptr && bsp()->is_of_units(); }
-  /// The same units, as if each were the region of a node of its number. Requires that regions move.
+  /// These units, as if each were the region of a node of its number. Requires that regions move.
   Regions by_unit() const { return std::get<Bsp>(how_).by_unit(); }
   /// From now on region `index`, which moves, is `node`'s.
   void give_to(std::uint32_t index, nodes::NodeId node) { std::get<Bsp>(how_).give_to(index, node); }

@@ -35,7 +35,7 @@ struct Tiling {
 /// How far a rectangle with such sides is from a square: 1 if it is one.
 double stretch(double width, double height) { return std::max(width / height, height / width); }
 
-/// Of the cells of a lattice.
+/// How far the cells of a lattice are from squares.
 double stretch(const std::array<std::int32_t, 2>& size, const Extent& count) {
   return stretch(static_cast<double>(size[0]) / count[0], static_cast<double>(size[1]) / count[1]);
 }

@@ -40,7 +40,7 @@ std::optional<ScatteredShape> scattered_shape(const std::array<std::int32_t, 2>&
 /// for mark_empty(); as plain bytes copyable to every node.
 class Scattered {
  public:
-  /// Of all nodes together.
+  /// All nodes together have at most so many.
   static constexpr std::uint32_t regions_max = 65536;
 
   /// Requires a shape that is scattered_shape()'s for the grid's extent along `axes`, whose regions are regions_max at most.

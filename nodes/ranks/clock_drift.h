@@ -11,7 +11,7 @@
 
 namespace dmpc::nodes {
 
-/// Of how many round trips the shortest is taken.
+/// So many round trips are made, of which the shortest is taken.
 inline constexpr int clock_questions = 32;
 
 /// One round trip: of rank 0's clock when it asked and when the answer came, and of the other's in between.
@@ -31,7 +31,7 @@ struct ClockAnswer {
 /// rank 0's; between what was measured before and after the run the other is taken to gain evenly.
 class ClockDrift {
  public:
-  /// Of rank 0 itself.
+  /// The drift of rank 0 itself: none.
   ClockDrift() = default;
   /// `start_ns`: of the run, by rank 0's clock.
   ClockDrift(const ClockAnswer& before, const ClockAnswer& after, std::uint64_t start_ns)

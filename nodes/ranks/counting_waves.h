@@ -18,7 +18,7 @@
 
 namespace dmpc::nodes {
 
-/// Of one rank, or of all.
+/// What one rank has counted, or all together.
 struct Counts {
   std::uint64_t sent = 0, received = 0;  ///< packets, to and from other ranks
   std::uint64_t unfinished = 0;          ///< programs

@@ -54,7 +54,7 @@ class Errands {
     Errands& errands;
     ~Over() { errands.end_work(); }
   };
-  /// Of the sender, which waits. What it throws there is the sender's alone.
+  /// What the sender, which waits, wants done. What it throws there is the sender's alone.
   struct Errand {
     const std::function<void()>* act = nullptr;
     std::exception_ptr failure;

@@ -1,10 +1,11 @@
-// What a rank does while it waits for others, before and after a run: takes and sends frames, shows that it lives, and sleeps.
+// What a rank does while it waits for others: takes and sends frames, shows that it lives, and sleeps.
 #pragma once
 
 #include <sched.h>
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <thread>
 
 #include "nodes/ranks/nap.h"
@@ -12,21 +13,32 @@
 
 namespace dmpc::nodes {
 
+/// Takes turns until that is so.
+using Wait = std::function<void(const std::function<bool()>& is_done)>;
+
 /// Thread safety: belongs to the communicating thread.
 class Exchange {
  public:
   /// `links` outlive this.
   explicit Exchange(RankLinks& links) : links_(&links), nap_(links.idle()) {}
 
-  /// Takes and sends what there is, as RankLinks do; sleeps if that is nothing.
-  template <class Receive>
-  void turn(const Receive& receive) {
+  /// Takes and sends what there is, as RankLinks do, with act() in between; sleep(time) if that is nothing, by what act() returns
+  /// either.
+  template <class Receive, class Act, class Sleep>
+  void turn(const Receive& receive, const Act& act, const Sleep& sleep) {
     bool has_moved = links_->take(receive);
+    has_moved = act() || has_moved;
     has_moved = links_->flush() || has_moved;
     if (!has_moved || ++turns_ % turns_a_look == 0) {
       links_->look_after();
     }
-    has_moved ? nap_.end() : rest();
+    has_moved ? nap_.end() : rest(sleep);
+  }
+  /// With nothing else to do.
+  template <class Receive>
+  void turn(const Receive& receive) {
+    turn(
+        receive, [] { return false; }, [](std::chrono::nanoseconds time) { std::this_thread::sleep_for(time); });
   }
   template <class Receive, class IsDone>
   void turn_until(const IsDone& is_done, const Receive& receive) {
@@ -36,14 +48,16 @@ class Exchange {
   }
 
  private:
+  /// So many turns does a thread that always has something to do take from one look at who is silent to the next.
   static constexpr std::uint32_t turns_a_look = 256;
 
-  void rest() {
+  template <class Sleep>
+  void rest(const Sleep& sleep) {
     const std::chrono::nanoseconds time = nap_.next();
     if (time == time.zero()) {
       sched_yield();
     } else {
-      std::this_thread::sleep_for(time);
+      sleep(time);
     }
   }
 

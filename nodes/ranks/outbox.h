@@ -11,7 +11,7 @@ namespace dmpc::nodes {
 /// Before a packet in the outbox.
 using TargetIndex = std::uint32_t;
 
-/// Of an outbox for nobody yet.
+/// The capacity of an outbox for nobody yet.
 inline MailboxCapacity empty_outbox() { return {.small_front_bytes = sizeof(TargetIndex)}; }
 
 /// Makes room for all that may be under way to one more node elsewhere. A packet under way has a place in its target's mailbox.

@@ -11,11 +11,10 @@
 #include "nodes/ranks/rank_links.h"
 #include "nodes/ranks/rank_memory.h"
 #include "nodes/ranks/rank_report.h"
-#include "nodes/watch/watching.h"
 
 namespace dmpc::nodes {
 
-/// Of one rank.
+/// The figures of one rank.
 struct RankFigures {
   std::string name;  ///< "rank 2 on host b"
   RankMemory memory;
@@ -23,7 +22,7 @@ struct RankFigures {
   ClockDrift clock;  ///< of an observed run
 };
 
-/// Of all ranks, by number: what their nodes and the host took, and what has come from each.
+/// The figures of all ranks, by number: what their nodes and the host took, and what has come from each.
 inline std::vector<RankFigures> rank_figures(std::span<const PeerMemory> peers, const RankLinks& links,
                                              const std::vector<RankReport>& reports) {
   std::vector<RankFigures> figures;
@@ -31,20 +30,6 @@ inline std::vector<RankFigures> rank_figures(std::span<const PeerMemory> peers, 
     figures.push_back({links.name_of(rank), rank_memory(peers, &links, rank), reports[rank].traffic, reports[rank].clock});
   }
   return figures;
-}
-
-/// Calls add(seen, clock) with what was seen on each of the other ranks.
-template <class Add>
-void add_seen(const std::vector<RankReport>& reports, const Add& add) {
-  for (std::size_t rank = 1; rank < reports.size(); ++rank) {
-    add(reports[rank].told, reports[rank].clock);
-  }
-}
-/// Lets `watching` do so, if it wants to see anything there.
-inline void add_seen(const Watching& watching, const std::vector<RankReport>& reports) {
-  if (!watching.elsewhere.order.empty()) {
-    add_seen(reports, watching.elsewhere.add);
-  }
 }
 
 /// After a regular end.

@@ -14,7 +14,7 @@
 
 namespace dmpc::nodes {
 
-/// Of one rank, beside its nodes' memories. Sums of what can be under way.
+/// What one rank takes beside its nodes' memories: sums of what can be under way.
 struct NetworkMemory {
   std::size_t outbox_bytes = 0;   ///< for the worst case, of which little is ever written
   std::size_t sent_bytes = 0;     ///< two frames to each other rank
@@ -24,7 +24,7 @@ struct NetworkMemory {
   std::size_t total() const { return outbox_bytes + sent_bytes + arrived_bytes + stream_bytes; }
 };
 
-/// Of one rank.
+/// All that one rank takes.
 struct RankMemory {
   std::uint32_t node_count = 0;
   bool has_host = false;
@@ -40,7 +40,7 @@ struct PeerMemory {
   std::size_t bytes = 0;  ///< all of its local memory, the mailbox included
 };
 
-/// Of all nodes of a strategy's plan, then the host.
+/// The memories of all nodes of a strategy's plan, then the host's.
 template <class Plan>
 requires requires(const Plan& plan) { plan.node_mailbox; }
 std::vector<PeerMemory> peers_of(const Plan& plan) {
@@ -51,7 +51,7 @@ std::vector<PeerMemory> peers_of(const Plan& plan) {
   peers.push_back({plan.host_mailbox, plan.host_memory().total()});
   return peers;
 }
-/// Of all nodes as a runner is given them, then the host.
+/// The memories of all nodes as a runner is given them, then the host's.
 inline std::vector<PeerMemory> peers_of(std::span<const NodeSpecification> specifications) {
   std::vector<PeerMemory> peers;
   for (const NodeSpecification& specification : specifications) {

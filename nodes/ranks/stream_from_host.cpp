@@ -22,7 +22,7 @@ void StreamFromHost::read(std::span<std::byte> into) {
   }
 }
 
-/// Of what has come as much as is wanted. Tells rank 0 of each quarter of the window, so that it sends on.
+/// Takes as much of what has come as is wanted. Tells rank 0 of each quarter of the window, so that it sends on.
 std::size_t StreamFromHost::take(std::span<std::byte> into) {
   std::size_t taken = 0;
   while (taken < into.size() && count_ > 0) {

@@ -16,7 +16,7 @@
 
 namespace dmpc::nodes {
 
-/// Of one rank's stream, sent and not read.
+/// So much of one rank's stream may be sent and not read.
 inline constexpr std::size_t stream_window_bytes = std::size_t{512} << 10U;
 
 /// Thread safety: belongs to the communicating thread of rank 0.

@@ -28,7 +28,7 @@ std::optional<SchedulingAttributes> attributes() {
   return ::syscall(SYS_sched_getattr, 0, &found, sizeof(found), 0) == 0 ? std::optional(found) : std::nullopt;
 }
 
-/// Of the calling thread; returns what it was. A refusal leaves it as it is: that costs time and nothing else.
+/// Sets the slice of the calling thread; returns what it was. A refusal leaves it as it is: that costs time and nothing else.
 std::optional<std::uint64_t> set_slice(std::uint64_t slice_ns) {
   std::optional<SchedulingAttributes> wanted = attributes();
   if (!wanted) {

@@ -240,7 +240,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     self.receive(number);
   }
 
-  /// Of what is no call of the program, `own_ns` is known.
+  /// Begins a span; where that is no call of the program, `own_ns` is known.
   void begin(VirtualProcessor& self, Span& span, Activity activity, PacketKind packet, std::uint64_t begin_ns,
              std::uint64_t own_ns = 0) const {
     if constexpr (is_watched) {

@@ -13,7 +13,7 @@
 
 namespace dmpc::nodes {
 
-/// Of one node in one run, in nanoseconds of virtual time.
+/// The times of one node in one run, in nanoseconds of virtual time.
 struct VirtualTimes {
   std::uint64_t computing_ns = 0;  ///< the operations that the program charged
   std::uint64_t sending_ns = 0;    ///< of packets, but for those sent by an interrupt's service
@@ -46,8 +46,8 @@ struct VirtualReport {
   std::vector<LinkUse> busiest_links;  ///< as Links::busiest(), at most busiest_links_max
   std::vector<VirtualTimes> nodes;     ///< in order, the host last
 
-  /// Of a whole run: its events, its machine and what it has produced (a hash of it). Equal runs, equal hashes, on any computer
-  /// and in every build type.
+  /// A digest of a whole run: its events, its machine and what it has produced (a hash of it). Equal runs, equal hashes, on any
+  /// computer and in every build type.
   std::uint64_t run_hash(std::uint64_t product_hash) const { return core::mix(core::mix(hash ^ machine_digest) ^ product_hash); }
 };
 

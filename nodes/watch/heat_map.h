@@ -61,7 +61,7 @@ class HeatMap {
   HeatNumber node() const { return node_; }
   HeatNumber depth() const { return depth_; }
 
-  // Of a kind that is not recorded these do nothing. They require item < item_count().
+  // These do nothing with a kind that is not recorded. They require item < item_count().
   void add(HeatNumber kind, std::uint32_t item, std::uint64_t amount);
   /// To `value` at least.
   void raise(HeatNumber kind, std::uint32_t item, std::uint64_t value);

@@ -37,7 +37,7 @@ bool is_before(const TraceSpan& a, const TraceSpan& b) {
   return std::tuple(a.begin_ns, a.call, a.activity) < std::tuple(b.begin_ns, b.call, b.activity);
 }
 
-/// Of each node, the numbers of some of its program's calls.
+/// The numbers of some of its program's calls, by node.
 using Calls = std::vector<std::unordered_set<std::uint32_t>>;
 
 /// Calls for an item that was not chosen are not among the spans, nor are their messages' ends kept.

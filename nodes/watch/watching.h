@@ -16,12 +16,18 @@ namespace dmpc::nodes {
 /// items in all) of the pass. If it throws, the run ends with that.
 using Progress = std::function<void(std::uint32_t, std::uint32_t)>;
 
+/// Takes what was seen on another rank.
+using AddSeen = std::function<void(std::string_view seen, const ClockDrift& clock)>;
+
 /// Whoever looks on at the nodes of other ranks, as rank 0 says.
 struct WatchingElsewhere {
   /// What they are to look at, as whoever looks on there understands it; empty: nothing.
   std::string order = {};
   /// Called on the calling thread, when the run is over, with what they have seen on each other rank.
-  std::function<void(std::string_view seen, const ClockDrift& clock)> add = {};
+  AddSeen add = {};
+
+  /// Nobody where nothing is to be looked at.
+  AddSeen adds() const { return order.empty() ? AddSeen() : add; }
 };
 
 /// All of them outlive the run, and none changes what it does.

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/base/expect.h"
 #include "core/record/records.h"
 #include "core/trace/kernel.h"

@@ -15,7 +15,7 @@
 
 #include "core/base/expect.h"
 #include "svm/packets.h"
-#include "svm/pager.h"
+#include "svm/pages/pager.h"
 #include "tests/bench/groups.h"
 #include "tests/support/small_machine.h"
 

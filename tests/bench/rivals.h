@@ -49,7 +49,7 @@ class OwnQueue {
 
   explicit OwnQueue(std::uint32_t sender_count) : memory_(plan()), mailbox_(capacity(), memory_), awake_(sender_count + 1) {}
 
-  /// Of the sender with this number; false if it is full.
+  /// Pushes a message of the sender with this number; false if it is full.
   bool push(std::uint32_t sender, const T& message) {
     const nodes::PacketHeader header{.bytes = sizeof(T), .source = static_cast<std::uint16_t>(sender)};
     return mailbox_.push(header, std::as_bytes(std::span(&message, 1)), awake_);

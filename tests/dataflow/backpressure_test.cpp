@@ -4,7 +4,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::backpressure_test {
 
 using dataflow::Backpressure;
 
@@ -77,4 +77,4 @@ TEST_CASE("an empty queue is never long, and a queue of one packet is long and s
   CHECK_FALSE(node.announce(0));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::backpressure_test

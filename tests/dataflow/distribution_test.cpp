@@ -10,6 +10,8 @@
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
+namespace distribution_test {
+
 using namespace dmpc;
 using dataflow::Bsp;
 using dataflow::Distribution;
@@ -56,7 +58,7 @@ TEST_CASE("every node is dealt the part of its own region, and every primary ray
   REQUIRE(distribution.parts.size() == 5);
   REQUIRE(distribution.primaries.size() == 5);
   for (std::uint32_t node = 0; node < 5; ++node) {
-    CHECK(distribution.parts[node].header.region == bsp.region_of(nodes::NodeId{node}));
+    CHECK(distribution.parts[node].header.region == bsp.region_at(bsp.region_index_of(nodes::NodeId{node})));
     for (const dataflow::PrimaryRun& run : distribution.primaries[node]) {
       for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
         ++times.at(number);
@@ -139,3 +141,5 @@ TEST_CASE("only more nodes than were asked for are tried, and none is named wher
   CHECK(*smallest_above(subject, 4, needed_bytes(subject, 1)) == 5);
   CHECK(!smallest_above(subject, 1, std::size_t{200} << 10U));  // less than a thread's stack
 }
+
+}  // namespace distribution_test

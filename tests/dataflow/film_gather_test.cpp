@@ -9,6 +9,8 @@
 #include "nodes/threads/threads_runner.h"
 #include "tests/support/shuffled_machine.h"
 
+namespace dataflow_film_gather_test {
+
 using namespace dmpc;
 using dataflow::FilmEntry;
 using dataflow::FilmGather;
@@ -16,14 +18,9 @@ using dataflow::FilmGather;
 namespace {
 
 struct FilmSender {
-  explicit FilmSender(std::uint32_t credits) : single(plan(), 0, 2), film(single.node, 1, credits) {}
+  explicit FilmSender(std::uint32_t credits)
+      : single(FilmGather::layout() + nodes::credit_table(2), 0, 2), film(single.node, 1, credits) {}
 
-  static nodes::MemoryPlan plan() {
-    nodes::MemoryPlan plan;
-    FilmGather::add_needs(plan);
-    plan[nodes::Category::queues] += nodes::credit_table_bytes(2);
-    return plan;
-  }
   void fill(std::uint32_t first_pixel) {
     for (std::uint32_t i = 0; i < dataflow::film_packet_entries; ++i) {
       film.add(first_pixel + i, 0, {{1, 2, 3}});
@@ -94,3 +91,5 @@ TEST_CASE("light that saturates an entry is counted") {
   sender.film.add(1, 0, {{1, 0, 0}});
   CHECK(sender.film.counters().saturated == 1);
 }
+
+}  // namespace dataflow_film_gather_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::tests {
+namespace dmpc::tests::flow_control_test {
 
 using dataflow::NodeState;
 using dataflow::Task;
@@ -67,4 +67,4 @@ TEST_CASE("the host forwards into free places only and is passive when it keeps 
   CHECK_FALSE(dataflow::host_is_passive(1));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::flow_control_test

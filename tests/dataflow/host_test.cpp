@@ -9,6 +9,8 @@
 #include "core/base/expect.h"
 #include "tests/support/shuffled_machine.h"
 
+namespace dataflow_host_test {
+
 using namespace dmpc;
 using dataflow::FilmEntry;
 using dataflow::Kind;
@@ -208,3 +210,5 @@ TEST_CASE("light that got lost does not go unnoticed") {
   host.receive(1, Kind::done, dataflow::Done{0});
   CHECK_THROWS_AS(host.receive(0, Kind::done, dataflow::Done{1}), core::InternalError);
 }
+
+}  // namespace dataflow_host_test

@@ -9,6 +9,8 @@
 
 #include "tests/support/shuffled_machine.h"
 
+namespace packets_test {
+
 using namespace dmpc;
 using dataflow::Kind;
 using dataflow::RayMessage;
@@ -103,7 +105,7 @@ TEST_CASE("every kind of packet has a number and a name of its own") {
 
 TEST_CASE("control is sent whatever credits there are, and spends none") {
   nodes::MemoryPlan plan;
-  plan[nodes::Category::queues] = nodes::credit_table_bytes(3);
+  plan += nodes::credit_table(3);
   tests::SingleNode single(plan, 0, 3);
   const nodes::NodeId target{2};
   dataflow::send_control(single.node, target, Kind::credits, dataflow::Credits{5});
@@ -114,3 +116,5 @@ TEST_CASE("control is sent whatever credits there are, and spends none") {
   CHECK(parcel.packet().as<dataflow::Credits>().count == 5);
   CHECK_THROWS_AS(parcel.packet().as<dataflow::Done>(), core::InternalError);
 }
+
+}  // namespace packets_test

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-#include "core/build/extract.h"
-#include "dataflow/ray_task.h"
+#include "core/database/extract.h"
+#include "dataflow/rays/ray_task.h"
 #include "dataflow/regions/balance.h"
-#include "dataflow/unit_pages.h"
+#include "dataflow/units/unit_pages.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
@@ -35,13 +35,8 @@ struct PartBench {
         records(part.bytes, nullptr),
         tracer(records, part.header, {}),
         settings{part.header, part_subject().settings().camera, part_subject().settings().shade},
-        memory(needs(depth_max)),
+        memory(Task::layout(depth_max)),
         task(memory, self, depth_max) {}
-  static nodes::MemoryPlan needs(std::uint32_t depth_max) {
-    nodes::MemoryPlan plan;
-    Task::add_needs(plan, depth_max);
-    return plan;
-  }
 
   core::DatabasePart part;
   dataflow::PartRecords records;

@@ -8,9 +8,11 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/picture/memory_use.h"
-#include "dataflow/bundle_task.h"
 #include "dataflow/packets.h"
+#include "dataflow/rays/bundle_task.h"
 #include "nodes/size_text.h"
+
+namespace dataflow_plan_test {
 
 using namespace dmpc;
 using core::operator""_KiB;
@@ -74,8 +76,7 @@ TEST_CASE("bundles have packets of 4 KiB, few nodes more credits, and each node 
     CHECK(plan.ray_credits == std::max(64 / nodes, 4U));
     CHECK(plan.queue_packets == (nodes == 1 ? 0 : 256));
     const nodes::MemoryPlan more = plan.node_memory(0), less = alone.node_memory(0);
-    nodes::MemoryPlan task;
-    dataflow::BundleTask::add_needs(task, request.depth_max);
+    const nodes::MemoryPlan task = dataflow::BundleTask::layout(request.depth_max);
     CHECK(more[core::MemoryUse::ray_stacks] == task[core::MemoryUse::ray_stacks]);
     CHECK(more[core::MemoryUse::ray_stacks] > less[core::MemoryUse::ray_stacks]);
     CHECK(more[core::MemoryUse::ray_stacks] < 32_KiB);
@@ -322,3 +323,5 @@ TEST_CASE("each node is given its own share and no more") {
   CHECK(large[core::MemoryUse::home_pages] - small[core::MemoryUse::home_pages] == 62976);  // whole cache lines
   CHECK(large[nodes::Category::mailbox] == small[nodes::Category::mailbox]);
 }
+
+}  // namespace dataflow_plan_test

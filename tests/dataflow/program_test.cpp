@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/counts.h"
 #include "core/picture/render.h"
 #include "dataflow/distribution.h"
 #include "dataflow/host.h"
@@ -15,6 +16,8 @@
 #include "dataflow/run.h"
 #include "tests/support/shuffled_machine.h"
 #include "tests/support/small_scenes.h"
+
+namespace dataflow_program_test {
 
 using namespace dmpc;
 using dataflow::Kind;
@@ -271,8 +274,8 @@ void run_shuffled(const Stage& stage, std::uint64_t seed) {
   dataflow::RayCounters rays;
   for (std::uint32_t i = 0; i < stage.plan.node_count(); ++i) {
     const auto report = dynamic_cast<const dataflow::NodeProgram&>(computer.program(i)).report();
-    operations += report.operations;
-    rays += report.rays;
+    core::add_counts(operations, report.operations);
+    core::add_counts(rays, report.rays);
     CHECK(computer.node(i).credits(stage.plan.host(), dataflow::ray_channel) == stage.plan.host_credits);
   }
   CHECK(operations.rays == expected.rays);
@@ -340,3 +343,5 @@ TEST_CASE("a node with bundles gives others time to fill its packets before it s
   CHECK_FALSE((node.program.work(), node.program.has_leftovers()));
   CHECK(node.rays_sent().size() > sent);
 }
+
+}  // namespace dataflow_program_test

@@ -324,7 +324,7 @@ class ProtocolModel {
     }
   }
 
-  /// The same for a place that is shared, which may also be free or travel back unused; and of each pair there is one request,
+  /// Checks a place that is shared, which may also be free or travel back unused; and of each pair there is one request,
   /// grant or place in use at most, for so many have room in the mailboxes.
   void check_shared_places(const State& state) const {
     for (std::size_t to = 0; to < model_nodes; ++to) {

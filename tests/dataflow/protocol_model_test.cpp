@@ -11,7 +11,7 @@
 
 #include "tests/dataflow/state_explorer.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::protocol_model_test {
 
 namespace {
 
@@ -282,4 +282,4 @@ TEST_CASE("rays that go by way of the host uncounted let the end be announced to
   check_found<OverflowUncounted>({.primaries = {0, 1, 0}, .children = 2}, "only when no ray is left");
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::protocol_model_test

@@ -9,10 +9,12 @@
 #include <numeric>
 #include <vector>
 
-#include "dataflow/regions/work.h"
+#include "core/trace/work.h"
 #include "tests/support/border_scene.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
+
+namespace dataflow_run_test {
 
 using namespace dmpc;
 using dataflow::Kind;
@@ -122,7 +124,7 @@ TEST_CASE("a node whose region no ray enters sleeps but for the token, and sends
       continue;
     }
     ++idle;
-    CHECK(dataflow::work_of(node.program.operations) == 0);
+    CHECK(core::work_of(node.program.operations) == 0);
     CHECK(sum(node.program.rays.out) == 0);
     CHECK(node.counters.sent[number_of(Kind::film)].packets == 0);
     CHECK(node.counters.sent[number_of(Kind::credits)].packets == 0);
@@ -186,12 +188,13 @@ TEST_CASE("a report's sums are those of its nodes") {
     CHECK(column == sum(node.program.rays.in));
     CHECK(row == node.program.gather.rays);
     CHECK(matrix[6 * i] == 0);
-    CHECK(work[i] == static_cast<double>(dataflow::work_of(node.program.operations)));
-    CHECK(node.region == report.regions.bsp()->region_of(nodes::NodeId{static_cast<std::uint32_t>(i)}));
+    CHECK(work[i] == static_cast<double>(core::work_of(node.program.operations)));
+    const dataflow::Bsp& bsp = *report.regions.bsp();
+    CHECK(node.region == bsp.region_at(bsp.region_index_of(nodes::NodeId{static_cast<std::uint32_t>(i)})));
     copies += node.primitive_copies;
   }
   CHECK(report.duplication == static_cast<double>(copies) / static_cast<double>(subject.database().references()));
-  CHECK(std::accumulate(work.begin(), work.end(), 0.0) == static_cast<double>(dataflow::work_of(report.operations())));
+  CHECK(std::accumulate(work.begin(), work.end(), 0.0) == static_cast<double>(core::work_of(report.operations())));
   CHECK(report.messages_per_ray() ==
         static_cast<double>(report.gathers().rays) / static_cast<double>(sum(subject.outcome().rays)));
   CHECK(report.sent()[number_of(Kind::done)].packets == 5);
@@ -266,3 +269,5 @@ TEST_CASE("rays walk in bundles on threads, unless single ones are watched or th
   CHECK(rays_a_task({.computer = {.node_count = 2, .machine = nodes::Machine{}}}) == 1);
   CHECK(rays_a_task({.computer = {.node_count = 2}, .watching = {.heat = &heat}}) == 1);
 }
+
+}  // namespace dataflow_run_test

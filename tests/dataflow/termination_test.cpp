@@ -4,7 +4,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::termination_test {
 
 using dataflow::Termination;
 using dataflow::Token;
@@ -101,4 +101,4 @@ TEST_CASE("a second token is a broken ring") {
   CHECK_THROWS_AS(member.take({}), core::InternalError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::termination_test

@@ -49,7 +49,7 @@ class Bytes {
     return odd[below(odd.size())];
   }
 
-  /// Of the lattice of halves from -1 to 1, by one byte: different bytes often give points in line.
+  /// A point of the lattice of halves from -1 to 1, by one byte: different bytes often give points in line.
   core::Vec3d lattice_point() {
     const std::size_t i = below(125);
     const auto coordinate = [](std::size_t digit) { return (static_cast<double>(digit) - 2) / 2; };

@@ -16,17 +16,18 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/system/digest.h"
 #include "apps/render/checkpoint_file.h"
-#include "apps/system/digest.h"
 #include "core/base/expect.h"
 #include "core/picture/shade.h"
 #include "tests/fuzz/bytes.h"
+#include "tests/fuzz/targets.h"
 #include "tests/support/priced_machine.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
 #include "tests/support/temporary_folder.h"
 
-using namespace dmpc;
+namespace dmpc::fuzz {
 
 namespace {
 
@@ -177,7 +178,7 @@ std::string forged(const Picture& of, tests::Bytes& bytes) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void try_checkpoint(const std::uint8_t* data, std::size_t size) {
   static MemoryFile file;
   tests::Bytes bytes(data, size);
   const std::uint8_t choice = bytes.byte();
@@ -190,5 +191,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const core::InputError& error) {
     core::expect(!std::string(error.what()).empty(), "who refuses says why");
   }
-  return 0;
 }
+
+}  // namespace dmpc::fuzz

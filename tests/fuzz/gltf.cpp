@@ -14,8 +14,9 @@
 #include "apps/foreign/mesh_reader.h"
 #include "core/base/expect.h"
 #include "tests/fuzz/small_picture.h"
+#include "tests/fuzz/targets.h"
 
-using namespace dmpc;
+namespace dmpc::fuzz {
 
 namespace {
 
@@ -89,10 +90,10 @@ std::optional<core::Scene> read(Bytes input) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void try_gltf(const std::uint8_t* data, std::size_t size) {
   const Bytes input = std::as_bytes(std::span(data, size));
   if (!is_of_interest(input)) {
-    return 0;
+    return;
   }
   if (std::optional<core::Scene> scene = read(input)) {
     tests::check_scene(*scene);
@@ -102,5 +103,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     tests::render_small(*scene);
   }
-  return 0;
 }
+
+}  // namespace dmpc::fuzz

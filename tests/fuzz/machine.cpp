@@ -9,13 +9,14 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/line/command_line.h"
-#include "apps/line/option_values.h"
-#include "apps/machine/machine_file.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/machine/machine_file.h"
 #include "apps/run/render_options.h"
 #include "core/base/expect.h"
+#include "tests/fuzz/targets.h"
 
-using namespace dmpc;
+namespace dmpc::fuzz {
 
 namespace {
 
@@ -98,7 +99,7 @@ Lines lines_of(const std::string& text) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void try_machine(const std::uint8_t* data, std::size_t size) {
   const std::string text(data, data + size);
   if (text.starts_with('{')) {
     try_machine(text);
@@ -109,5 +110,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       try_value(line);
     }
   }
-  return 0;
 }
+
+}  // namespace dmpc::fuzz

@@ -6,18 +6,19 @@
 #include <cstdint>
 #include <iostream>
 
-#include "apps/bench/stability/children.h"
-#include "apps/bench/stability/hearing.h"
-#include "apps/bench/stability/own_kernels.h"
-#include "apps/bench/stability/rays.h"
-#include "apps/oracle/referee.h"
+#include "apps/lab/bench/stability/children.h"
+#include "apps/lab/bench/stability/hearing.h"
+#include "apps/lab/bench/stability/own_kernels.h"
+#include "apps/lab/bench/stability/rays.h"
+#include "apps/lab/oracle/referee.h"
 #include "core/base/expect.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/fuzz/mesh_rays.h"
 #include "tests/fuzz/mesh_scene.h"
+#include "tests/fuzz/targets.h"
 
-using namespace dmpc;
+namespace dmpc::fuzz {
 
 namespace {
 
@@ -106,7 +107,7 @@ Hit try_ray(const Subject& subject, const Ray& ray) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void try_mesh(const std::uint8_t* data, std::size_t size) {
   tests::Bytes bytes(data, size);
   const core::Scene scene = tests::mesh_scene(bytes);
   const Subject subject{core::build_database(scene, tests::mesh_options(bytes, scene))};
@@ -117,5 +118,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       try_ray(subject, child);
     }
   }
-  return 0;
 }
+
+}  // namespace dmpc::fuzz

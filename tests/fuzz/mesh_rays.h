@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <limits>
 
-#include "apps/bench/stability/axes.h"
-#include "apps/bench/stability/rays.h"
-#include "apps/bench/stability/targets.h"
-#include "core/build/database.h"
+#include "apps/lab/bench/stability/axes.h"
+#include "apps/lab/bench/stability/rays.h"
+#include "apps/lab/bench/stability/targets.h"
+#include "core/database/database.h"
 #include "core/record/ray.h"
 #include "tests/fuzz/bytes.h"
 

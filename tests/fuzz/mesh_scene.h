@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/scene/frame.h"
 #include "core/scene/scene.h"
 #include "tests/fuzz/bytes.h"

@@ -7,14 +7,15 @@
 #include <string>
 #include <string_view>
 
+#include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/mtl_text.h"
 #include "apps/foreign/mesh/obj_check.h"
 #include "apps/foreign/mesh/ply_check.h"
 #include "apps/foreign/mesh/stl_check.h"
-#include "apps/system/byte_order_mark.h"
 #include "core/base/expect.h"
+#include "tests/fuzz/targets.h"
 
-using namespace dmpc;
+namespace dmpc::fuzz {
 
 namespace {
 
@@ -42,10 +43,10 @@ void check_ply(std::string_view file) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void try_mesh_text(const std::uint8_t* data, std::size_t size) {
   constexpr std::array<Check, 4> checks{check_ply, check_stl, apps::check_obj, check_mtl};
   if (size == 0) {
-    return 0;
+    return;
   }
   const std::string_view file(reinterpret_cast<const char*>(data) + 1, size - 1);
   try {
@@ -53,5 +54,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const core::InputError& error) {
     core::expect(!std::string_view(error.what()).empty(), "who refuses says why");
   }
-  return 0;
 }
+
+}  // namespace dmpc::fuzz

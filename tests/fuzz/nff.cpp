@@ -12,12 +12,13 @@
 #include "apps/formats/nff_reader.h"
 #include "apps/formats/nff_writer.h"
 #include "core/base/expect.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/render.h"
 #include "core/scene/scene.h"
+#include "tests/fuzz/targets.h"
 #include "tests/support/same_scene.h"
 
-using namespace dmpc;
+namespace dmpc::fuzz {
 
 namespace {
 
@@ -82,7 +83,7 @@ void render(const core::Scene& scene) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void try_nff(const std::uint8_t* data, std::size_t size) {
   const std::optional<core::Scene> scene = read(std::string(data, data + size));
   if (scene && scene->vertices.size() <= vertices_max) {
     check_promises(*scene);
@@ -91,5 +92,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       render(*scene);
     }
   }
-  return 0;
 }
+
+}  // namespace dmpc::fuzz

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <span>
@@ -18,8 +19,9 @@
 #include "apps/foreign/picture_decoder.h"
 #include "apps/picture/picture_format.h"
 #include "core/base/expect.h"
+#include "tests/fuzz/targets.h"
 
-using namespace dmpc;
+namespace dmpc::fuzz {
 
 namespace {
 
@@ -67,14 +69,11 @@ void try_picture(const apps::EncodedPicture& picture) {
 /// libpng leaves by longjmp, past what OpenImageIO has to give back.
 extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
 
-extern "C" int LLVMFuzzerInitialize(int* /*argument_count*/, char*** /*arguments*/) {
-  apps::prepare_decoders();
-  return 0;
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void try_picture(const std::uint8_t* data, std::size_t size) {
+  static std::once_flag prepared;
+  std::call_once(prepared, apps::prepare_decoders);
   if (size == 0) {
-    return 0;
+    return;
   }
   const auto bytes = std::as_bytes(std::span(data, size)).subspan(1);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -85,5 +84,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       try_picture(picture);
     }
   }
-  return 0;
 }
+
+}  // namespace dmpc::fuzz

@@ -10,8 +10,9 @@
 #include "core/scene/texture.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/fuzz/small_picture.h"
+#include "tests/fuzz/targets.h"
 
-using namespace dmpc;
+namespace dmpc::fuzz {
 
 namespace {
 
@@ -47,12 +48,13 @@ std::optional<core::Scene> received(tests::Bytes& bytes) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void try_reply(const std::uint8_t* data, std::size_t size) {
   tests::Bytes bytes(data, size);
   const std::optional<core::Scene> scene = received(bytes);
   if (scene) {
     tests::check_scene(*scene);
     tests::render_small(*scene);
   }
-  return 0;
 }
+
+}  // namespace dmpc::fuzz

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "core/base/expect.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/camera.h"
 #include "core/picture/render.h"
 #include "core/scene/scene.h"

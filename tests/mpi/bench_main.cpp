@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/line/number_text.h"
-#include "apps/ranks/mpi_library.h"
-#include "apps/ranks/rank_group.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/ranks/mpi_library.h"
+#include "apps/edge/ranks/rank_group.h"
 #include "nodes/ranks/ranks_runner.h"
 #include "tests/nodes/toy_machine.h"
 

@@ -13,7 +13,7 @@
 #include "tests/mpi/here.h"
 #include "tests/support/scaled.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::fabric_test {
 
 namespace {
 
@@ -136,4 +136,4 @@ TEST_CASE("each rank is called by its number and host, and counts nodes for all"
   CHECK(now.group.default_node_count() >= now.rank_count());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::fabric_test

@@ -5,8 +5,8 @@
 #include <exception>
 #include <iostream>
 
-#include "apps/ranks/rank_group.h"
-#include "apps/ranks/self_test.h"
+#include "apps/edge/ranks/rank_group.h"
+#include "apps/render/self_test.h"
 #include "tests/mpi/here.h"
 
 namespace {

@@ -15,7 +15,7 @@
 #include "tests/nodes/toy_programs.h"
 #include "tests/support/scaled.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::mpi_ranks_runner_test {
 
 using namespace nodes;
 
@@ -117,4 +117,4 @@ void lose_last_rank(int signal) {
 TEST_CASE("a process that stands still is named, and all end" * doctest::skip()) { lose_last_rank(SIGSTOP); }
 TEST_CASE("a process that is killed takes all with it" * doctest::skip()) { lose_last_rank(SIGKILL); }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::mpi_ranks_runner_test

@@ -10,6 +10,8 @@
 #include "core/base/expect.h"
 #include "nodes/byte_source.h"
 
+namespace byte_source_test {
+
 namespace {
 
 using namespace dmpc;
@@ -72,3 +74,5 @@ TEST_CASE("what is here lasts, and nothing of a stream does") {
 }
 
 }  // namespace
+
+}  // namespace byte_source_test

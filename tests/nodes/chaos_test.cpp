@@ -15,7 +15,7 @@
 #include "nodes/threads/held_packets.h"
 #include "tests/nodes/toy_machine.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::nodes_chaos_test {
 namespace {
 
 using namespace nodes;
@@ -340,4 +340,4 @@ TEST_CASE("a program that relies on the order across pairs is found out by chaos
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::nodes_chaos_test

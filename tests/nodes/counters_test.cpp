@@ -2,14 +2,16 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::nodes {
+#include "core/base/counts.h"
+
+namespace dmpc::nodes::counters_test {
 
 TEST_CASE("traffic is packets, and bytes with their headers, summed kind by kind") {
   TrafficByKind sum{}, more{};
   sum[1].add(8);
   more[1].add(100);
   more[packet_kind_count - 1].add(0);
-  sum += more;
+  core::add_counts(sum, more);
   CHECK(sum[0].packets == 0);
   CHECK(sum[1].packets == 2);
   CHECK(sum[1].bytes == 2 * sizeof(PacketHeader) + 108);
@@ -18,4 +20,4 @@ TEST_CASE("traffic is packets, and bytes with their headers, summed kind by kind
   CHECK(total(sum).bytes == 3 * sizeof(PacketHeader) + 108);
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::counters_test

@@ -9,23 +9,19 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::lasting_pieces_test {
 namespace {
 
 constexpr std::size_t piece_bytes = 64;
 
-/// Of a program.
+/// A program's use of memory.
 enum class PieceUse : std::uint8_t { pieces };
 
 /// Room for three pieces.
-struct Room {
-  static MemoryPlan plan() {
-    MemoryPlan plan;
-    LastingPieces::add_needs(plan, PieceUse::pieces, 3 * piece_bytes);
-    return plan;
-  }
+struct PieceRoom {
+  static MemoryPlan plan() { return LastingPieces::layout(PieceUse::pieces, 3 * piece_bytes); }
 
-  explicit Room(Lasting lasting) : memory(plan(), lasting), pieces(memory, PieceUse::pieces, 3 * piece_bytes, piece_bytes) {}
+  explicit PieceRoom(Lasting lasting) : memory(plan(), lasting), pieces(memory, PieceUse::pieces, 3 * piece_bytes, piece_bytes) {}
 
   LocalMemory memory;
   LastingPieces pieces;
@@ -45,7 +41,7 @@ TEST_CASE("pieces that last are copied, or stay where they are, and take the sam
   const auto bytes = numbers();
   const std::span<const std::byte> first = std::span(bytes).first(piece_bytes), second = std::span(bytes).last(piece_bytes);
   for (const Lasting lasting : {Lasting::is_copied, Lasting::is_referred_to}) {
-    Room room(lasting);
+    PieceRoom room(lasting);
     room.pieces.put(0, first);
     room.pieces.put(2, first);
     room.pieces.put(2, second);
@@ -59,7 +55,7 @@ TEST_CASE("pieces that last are copied, or stay where they are, and take the sam
 TEST_CASE("a piece of another size is refused, wherever it would be kept") {
   const auto bytes = numbers();
   for (const Lasting lasting : {Lasting::is_copied, Lasting::is_referred_to}) {
-    Room room(lasting);
+    PieceRoom room(lasting);
     CHECK_THROWS_AS(room.pieces.put(0, std::span(bytes).first(piece_bytes - 1)), core::InternalError);
     CHECK_THROWS_AS(room.pieces.put(0, bytes), core::InternalError);
   }
@@ -67,8 +63,7 @@ TEST_CASE("a piece of another size is refused, wherever it would be kept") {
 
 TEST_CASE("of the real computer no room is asked for pieces that are referred to") {
   constexpr std::size_t petabyte = std::size_t{1} << 50U;
-  MemoryPlan plan;
-  LastingPieces::add_needs(plan, PieceUse::pieces, petabyte);
+  MemoryPlan plan = LastingPieces::layout(PieceUse::pieces, petabyte);
   plan[Category::queues] = 64;
   LocalMemory memory(plan, Lasting::is_referred_to);
   const LastingPieces pieces(memory, PieceUse::pieces, petabyte, petabyte);
@@ -80,7 +75,7 @@ TEST_CASE("of the real computer no room is asked for pieces that are referred to
 TEST_CASE("one piece is kept with what must be readable behind it") {
   const auto bytes = numbers();
   for (const Lasting lasting : {Lasting::is_copied, Lasting::is_referred_to}) {
-    LocalMemory memory(Room::plan(), lasting);
+    LocalMemory memory(PieceRoom::plan(), lasting);
     const auto there = kept(memory, PieceUse::pieces, std::span(bytes).first(piece_bytes), 32);
     CHECK(there.size() == piece_bytes);
     CHECK((there.data() == bytes.data()) == (lasting == Lasting::is_referred_to));
@@ -88,4 +83,4 @@ TEST_CASE("one piece is kept with what must be readable behind it") {
   }
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::lasting_pieces_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::level_test {
 
 TEST_CASE("levels stand in the order in which they are given, and there may be none") {
   std::string names;
@@ -22,4 +22,4 @@ TEST_CASE("a program has at most four levels") {
   CHECK_THROWS_AS((Levels{{"a", 1}, {"b", 2}, {"c", 3}, {"d", 4}, {"e", 5}}), core::InternalError);
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::level_test

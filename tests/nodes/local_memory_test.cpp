@@ -15,10 +15,10 @@
 #include <sanitizer/asan_interface.h>
 #endif
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::local_memory_test {
 namespace {
 
-/// Of a program.
+/// A program's uses of memory.
 enum class OwnUse : std::uint8_t { first = 0, last = 5, too_much = 6 };
 
 MemoryPlan queues_of(std::size_t bytes) {
@@ -158,4 +158,4 @@ TEST_CASE("bytes that were not handed out are poisoned, the rest of a cache line
 #endif
 
 }  // namespace
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::local_memory_test

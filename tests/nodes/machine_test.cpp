@@ -6,11 +6,11 @@
 #include <set>
 #include <vector>
 
-namespace dmpc::tests {
+namespace dmpc::tests::machine_test {
 
 namespace {
 
-/// Of operations, as a program names them.
+/// Classes of operations, as a program names them.
 enum class Class : std::uint8_t { first, second, third };
 
 }  // namespace
@@ -121,4 +121,4 @@ TEST_CASE("what was charged is summed class by class, and what is new is found")
   CHECK(charged_between({}, before) == (0b100 | 1U << (nodes::charge_count - 1)));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::machine_test

@@ -10,7 +10,7 @@
 #include "nodes/mailbox.h"
 #include "tests/nodes/explored_atomics.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::mailbox_interleavings_test {
 namespace {
 
 using nodes::LocalMemory;
@@ -254,4 +254,4 @@ TEST_CASE("a forgotten wake-up is found out") { CHECK(failure_of({.kind = Mutati
 TEST_CASE("counting the woken node too late is found out") { CHECK(failure_of({.kind = Mutation::Kind::late_raise}) != ""); }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::mailbox_interleavings_test

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::mailbox_test {
 namespace {
 
 struct OneMailbox {
@@ -307,4 +307,4 @@ TEST_CASE("a roused sleeper finds nothing and is not counted") {
 }
 
 }  // namespace
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::mailbox_test

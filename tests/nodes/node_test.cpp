@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::node_test {
 namespace {
 
 /// Keeps what a node sends.
@@ -167,4 +167,4 @@ TEST_CASE("a payload of another size than its kind's is a broken invariant") {
 }
 
 }  // namespace
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::node_test

@@ -10,7 +10,7 @@
 #include "nodes/threads/threads_runner.h"
 #include "tests/nodes/scripted_machine.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::observer_test {
 namespace {
 
 using namespace nodes;
@@ -151,4 +151,4 @@ TEST_CASE("an observer of threads sees a packet when its program sends it, howev
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::observer_test

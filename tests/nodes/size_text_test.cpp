@@ -4,7 +4,7 @@
 
 #include "core/base/units.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::size_text_test {
 
 using core::operator""_KiB;
 using core::operator""_MiB;
@@ -18,4 +18,4 @@ TEST_CASE("sizes are written exactly, in the largest unit that divides them") {
   CHECK(nodes::size_text(2048_MiB) == "2GiB");
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::size_text_test

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -9,7 +10,7 @@
 #include "nodes/switching.h"
 #include "tests/support/topologies.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::topology_test {
 
 using nodes::Link;
 using nodes::NodeId;
@@ -19,7 +20,20 @@ using nodes::TopologyKind;
 namespace {
 
 std::vector<Link> route(const Topology& topology, std::uint32_t from, std::uint32_t to) {
-  return topology.route(NodeId{from}, NodeId{to});
+  std::vector<Link> links;
+  topology.append_route(NodeId{from}, NodeId{to}, links);
+  return links;
+}
+
+/// The longest of all shortest ways.
+std::uint32_t diameter(const Topology& topology) {
+  std::uint32_t most = 0;
+  for (std::uint32_t a = 0; a < topology.node_count(); ++a) {
+    for (std::uint32_t b = 0; b < a; ++b) {
+      most = std::max(most, topology.hops(NodeId{a}, NodeId{b}));
+    }
+  }
+  return most;
 }
 
 /// Whether the links lead from one node to the other without a gap and without a place twice.
@@ -58,13 +72,13 @@ TEST_CASE("a route leads from node to node over as many links as there are hops,
 
 TEST_CASE("a crossbar has one hop between any two nodes") {
   CHECK(route(Topology(TopologyKind::crossbar, 9), 3, 8) == std::vector<Link>{{3, 8}});
-  CHECK(Topology(TopologyKind::crossbar, 64).diameter() == 1);
+  CHECK(diameter(Topology(TopologyKind::crossbar, 64)) == 1);
 }
 
 TEST_CASE("a hypercube corrects the lowest differing bit first") {
   CHECK(route(Topology(TopologyKind::hypercube, 8), 0b001, 0b110) ==
         std::vector<Link>{{0b001, 0b000}, {0b000, 0b010}, {0b010, 0b110}});
-  CHECK(Topology(TopologyKind::hypercube, 64).diameter() == 6);
+  CHECK(diameter(Topology(TopologyKind::hypercube, 64)) == 6);
 }
 
 TEST_CASE("the smallest hypercube that holds the nodes may route through places without a node") {
@@ -76,7 +90,7 @@ TEST_CASE("the smallest hypercube that holds the nodes may route through places 
 TEST_CASE("a mesh goes along x, then along y") {
   const Topology mesh(TopologyKind::mesh, 16);
   CHECK(route(mesh, 1, 11) == std::vector<Link>{{1, 2}, {2, 3}, {3, 7}, {7, 11}});
-  CHECK(mesh.diameter() == 6);
+  CHECK(diameter(mesh) == 6);
 }
 
 TEST_CASE("a torus goes the shorter way around") {
@@ -84,15 +98,15 @@ TEST_CASE("a torus goes the shorter way around") {
   CHECK(route(torus, 0, 3) == std::vector<Link>{{0, 3}});
   CHECK(route(torus, 0, 2) == std::vector<Link>{{0, 1}, {1, 2}});
   CHECK(route(torus, 0, 12) == std::vector<Link>{{0, 12}});
-  CHECK(torus.diameter() == 4);
+  CHECK(diameter(torus) == 4);
 }
 
 TEST_CASE("mesh and torus are as square as the count allows") {
-  CHECK(Topology(TopologyKind::mesh, 64).diameter() == 14);
-  CHECK(Topology(TopologyKind::mesh, 8).diameter() == 4);
+  CHECK(diameter(Topology(TopologyKind::mesh, 64)) == 14);
+  CHECK(diameter(Topology(TopologyKind::mesh, 8)) == 4);
   CHECK(Topology(TopologyKind::mesh, 7).place_count() <= 8);
   CHECK(Topology(TopologyKind::mesh, 32).place_count() == 32);
-  CHECK(Topology(TopologyKind::mesh, 31).diameter() <= 11);
+  CHECK(diameter(Topology(TopologyKind::mesh, 31)) <= 11);
 }
 
 TEST_CASE("a fat tree goes up to the lowest common switch") {
@@ -100,7 +114,7 @@ TEST_CASE("a fat tree goes up to the lowest common switch") {
   CHECK(tree.place_count() == 16 + 4 + 1);
   CHECK(route(tree, 0, 3) == std::vector<Link>{{0, 16}, {16, 3}});
   CHECK(route(tree, 3, 4) == std::vector<Link>{{3, 16}, {16, 20}, {20, 17}, {17, 4}});
-  CHECK(Topology(TopologyKind::fat_tree, 64).diameter() == 6);
+  CHECK(diameter(Topology(TopologyKind::fat_tree, 64)) == 6);
 }
 
 TEST_CASE("a fat tree with two uplinks has twice as many switches a level higher, and the target says which") {
@@ -156,4 +170,4 @@ TEST_CASE("a topology without nodes, with too many, or a way to a node that is n
   CHECK_THROWS_AS(Topology(TopologyKind::hypercube, 5).hops(NodeId{0}, NodeId{6}), core::InternalError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::topology_test

@@ -19,7 +19,8 @@ inline nodes::MemoryPlan least_plan(std::uint32_t peer_count, const nodes::Mailb
                                     std::size_t queue_bytes = 0) {
   nodes::MemoryPlan plan;
   plan[nodes::Category::mailbox] = mailbox.bytes();
-  plan[nodes::Category::queues] = nodes::credit_table_bytes(peer_count) + queue_bytes;
+  plan += nodes::credit_table(peer_count);
+  plan[nodes::Category::queues] += queue_bytes;
   plan[nodes::Category::reserve] = nodes::thread_stack_bytes_min;
   return plan;
 }

@@ -11,7 +11,7 @@
 
 #include "tests/oracle/simulated_network.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::oracle_links_test {
 namespace {
 
 using nodes::Machine;
@@ -169,4 +169,4 @@ TEST_CASE("what circuits make of packets is no small thing: SimGrid tells them a
   CHECK(circuit_sum > 5 * packet_sum);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::oracle_links_test

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "nodes/topology.h"
 
@@ -46,7 +47,8 @@ class Simulation {
  private:
   void travel(std::size_t i) {
     const TimedMessage& message = messages_[i];
-    const auto route = topology_.route(message.source, message.target);
+    std::vector<nodes::Link> route;
+    topology_.append_route(message.source, message.target, route);
     const double hop = seconds_per_ns * static_cast<double>(machine_.hop_ns);
     const double bytes =
         seconds_per_ns * static_cast<double>(message.bytes * machine_.cost_of_message(message.bytes).byte_ps / 1000);

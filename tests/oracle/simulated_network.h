@@ -1,4 +1,4 @@
-// The same messages by SimGrid's S4U: links are semaphores that messages, its actors, take and give back. An independent judge of
+// Messages by SimGrid's S4U: links are semaphores that messages, its actors, take and give back. An independent judge of
 // nodes/virtual/links.h: another's clock, queues and order of events (H. Casanova and others, "Versatile, Scalable, and Accurate
 // Simulation of Distributed Applications and Platforms", 2014).
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace dmpc::tests {
 
-/// Of so many bytes, into the network at a time.
+/// A message of so many bytes that enters the network at a time.
 struct TimedMessage {
   std::uint64_t enters_ns = 0;
   nodes::NodeId source{}, target{};

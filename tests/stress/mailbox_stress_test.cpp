@@ -13,7 +13,7 @@
 
 #include "nodes/mailbox.h"
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::mailbox_stress_test {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -162,4 +162,4 @@ TEST_CASE("no packet is lost, doubled or out of its sender's order through a mai
 }
 
 }  // namespace
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::mailbox_stress_test

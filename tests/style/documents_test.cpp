@@ -12,7 +12,7 @@
 
 #include "tests/support/documents.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::style_documents_test {
 
 namespace {
 
@@ -37,6 +37,17 @@ Faults faults_of_size(const Place& place) {
     }
   }
   return faults;
+}
+
+/// Results are conclusions and the tables that they need; the whole of a run lies in build/results.
+constexpr std::size_t most_lines_of_results = 1000;
+
+std::size_t lines_of_results(const std::vector<Document>& documents) {
+  std::size_t lines = 0;
+  for (const Document& document : documents) {
+    lines += document.is_results() ? document.lines.size() : 0;
+  }
+  return lines;
 }
 
 /// A heading's anchor, as GitHub makes it: "What is skipped?" is #what-is-skipped.
@@ -140,6 +151,12 @@ TEST_CASE("a front page has two screens, a room's README 199 lines, and none lin
   CHECK(faults_of_size(room_that_says({"|" + std::string(300, 'x')})).empty());
 }
 
+TEST_CASE("all results together are at most 1,000 lines") {
+  CHECK(lines_of_results(all_documents(DMPC_SOURCE_DIR)) <= most_lines_of_results);
+  CHECK(lines_of_results({{"core/RESULTS.md", Lines(600)}, {"core/README.md", Lines(9)}, {"svm/RESULTS.md", Lines(401)}}) ==
+        1001);
+}
+
 TEST_CASE("every link of a document leads to a file, and to a heading of it") {
   check_all(faults_of_links);
   CHECK(faults_of_links(room_that_says({"See [nodes](../nodes/README.md)."})).empty());
@@ -167,4 +184,4 @@ TEST_CASE("results have a date, a commit and a command") {
   CHECK(faults_of_results(room_that_says({"## A", "2026-11-23, commit 59ba5d7", "    x", "## B"}, results)).size() == 3);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::style_documents_test

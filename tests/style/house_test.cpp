@@ -1,16 +1,18 @@
-// The plan of the house and what documents call by name are there.
+// The plan of the house and what documents and comments call by name are there.
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <regex>
+#include <set>
 #include <string>
 
 #include "tests/style/sources.h"
 #include "tests/support/documents.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::house_test {
 
 namespace {
 
@@ -29,6 +31,69 @@ Faults faults_of_names(const Place& place) {
     for (const std::string& name : found_in(place.document.lines[i], names)) {
       if (!is_there(place.root, name)) {
         faults.push_back(place.text(i, "a file that does not exist: " + name));
+      }
+    }
+  }
+  return faults;
+}
+
+/// What a line of a source says in a comment: all behind the first // that is no address's.
+std::string comment_of(const std::string& line) {
+  static const std::regex comment(R"((?:^|[^:])//(.*))");
+  std::smatch match;
+  return std::regex_search(line, match, comment) ? match[1].str() : std::string();
+}
+
+/// Whether the name in a comment of `source` is there: from the root, or a header or source beside it or on its layer's floor.
+bool is_there_for(const fs::path& root, const fs::path& source, const std::string& name) {
+  return is_there(root, name) || is_there(root, source.parent_path() / name) || is_there(root, *source.begin() / name);
+}
+
+/// Files and folders that a comment names by a layer, and headers and sources that it names at all.
+Faults faults_of_comments(const Place& place) {
+  static const std::regex names(
+      R"((?:^|[^A-Za-z0-9_/.<])((?:core|nodes|svm|dataflow|apps|tests)/[a-z0-9_./]*[a-z0-9_]|[a-z][a-z0-9_/]*\.(?:h|cpp))(?![A-Za-z0-9_>/]))");
+  Faults faults;
+  for (std::size_t i = 0; i < place.document.lines.size(); ++i) {
+    for (const std::string& name : found_in(comment_of(place.document.lines[i]), names)) {
+      if (!is_there_for(place.root, place.document.path, name)) {
+        faults.push_back(place.text(i, "a file that does not exist: " + name));
+      }
+    }
+  }
+  return faults;
+}
+
+bool is_of_a_name(char letter) { return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_'; }
+
+/// All words of the sources.
+std::set<std::string> words_of_sources(const fs::path& root) {
+  std::set<std::string> words;
+  for (const std::string layer : {"core", "nodes", "svm", "dataflow", "apps"}) {
+    for (const std::string& file : sources_below(root, layer)) {
+      for (const std::string& line : lines_of(root / file)) {
+        for (auto begin = line.begin(); begin != line.end();) {
+          const auto end = std::find_if_not(begin, line.end(), is_of_a_name);
+          words.emplace(begin, end);
+          begin = std::find_if(end, line.end(), is_of_a_name);
+        }
+      }
+    }
+  }
+  return words;
+}
+
+/// Types in `code` of a document that no source has.
+Faults faults_of_types(const Place& place) {
+  static const std::set<std::string> words = words_of_sources(DMPC_SOURCE_DIR);
+  static const std::regex codes("`([^`]+)`"), types(R"((?:^|[^A-Za-z_])([A-Z][a-z]+[A-Z][A-Za-z]*))");
+  Faults faults;
+  for (std::size_t i = 0; i < place.document.lines.size(); ++i) {
+    for (const std::string& code : found_in(place.document.lines[i], codes)) {
+      for (const std::string& type : found_in(code, types)) {
+        if (!words.contains(type)) {
+          faults.push_back(place.text(i, "a type that does not exist: " + type));
+        }
       }
     }
   }
@@ -119,6 +184,29 @@ TEST_CASE("every file that a document names is there") {
   CHECK(faults_of_names(readme_that_says({"    tests/gallop"})).size() == 1);
 }
 
+TEST_CASE("every type that a document names is there") {
+  check_all_names(faults_of_types);
+  CHECK(faults_of_types(readme_that_says({"`LastingPieces` and `nodes::ByteSource`", "no code: TurtleDove"})).empty());
+  CHECK(faults_of_types(readme_that_says({"`nodes::TurtleDove`"})) ==
+        Faults{"core/README.md:1: a type that does not exist: TurtleDove"});
+}
+
+TEST_CASE("every file that a comment names is there") {
+  const fs::path root = DMPC_SOURCE_DIR;
+  for (const std::string layer : {"core", "nodes", "svm", "dataflow", "apps", "tests"}) {
+    for (const std::string& file : sources_below(root, layer)) {
+      for (const std::string& fault : faults_of_comments({root, {file, lines_of(root / file)}})) {
+        FAIL_CHECK(fault);
+      }
+    }
+  }
+  const auto faults_of = [&](const std::string& comment) { return faults_of_comments({root, {"svm/page.h", {"/" + comment}}}); };
+  CHECK(faults_of("/ as svm/pages/pager has it (packets.h, core/picture/film.h, <sys/absent.h>), apps/modules/NAME.cpp").empty());
+  CHECK(faults_of("/ See usage/gone.h.") == Faults{"svm/page.h:1: a file that does not exist: usage/gone.h"});
+  CHECK(faults_of("/ see svm/gone, gone.h").size() == 2);
+  CHECK(faults_of("* no comment of ours: gone.h, https://svm/gone.h").empty());
+}
+
 TEST_CASE("every option of a script that a document names is one that it takes") {
   check_all_names(faults_of_scripts);
   CHECK(faults_of_scripts(readme_that_says({"    tests/chaos --seeds=10 --build=asan"})).empty());
@@ -149,4 +237,4 @@ TEST_CASE("nodes speaks of no pages, rays or pictures") {
   CHECK(programs_words("std::array<Packet> package; // a filmy bricklayer").empty());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::house_test

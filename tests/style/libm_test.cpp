@@ -9,6 +9,8 @@
 
 #include "tests/style/sources.h"
 
+namespace libm_test {
+
 namespace {
 
 /// Where in `line` an inexact function of libm is called, or npos.
@@ -47,3 +49,5 @@ TEST_CASE("a call of an inexact function is seen, its name in a comment is not")
   CHECK(inexact_call("  return x;  // not std::hypot(x, y)") == std::string::npos);
   CHECK(inexact_call("  return std::sqrt(x);") == std::string::npos);
 }
+
+}  // namespace libm_test

@@ -1,58 +1,58 @@
-// CMake cuts a list at semicolons and joins what brackets enclose, so a test's name with one of them is run as something else or
-// not at all.
+// Files of tests are compiled many at a time, as the batches fall: what two of them name alike must not meet.
 
 #include <doctest/doctest.h>
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "tests/style/sources.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::names_test {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The name that a line gives to a test case; empty if it gives none.
-std::string_view test_name(std::string_view line) {
-  const std::size_t macro = line.find("TEST_CASE");
-  const std::size_t begin = line.find('"', macro);
-  const std::size_t end = line.find('"', begin + 1);
-  return macro != 0 || end == std::string_view::npos ? std::string_view() : line.substr(begin + 1, end - begin - 1);
+/// The name of the namespace that a line opens; empty if it opens none, or one without a name.
+std::string opened(std::string_view line) {
+  constexpr std::string_view word = "namespace ", brace = " {";
+  return line.starts_with(word) && line.ends_with(brace) && line.size() > word.size() + brace.size()
+             ? std::string(line.substr(word.size(), line.size() - word.size() - brace.size()))
+             : "";
 }
 
-bool breaks_cmake(std::string_view line) { return test_name(line).find_first_of("[];\\$") != std::string_view::npos; }
-
-/// "file:line" of each such name in our tests.
-std::vector<std::string> broken_names() {
-  std::vector<std::string> found;
-  for (const std::string& file : sources_below(DMPC_SOURCE_DIR, "tests")) {
-    std::ifstream text(fs::path(DMPC_SOURCE_DIR) / file);
-    std::string line;
-    for (int number = 1; std::getline(text, line); ++number) {
-      if (breaks_cmake(line)) {
-        found.push_back(file + ":" + std::to_string(number));
-      }
+/// The first namespace of the file that ends as the file is called; empty if there is none.
+std::string own_namespace(const std::string& file) {
+  std::ifstream text(fs::path(DMPC_SOURCE_DIR) / file);
+  const std::string stem = fs::path(file).stem();
+  for (std::string line; std::getline(text, line);) {
+    if (const std::string name = opened(line); name.ends_with(stem)) {
+      return name;
     }
   }
-  return found;
+  return "";
 }
 
 }  // namespace
 
-TEST_CASE("no test has a name that CMake would cut or join") {
-  CHECK(test_name("TEST_CASE(\"a name\") {") == "a name");
-  CHECK(breaks_cmake("TEST_CASE(\"values in [0, 1)\") {"));
-  CHECK(breaks_cmake("TEST_CASE_TEMPLATE(\"one; two\", T, int) {"));
-  CHECK_FALSE(breaks_cmake("TEST_CASE(\"a plain, (ordinary) name\") { values[0]; }"));
-  CHECK_FALSE(breaks_cmake("TEST_CASE(\"text\") { CHECK(text(\"[;]\") == 1); }"));
-  for (const std::string& place : broken_names()) {
-    FAIL_CHECK(place);
+TEST_CASE("each file of tests has a namespace of its own, which ends as the file is called") {
+  CHECK(opened("namespace dmpc::svm::pager_test {") == "dmpc::svm::pager_test");
+  CHECK(opened("namespace {") == "");
+  CHECK(opened("namespace fs = std::filesystem;") == "");
+  std::map<std::string, std::string> file_of;
+  for (const std::string& file : sources_below(DMPC_SOURCE_DIR, "tests")) {
+    if (!file.ends_with("_test.cpp")) {
+      continue;
+    }
+    const std::string name = own_namespace(file);
+    CHECK_MESSAGE(!name.empty(), file, " has no namespace that ends in ", fs::path(file).stem());
+    const auto [place, is_new] = file_of.emplace(name, file);
+    CHECK_MESSAGE(is_new, file, " has the namespace of ", place->second);
   }
+  CHECK(file_of.size() > 400);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::names_test

@@ -79,7 +79,7 @@ class WatchedProgram final : public nodes::Program {
   std::unique_ptr<nodes::Program> program_;
 };
 
-/// The same node, its program under watch.
+/// This node, its program under watch.
 inline nodes::NodeSpecification watched(nodes::NodeSpecification specification) {
   specification.make_program = [make_program = std::move(specification.make_program)](nodes::Node& node) {
     return std::make_unique<WatchedProgram>(make_program(node));

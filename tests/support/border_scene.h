@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/scene/frame.h"
 #include "core/scene/scene.h"
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/families/scenes.h"
 #include "core/picture/camera.h"
 #include "core/picture/render.h"

@@ -43,7 +43,7 @@ class ChaosCase {
     return draws.chance(40) ? 1 : std::min(nodes_, 2 + draws.below(4));
   }
 
-  /// Of svm; replicated and forest have no cache. `round` tells the parts of one picture apart.
+  /// Options of svm; replicated and forest have no cache. `round` tells the parts of one picture apart.
   svm::RunOptions page_options(svm::Strategy strategy, std::uint32_t round = 0) {
     svm::RunOptions options{.computer = {.node_count = nodes_}};
     options.pages.in_flight = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 5, 8, 64, 4096, std::nullopt});

@@ -25,6 +25,7 @@ class ChildProcess {
       arguments.push_back(word.data());
     }
     arguments.push_back(nullptr);
+    std::fflush(stdout);  // else the child writes it once more
     id_ = ::fork();
     if (id_ == 0) {
       redirect("/dev/null", "r", stdin);

@@ -44,7 +44,7 @@ inline void add_floor(core::Scene& scene, bool is_tilted) {
   builder.polygon(rectangle({-2, -2, 0}, {2, 2, 0}, is_tilted));
 }
 
-/// Of side x side squares, each of two triangles of their own.
+/// Adds a rug of side x side squares, each of two triangles of their own.
 inline void add_rug(core::Scene& scene, bool is_tilted, int side = 1) {
   core::SceneBuilder builder(scene);
   builder.material(rug_material);

@@ -8,7 +8,7 @@
 
 namespace dmpc::tests {
 
-/// Of radiance, over pixels and channels. Films of one size with samples everywhere.
+/// The error of radiance, over pixels and channels. Films of one size with samples everywhere.
 inline double root_mean_square(const core::Film& film, const core::Film& truth) {
   double sum = 0;
   for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {

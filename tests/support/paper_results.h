@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/study/paper/catalogue.h"
-#include "apps/study/paper/data.h"
-#include "apps/study/paper/runs.h"
+#include "apps/lab/study/paper/catalogue.h"
+#include "apps/lab/study/paper/data.h"
+#include "apps/lab/study/paper/runs.h"
 
 namespace dmpc::tests {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/base/vec.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/record/ray.h"
 #include "tests/support/shooting.h"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "svm/page.h"
+#include "svm/pages/page.h"
 
 namespace dmpc::tests {
 
@@ -23,7 +23,7 @@ inline References references_of(std::initializer_list<std::uint32_t> pages) {
   return references;
 }
 
-/// Of pages below `page_count`: near the last one, as a walk's are, or anywhere.
+/// References of pages below `page_count`: near the last one, as a walk's are, or anywhere.
 inline References random_references(std::uint32_t seed, std::uint32_t count, std::uint32_t page_count) {
   std::mt19937 generator(seed);
   References references;

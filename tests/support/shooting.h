@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "apps/bench/stability/cells.h"
-#include "apps/bench/stability/rays.h"
-#include "core/build/database.h"
+#include "apps/lab/bench/stability/cells.h"
+#include "apps/lab/bench/stability/rays.h"
+#include "core/database/database.h"
 #include "core/scene/frame.h"
 #include "core/trace/kernel.h"
 #include "core/trace/primitive.h"

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/build/record_writer.h"
-#include "core/build/texture_records.h"
+#include "core/database/record_writer.h"
+#include "core/database/texture_records.h"
 #include "core/picture/texture_lookup.h"
 #include "core/record/records.h"
 #include "core/record/texture_layout.h"

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/system/files.h"
+#include "apps/edge/system/files.h"
 
 namespace dmpc::tests {
 

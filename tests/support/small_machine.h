@@ -18,7 +18,7 @@
 #include "nodes/node.h"
 #include "nodes/program.h"
 #include "svm/host.h"
-#include "svm/node_program.h"
+#include "svm/pages/node_program.h"
 #include "svm/plan.h"
 #include "svm/program.h"
 #include "tests/support/shuffled_machine.h"

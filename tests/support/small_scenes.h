@@ -49,8 +49,8 @@ inline void add_textured_walls(core::Scene& scene) {
                    {{{-1, -1, 0}, {-0.5, 1.5F}}, {{1, -1, 0.5}, {1.5, 1.5}}, {{0, -1, 0}, {0.5, -1}}});
 }
 
-/// The same with what other scenes hardly have: a black light, a black triangle, a pane that light cannot leave, specks high
-/// above the rest, and textures.
+/// Mirrors and glass, and what other scenes hardly have: a black light, a black triangle, a pane that light cannot leave, specks
+/// high above the rest, and textures.
 inline core::Scene everything() {
   core::Scene scene = mirrors_and_glass();
   scene.name = "everything";

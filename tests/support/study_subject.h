@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/system/interrupt.h"
+#include "apps/edge/table/table.h"
+#include "apps/lab/study/runs.h"
 #include "apps/scene/subject.h"
-#include "apps/study/runs.h"
-#include "apps/system/interrupt.h"
-#include "apps/table/table.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/table_cells.h"
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <ostream>
 
-#include "apps/bench/stability/cells.h"
-#include "core/build/database.h"
+#include "apps/lab/bench/stability/cells.h"
+#include "core/database/database.h"
 #include "core/picture/background.h"
 #include "core/picture/render.h"
 #include "core/scene/frame.h"
@@ -43,7 +43,7 @@ inline Outcome outcome_of(const core::Film& film, const core::Operations& operat
           operations.total_internal_reflections,
           operations.shadings};
 }
-/// Of any strategy's report.
+/// What any strategy's report has.
 template <class Report>
 Outcome outcome_of(const Report& report) {
   return outcome_of(report.film, report.operations());
@@ -81,7 +81,7 @@ class Subject {
 
   const core::Database& database() const { return database_; }
   const core::RenderSettings& settings() const { return settings_; }
-  /// The same picture with other work left out on the way.
+  /// Settings of this picture with other work left out on the way.
   core::RenderSettings settings(const core::Skips& skips) const {
     core::RenderSettings settings = settings_;
     settings.skips = skips;

@@ -1,8 +1,8 @@
 // What a node of dataflow knows of all of space, from a test's parts.
 #pragma once
 
-#include "core/build/outline.h"
-#include "dataflow/next_stop.h"
+#include "core/database/outline.h"
+#include "dataflow/rays/next_stop.h"
 
 namespace dmpc::tests {
 
@@ -11,7 +11,7 @@ inline dataflow::Surroundings surroundings(const dataflow::Regions& regions, con
   return {regions, outline.header, core::LocalRecords(outline.bytes), {}};
 }
 
-/// Of a database of which only the regions that hold nothing are known.
+/// The next stop in a database of which only the regions that hold nothing are known.
 inline dataflow::NextStop next_stop_without_outline(const core::Ray& ray, const core::Passage& passage,
                                                     const core::GridFrame& frame, const dataflow::Regions& regions,
                                                     core::Operations& operations) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "apps/table/table.h"
+#include "apps/edge/table/table.h"
 #include "tests/support/text.h"
 
 namespace dmpc::tests {
@@ -19,7 +19,7 @@ inline apps::Cell cell(const apps::Table& table, std::size_t row, const std::str
   return table.rows().at(row)[column];
 }
 
-/// The same where a real number, a whole one, a text or nothing is known to stand.
+/// What stands there, where a real number, a whole one, a text or nothing is known to stand.
 inline double real(const apps::Table& table, std::size_t row, const std::string& name) {
   return std::get<double>(cell(table, row, name));
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "core/base/expect.h"
 
 namespace dmpc::tests {
@@ -19,7 +19,7 @@ inline std::string usage_complaint(const std::vector<std::string>& words) {
   return "";
 }
 
-/// The same of `dmpc render teapot-12 -o a.png` and more, on 6 nodes.
+/// The complaint about `dmpc render teapot-12 -o a.png` and more, on 6 nodes.
 inline std::string render_usage_complaint(const std::vector<std::string>& more) {
   std::vector<std::string> words = {"render", "teapot-12", "--nodes=6", "-o", "a.png"};
   words.insert(words.end(), more.begin(), more.end());

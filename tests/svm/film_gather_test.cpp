@@ -9,6 +9,8 @@
 #include "svm/packets.h"
 #include "tests/support/small_machine.h"
 
+namespace svm_film_gather_test {
+
 using namespace dmpc;
 using namespace dmpc::tests;
 
@@ -105,3 +107,5 @@ TEST_CASE("an acknowledgement of nothing is an error") {
   SmallGather small(1);
   CHECK_THROWS_AS(small.film.acknowledged(), core::InternalError);
 }
+
+}  // namespace svm_film_gather_test

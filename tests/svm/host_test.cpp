@@ -11,6 +11,8 @@
 #include "svm/packets.h"
 #include "tests/support/small_machine.h"
 
+namespace svm_host_test {
+
 using namespace dmpc;
 using namespace dmpc::tests;
 using svm::Kind;
@@ -203,3 +205,5 @@ TEST_CASE("the host tells how far the picture is") {
   CHECK(calls == std::vector<std::uint32_t>{1, 3, 3, 3});
   CHECK(small.host.describe().find("3 of 3 pixels of pass 1 arrived, 0 of 2 nodes done") != std::string::npos);
 }
+
+}  // namespace svm_host_test

@@ -12,6 +12,8 @@
 #include "nodes/ranks/rank_links.h"
 #include "nodes/size_text.h"
 
+namespace svm_plan_test {
+
 using namespace dmpc;
 using core::operator""_KiB;
 using core::operator""_MiB;
@@ -500,3 +502,5 @@ TEST_CASE("at least one node renders, and no more than there are") {
     CHECK_THROWS_AS(make_plan(request), core::UsageError);
   }
 }
+
+}  // namespace svm_plan_test

@@ -4,10 +4,12 @@
 
 #include "core/picture/memory_use.h"
 #include "svm/local_copy.h"
-#include "svm/pager.h"
+#include "svm/pages/pager.h"
+#include "svm/pages/watch/counting_pager.h"
 #include "svm/run.h"
-#include "svm/watch/counting_pager.h"
 #include "tests/support/small_machine.h"
+
+namespace svm_program_test {
 
 using namespace dmpc;
 using namespace dmpc::tests;
@@ -199,3 +201,5 @@ TEST_CASE("progress ends with every pixel") {
   CHECK(grew);
   CHECK(last == side * side);
 }
+
+}  // namespace svm_program_test

@@ -8,12 +8,14 @@
 #include "svm/run.h"
 #include "tests/support/built_scene.h"
 
+namespace resident_test {
+
 using namespace dmpc;
 using svm::PageId;
 using tests::BuiltScene;
 
 TEST_CASE("what a small picture uses most comes first, as often as it is looked up, and each page once") {
-  // Of one pixel of 8x8 the small picture is the picture of one pixel.
+  // The small picture of 8x8 pixels is the picture of one pixel.
   const BuiltScene one("rings-2", 512, 8);
   const auto count = static_cast<std::uint32_t>(one.database.page_count());
   const std::vector<PageId> pages = svm::most_used_pages(one.database, one.settings, count);
@@ -53,3 +55,5 @@ TEST_CASE("no pages are asked for, or more than there are, or nobody waits for t
   CHECK(svm::most_used_pages(small.database, small.settings, 3, stop.get_token()) ==
         std::vector<PageId>{PageId{0}, PageId{1}, PageId{2}});
 }
+
+}  // namespace resident_test

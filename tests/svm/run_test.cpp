@@ -7,10 +7,12 @@
 #include <stop_token>
 
 #include "core/picture/heat_kind.h"
-#include "svm/watch/miss_curve.h"
-#include "svm/watch/optimum.h"
+#include "svm/pages/watch/miss_curve.h"
+#include "svm/pages/watch/optimum.h"
 #include "tests/support/built_scene.h"
 #include "tests/support/references.h"
+
+namespace svm_run_test {
 
 using namespace dmpc;
 using tests::BuiltScene;
@@ -397,3 +399,5 @@ TEST_CASE("heat maps, references, distinct pages and modelled machines have rays
   nodes::HeatMap heat(256, kinds);
   CHECK(bundles({.computer = {.node_count = 2}, .watching = {.heat = &heat}}) == 1);
 }
+
+}  // namespace svm_run_test

@@ -4,17 +4,14 @@
 
 #include "tests/support/small_machine.h"
 
+namespace slots_test {
+
 using namespace dmpc;
 
 namespace {
 
 struct SmallSlots {
-  explicit SmallSlots(std::uint32_t count) : memory(needs(count)), slots(memory, count, 5) {}
-  static nodes::MemoryPlan needs(std::uint32_t count) {
-    nodes::MemoryPlan plan;
-    svm::Slots<core::PixelTask>::add_needs(plan, count, 5);
-    return plan;
-  }
+  explicit SmallSlots(std::uint32_t count) : memory(svm::Slots<core::PixelTask>::layout(count, 5)), slots(memory, count, 5) {}
   nodes::LocalMemory memory;
   svm::Slots<core::PixelTask> slots;
 };
@@ -52,6 +49,8 @@ TEST_CASE("a slot given back too often is an error") {
 TEST_CASE("slots take exactly the memory that they say they need") {
   for (const std::uint32_t count : {1U, 2U, 64U}) {
     SmallSlots small(count);
-    CHECK(small.memory.used().bytes == SmallSlots::needs(count).bytes);
+    CHECK(small.memory.used().bytes == nodes::MemoryPlan(svm::Slots<core::PixelTask>::layout(count, 5)).bytes);
   }
 }
+
+}  // namespace slots_test

@@ -8,6 +8,8 @@
 
 #include "core/base/expect.h"
 
+namespace work_items_test {
+
 using namespace dmpc;
 using svm::PixelRectangle;
 
@@ -189,3 +191,5 @@ TEST_CASE("a tile is as square as a power of two allows, of as many pixels as ha
   CHECK(svm::tile_for(100, 16) == svm::PixelTile{1, 1});
   CHECK(svm::tile_for(1, 1) == svm::PixelTile{1, 1});
 }
+
+}  // namespace work_items_test

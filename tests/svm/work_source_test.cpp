@@ -11,6 +11,8 @@
 #include "svm/packets.h"
 #include "tests/support/small_machine.h"
 
+namespace work_source_test {
+
 using namespace dmpc;
 using namespace dmpc::tests;
 using svm::Kind;
@@ -390,3 +392,5 @@ TEST_CASE("workers share the picture among themselves alone, and ask round a rin
   CHECK(second.post.parcels.front().packet().as<svm::WorkRequest>().visits_left == 1);
   CHECK(none.exhausted());
 }
+
+}  // namespace work_source_test

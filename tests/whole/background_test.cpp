@@ -11,7 +11,7 @@
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::whole_background_test {
 namespace {
 
 core::RenderSettings without_skip(const Subject& subject) { return subject.settings({.background = false}); }
@@ -118,4 +118,4 @@ TEST_CASE("nodes of dataflow share out the rays of the background evenly") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::whole_background_test

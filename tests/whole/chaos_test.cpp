@@ -26,7 +26,7 @@
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::whole_chaos_test {
 
 namespace {
 
@@ -255,4 +255,4 @@ TEST_CASE("under chaos mailboxes stay as large as the credits that were planned 
   CHECK(fewest == 1);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::whole_chaos_test

@@ -12,6 +12,8 @@
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
+namespace continuation_test {
+
 namespace {
 
 using namespace dmpc;
@@ -224,3 +226,5 @@ TEST_CASE("a start with other pixels than the picture is refused") {
   CHECK_THROWS_AS(run(subject, {.strategy = Strategy::svm, .continuation = {.start = &other}}), core::InternalError);
   CHECK_THROWS_AS(run(subject, {.strategy = Strategy::dataflow, .continuation = {.start = &other}}), core::InternalError);
 }
+
+}  // namespace continuation_test

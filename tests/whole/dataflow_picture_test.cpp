@@ -19,7 +19,7 @@
 #include "tests/support/small_scenes.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::dataflow_picture_test {
 
 namespace {
 
@@ -410,4 +410,4 @@ TEST_CASE("dataflow: a stop request interrupts the run") {
   CHECK(report.end == nodes::RunEnd::interrupted);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::dataflow_picture_test

@@ -16,7 +16,7 @@
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::heat_test {
 namespace {
 
 using core::HeatKind;
@@ -231,4 +231,4 @@ TEST_CASE("a heat map of another size than the picture's is an error") {
   CHECK_THROWS_AS(run_dataflow(small, {.computer = {.node_count = 2}, .watching = {.heat = &map}}), core::InternalError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::heat_test

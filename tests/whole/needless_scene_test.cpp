@@ -10,7 +10,7 @@
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::needless_scene_test {
 
 namespace {
 
@@ -158,4 +158,4 @@ TEST_CASE("what one triangle does not need other scenes do") {
   check_used(lonely_features_of(dataflow));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::needless_scene_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "apps/bench/stability/cells.h"
+#include "apps/lab/bench/stability/cells.h"
 #include "core/base/units.h"
 #include "dataflow/run.h"
 #include "svm/run.h"
@@ -20,6 +20,8 @@
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
+
+namespace one_picture_test {
 
 namespace {
 
@@ -256,3 +258,5 @@ TEST_CASE("films keep their bits from build to build, compiler to compiler and m
     CHECK(Subject(tests::built_in(known.name), {32, 32}).outcome().film_hash == known.hash);
   }
 }
+
+}  // namespace one_picture_test

@@ -25,6 +25,8 @@
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
+namespace ranks_test {
+
 namespace {
 
 using namespace dmpc;
@@ -304,3 +306,5 @@ TEST_CASE("fewer nodes than ranks are refused by every strategy's plan, and the 
 }
 
 }  // namespace
+
+}  // namespace ranks_test

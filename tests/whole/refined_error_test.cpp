@@ -5,13 +5,13 @@
 #include <cstdint>
 
 #include "core/base/sampling.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "core/scene/scene.h"
 #include "svm/run.h"
 #include "tests/support/film_error.h"
 
-namespace dmpc::refined_error {
+namespace dmpc::refined_error::refined_error_test {
 
 namespace {
 
@@ -134,4 +134,4 @@ TEST_CASE("the error asked for is kept by shadows of wires") { check_errors(thin
 TEST_CASE("the error asked for is kept by shadows of spheres") { check_errors(dots_of_shadow()); }
 TEST_CASE("the error asked for is kept by wires in a mirror") { check_errors(mirrored_wires()); }
 
-}  // namespace dmpc::refined_error
+}  // namespace dmpc::refined_error::refined_error_test

@@ -15,7 +15,7 @@
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::whole_skips_test {
 
 namespace {
 
@@ -206,4 +206,4 @@ TEST_CASE("skips: passing regions by where a ray meets nothing saves messages") 
   CHECK(off.operations().skipped.empty_regions == 0);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::whole_skips_test

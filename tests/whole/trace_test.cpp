@@ -15,7 +15,7 @@
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::whole_trace_test {
 namespace {
 
 using nodes::Activity;
@@ -233,4 +233,4 @@ TEST_CASE("a trace of one pixel in so many has the quanta that work on these pix
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::whole_trace_test

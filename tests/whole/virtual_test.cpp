@@ -15,7 +15,7 @@
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::whole_virtual_test {
 namespace {
 
 constexpr std::uint32_t virtual_node_counts[] = {1, 2, 5, 16};
@@ -302,4 +302,4 @@ TEST_CASE("virtual time: a run that is stopped on the way says so and has no tim
   CHECK_FALSE(report.virtual_time);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::whole_virtual_test

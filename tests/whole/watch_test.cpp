@@ -8,13 +8,13 @@
 
 #include "nodes/watch/activity_profile.h"
 #include "nodes/watch/observer_group.h"
-#include "svm/watch/fetch_watch.h"
+#include "svm/pages/watch/fetch_watch.h"
 #include "tests/support/priced_machine.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::watch_test {
 namespace {
 
 constexpr std::uint32_t watchers_nodes = 3;
@@ -68,4 +68,4 @@ TEST_CASE("onlookers see every fetch, by threads, in virtual time and under chao
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::watch_test

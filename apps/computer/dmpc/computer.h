@@ -122,7 +122,7 @@ class Node {
   /// Sends, if one more may be under way, else refuses: then go on with something else, and try again when an answer has come.
   /// Throws ProgramError for an answer, or a payload that is too long.
   [[nodiscard]] virtual bool try_send(std::uint32_t target, Index packet, std::span<const std::byte> payload) = 0;
-  /// The same of values.
+  /// Sends values.
   template <class T>
   requires std::is_trivially_copyable_v<T>
   [[nodiscard]] bool try_send(std::uint32_t target, Index packet, std::span<T> values) {
@@ -193,7 +193,8 @@ template <class P>
 struct Application {
   std::string description;  ///< what it does, a sentence
   std::vector<NumberOption> options = {};
-  /// Of so many nodes. Called once the options are read, on every rank. Throws UsageError for options that do not go together.
+  /// What so many nodes need. Called once the options are read, on every rank. Throws UsageError for options that do not go
+  /// together.
   std::function<Needs(std::uint32_t node_count)> needs;
   /// A node's program, on the rank where the node is.
   std::function<std::unique_ptr<P>(Node&)> make = [](Node& node) { return std::make_unique<P>(node); };
@@ -207,7 +208,7 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The same whatever the programs' type; what they leave as bytes.
+/// An application whatever its programs' type; what they leave as bytes.
 struct AnyApplication {
   std::string description;
   std::vector<NumberOption> options;

@@ -55,7 +55,7 @@ class Pages {
   ~Pages() = default;
 };
 
-/// The same whatever the tasks' type: bytes in a node's memory.
+/// A kind of task whatever its type: bytes in a node's memory.
 struct AnyTask {
   std::size_t task_bytes = 0, result_bytes = 0;
   std::function<void(std::byte* task, std::uint32_t number)> make;

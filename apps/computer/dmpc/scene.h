@@ -58,7 +58,7 @@ class PixelTask {
   void start(std::uint32_t pixel);
   /// Traces one ray, or goes on with it. One page at a time is enough to come to the end.
   Step run(Pages& pages);
-  /// Of the pixel that has finished.
+  /// The light of the pixel that has finished.
   Light light() const;
 
  private:

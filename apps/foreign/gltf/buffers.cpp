@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "apps/edge/system/base64.h"
 #include "apps/foreign/gltf/meshopt.h"
-#include "apps/system/base64.h"
 
 namespace dmpc::apps::gltf {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "apps/line/number_text.h"
+#include "apps/edge/line/number_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::gltf {

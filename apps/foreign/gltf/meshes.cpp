@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "apps/line/number_text.h"
+#include "apps/edge/line/number_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::gltf {

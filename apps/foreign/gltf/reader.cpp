@@ -2,10 +2,10 @@
 
 #include <assimp/commonMetaData.h>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/foreign/gltf/extensions.h"
 #include "apps/foreign/gltf/materials.h"
 #include "apps/foreign/gltf/nodes.h"
-#include "apps/line/number_text.h"
 
 namespace dmpc::apps::gltf {
 namespace {

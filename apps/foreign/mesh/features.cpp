@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <set>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/material.h"
-#include "apps/line/number_text.h"
 
 namespace dmpc::apps {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/formats/nff_reader.h"
-#include "apps/line/number_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -33,13 +33,6 @@ bool spans_an_area(const std::vector<Vec3d>& corners) {
 }
 
 }  // namespace
-
-GeometrySize& GeometrySize::operator+=(const GeometrySize& other) {
-  triangles += other.triangles;
-  faces += other.faces;
-  corners += other.corners;
-  return *this;
-}
 
 GeometrySize size_of(const aiMesh& mesh) {
   GeometrySize size;

@@ -13,6 +13,7 @@
 #include "apps/foreign/mesh/placement.h"
 #include "apps/foreign/mesh/smooth.h"
 #include "apps/foreign/mesh/texture_place.h"
+#include "core/base/counts.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
@@ -21,7 +22,7 @@ namespace dmpc::apps {
 struct GeometrySize {
   std::uint64_t triangles = 0, faces = 0, corners = 0;
 
-  GeometrySize& operator+=(const GeometrySize& other);
+  GeometrySize& operator+=(const GeometrySize& other) { return core::add_counts(*this, other); }
 };
 GeometrySize size_of(const aiMesh& mesh);
 /// Throws core::RoomError if the indices of a scene do not reach so far.

@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <map>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/imported_file.h"
 #include "apps/foreign/mesh/placement.h"
 #include "apps/formats/view_faults.h"
-#include "apps/line/number_text.h"
 #include "core/base/elementary.h"
 
 namespace dmpc::apps {

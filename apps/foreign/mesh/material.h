@@ -11,7 +11,7 @@
 
 namespace dmpc::apps {
 
-/// Of each channel of a surface of which a file says no colour.
+/// What each channel of a surface has of which a file says no colour.
 inline constexpr double plain_grey = 0.6;
 
 /// By the table in apps/foreign/README.md. Colours are linear. Reflects and transmits no more light than arrives, in any channel.

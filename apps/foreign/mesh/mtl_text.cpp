@@ -11,15 +11,15 @@
 #include <utility>
 #include <vector>
 
+#include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/trimmed.h"
-#include "apps/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
 
 constexpr std::string_view blanks = " \t", line_ends = "\r\n";
-/// Of a texture's name, with the options before it; Assimp holds no more.
+/// The longest name of a texture, with the options before it; Assimp holds no more.
 constexpr std::size_t name_bytes_max = 1023;
 
 /// How many arguments an option of a texture has at most, and what it is without the option.

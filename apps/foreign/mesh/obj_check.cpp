@@ -13,7 +13,7 @@
 namespace dmpc::apps {
 namespace {
 
-/// Of vertices, texture coordinates and normals, in the order in which a corner names them.
+/// The numbers of vertices, texture coordinates and normals, in the order in which a corner names them.
 using Counts = std::array<std::int64_t, 3>;
 constexpr std::array<const char*, 3> nouns = {"vertex", "texture coordinate", "normal"};
 

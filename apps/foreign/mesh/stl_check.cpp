@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "apps/system/byte_order_mark.h"
+#include "apps/edge/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "apps/edge/system/output_file.h"
 #include "apps/formats/landscape/gltf.h"
 #include "apps/formats/landscape/mesh.h"
 #include "apps/formats/landscape/paint.h"
 #include "apps/picture/image_file.h"
-#include "apps/system/output_file.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

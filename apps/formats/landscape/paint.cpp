@@ -6,8 +6,8 @@
 
 #include "apps/formats/landscape/terrain.h"
 #include "core/base/expect.h"
-#include "core/base/parallel.h"
 #include "core/base/units.h"
+#include "core/database/parallel.h"
 
 namespace dmpc::apps {
 
@@ -34,7 +34,7 @@ class Painter {
  private:
   double place(std::size_t index) const { return (static_cast<double>(index) + 0.5) / static_cast<double>(side_); }
 
-  /// Of a row and one texel more; it may be the row below the last.
+  /// The heights of a row and one texel more; it may be the row below the last.
   std::vector<double> heights(std::size_t row) const {
     std::vector<double> heights(side_ + 1);
     for (std::size_t column = 0; column <= side_; ++column) {

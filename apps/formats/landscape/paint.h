@@ -5,8 +5,8 @@
 
 namespace dmpc::apps {
 
-/// Of `side` x `side` texels, the one at the top left at (x, z) = (-1, -1/2); `side` > 0. Painted by all cores, the same whatever
-/// their number.
+/// A picture of `side` x `side` texels, the one at the top left at (x, z) = (-1, -1/2); `side` > 0. Painted by all cores, the
+/// same whatever their number.
 Image ground_picture(int side);
 
 }  // namespace dmpc::apps

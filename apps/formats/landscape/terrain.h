@@ -13,7 +13,7 @@ inline constexpr double lake_height = 0.03;
 /// Noise", 2002), flattened to a basin.
 double ground_height(double x, double z);
 
-/// Of unit length, by differences of heights `step` away to both sides; `step` > 0.
+/// A normal of unit length, by differences of heights `step` away to both sides; `step` > 0.
 core::Vec3d ground_normal(double x, double z, double step);
 
 /// Linear red, green, blue, 0 to 1, of ground of this height: sand about the lake, then grass, rock where it is steep, and snow.

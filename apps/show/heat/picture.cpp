@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "apps/line/number_text.h"
-#include "apps/line/scale.h"
-#include "apps/picture/color_map.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/scale.h"
+#include "apps/edge/picture/color_map.h"
 #include "apps/picture/glyphs.h"
 #include "core/picture/heat_kind.h"
 

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "apps/line/amount.h"
-#include "apps/line/number_text.h"
+#include "apps/edge/line/amount.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/show/page/shares.h"
 #include "apps/run/memory_categories.h"
-#include "apps/show/page/shares.h"
 #include "core/picture/heat_kind.h"
 
 namespace dmpc::apps::html {

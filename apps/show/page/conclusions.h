@@ -15,7 +15,7 @@ namespace dmpc::apps::html {
 std::string ray_conclusion(std::span<const std::uint64_t> rays, std::uint64_t shot);
 std::string node_conclusion(const Account& account);
 std::string memory_conclusion(const Account& account, std::size_t database_bytes);
-/// Of what adds up over pixels.
+/// The conclusion from what adds up over pixels.
 std::string heat_conclusion(const HeatField& field);
 
 }  // namespace dmpc::apps::html

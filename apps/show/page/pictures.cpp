@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "apps/show/page/data_url.h"
-#include "apps/show/page/table.h"
+#include "apps/edge/show/page/data_url.h"
+#include "apps/edge/show/page/table.h"
 
 namespace dmpc::apps::html {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "apps/edge/show/page/page.h"
 #include "apps/picture/image_file.h"
-#include "apps/show/page/page.h"
 
 namespace dmpc::apps::html {
 

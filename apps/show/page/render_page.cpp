@@ -5,19 +5,19 @@
 #include <variant>
 #include <vector>
 
-#include "apps/line/amount.h"
-#include "apps/line/number_text.h"
+#include "apps/edge/line/amount.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/run/work.h"
+#include "apps/edge/show/page/page.h"
+#include "apps/edge/show/page/view_conclusions.h"
+#include "apps/edge/show/page/view_tables.h"
 #include "apps/picture/film_image.h"
 #include "apps/run/render_record.h"
-#include "apps/run/work.h"
 #include "apps/show/heat/field.h"
 #include "apps/show/heat/picture.h"
 #include "apps/show/page/conclusions.h"
-#include "apps/show/page/page.h"
 #include "apps/show/page/pictures.h"
 #include "apps/show/page/render_tables.h"
-#include "apps/show/page/view_conclusions.h"
-#include "apps/show/page/view_tables.h"
 #include "core/picture/heat_kind.h"
 #include "nodes/size_text.h"
 

@@ -4,8 +4,8 @@
 #include <iosfwd>
 #include <string>
 
+#include "apps/edge/show/page/origin.h"
 #include "apps/run/render_record.h"
-#include "apps/show/page/origin.h"
 
 namespace dmpc::apps::html {
 

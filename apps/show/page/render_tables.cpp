@@ -9,8 +9,9 @@
 #include <utility>
 #include <variant>
 
+#include "apps/edge/show/page/node_table.h"
 #include "apps/run/memory_categories.h"
-#include "apps/show/page/node_table.h"
+#include "apps/show/counters.h"
 
 namespace dmpc::apps::html {
 

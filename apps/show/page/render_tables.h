@@ -3,12 +3,12 @@
 
 #include <vector>
 
+#include "apps/edge/show/page/losses.h"
+#include "apps/edge/show/page/traffic.h"
+#include "apps/edge/table/plot.h"
+#include "apps/edge/table/table.h"
 #include "apps/run/render_record.h"
 #include "apps/run/report.h"
-#include "apps/show/page/losses.h"
-#include "apps/show/page/traffic.h"
-#include "apps/table/plot.h"
-#include "apps/table/table.h"
 
 namespace dmpc::apps::html {
 
@@ -22,7 +22,7 @@ Losses losses_of(const Account& account);
 Table memory_table(const Account& account);
 Plot memory_plot(const Account& account);
 
-/// Of all nodes together.
+/// The packets of all nodes together.
 std::vector<PacketKindTraffic> packets_of(const Account& account);
 
 }  // namespace dmpc::apps::html

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/show/page/origin.h"
-#include "apps/show/page/page.h"
-#include "apps/table/plot.h"
-#include "apps/table/table.h"
+#include "apps/edge/show/page/origin.h"
+#include "apps/edge/show/page/page.h"
+#include "apps/edge/table/plot.h"
+#include "apps/edge/table/table.h"
 
 namespace dmpc::apps::html {
 

@@ -2,9 +2,9 @@
 #include <numeric>
 #include <string>
 
+#include "apps/edge/show/stats/counters_json.h"
 #include "apps/run/ray_hops.h"
-#include "apps/run/region_options.h"
-#include "apps/show/stats/counters_json.h"
+#include "apps/show/counters.h"
 #include "apps/show/stats/strategy.h"
 #include "dataflow/packets.h"
 
@@ -133,23 +133,6 @@ Json mapping_json(const dataflow::Report& report, nodes::TopologyKind topology) 
   return {{"topology", std::string(name_of(topology))}, {"mean_hops", hops.mean}, {"mean_hops_random", hops.mean_of_random}};
 }
 
-Json options_json(const dataflow::RayOptions& rays, const dataflow::Plan& plan) {
-  const bool subsampled = rays.balance.is_by_load();
-  const bool scattered = rays.balance.balance == dataflow::Balance::scattered;
-  return {{"balance", name_of(rays.balance.balance)},
-          {"cuts", scattered ? Json() : Json(name_of(rays.balance.bsp.order))},
-          {"regions_a_node", rays.balance.has_several_regions() ? rays.balance.regions_a_node : 1},
-          {"subsample", subsampled ? Json(rays.balance.subsample) : Json()},
-          {"balance_grid", subsampled ? Json(rays.balance.columns_per_side) : Json()},
-          {"ray_batch", plan.ray_batch},
-          {"ray_credits", plan.shares_places() ? Json() : Json(plan.ray_credits)},
-          {"ray_places", plan.shares_places() ? Json(plan.ray_places) : Json()},
-          {"ray_queue", plan.queue_packets},
-          {"tested_objects", rays.tested_objects},
-          {"backpressure", !rays.without_backpressure},
-          {"topology", std::string(name_of(*rays.topology))}};
-}
-
 Json host_json(const dataflow::HostCounters& host) {
   return {{"rays_kept_max", host.rays_kept_max}, {"kept_bytes_max", host.kept_bytes_max}, {"token_rounds", host.token_rounds}};
 }
@@ -160,7 +143,6 @@ StrategyStats strategy_stats(const RenderOptions& options, const dataflow::Repor
   const dataflow::Plan& plan = report.plan;
   const std::vector<double> work = report.work();
   StrategyStats stats{
-      .options = options_json(options.rays, plan),
       .all = {{"travel", travel_json(travel_of(report), plan)},
               {"load", loads_json(work, report.predicted)},
               {"regions", regions_json(report)},

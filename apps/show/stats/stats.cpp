@@ -8,13 +8,15 @@
 #include <string>
 #include <variant>
 
-#include "apps/line/json_format.h"
-#include "apps/line/number_text.h"
-#include "apps/machine/machine_file.h"
+#include "apps/edge/line/json_format.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/machine/machine_file.h"
+#include "apps/edge/show/stats/counters_json.h"
+#include "apps/edge/show/stats/ranks.h"
 #include "apps/run/memory_categories.h"
+#include "apps/run/strategy_rows.h"
+#include "apps/show/counters.h"
 #include "apps/show/heat/field.h"
-#include "apps/show/stats/counters_json.h"
-#include "apps/show/stats/ranks.h"
 #include "apps/show/stats/strategy.h"
 #include "apps/show/stats/virtual.h"
 #include "core/base/expect.h"
@@ -195,7 +197,15 @@ void add_staging(Json& options, const Staging& staging) {
   options["missing"] = mesh.allows_missing ? Json("plain") : Json();
 }
 
-Json options_json(const RenderRecord& record, const Account& account, const Json& special) {
+struct JsonOf {
+  Json operator()(std::monostate) const { return nullptr; }
+  template <class Value>
+  Json operator()(const Value& value) const {
+    return value;
+  }
+};
+
+Json options_json(const RenderRecord& record, const Account& account) {
   const RenderOptions& options = record.options;
   Json result = {{"scene", options.picture.scene},
                  {"width", account.film.width()},
@@ -216,11 +226,10 @@ Json options_json(const RenderRecord& record, const Account& account, const Json
                  {"node_memory", account.node_memory_max_bytes},
                  {"page_size", record.database.page_size()}};
   add_staging(result, options.picture.staging);
-  result.update(filled(
-      {"cache_pages", "replacement", "homes",       "tree_arity", "resident_pages", "in_flight",      "work_item", "work_giver",
-       "pixels",      "workers",     "count_pages", "balance",    "cuts",           "regions_a_node", "subsample", "balance_grid",
-       "ray_batch",   "ray_credits", "ray_places",  "ray_queue",  "tested_objects", "backpressure",   "topology"},
-      special));
+  const auto told = std::visit([&](const auto& report) { return told_options(options.strategy, report.plan); }, record.report);
+  for (const auto& [key, value] : told) {
+    result[std::string(key)] = std::visit(JsonOf(), value);
+  }
   return result;
 }
 
@@ -293,7 +302,7 @@ std::string stats_json(const RenderRecord& record) {
       std::visit([&](const auto& report) { return strategy_stats(record.options, report); }, record.report);
   Json all = {{"format", json_format},
               {"program", "dmpc " DMPC_VERSION},
-              {"options", options_json(record, account, special.options)},
+              {"options", options_json(record, account)},
               {"runner", name_of(record.options.runner.kind)},
               {"machine", machine ? machine_json(*machine) : Json()},
               {"film_hash", hash_text(account.film.hash())},

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 /// Objects whose values take the places of nulls in what all strategies have in common.
 struct StrategyStats {
-  Json options, all, chaos, host;
+  Json all, chaos, host;
   std::vector<Json> nodes;               ///< by number
   std::uint64_t packets_overflowed = 0;  ///< to the host for want of credits
 };

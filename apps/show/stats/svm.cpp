@@ -1,4 +1,5 @@
-#include "apps/show/stats/counters_json.h"
+#include "apps/edge/show/stats/counters_json.h"
+#include "apps/show/counters.h"
 #include "apps/show/stats/strategy.h"
 
 namespace dmpc::apps {
@@ -29,24 +30,11 @@ Json shares_json(const svm::PageCounters& pages, const svm::WorkCounters& work, 
 
 StrategyStats strategy_stats(const RenderOptions& options, const svm::Report& report) {
   const svm::Plan& plan = report.plan;
-  StrategyStats stats{.options = {{"in_flight", plan.in_flight},
-                                  {"work_item", plan.work_item_side},
-                                  {"work_giver", svm::name_of(report.plan.request.pages.work_giver)},
-                                  {"pixels", svm::name_of(report.plan.request.pages.pixel_shares)},
-                                  {"workers", plan.worker_count},
-                                  {"count_pages", plan.request.pages.count_pages}},
-                      .all = shares_json(report.pages(), report.work(), report.questions(), plan),
+  StrategyStats stats{.all = shares_json(report.pages(), report.work(), report.questions(), plan),
                       .chaos = {{"request_credits", plan.request_credits}, {"film_credits", plan.film_credits}},
                       .host = Json::object()};
   if (options.strategy == Strategy::svm) {
-    stats.options["cache_pages"] = plan.frames;
-    stats.options["homes"] = svm::name_of(plan.request.pages.homes);
-    if (plan.request.pages.homes == svm::PageHomes::tree) {
-      stats.options["tree_arity"] = plan.request.pages.tree_arity;
-    }
-    stats.options["resident_pages"] = plan.resident_count;
     stats.host["pages_served"] = report.host_pages_served;
-    stats.options["replacement"] = svm::name_of(plan.request.pages.replacement);
   }
   for (const svm::NodeReport& node : report.nodes) {
     stats.nodes.push_back(shares_json(node.program.pages, node.program.work, node.program.questions, plan));

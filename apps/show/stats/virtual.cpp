@@ -1,8 +1,8 @@
 #include "apps/show/stats/virtual.h"
 
-#include "apps/line/number_text.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/run/time_parts.h"
 #include "apps/run/render_record.h"
-#include "apps/run/time_parts.h"
 
 namespace dmpc::apps {
 namespace {

@@ -4,10 +4,10 @@
 #include <ostream>
 #include <utility>
 
-#include "apps/line/number_text.h"
-#include "apps/show/trace/chrome.h"
-#include "apps/show/trace/paje.h"
-#include "apps/show/trace/view.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/show/trace/chrome.h"
+#include "apps/edge/show/trace/paje.h"
+#include "apps/edge/show/trace/view.h"
 #include "core/base/expect.h"
 #include "nodes/watch/trace.h"
 

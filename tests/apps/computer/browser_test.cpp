@@ -7,7 +7,7 @@
 #include "tests/apps/computer/asker.h"
 #include "tests/support/browser.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::computer_browser_test {
 
 namespace {
 
@@ -33,4 +33,4 @@ TEST_CASE("a browser shows the pages of programs whole, on a screen and on a tel
   check_in_browser(file_text(file));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::computer_browser_test

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/line/number_text.h"
+#include "apps/edge/line/number_text.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::installed_test {
 
 namespace {
 
@@ -117,6 +117,7 @@ TEST_CASE("a program that is built from an installed prefix runs on ranks, by th
   const Words line = {"/usr/bin/env",
                       "OMPI_ALLOW_RUN_AS_ROOT=1",
                       "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+                      "HWLOC_COMPONENTS=-gl,-opencl",
                       "mpirun",
                       "-n",
                       "2",
@@ -149,4 +150,4 @@ TEST_CASE("a component that there is not is refused by name") {
   CHECK(said.errors.find("dmpc has no component cellar") != std::string::npos);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::installed_test

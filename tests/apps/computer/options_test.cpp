@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "apps/machine/machines.h"
+#include "apps/edge/machine/machines.h"
 #include "core/trace/charge.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::computer_options_test {
 
 namespace {
 
@@ -51,4 +51,4 @@ TEST_CASE("threads have no machine") {
   CHECK(options.computer.model() == nullptr);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::computer_options_test

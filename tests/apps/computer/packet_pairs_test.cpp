@@ -7,7 +7,7 @@
 
 #include "nodes/packet.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::packet_pairs_test {
 
 namespace {
 
@@ -40,4 +40,4 @@ TEST_CASE("what another rank has counted is added") {
   CHECK(here.pairs().bytes[2] == sizeof(nodes::PacketHeader) + 16);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::packet_pairs_test

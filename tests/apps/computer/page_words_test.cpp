@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dmpc::apps {
+namespace dmpc::apps::page_words_test {
 
 TEST_CASE("words stand once each and by alphabet, those that dmpc has in common among them") {
   std::vector<std::string_view> words;
@@ -29,4 +29,4 @@ TEST_CASE("no word is explained by rays and pictures") {
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::page_words_test

@@ -8,7 +8,7 @@
 #include "tests/apps/computer/adder.h"
 #include "tests/apps/computer/reported.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::paged_page_test {
 
 namespace {
 
@@ -75,4 +75,4 @@ TEST_CASE("a report changes nothing of the runs, and goes with references and a 
   CHECK(contains(file_text(folder / "t.json"), "addition"));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::paged_page_test

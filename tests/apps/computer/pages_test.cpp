@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/show/references/reference_file.h"
-#include "svm/watch/miss_curve.h"
+#include "apps/edge/show/references/reference_file.h"
+#include "svm/pages/watch/miss_curve.h"
 #include "tests/apps/computer/adder.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::pages_test {
 
 TEST_CASE("tasks come to the same on threads and machines, with any nodes, pages, caches and policies, and disturbed") {
   const std::string expected = "sum " + std::to_string(expected_sum()) + "\n";
@@ -141,4 +141,4 @@ TEST_CASE("pages and caches that cannot be are refused in the words of the optio
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::pages_test

@@ -9,7 +9,7 @@
 #include "core/base/expect.h"
 #include "nodes/chaos.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::computer_plan_test {
 
 namespace {
 
@@ -167,4 +167,4 @@ TEST_CASE("a program has as many packets and operations as the computer counts, 
   check_refused({.packets = {{.name = "flood", .senders = from_previous(40'000)}}}, "expected at most 32767");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::computer_plan_test

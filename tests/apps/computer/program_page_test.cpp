@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::program_page_test {
 
 namespace {
 
@@ -120,4 +120,4 @@ TEST_CASE("a report that is no page, or cannot be written, is refused before the
   CHECK(run_with(asker(1), {"--report=a.html", "--stats=a.html"}).status == 2);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::program_page_test

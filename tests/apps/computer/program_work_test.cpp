@@ -7,7 +7,7 @@
 
 #include "core/trace/charge.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::program_work_test {
 
 namespace {
 
@@ -60,4 +60,4 @@ TEST_CASE("tasks are busy with pages, too, where these are installed or served a
   CHECK(name_of_call(work, charges) == "'division'");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::program_work_test

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "apps/computer/dmpc/computer.h"
-#include "apps/ranks/parts.h"
+#include "apps/edge/ranks/parts.h"
 #include "tests/support/loopback_ranks.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::rank_rounds_test {
 
 namespace {
 
@@ -145,4 +145,4 @@ TEST_CASE("one rank alone agrees with itself") {
   CHECK(results[0].failure_text() == "");
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::rank_rounds_test

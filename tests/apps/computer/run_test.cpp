@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::computer_run_test {
 
 namespace {
 
@@ -178,4 +178,4 @@ TEST_CASE("a program has options of its own, which its needs may refuse") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::computer_run_test

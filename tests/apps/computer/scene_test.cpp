@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "apps/computer/dmpc/scene.h"
-#include "apps/line/number_text.h"
+#include "apps/edge/line/number_text.h"
 #include "core/families/scenes.h"
 #include "tests/support/subject.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::computer_scene_test {
 
 namespace {
 
@@ -118,4 +118,4 @@ TEST_CASE("a scene that there is not, and pages and pictures that cannot be, are
   CHECK_THROWS_AS(Scene("rings-1-t1", side, side, 700), UsageError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::computer_scene_test

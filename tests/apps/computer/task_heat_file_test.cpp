@@ -11,7 +11,7 @@
 
 #include "tests/apps/computer/adder.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::task_heat_file_test {
 
 namespace {
 
@@ -103,4 +103,4 @@ TEST_CASE("an operation's name is quoted where CSV has to quote it") {
   CHECK(text.str() == "task,node,steps,pages.references,pages.faults,\"operations.a,\"\"b\"\"\",computing_ps\n0,3,2,5,1,0,\n");
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::task_heat_file_test

@@ -8,7 +8,7 @@
 
 #include "apps/computer/program_tables.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::task_tables_test {
 
 namespace {
 
@@ -89,4 +89,4 @@ TEST_CASE("all operations together are the nodes' computing, those of pages incl
   CHECK(std::holds_alternative<std::monostate>(table.rows()[3][2]));
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::task_tables_test

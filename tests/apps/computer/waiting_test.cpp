@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace dmpc::apps {
+namespace dmpc::apps::waiting_test {
 
 namespace {
 
@@ -46,4 +46,4 @@ TEST_CASE("of a long circle the beginning is told, and how many there are") {
   CHECK(text.ends_with("that for node 16, and so on, 40 nodes in all"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::waiting_test

@@ -6,10 +6,10 @@
 
 #include "apps/effort/pilot.h"
 #include "apps/effort/render_effort.h"
-#include "apps/study/effort.h"
+#include "apps/lab/study/effort.h"
 #include "tests/support/small_subject.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::effort_test {
 
 TEST_CASE("an effort is told in words that promise no more than is known") {
   CHECK(text_of(Effort{.seconds = 0.3}) == "some seconds");
@@ -77,4 +77,4 @@ TEST_CASE("more nodes take longer and more memory") {
   CHECK(both.bytes >= many.bytes);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::effort_test

@@ -9,7 +9,7 @@
 
 #include "apps/formats/mesh_file.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::import_test {
 
 TEST_CASE("of Assimp's readers those of a file's ending stay, and no others") {
   for (const std::string& ending : mesh_extensions()) {
@@ -26,4 +26,4 @@ TEST_CASE("of Assimp's readers those of a file's ending stay, and no others") {
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::import_test

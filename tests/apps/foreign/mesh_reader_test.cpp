@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::mesh_reader_test {
 
 using core::ObjectKind;
 using core::Scene;
@@ -250,4 +250,4 @@ TEST_CASE("a transform that flattens space is refused, with its node") {
   CHECK(contains(complaint("a.gltf", gltf.text()), "'press' flattens"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::mesh_reader_test

@@ -15,7 +15,7 @@
 #include "tests/apps/show/rendered.h"
 #include "tests/support/child_process.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::models_test {
 
 namespace {
 
@@ -144,4 +144,4 @@ TEST_CASE("nothing but the closing lines reaches the standard output") {
   CHECK_FALSE(fs::exists("a.png"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::models_test

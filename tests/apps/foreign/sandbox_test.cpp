@@ -12,7 +12,7 @@
 #include <new>
 #include <thread>
 
-namespace dmpc::tests {
+namespace dmpc::tests::sandbox_test {
 
 namespace {
 
@@ -68,4 +68,4 @@ TEST_CASE("without files a process opens none, where the kernel knows how") {
   CHECK(status == 0);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::sandbox_test

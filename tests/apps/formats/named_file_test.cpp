@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::named_file_test {
 
 namespace fs = std::filesystem;
 using tests::TemporaryFolder;
@@ -79,4 +79,4 @@ TEST_CASE("one line says which textures were found under other names") {
                    "1 texture was found under other names: Wood.png for C:\\art\\wood.png") == 1);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::named_file_test

@@ -13,6 +13,8 @@
 #include "apps/formats/nff_tokens.h"
 #include "core/base/expect.h"
 
+namespace nff_reader_test {
+
 using namespace dmpc;
 using apps::read_nff;
 
@@ -317,3 +319,5 @@ TEST_CASE("progress counts the bytes of a file, up to what it has") {
   CHECK(steps[0] < steps[1]);
   CHECK(steps[0] > size / 4);
 }
+
+}  // namespace nff_reader_test

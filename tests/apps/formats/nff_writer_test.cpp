@@ -18,6 +18,8 @@
 #include "core/families/scenes.h"
 #include "tests/support/same_scene.h"
 
+namespace nff_writer_test {
+
 using namespace dmpc;
 using namespace dmpc::tests;
 
@@ -150,3 +152,5 @@ TEST_CASE("a full disk is an error") {
                          doctest::Contains("/dev/full: cannot be written: No space left"), core::InputError);
   }
 }
+
+}  // namespace nff_writer_test

@@ -14,6 +14,8 @@
 #include "apps/formats/nff_writer.h"
 #include "core/families/scenes.h"
 
+namespace reference_files_test {
+
 using namespace dmpc;
 
 namespace {
@@ -144,3 +146,5 @@ TEST_CASE("the written scenes are the same bytes on every machine and in every b
     CHECK(hash_of(output.str()) == scene.hash);
   }
 }
+
+}  // namespace reference_files_test

@@ -8,7 +8,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::scene_blocks_test {
 
 namespace {
 
@@ -130,4 +130,4 @@ TEST_CASE("more lights, textures and materials than any scene has are refused be
   CHECK_THROWS_AS(add_all(), Nonsense);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::scene_blocks_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace dmpc::apps {
+namespace dmpc::apps::view_faults_test {
 
 using core::View;
 
@@ -37,4 +37,4 @@ TEST_CASE("every fault is found") {
   CHECK(fault_of(changed([](View& view) { view.up = {0, 0, -3}; })) == ViewFault::up);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::view_faults_test

@@ -4,7 +4,7 @@
 
 #include "apps/formats/view_faults.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::whole_view_test {
 
 using core::Vec3d;
 
@@ -46,4 +46,4 @@ TEST_CASE("the key light is above the eye, the fill in it") {
   CHECK(lights[1].position == view.from);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::whole_view_test

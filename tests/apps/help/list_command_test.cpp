@@ -6,13 +6,13 @@
 #include <set>
 #include <sstream>
 
-#include "apps/commands.h"
+#include "apps/edge/machine/machines.h"
 #include "apps/help/choices.h"
-#include "apps/machine/machines.h"
+#include "apps/main/commands.h"
 #include "apps/scene/load_scene.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::list_command_test {
 
 namespace {
 
@@ -73,4 +73,4 @@ TEST_CASE("a list as JSON has a row a word") {
   CHECK(tests::contains(json["rows"][0]["meaning"].get<std::string>(), "Intel iPSC/2"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::list_command_test

@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
 #include "apps/info/json.h"
 #include "apps/info/record.h"
 #include "apps/info/text.h"
+#include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"
 #include "tests/support/painted_square.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::info_command_test {
 
 using tests::contains;
 using Json = nlohmann::ordered_json;
@@ -191,4 +191,4 @@ TEST_CASE("what 256 nodes would take of a texture is told without taking it") {
 }
 #endif
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::info_command_test

@@ -5,7 +5,7 @@
 #include "apps/scene/load_scene.h"
 #include "tests/support/painted_square.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::database_figures_test {
 
 namespace {
 
@@ -103,4 +103,4 @@ TEST_CASE("triangles that are there twice are counted") {
   CHECK(found.figures.duplicates == 1);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::database_figures_test

@@ -8,7 +8,7 @@
 #include "tests/apps/show/rendered.h"
 #include "tests/support/painted_square.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::forecast_test {
 
 using dataflow::Balance;
 using tests::contains;
@@ -137,4 +137,4 @@ TEST_CASE("a forecast of no computer is empty, and options out of range are refu
   CHECK_THROWS_AS(forecast(subject.database, subject.settings, {1}, {.subsample = 0}), core::UsageError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::forecast_test

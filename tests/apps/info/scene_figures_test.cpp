@@ -7,7 +7,7 @@
 #include "apps/scene/load_scene.h"
 #include "tests/support/painted_square.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::scene_figures_test {
 
 using core::ObjectKind;
 using core::Vec3d;
@@ -77,4 +77,4 @@ TEST_CASE("a texture has levels down to a texel, and tiles of 8 by 8") {
   CHECK(count_of(figures, ObjectKind::textured) == 2);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::scene_figures_test

@@ -11,7 +11,7 @@
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::labs_test {
 
 namespace {
 
@@ -122,4 +122,4 @@ TEST_CASE("what a page shows is read with the command that goes before, and a fi
   CHECK(missing_line({"1.5"}, {"1.6"}) == "1.5");
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::labs_test

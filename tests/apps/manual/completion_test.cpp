@@ -5,13 +5,13 @@
 #include <set>
 #include <sstream>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/manual/leaves.h"
 #include "tests/apps/manual/painter.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::completion_test {
 
 namespace {
 
@@ -196,4 +196,4 @@ TEST_CASE("bash knows all of dmpc's commands and options") {
   CHECK(desk.by_bash("dmpc machine ips") == "ipsc2 ipsc860");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::completion_test

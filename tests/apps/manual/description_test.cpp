@@ -1,13 +1,13 @@
-#include "apps/line/command_description.h"
+#include "apps/edge/line/command_description.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "tests/apps/manual/painter.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::description_test {
 
 namespace {
 
@@ -87,4 +87,4 @@ TEST_CASE("help is offered about every command, and about words") {
   CHECK(std::count(topics.begin(), topics.end(), "glossary") == 1);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::description_test

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/manual/leaves.h"
 #include "core/base/expect.h"
 #include "tests/support/documents.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::manual_documents_test {
 
 namespace {
 
@@ -76,10 +76,11 @@ Texts all_options() {
 
 /// Those of our scripts, of CMake and of what else documents have the reader type.
 bool is_foreign(const std::string& option) {
-  static const Texts foreign = {"--preset",  "--prefix", "--install", "--component", "--build",   "--test-case", "--format",
-                                "--tidy",    "--only",   "--seeds",   "--calls",     "--minutes", "--replay",    "--shrink",
-                                "--keep",    "--clang",  "--mpi",     "--lanes",     "--places",  "--faults",    "--mca",
-                                "--program", "--mpirun", "--heat",    "--size"};
+  static const Texts foreign = {"--preset", "--prefix", "--install", "--component", "--build",        "--test-case",
+                                "--format", "--tidy",   "--only",    "--seeds",     "--calls",        "--minutes",
+                                "--replay", "--shrink", "--keep",    "--clang",     "--mpi",          "--lanes",
+                                "--places", "--faults", "--mca",     "--program",   "--mpirun",       "--heat",
+                                "--size",   "--all",    "--part",    "--excerpts",  "--oversubscribe"};
   return std::find(foreign.begin(), foreign.end(), option) != foreign.end();
 }
 
@@ -169,4 +170,4 @@ TEST_CASE("a command or option in a document that dmpc does not take is found") 
   CHECK(fault_of("With `--nodes=8` it is, and --strategy=svm; a dash -- is none.").empty());
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::manual_documents_test

@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::installation_test {
 
 namespace {
 
@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 void check_installed(const fs::path& root, const std::string& zsh_folder) {
   const fs::path share = root / "share";
   for (const fs::path& file :
-       {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/LICENSE",
+       {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/WORDS.md", share / "doc/dmpc/LICENSE",
         share / "doc/dmpc/apps/teapot.png", share / "dmpc/stats.schema.json", share / "doc/dmpc/apps/teapot-heat.png",
-        share / "doc/dmpc/core/README.md", share / "doc/dmpc/apps/study/paper/RESULTS.md",
+        share / "doc/dmpc/core/README.md", share / "doc/dmpc/apps/lab/study/paper/RESULTS.md",
         share / "fish/vendor_completions.d/dmpc.fish", share / "zsh" / zsh_folder / "_dmpc"}) {
     CHECK_MESSAGE(fs::file_size(file) > 0, file);
   }
@@ -64,7 +64,7 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// Of the package beside dmpc's own.
+/// Checks the package beside dmpc's own.
 void check_python_package(const TemporaryFolder& folder) {
   const Said unpacked = run({"sh", "-c",
                              "cd '" + folder.path().string() +
@@ -103,7 +103,11 @@ TEST_CASE("the first call of apps/dmpc builds all that is installed") {
   CHECK(contains(targets, "dmpc"));
   const Said graph = run({"sh", "-c", "ninja -C '" DMPC_BUILD_DIR "' -t graph " + targets});
   REQUIRE(graph.status == 0);
-  const std::string script = file_text(DMPC_BUILD_DIR "/apps/cmake_install.cmake"), build = DMPC_BUILD_DIR "/";
+  const std::string build = DMPC_BUILD_DIR "/";
+  std::string script;
+  for (const std::string folder : {"apps", "apps/main", "apps/modules", "apps/foreign", "apps/manual"}) {
+    script += file_text(build + folder + "/cmake_install.cmake");
+  }
   std::size_t files = 0;
   for (std::size_t at = script.find("FILES \"" + build); at != std::string::npos; at = script.find("FILES \"" + build, at + 1)) {
     const std::size_t begin = at + 7 + build.size();
@@ -158,4 +162,4 @@ TEST_CASE("the Debian packages say what they need, MPI and a compiler for one of
   CHECK(files_below(folder / "mpi") == std::vector<fs::path>{module});
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::installation_test

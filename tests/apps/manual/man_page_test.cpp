@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/manual/leaves.h"
 #include "apps/manual/roff.h"
 #include "tests/apps/manual/painter.h"
@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::man_page_test {
 
 namespace {
 
@@ -81,4 +81,4 @@ TEST_CASE("dmpc's page has all its sections, commands and options") {
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::man_page_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::apps {
+namespace dmpc::apps::roff_test {
 
 TEST_CASE("words and blanks stand for themselves in roff") {
   CHECK(roff("").empty());
@@ -42,4 +42,4 @@ TEST_CASE("long texts are cut at blanks, which does not make an order of what fo
   CHECK(page.text().find("aa\n\\&.b\n") != std::string::npos);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::roff_test

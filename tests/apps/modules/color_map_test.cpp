@@ -1,4 +1,4 @@
-#include "apps/picture/color_map.h"
+#include "apps/edge/picture/color_map.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-namespace dmpc::tests {
+namespace dmpc::tests::modules_color_map_test {
 
 TEST_CASE("the colours are those of OpenImageIO's map of that name") {
   constexpr int steps = 400;
@@ -27,4 +27,4 @@ TEST_CASE("the colours are those of OpenImageIO's map of that name") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::modules_color_map_test

@@ -12,7 +12,7 @@
 #include "core/base/sampling.h"
 #include "tests/apps/modules/read_file.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::exr_file_test {
 
 namespace {
 
@@ -103,4 +103,4 @@ TEST_CASE("a channel with too few numbers, and a name that is taken or that EXR 
                   core::InternalError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::exr_file_test

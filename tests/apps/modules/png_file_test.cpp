@@ -11,7 +11,7 @@
 #include "core/base/sampling.h"
 #include "tests/apps/modules/read_file.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::png_file_test {
 
 namespace {
 
@@ -82,4 +82,4 @@ TEST_CASE("a PNG without pixels or with too few bytes is a bug") {
   CHECK_THROWS_AS(png_file(2, 1, Bytes(5)), core::InternalError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::png_file_test

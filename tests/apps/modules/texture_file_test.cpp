@@ -13,7 +13,7 @@
 #include "core/scene/texel.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::texture_file_test {
 
 namespace {
 
@@ -128,4 +128,4 @@ TEST_CASE("what is no picture is refused by its name") {
                        doctest::Contains("model.glb, texture 0: is no picture that is read"), core::InputError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::texture_file_test

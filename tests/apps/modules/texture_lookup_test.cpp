@@ -16,7 +16,7 @@
 #include "tests/support/shown_texture.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::modules_texture_lookup_test {
 
 namespace {
 
@@ -115,10 +115,10 @@ TEST_CASE("between two levels OpenImageIO blends by another share: no farther fr
   const TemporaryFolder folder;
   ShownTexture shown(noise_texture(64, 64));
   Oracle oracle(shown.texture(), folder);
-  // Of a cone of f texels, 1 to 2, ours takes log2(f) of the coarser level, OpenImageIO 2 - 2 / f: up to 0.09 more.
+  // Ours takes log2(f) of the coarser level for a cone of f texels, 1 to 2, OpenImageIO 2 - 2 / f: up to 0.09 more.
   const double largest = largest_difference(shown, oracle, 3);
   CHECK(largest < 0.1);
   CHECK(largest > 0.001);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::modules_texture_lookup_test

@@ -7,11 +7,11 @@
 #include <numeric>
 #include <utility>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/base/expect.h"
 #include "tests/support/gray.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::flip_test {
 
 using apps::flip;
 using apps::Image;
@@ -93,4 +93,4 @@ TEST_CASE("values beyond what a screen shows count as the nearest that it does, 
 
 TEST_CASE("pictures of different sizes are refused") { CHECK_THROWS_AS(flip(gray(2, 3, 0), gray(3, 2, 0)), core::InternalError); }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::flip_test

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace dmpc::apps {
+namespace dmpc::apps::glyphs_test {
 
 namespace {
 
@@ -64,4 +64,4 @@ TEST_CASE("a dot of two pixels is four pixels") {
   CHECK(dots(image) == 4 * dots(drawn("L")));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::glyphs_test

@@ -12,7 +12,7 @@
 #include "core/base/srgb.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::image_file_test {
 
 using tests::TemporaryFolder;
 
@@ -129,4 +129,4 @@ TEST_CASE("what is no picture cannot be read") {
   CHECK_THROWS_WITH_AS(read_image(folder / "a.pfm"), doctest::Contains("says that it has -5x2 pixels"), core::InputError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::image_file_test

@@ -8,7 +8,7 @@
 #include "core/base/expect.h"
 #include "tests/support/gray.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::picture_error_test {
 
 using tests::gray;
 
@@ -79,4 +79,4 @@ TEST_CASE("the perceived error is there as a mean, a percentile and a picture") 
   CHECK(flip_picture(gray(8, 8, 1), gray(8, 8, 0)).rgb[17] == doctest::Approx(error.flip_mean));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::picture_error_test

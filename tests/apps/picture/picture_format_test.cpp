@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace dmpc::apps {
+namespace dmpc::apps::picture_format_test {
 
 TEST_CASE("a picture's format is told by what it begins with, whatever it is called") {
   CHECK(picture_format("\x89PNG\r\n\x1a\n....", "jpg") == "png");
@@ -25,4 +25,4 @@ TEST_CASE("a small file may become a large picture, but not any") {
   CHECK(decoded_bytes(30000, 30000, 4) > decoded_bytes_max(373));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::picture_format_test

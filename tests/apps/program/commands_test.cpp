@@ -1,8 +1,8 @@
-#include "apps/commands.h"
-#include "apps/check/command.h"
-#include "apps/compare/command.h"
-#include "apps/line/command_line.h"
-#include "apps/machine/machine_command.h"
+#include "apps/main/commands.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/machine/machine_command.h"
+#include "apps/lab/check/command.h"
+#include "apps/lab/compare/command.h"
 #include "apps/scene/scene_command.h"
 
 #include <doctest/doctest.h>
@@ -15,7 +15,7 @@
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::commands_test {
 
 using namespace core;
 
@@ -127,4 +127,4 @@ TEST_CASE("a wrong line is told of options that only other commands have") {
   CHECK(contains(command_complaint({"render", "study", "-o", "a.png", "--page=4"}), "--page is no option of dmpc render"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::commands_test

@@ -18,7 +18,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::failing_allocation_test {
 
 namespace {
 
@@ -135,6 +135,6 @@ TEST_CASE("too few threads for the nodes are status 4, with how many there would
   CHECK(contains(file_text(folder / "0.errors"), "a computer of 3 nodes takes 4 threads, and this one lets dmpc start but "));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::failing_allocation_test
 
 #endif

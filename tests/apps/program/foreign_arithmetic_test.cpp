@@ -10,7 +10,7 @@
 #include "tests/support/film_in.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::foreign_arithmetic_test {
 
 namespace {
 
@@ -65,6 +65,6 @@ TEST_CASE("a library that flushes to zero and rounds down changes no table of a 
   CHECK(table("LD_PRELOAD=" DMPC_FOREIGN_ARITHMETIC) == table("LD_PRELOAD="));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::foreign_arithmetic_test
 
 #endif

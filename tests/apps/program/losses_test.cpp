@@ -15,7 +15,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::program_losses_test {
 
 namespace {
 
@@ -120,4 +120,4 @@ TEST_CASE("an output that the scene was read from is refused before it is writte
   CHECK(file_text(folder / "paint.png") == paint);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::program_losses_test

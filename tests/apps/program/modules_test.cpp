@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::modules_test {
 
 namespace {
 
@@ -206,4 +206,4 @@ TEST_CASE("a module that this computer has no memory or no threads for is a shor
 }
 #endif
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::modules_test

@@ -21,7 +21,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::program_program_test {
 
 namespace {
 
@@ -54,7 +54,7 @@ bool until(const Done& done) {
   return false;
 }
 
-/// Of the first figure with this name.
+/// The value of the first figure with this name.
 std::string value_of(const std::string& json, const std::string& name) {
   const std::size_t begin = json.find("\"" + name + "\":");
   REQUIRE(begin != std::string::npos);
@@ -62,7 +62,7 @@ std::string value_of(const std::string& json, const std::string& name) {
   return json.substr(number, json.find_first_not_of("0123456789", number) - number);
 }
 
-/// Of a table's only row.
+/// The cell of a table's only row.
 std::string cell_of(const std::string& csv, const std::string& column) {
   std::istringstream lines(csv);
   std::string names, cells;
@@ -528,7 +528,7 @@ TEST_CASE("an abort that is sent ends dmpc by that signal") {
   CHECK(process.status() == 1000 + SIGABRT);
 }
 
-/// Of the processes that are children of `parent`, as they were started.
+/// The processes that are children of `parent`, as they were started.
 std::vector<int> children_of(int parent) {
   const std::string id = std::to_string(parent);
   std::istringstream list(file_text("/proc/" + id + "/task/" + id + "/children"));
@@ -584,4 +584,4 @@ TEST_CASE("a signal while a render writes its counters ends with status 130, and
   CHECK(folder.entry_count() == 2);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::program_program_test

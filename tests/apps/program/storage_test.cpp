@@ -16,11 +16,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/stability/state.h"
+#include "apps/edge/machine/machine_file.h"
+#include "apps/edge/machine/machines.h"
 #include "apps/formats/nff_reader.h"
-#include "apps/machine/machine_file.h"
-#include "apps/machine/machines.h"
-#include "apps/oracle/accurate/reference_file.h"
+#include "apps/lab/bench/stability/state.h"
+#include "apps/lab/oracle/accurate/reference_file.h"
 #include "apps/render/checkpoint_file.h"
 #include "apps/render/command.h"
 #include "core/base/expect.h"
@@ -30,7 +30,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::storage_test {
 
 namespace {
 
@@ -190,7 +190,7 @@ class Storage {
   int status_ = 0;
 };
 
-/// Of a computer on which nothing goes wrong.
+/// The picture of a computer on which nothing goes wrong.
 const std::vector<float>& undisturbed_picture(std::uint64_t seed) {
   static std::map<std::uint64_t, std::vector<float>> pictures;
   std::vector<float>& picture = pictures[seed % 2];
@@ -309,4 +309,4 @@ TEST_CASE("storage: a disk that fails to read is told from a file that is damage
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::storage_test

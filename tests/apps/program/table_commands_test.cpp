@@ -6,27 +6,27 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/error/command.h"
-#include "apps/bench/precision/command.h"
-#include "apps/bench/speed/command.h"
-#include "apps/bench/stability/command.h"
-#include "apps/commands.h"
-#include "apps/study/command.h"
-#include "apps/study/paper/command.h"
-#include "apps/study/scale/command.h"
-#include "apps/study/sweep/command.h"
+#include "apps/lab/bench/error/command.h"
+#include "apps/lab/bench/precision/command.h"
+#include "apps/lab/bench/speed/command.h"
+#include "apps/lab/bench/stability/command.h"
+#include "apps/lab/study/command.h"
+#include "apps/lab/study/paper/command.h"
+#include "apps/lab/study/scale/command.h"
+#include "apps/lab/study/sweep/command.h"
+#include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 #include "tests/support/unwritable.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::table_commands_test {
 namespace {
 
 using Words = std::vector<std::string>;
 
-/// Of those commands that call dmpc themselves, another one than the test's.
+/// For those commands that call dmpc themselves: another one than the test's.
 template <class Options>
 Options with_program(const apps::Command& command) {
   auto options = command.options<Options>();
@@ -170,4 +170,4 @@ TEST_CASE("no command's output replaces a file that its scene is read from") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::table_commands_test

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::truth_test {
 
 namespace {
 
@@ -67,4 +67,4 @@ TEST_CASE("names that steer a terminal are shown on it, and not obeyed") {
   CHECK_FALSE(contains(rendered.output + rendered.errors, "\x1b"));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::truth_test

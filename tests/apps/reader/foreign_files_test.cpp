@@ -17,18 +17,18 @@
 #include <sstream>
 #include <string>
 
+#include "apps/edge/system/text_input.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/nff_reader.h"
 #include "apps/picture/image_file.h"
 #include "apps/picture/picture_reader.h"
 #include "apps/reader/file_access.h"
 #include "apps/reader/process.h"
-#include "apps/system/text_input.h"
 #include "core/base/expect.h"
 #include "tests/support/forked_process.h"
 #include "tests/support/hostile_files.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::foreign_files_test {
 
 namespace {
 
@@ -363,4 +363,4 @@ TEST_CASE("a scene may come through a pipe, however slowly") {
   CHECK(apps::read_nff_file(pipe).view.width == 8);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::foreign_files_test

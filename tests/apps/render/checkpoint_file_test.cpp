@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::checkpoint_file_test {
 
 using tests::contains;
 using tests::file_text;
@@ -19,7 +19,7 @@ namespace {
 
 const PictureIdentity identity{100, 50, {{"depth", "5"}, {"objects", "#12"}}, {.samples = 4}};
 
-/// Of 5,000 pixels, of which a third are done.
+/// A picture of 5,000 pixels, of which a third are done.
 struct SmallPicture {
   SmallPicture() {
     for (std::uint32_t pixel = 0; pixel < 5000; pixel += 3) {
@@ -126,4 +126,4 @@ TEST_CASE("where there is no room for a checkpoint that is said, and the old one
   CHECK(read_checkpoint(folder / "a", identity).done == small.done);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::checkpoint_file_test

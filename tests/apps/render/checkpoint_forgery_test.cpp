@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/system/digest.h"
 #include "apps/render/checkpoint_file.h"
-#include "apps/system/digest.h"
 #include "core/base/expect.h"
 #include "core/picture/shade.h"
 #include "tests/support/environment.h"
@@ -22,7 +22,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::checkpoint_forgery_test {
 
 using tests::contains;
 using tests::file_text;
@@ -179,4 +179,4 @@ TEST_CASE("a fact that a checkpoint says twice is damage") {
                        core::InputError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::checkpoint_forgery_test

@@ -17,7 +17,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::checkpoints_test {
 
 using tests::ChildProcess;
 using tests::contains;
@@ -78,7 +78,7 @@ bool waits_for_checkpoint(const TemporaryFolder& folder) {
   return false;
 }
 
-/// Of a picture that takes about a second.
+/// Computers for a picture that takes about a second.
 const std::vector<std::vector<std::string>> computers = {{"--samples=16", "--strategy=svm", "--nodes=3"},
                                                          {"--samples=16", "--strategy=dataflow", "--nodes=2"},
                                                          {"--samples=16", "--strategy=replicated", "--nodes=2"},
@@ -265,4 +265,4 @@ TEST_CASE("a checkpoint of other settings is refused by the program, which says 
   CHECK(contains(other.errors(), "of another picture: depth is 5, here 4"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::checkpoints_test

@@ -4,10 +4,10 @@
 
 #include <numeric>
 
-#include "apps/run/work.h"
+#include "apps/edge/run/work.h"
 #include "tests/apps/show/watched.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::onlookers_test {
 
 namespace {
 
@@ -129,4 +129,4 @@ TEST_CASE("looking on changes neither the picture nor the run") {
   CHECK(account_of(*alone.report).virtual_time->hash == account_of(*watched.report).virtual_time->hash);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::onlookers_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/small_scenes.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::picture_identity_test {
 
 using tests::mirrors_and_glass;
 
@@ -83,4 +83,4 @@ TEST_CASE("the computer, the strategy and what is left out are no part of the pi
         }).empty());
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::picture_identity_test

@@ -13,7 +13,7 @@
 #include "tests/support/loopback_viewer.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::preview_test {
 
 using tests::LoopbackListener;
 using tests::ShownPicture;
@@ -182,4 +182,4 @@ TEST_CASE("render shows its picture to a viewer, with every strategy, and in the
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::preview_test

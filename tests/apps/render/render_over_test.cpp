@@ -10,15 +10,17 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
-#include "apps/line/exit_status.h"
-#include "apps/line/words.h"
+#include "apps/edge/line/exit_status.h"
+#include "apps/edge/line/words.h"
+#include "apps/main/commands.h"
 #include "apps/render/command.h"
 #include "apps/render/ranks.h"
 #include "core/base/expect.h"
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
+
+namespace render_over_test {
 
 namespace {
 
@@ -211,3 +213,5 @@ TEST_CASE("what ranks cannot do is refused with the line") {
 }
 
 }  // namespace
+
+}  // namespace render_over_test

@@ -5,7 +5,7 @@
 #include "core/base/expect.h"
 #include "tests/support/loopback_viewer.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::tev_packet_test {
 
 TEST_CASE("a packet that makes a picture has the documented bytes") {
   const std::string expected("\x23\0\0\0\4\1ab\0\x0a\0\0\0\x05\0\0\0\3\0\0\0R\0G\0B\0", 27);
@@ -34,4 +34,4 @@ TEST_CASE("a tile without pixels or with too few values is refused") {
   CHECK_THROWS_AS(update_packet("a", {0, 0, 2, 1, {1, 2, 3}}), core::InternalError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::tev_packet_test

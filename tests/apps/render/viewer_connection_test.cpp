@@ -9,7 +9,7 @@
 #include "core/base/expect.h"
 #include "tests/support/loopback_viewer.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::viewer_connection_test {
 
 using tests::LoopbackListener;
 
@@ -76,4 +76,4 @@ TEST_CASE("a viewer that goes away is left alone") {
   CHECK_FALSE(connection.is_open());
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::viewer_connection_test

@@ -16,7 +16,7 @@
 #include "tests/apps/show/watched.h"
 #include "tests/support/loopback_ranks.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::watched_over_ranks_test {
 
 namespace {
 
@@ -236,4 +236,4 @@ TEST_CASE("over ranks a file of references has those of every node, and all of t
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::watched_over_ranks_test

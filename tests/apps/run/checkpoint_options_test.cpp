@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::checkpoint_options_test {
 
 using tests::contains;
 using tests::render_usage_complaint;
@@ -62,4 +62,4 @@ TEST_CASE("what was done before is neither on a heat map nor in virtual time") {
   CHECK(parse({"--checkpoint=a", "--heatmap=rays:b.png"}).file == "a");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::checkpoint_options_test

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::heat_options_test {
 
 using core::HeatKind;
 using tests::contains;
@@ -77,4 +77,4 @@ TEST_CASE("strategies without page look-ups refuse the kinds of pages, and say w
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::heat_options_test

@@ -5,7 +5,7 @@
 #include <set>
 #include <string_view>
 
-namespace dmpc::apps {
+namespace dmpc::apps::memory_categories_test {
 
 TEST_CASE("every category of a node's memory is shown once, by a name of its own") {
   std::set<std::size_t> numbers;
@@ -20,4 +20,4 @@ TEST_CASE("every category of a node's memory is shown once, by a name of its own
   CHECK(std::string_view(memory_categories.front().name) == "home pages");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::memory_categories_test

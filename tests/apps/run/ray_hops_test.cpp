@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <vector>
 
-namespace dmpc::apps {
+namespace dmpc::apps::ray_hops_test {
 
 namespace {
 
 using nodes::TopologyKind;
 
-/// Of a run in which so many rays went from each node (row) to each other (column).
+/// The report of a run in which so many rays went from each node (row) to each other (column).
 dataflow::Report report_with(const std::vector<std::vector<std::uint64_t>>& rays) {
   dataflow::Report report{.film = core::Film(1, 1), .plan = {}, .regions = dataflow::Bsp({1, 1, 1})};
   for (const std::vector<std::uint64_t>& row : rays) {
@@ -43,4 +43,4 @@ TEST_CASE("rays that stay have no hops") {
   CHECK(ray_hops_of(report_with({{0, 0}, {0, 0}}), TopologyKind::torus).mean_of_random == 0);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::ray_hops_test

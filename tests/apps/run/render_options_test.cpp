@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
-#include "apps/line/command_line.h"
+#include "apps/edge/line/command_line.h"
+#include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::render_options_test {
 
 using namespace core;
 
@@ -501,4 +501,4 @@ TEST_CASE("a page needs a name that browsers know") {
   CHECK(contains(render_complaint({"--report=a.pdf"}), "--report=a.pdf: expected a file with the ending .html"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::render_options_test

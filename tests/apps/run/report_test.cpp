@@ -9,7 +9,7 @@
 #include "svm/packets.h"
 #include "tests/apps/show/rendered.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::run_report_test {
 
 TEST_CASE("an account of any strategy says what the report says") {
   for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
@@ -59,4 +59,4 @@ TEST_CASE("saturated sums of the host's film are found in every report") {
   CHECK(account_of(*rays.report).host_deposits_saturated == 8);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::run_report_test

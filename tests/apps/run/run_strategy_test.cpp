@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/machine/machine_file.h"
+#include "apps/edge/machine/machine_file.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "tests/apps/show/rendered.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::run_strategy_test {
 
 using core::operator""_KiB;
 
@@ -188,4 +188,4 @@ TEST_CASE("a run that is stopped before it starts reports that it was interrupte
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::run_strategy_test

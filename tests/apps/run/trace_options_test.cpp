@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "nodes/watch/trace.h"
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::trace_options_test {
 
 using tests::contains;
 using tests::render_usage_complaint;
@@ -80,4 +80,4 @@ TEST_CASE("a trace has one of two formats, and what chooses from it needs one") 
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::trace_options_test

@@ -13,7 +13,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::load_scene_test {
 
 namespace {
 
@@ -111,4 +111,4 @@ TEST_CASE("whoever loads a scene learns which files were opened for it") {
   CHECK(single.paths() == std::set{resolved / "a.nff"});
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::load_scene_test

@@ -7,7 +7,7 @@
 #include "core/base/expect.h"
 #include "tests/support/checked_floor.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::picture_options_test {
 
 using core::UsageError;
 
@@ -33,4 +33,4 @@ TEST_CASE("cones are as wide as pixels where there is a texture, half as wide wh
   CHECK(render_settings(picture, laid, core::build_database(laid, {})).shade.pixel_angle == 0);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::picture_options_test

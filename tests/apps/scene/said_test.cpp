@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::said_test {
 
 namespace {
 
@@ -43,4 +43,4 @@ TEST_CASE("a scene with nothing in it is said") {
   CHECK(tests::contains(said_of(nff_view + "l 1 2 3\n"), "a.nff: there is nothing in it"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::said_test

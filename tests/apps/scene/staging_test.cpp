@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands.h"
+#include "apps/main/commands.h"
 #include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::staging_test {
 
 using core::UsageError;
 using core::Vec3d;
@@ -118,4 +118,4 @@ TEST_CASE("a camera along the scene's own up asks for another up") {
   CHECK_THROWS_WITH_AS(apply({.camera = parse_camera("0,5,0/0,0,0")}, scene), Contains("give UP, too"), UsageError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::staging_test

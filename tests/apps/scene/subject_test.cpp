@@ -7,7 +7,7 @@
 
 #include "apps/scene/load_scene.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::subject_test {
 
 TEST_CASE("a subject has the scene's records and the picture that was asked for") {
   const PictureOptions picture{.scene = "tetra-3", .resolution = Resolution{20, 10}, .samples = 2, .depth = 3};
@@ -49,4 +49,4 @@ TEST_CASE("what was left out is told in good grammar") {
   CHECK(duplicates_text(2) == "2 triangles were left out: there twice");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::subject_test

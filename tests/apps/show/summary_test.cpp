@@ -7,7 +7,7 @@
 
 #include "tests/apps/show/rendered.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::summary_test {
 
 namespace {
 
@@ -88,4 +88,4 @@ TEST_CASE("regions of equal size were predicted no load") {
   CHECK(contains(summary(options), "load     achieved "));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::summary_test

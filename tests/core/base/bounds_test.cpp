@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
+
+namespace bounds_test {
 
 using namespace dmpc::core;
 
@@ -39,3 +41,5 @@ TEST_CASE("bounds grow, are cut off, and know their surface") {
   CHECK(part.low == std::array<float, 4>{1, 1, 1, 0});
   CHECK(part.high == std::array<float, 4>{2, 1, 1, 0});
 }
+
+}  // namespace bounds_test

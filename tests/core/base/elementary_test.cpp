@@ -14,6 +14,8 @@
 
 #include "core/base/expect.h"
 
+namespace elementary_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -173,3 +175,5 @@ TEST_CASE("rounding to 6 digits keeps zeros and what is not finite") {
   CHECK(std::isnan(round_to_6_digits(std::numeric_limits<double>::quiet_NaN())));
   CHECK(round_to_6_digits(5e-324) == 5e-324);
 }
+
+}  // namespace elementary_test

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string>
 
+namespace forget_test {
+
 TEST_CASE("what is forgotten takes no room") {
   std::vector<int> items(1000, 7);
   dmpc::core::forget(items);
@@ -43,3 +45,5 @@ TEST_CASE("small pieces that were freed between others go back, and the others s
   CHECK(kept[77] == std::vector<char>(8000, 77));
 }
 #endif
+
+}  // namespace forget_test

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
+
+namespace interval_test {
 
 using namespace dmpc::core;
 
@@ -63,3 +65,5 @@ TEST_CASE("an interval holds what doubles make of any numbers in its operands") 
 }
 
 }  // namespace
+
+}  // namespace interval_test

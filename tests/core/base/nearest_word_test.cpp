@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace dmpc::core {
+namespace dmpc::core::nearest_word_test {
 
 namespace {
 
@@ -44,4 +44,4 @@ TEST_CASE("a question follows a sentence, or nothing does") {
   CHECK(did_you_mean("--light", known).empty());
 }
 
-}  // namespace dmpc::core
+}  // namespace dmpc::core::nearest_word_test

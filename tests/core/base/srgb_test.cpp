@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dmpc::core {
+namespace dmpc::core::srgb_test {
 
 namespace {
 
@@ -52,4 +52,4 @@ TEST_CASE("bytes are clamped and NaN is black") {
   CHECK(srgb_byte(std::numeric_limits<float>::quiet_NaN()) == 0);
 }
 
-}  // namespace dmpc::core
+}  // namespace dmpc::core::srgb_test

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace dmpc::core {
+namespace dmpc::core::zeroed_array_test {
 namespace {
 
 /// Nothing, one, less than a large page, and several.
@@ -82,4 +82,4 @@ TEST_CASE("a large array takes nothing of the real computer until it is written"
 #endif
 
 }  // namespace
-}  // namespace dmpc::core
+}  // namespace dmpc::core::zeroed_array_test

@@ -12,6 +12,8 @@
 #include "core/base/sampling.h"
 #include "core/families/scenes.h"
 
+namespace mount_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -49,7 +51,7 @@ std::vector<double> details(const Heights& heights) {
   return found;
 }
 
-/// Of what is `distance` apart: 1 if alike, about 0 if unrelated.
+/// The correlation of what is `distance` apart: 1 if alike, about 0 if unrelated.
 double correlation(const std::vector<double>& values, std::size_t distance) {
   double products = 0, squares = 0;
   for (std::size_t i = 0; i + distance < values.size(); ++i) {
@@ -127,3 +129,5 @@ TEST_CASE("finer mountains are as high as that of 1987, and half as rough with e
     CHECK(roughness(fine) == doctest::Approx(roughness(old) / std::pow(2, size - 7)).epsilon(0.1));
   }
 }
+
+}  // namespace mount_test

@@ -11,6 +11,8 @@
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 
+namespace scenes_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -291,3 +293,5 @@ TEST_CASE("the list of families names each with its range") {
   CHECK(contains(text, "mount     size 1 to 11, default 6\n"));
   CHECK(std::count(text.begin(), text.end(), '\n') == 11);
 }
+
+}  // namespace scenes_test

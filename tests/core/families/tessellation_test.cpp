@@ -7,6 +7,8 @@
 
 #include "core/base/expect.h"
 
+namespace tessellation_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -100,3 +102,5 @@ TEST_CASE("a curve divided into nothing breaks an invariant") {
   SceneBuilder builder(scene);
   CHECK_THROWS_AS(scenes::TessellatingSink(0, builder), InternalError);
 }
+
+}  // namespace tessellation_test

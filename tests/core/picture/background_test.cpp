@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/stability/cells.h"
+#include "apps/lab/bench/stability/cells.h"
 #include "core/base/sampling.h"
 #include "core/trace/traversal.h"
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
+
+namespace picture_background_test {
 
 using namespace dmpc::core;
 using namespace dmpc::tests;
@@ -185,3 +187,5 @@ TEST_CASE("no tile is empty by default or where a camera's angle leaves it open"
   scene.view.angle_degrees = 179.9999;
   CHECK(Looked(scene, 32, 32).tiles().count() == 0);
 }
+
+}  // namespace picture_background_test

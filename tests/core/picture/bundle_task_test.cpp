@@ -6,12 +6,14 @@
 #include <numeric>
 #include <vector>
 
-#include "apps/bench/stability/records.h"
+#include "apps/lab/bench/stability/records.h"
 #include "core/base/expect.h"
 #include "core/picture/background.h"
 #include "core/picture/render.h"
 #include "tests/support/shooting.h"
 #include "tests/support/small_scenes.h"
+
+namespace picture_bundle_task_test {
 
 using namespace dmpc;
 using namespace dmpc::core;
@@ -179,3 +181,5 @@ TEST_CASE("a bundle of too many rays is refused, as is a stack of less than a hi
   CHECK_THROWS_AS(lacking.start(std::span<const std::uint32_t>(pixels).first(8), {0, 2}, subject.settings, operations),
                   InternalError);
 }
+
+}  // namespace picture_bundle_task_test

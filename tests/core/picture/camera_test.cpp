@@ -8,6 +8,8 @@
 #include "core/base/expect.h"
 #include "tests/support/scaled.h"
 
+namespace picture_camera_test {
+
 using namespace dmpc::core;
 using namespace dmpc::tests;
 
@@ -113,3 +115,5 @@ TEST_CASE("rays of an eye far away start beside the grid and lead where those of
     }
   }
 }
+
+}  // namespace picture_camera_test

@@ -6,8 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/base/expect.h"
+
+namespace film_test {
 
 using namespace dmpc::apps;
 using namespace dmpc::core;
@@ -106,3 +108,5 @@ TEST_CASE("a film's hash tells its integers, its planes and its size apart") {
   CHECK(one.hash() != odd.hash());
   CHECK(one.hash() != row.hash());
 }
+
+}  // namespace film_test

@@ -10,6 +10,8 @@
 #include "core/picture/sample_position.h"
 #include "tests/support/small_scenes.h"
 
+namespace fine_detail_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -124,3 +126,5 @@ TEST_CASE("nothing known has no detail, and a scene without any leaves nothing k
   small.builder.polygon({{-3, -3, -1}, {3, -3, -1}, {0, 3, -1}});
   CHECK(small.find().is_empty());
 }
+
+}  // namespace fine_detail_test

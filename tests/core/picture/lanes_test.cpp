@@ -17,6 +17,8 @@
 #include "core/picture/triangle_lanes.h"
 #include "core/record/record.h"
 
+namespace lanes_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -231,3 +233,5 @@ TEST_CASE("hits of what is curved, or whose plane is shared, or whose geometry i
     CHECK_FALSE(lanes.take(state, block.record.data()));
   }
 }
+
+}  // namespace lanes_test

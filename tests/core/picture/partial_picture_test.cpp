@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace dmpc::core {
+namespace dmpc::core::partial_picture_test {
 
 namespace {
 
@@ -147,4 +147,4 @@ TEST_CASE("light without samples, below nothing or above what they can bring is 
   CHECK(fault_after(in_first_pass(), has_one, terms_of_one) == expected);  // there is no second sample
 }
 
-}  // namespace dmpc::core
+}  // namespace dmpc::core::partial_picture_test

@@ -4,12 +4,12 @@
 #include <cstring>
 #include <optional>
 
-#include "apps/bench/stability/random.h"
-#include "core/build/database.h"
+#include "apps/lab/bench/stability/random.h"
+#include "core/database/database.h"
 #include "core/trace/traversal.h"
 #include "tests/support/small_scenes.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::pass_test {
 
 using apps::Random;
 
@@ -121,4 +121,4 @@ TEST_CASE("a ray that passes a region ends there if its candidate or its end lie
   CHECK(in_one_step(ray, frame, passage, box).traced == core::Traced::miss);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::pass_test

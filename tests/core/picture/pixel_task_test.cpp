@@ -4,9 +4,11 @@
 
 #include <vector>
 
-#include "apps/bench/stability/mesh.h"
+#include "apps/lab/bench/stability/mesh.h"
 #include "core/base/expect.h"
 #include "tests/support/shooting.h"
+
+namespace pixel_task_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -170,3 +172,5 @@ TEST_CASE("one call ends at most one ray") {
   CHECK(calls == operations.rays[0] + operations.rays[1] + operations.rays[2] + operations.rays[3]);
   CHECK(operations.primary_hits + operations.secondary_hits == operations.shadings);
 }
+
+}  // namespace pixel_task_test

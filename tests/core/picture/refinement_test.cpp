@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "core/base/expect.h"
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/render.h"
 #include "tests/support/film_error.h"
 #include "tests/support/small_scenes.h"
+
+namespace refinement_test {
 
 using namespace dmpc::core;
 using namespace dmpc::tests;
@@ -219,3 +221,5 @@ TEST_CASE("a disc refined needs half of the samples that an even picture of the 
   CHECK(root_mean_square(refined, truth) < 1.3 * root_mean_square(even, truth));
   CHECK(refined.samples() < even.samples() / 2);
 }
+
+}  // namespace refinement_test

@@ -6,6 +6,8 @@
 
 #include "tests/support/shooting.h"
 
+namespace render_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -119,3 +121,5 @@ TEST_CASE("rendering twice gives the same hash, another view another") {
   scene.view.from = {0, 0, 5};
   CHECK(rendered(scene, 8, 2).film.hash() != hash);
 }
+
+}  // namespace render_test

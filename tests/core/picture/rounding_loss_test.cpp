@@ -6,6 +6,8 @@
 
 #include "tests/support/small_scenes.h"
 
+namespace rounding_loss_test {
+
 using namespace dmpc::core;
 using dmpc::tests::built_in;
 
@@ -101,3 +103,5 @@ TEST_CASE(
   CHECK(database.dropped() == 3);
   CHECK(database.collapsed().size() == 3);
 }
+
+}  // namespace rounding_loss_test

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+namespace sample_pass_test {
+
 using namespace dmpc::core;
 
 TEST_CASE("a mask has the pixels that were added, or all, and none beyond") {
@@ -48,3 +50,5 @@ TEST_CASE("the first pass has all pixels, a later one those whose steps bring sa
   CHECK(pass.has(3));
   CHECK_FALSE(pass.has(2));
 }
+
+}  // namespace sample_pass_test

@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+namespace sample_position_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -69,3 +71,5 @@ TEST_CASE("the same pixel and sample always lie at the same place") {
   CHECK(sample_position(7, 3) == sample_position(7, 3));
   CHECK(sample_position(0xffffffff, 0xffffffff).x < 1);
 }
+
+}  // namespace sample_position_test

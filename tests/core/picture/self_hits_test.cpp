@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <vector>
 
-#include "apps/bench/stability/children.h"
-#include "apps/bench/stability/mesh.h"
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/children.h"
+#include "apps/lab/bench/stability/mesh.h"
+#include "apps/lab/bench/stability/random.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
+
+namespace self_hits_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -74,7 +76,7 @@ Count self_hits(const Scene& scene, std::size_t rays) {
   return count;
 }
 
-/// The same, meeting random triangles at `rise` (the sine of the angle to their plane), also next to their edges.
+/// Hits of rays that meet random triangles at `rise` (the sine of the angle to their plane), also next to their edges.
 Count grazing_self_hits(const Scene& scene, double rise, std::size_t rays) {
   const Database database = database_of(scene);
   Random random(42);
@@ -192,3 +194,5 @@ TEST_CASE("two sheets a ten-thousandth apart stay separate") {
   CHECK(blocked_above == 0);
   CHECK(between == 2 * scaled(20'000));
 }
+
+}  // namespace self_hits_test

@@ -8,6 +8,8 @@
 #include "core/scene/scene.h"
 #include "tests/support/shooting.h"
 
+namespace shade_test {
+
 using namespace dmpc::core;
 using namespace dmpc::apps;
 using namespace dmpc::tests;
@@ -264,3 +266,5 @@ TEST_CASE("a ray off a sphere leads to where it would from the very point, whate
     CHECK(dot(from_point, normal) > 0);
   }
 }
+
+}  // namespace shade_test

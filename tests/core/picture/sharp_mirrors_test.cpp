@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstdint>
 
-#include "apps/bench/stability/children.h"
-#include "apps/bench/stability/random.h"
-#include "apps/bench/stability/rays.h"
+#include "apps/lab/bench/stability/children.h"
+#include "apps/lab/bench/stability/random.h"
+#include "apps/lab/bench/stability/rays.h"
 #include "core/scene/frame.h"
 #include "tests/support/scaled.h"
+
+namespace sharp_mirrors_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -75,3 +77,5 @@ TEST_CASE("no ray gets out of a tetrahedron of mirrors, however near to its edge
     CHECK(bounces.escapes == 0);
   }
 }
+
+}  // namespace sharp_mirrors_test

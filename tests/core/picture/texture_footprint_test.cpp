@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace dmpc::core {
+namespace dmpc::core::texture_footprint_test {
 
 namespace {
 
@@ -26,7 +26,7 @@ struct Rectangle {
     high = {std::max(high.s, double{place[0]}), std::max(high.t, double{place[1]})};
   }
   bool has(double s, double t) const {
-    constexpr double rounding = 0x1p-30;  // core/build/texture_records.cpp takes 2^-20 more
+    constexpr double rounding = 0x1p-30;  // core/database/texture_records.cpp takes 2^-20 more
     return s >= low.s - rounding && s <= high.s + rounding && t >= low.t - rounding && t <= high.t + rounding;
   }
 };
@@ -122,4 +122,4 @@ TEST_CASE("no cone and no ellipse are a point") {
   }
 }
 
-}  // namespace dmpc::core
+}  // namespace dmpc::core::texture_footprint_test

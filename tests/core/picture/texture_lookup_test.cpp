@@ -10,7 +10,7 @@
 #include "tests/support/noise_texture.h"
 #include "tests/support/shown_texture.h"
 
-namespace dmpc::core {
+namespace dmpc::core::picture_texture_lookup_test {
 
 namespace {
 
@@ -129,4 +129,4 @@ TEST_CASE("the sum of all weights is 1 wherever the place lies") {
   }
 }
 
-}  // namespace dmpc::core
+}  // namespace dmpc::core::picture_texture_lookup_test

@@ -3,10 +3,12 @@
 
 #include <cmath>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/render.h"
 #include "core/record/records.h"
 #include "tests/support/checked_floor.h"
+
+namespace textured_light_test {
 
 using namespace dmpc;
 using namespace dmpc::core;
@@ -87,3 +89,5 @@ TEST_CASE("a painted wall gives back its colours by the cosine of its angle to t
     CHECK(seen[channel] == doctest::Approx(expected[channel]).epsilon(1e-5));
   }
 }
+
+}  // namespace textured_light_test

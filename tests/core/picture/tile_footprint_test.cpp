@@ -7,6 +7,8 @@
 
 #include "core/scene/frame.h"
 
+namespace tile_footprint_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -117,3 +119,5 @@ TEST_CASE("where a pixel is smaller than what rounding does to a ray footprints 
   CHECK(footprint.columns == all_tiles);
   CHECK(footprint.rows == all_tiles);
 }
+
+}  // namespace tile_footprint_test

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
+
+namespace coordinate_test {
 
 using namespace dmpc::core;
 using dmpc::apps::Random;
@@ -26,3 +28,5 @@ TEST_CASE("away from zero a coordinate is the nearest float") {
     CHECK(coordinate_of(value) == static_cast<float>(value));
   }
 }
+
+}  // namespace coordinate_test

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
+
+namespace curved_values_test {
 
 using namespace dmpc::core;
 using dmpc::apps::Random;
@@ -71,3 +73,5 @@ TEST_CASE("a lane's values are its floats and the bytes of its rests") {
   CHECK(rest(7) == 127);
   CHECK(cone.vector(4).x == 5);
 }
+
+}  // namespace curved_values_test

@@ -4,6 +4,8 @@
 
 #include <set>
 
+namespace directory_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -62,3 +64,5 @@ TEST_CASE("two entries share a record, and a directory may begin anywhere") {
   CHECK(directory_offset(first) == 0);
   CHECK(directory_offset(second) == 4);
 }
+
+}  // namespace directory_test

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <string>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/scene/frame.h"
 #include "tests/support/small_scenes.h"
+
+namespace detail_test {
 
 using namespace dmpc::core;
 using dmpc::tests::built_in;
@@ -71,3 +73,5 @@ TEST_CASE("what has no size is no detail") {
   CHECK(frame_of(scene).low == Vec3d{});
   CHECK(frame_of(Scene{}).low == Vec3d{});
 }
+
+}  // namespace detail_test

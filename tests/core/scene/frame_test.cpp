@@ -4,7 +4,9 @@
 
 #include <cmath>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
+
+namespace frame_test {
 
 using namespace dmpc::apps;
 using namespace dmpc::core;
@@ -114,3 +116,5 @@ TEST_CASE("the insertion pad grows with the distance of the rays and never vanis
   CHECK(insertion_pad(frame, 1000) >= 1000 * 0x1p-21 * 0.5);
   CHECK(insertion_pad(frame, 1000) > insertion_pad(frame, 100));
 }
+
+}  // namespace frame_test

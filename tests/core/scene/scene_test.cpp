@@ -7,6 +7,8 @@
 
 #include "core/base/expect.h"
 
+namespace scene_scene_test {
+
 using namespace dmpc::core;
 
 namespace {
@@ -136,3 +138,5 @@ TEST_CASE("an empty scene is replayed as background and view") {
   replay(Scene{}, notes);
   CHECK(notes.text == "bv");
 }
+
+}  // namespace scene_scene_test

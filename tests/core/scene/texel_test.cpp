@@ -9,7 +9,7 @@
 
 #include "core/base/srgb.h"
 
-namespace dmpc::core {
+namespace dmpc::core::texel_test {
 
 namespace {
 
@@ -66,4 +66,4 @@ TEST_CASE("what no texel can hold is clamped") {
   CHECK(decoded(shared_exponent, encoded(shared_exponent, {1e9, infinity, 0})) == Color{65408, 65408, 0});
 }
 
-}  // namespace dmpc::core
+}  // namespace dmpc::core::texel_test

@@ -8,7 +8,7 @@
 #include "core/scene/texel.h"
 #include "tests/support/noise_texture.h"
 
-namespace dmpc::core {
+namespace dmpc::core::scene_texture_test {
 
 namespace {
 
@@ -63,4 +63,4 @@ TEST_CASE("the brightest channel is that of all texels") {
   CHECK(tests::noise_texture(4, 4, {}, {}, TexelFormat::shared_exponent).brightest > 0);
 }
 
-}  // namespace dmpc::core
+}  // namespace dmpc::core::scene_texture_test

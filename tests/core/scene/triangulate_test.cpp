@@ -9,10 +9,12 @@
 #include <numeric>
 #include <string>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/families/scenes.h"
 #include "core/scene/ear_clipper.h"
 #include "core/scene/flat_polygon.h"
+
+namespace triangulate_test {
 
 using namespace dmpc::apps;
 using namespace dmpc::core;
@@ -312,3 +314,5 @@ TEST_CASE("polygons that cross themselves come to an end") {
     CHECK(triangulate(vertices).size() <= 18);
   }
 }
+
+}  // namespace triangulate_test

@@ -3,12 +3,14 @@
 
 #include <cmath>
 
-#include "apps/bench/stability/crowd.h"
-#include "apps/bench/stability/random.h"
-#include "apps/bench/stability/records.h"
+#include "apps/lab/bench/stability/crowd.h"
+#include "apps/lab/bench/stability/random.h"
+#include "apps/lab/bench/stability/records.h"
 #include "core/families/scenes.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
+
+namespace agreement_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -140,3 +142,5 @@ TEST_CASE("pages of every size hold the same hits") {
     CHECK(differences == 0);
   }
 }
+
+}  // namespace agreement_test

@@ -4,11 +4,13 @@
 #include <array>
 #include <vector>
 
-#include "apps/bench/stability/axes.h"
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/axes.h"
+#include "apps/lab/bench/stability/random.h"
 #include "tests/support/referee.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
+
+namespace axis_rays_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -60,3 +62,5 @@ TEST_CASE("axis and diagonal rays from 10 to 1,000 extents away hit what brute f
     CHECK(shoot_everywhere(crowd_seen_from(back), back, scaled(500)).from_brute_force == 0);
   }
 }
+
+}  // namespace axis_rays_test

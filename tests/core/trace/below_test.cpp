@@ -3,9 +3,11 @@
 
 #include <doctest/doctest.h>
 
-#include "core/build/database.h"
+#include "core/database/database.h"
 #include "core/picture/camera.h"
 #include "tests/support/small_scenes.h"
+
+namespace below_test {
 
 namespace {
 
@@ -104,3 +106,5 @@ TEST_CASE("rays whose walks below the forest others do meet what they would alon
     CHECK(shared.skipped.any_hit == alone.skipped.any_hit);
   }
 }
+
+}  // namespace below_test

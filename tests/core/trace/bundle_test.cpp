@@ -9,14 +9,16 @@
 #include <memory>
 #include <vector>
 
-#include "apps/bench/stability/random.h"
-#include "apps/bench/stability/records.h"
-#include "core/build/extract.h"
+#include "apps/lab/bench/stability/random.h"
+#include "apps/lab/bench/stability/records.h"
+#include "core/database/extract.h"
 #include "core/trace/bundle_walk.h"
 #include "tests/support/covering_faces.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 #include "tests/support/small_scenes.h"
+
+namespace bundle_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -67,7 +69,7 @@ WalksAlone walk_alone(const Database& database, const BundleRays& rays, const Sk
   return result;
 }
 
-/// Of shadow rays any hit will do.
+/// The hits are those of rays that walk alone; for shadow rays any hit will do.
 void check_hits(const RayBundle& bundle, const WalksAlone& expected) {
   for (std::size_t i = 0; i < bundle.count; ++i) {
     CAPTURE(i);
@@ -79,7 +81,7 @@ void check_hits(const RayBundle& bundle, const WalksAlone& expected) {
   }
 }
 
-/// Of triangles alone, of all kinds of primitives, and with empty space between its parts.
+/// Scenes of triangles alone, of all kinds of primitives, and with empty space between its parts.
 const std::vector<Database>& bundle_subjects() {
   static const std::vector<Database> all = [] {
     std::vector<Database> result;
@@ -403,3 +405,5 @@ TEST_CASE("a hit that is nearer than a candidate read elsewhere takes its place,
   });
   CHECK(hits > 5);
 }
+
+}  // namespace bundle_test

@@ -6,8 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "apps/bench/stability/rays.h"
+#include "apps/lab/bench/stability/rays.h"
 #include "core/trace/primitive.h"
+
+namespace certificate_test {
 
 using namespace dmpc::core;
 using dmpc::apps::ray_from;
@@ -121,3 +123,5 @@ TEST_CASE("a tangent of a cone, and what passes between its ends, are not certif
 }
 
 }  // namespace
+
+}  // namespace certificate_test

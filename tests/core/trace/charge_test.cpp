@@ -5,7 +5,7 @@
 #include <set>
 #include <string_view>
 
-namespace dmpc::core {
+namespace dmpc::core::charge_test {
 
 namespace {
 
@@ -34,4 +34,4 @@ TEST_CASE("operations are charged by class, and what strategies count is left to
   CHECK(of(counts, Charge::page_install) == 0);
 }
 
-}  // namespace dmpc::core
+}  // namespace dmpc::core::charge_test

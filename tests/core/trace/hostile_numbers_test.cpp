@@ -4,11 +4,13 @@
 #include <array>
 #include <limits>
 
-#include "apps/bench/stability/mesh.h"
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/mesh.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/picture/render.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
+
+namespace hostile_numbers_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -133,3 +135,5 @@ TEST_CASE("scenes of any numbers are built and rendered to the end") {
     render_small(database, scene.view);
   }
 }
+
+}  // namespace hostile_numbers_test

@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/record/records.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
+
+namespace kernel_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -304,3 +306,5 @@ TEST_CASE("the kernel has a name") {
   const std::string name = simd_name();
   CHECK((name == "AVX3" || name == "AVX2" || name == "scalar"));
 }
+
+}  // namespace kernel_test

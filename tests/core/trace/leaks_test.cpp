@@ -4,12 +4,14 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/bench/stability/mesh.h"
-#include "apps/bench/stability/random.h"
-#include "apps/bench/stability/rays.h"
-#include "apps/bench/stability/targets.h"
+#include "apps/lab/bench/stability/mesh.h"
+#include "apps/lab/bench/stability/random.h"
+#include "apps/lab/bench/stability/rays.h"
+#include "apps/lab/bench/stability/targets.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
+
+namespace leaks_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -40,7 +42,7 @@ std::size_t leaks(const Database& database, const std::vector<Vec3d>& origins) {
   return count;
 }
 
-/// The same from `count` points within `reach` of `center`, and from `center` itself.
+/// Leaks from `count` points within `reach` of `center`, and from `center` itself.
 std::size_t leaks(const Mesh& mesh, const Vec3d& center, double reach, std::size_t count) {
   Random random(7);
   std::vector<Vec3d> origins{center};
@@ -142,3 +144,5 @@ TEST_CASE("rays along the axes with zeros of both signs leave no closed mesh") {
   }
   CHECK(leaked == 0);
 }
+
+}  // namespace leaks_test

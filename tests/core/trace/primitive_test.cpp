@@ -6,10 +6,12 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/record/curved_values.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
+
+namespace primitive_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -193,3 +195,5 @@ TEST_CASE("what rounding left of a ray and of a sphere counts") {
   CHECK(std::fabs(distance - (length(Vec3d{0.7, 1.1, 1.9}) - radius)) < 0x1p-31);
   CHECK(intersect_sphere(ray, ball.value.data(), 1, 0) == static_cast<float>(distance));
 }
+
+}  // namespace primitive_test

@@ -4,10 +4,12 @@
 
 #include <array>
 
-#include "apps/bench/stability/mesh.h"
-#include "core/build/extract.h"
+#include "apps/lab/bench/stability/mesh.h"
+#include "core/database/extract.h"
 #include "tests/support/border_scene.h"
 #include "tests/support/shooting.h"
+
+namespace traversal_test {
 
 using namespace dmpc::core;
 using namespace dmpc::apps;
@@ -192,3 +194,5 @@ TEST_CASE("a ray through the edge where four regions meet crosses the planes in 
     }
   }
 }
+
+}  // namespace traversal_test

@@ -9,7 +9,7 @@
 #include "nodes/threads/threads_runner.h"
 #include "tests/support/allocation_guard.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::dataflow_program_allocation_test {
 
 namespace {
 
@@ -51,4 +51,4 @@ TEST_CASE("a node of dataflow allocates nothing while it traces, receives and se
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::dataflow_program_allocation_test

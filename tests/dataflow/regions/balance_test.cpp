@@ -8,13 +8,13 @@
 #include <stop_token>
 #include <vector>
 
-#include "apps/bench/stability/cells.h"
+#include "apps/lab/bench/stability/cells.h"
 #include "core/picture/render.h"
+#include "core/trace/work.h"
 #include "dataflow/regions/charged_picture.h"
-#include "dataflow/regions/work.h"
 #include "tests/support/small_scenes.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::regions_balance_test {
 
 namespace {
 
@@ -117,7 +117,7 @@ TEST_CASE("the charged picture does the operations of the reference renderer, to
     CHECK(found.brick_reads == expected.brick_reads);
     CHECK(found.primitive_tests == expected.primitive_tests);
     CHECK(found.shadings == expected.shadings);
-    CHECK(charged == dataflow::work_of(found));
+    CHECK(charged == core::work_of(found));
   }
 }
 
@@ -202,4 +202,4 @@ TEST_CASE("a balance with options out of range is wrong usage") {
   CHECK_THROWS_AS(balance(stage.database, stage.settings, 0, {}), core::UsageError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::regions_balance_test

@@ -4,9 +4,9 @@
 
 #include <numeric>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::bsp_test {
 
 namespace {
 
@@ -58,7 +58,7 @@ bool tiles(const Bsp& bsp) {
   bool is_right = sum == std::int64_t{size[0]} * size[1] * size[2];
   for (std::int32_t x = 0; x < size[0]; ++x) {
     for (std::int32_t z = 0; z < size[2]; ++z) {
-      is_right = is_right && bsp.region_of(bsp.owner_of({x, 3, z})).contains(Corner{x, 3, z});
+      is_right = is_right && bsp.region_at(bsp.region_index_of(bsp.owner_of({x, 3, z}))).contains(Corner{x, 3, z});
     }
   }
   return is_right;
@@ -189,7 +189,7 @@ TEST_CASE("regions given to other nodes are found at their owners") {
   Bsp bsp = build_bsp(hill(), 4);
   const core::Region second = bsp.region_at(1);
   bsp.assign(std::vector<std::uint32_t>{2, 0, 3, 1});
-  CHECK(bsp.region_of(nodes::NodeId{0}) == second);
+  CHECK(bsp.region_at(bsp.region_index_of(nodes::NodeId{0})) == second);
   CHECK(bsp.region_index_of(nodes::NodeId{1}) == 3);
   CHECK(bsp.owner_of(second.low) == nodes::NodeId{0});
   CHECK(tiles(bsp));
@@ -280,4 +280,4 @@ TEST_CASE("the connectivity graph of four quarters is a ring") {
 
 TEST_CASE("one region has no neighbours") { CHECK(boundaries_of(build_bsp(hill(), 1), axes_xz).empty()); }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::bsp_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::tests {
+namespace dmpc::tests::columns_test {
 
 using dataflow::ColumnLattice;
 
@@ -38,4 +38,4 @@ TEST_CASE("a lattice without columns or with one axis twice is refused") {
   CHECK_THROWS_AS(ColumnLattice({64, 0, 64}, {0, 1}, 4), core::InternalError);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::columns_test

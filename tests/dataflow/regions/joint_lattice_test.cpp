@@ -7,6 +7,8 @@
 
 #include "core/base/expect.h"
 
+namespace joint_lattice_test {
+
 using namespace dmpc;
 using dataflow::Bsp;
 using dataflow::JointLattice;
@@ -77,3 +79,5 @@ TEST_CASE("a lattice of nothing, of too many Bsps or of different grids is refus
   const std::vector<Regions> different = {Bsp({4, 4, 4}), Bsp({4, 4, 8})};
   CHECK_THROWS_AS(JointLattice{different}, core::InternalError);
 }
+
+}  // namespace joint_lattice_test

@@ -6,10 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "apps/bench/stability/random.h"
+#include "apps/lab/bench/stability/random.h"
 #include "core/trace/traversal.h"
-#include "dataflow/next_stop.h"
+#include "dataflow/rays/next_stop.h"
 #include "tests/support/surroundings.h"
+
+namespace lattice_walk_test {
 
 using namespace dmpc;
 using dataflow::Bsp;
@@ -84,3 +86,5 @@ TEST_CASE("a ray that crosses several planes at once comes to the regions to whi
   CHECK(found > 5000);
   CHECK(missed > 5000);
 }
+
+}  // namespace lattice_walk_test

@@ -11,6 +11,8 @@
 #include "dataflow/regions/regions.h"
 #include "nodes/topology.h"
 
+namespace scattered_test {
+
 using namespace dmpc;
 using dataflow::Scattered;
 using dataflow::scattered_shape;
@@ -126,3 +128,5 @@ TEST_CASE("scattered: too many regions are refused with what there may be") {
           dataflow::scatter({4, 9, 4}, {0, 2}, 4, 5);
         }) == "5 regions a node on 4 nodes are too many: the grid has 4x4 finest columns, and each region needs one");
 }
+
+}  // namespace scattered_test

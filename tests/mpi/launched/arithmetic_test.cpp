@@ -11,7 +11,7 @@
 #include "tests/support/film_in.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::arithmetic_test {
 
 namespace {
 
@@ -68,6 +68,6 @@ TEST_CASE("a rank beside a library that flushes to zero and rounds down goes wit
   CHECK(ranks.film_with_on_last(beside_it) == ranks.film());
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::arithmetic_test
 
 #endif

@@ -17,7 +17,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::failures_test {
 
 namespace {
 
@@ -132,4 +132,4 @@ TEST_CASE("a process that is killed ends all, and the picture goes on from what 
   CHECK(film == film_in(folder / "s.json"));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::failures_test

@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::programs_test {
 
 namespace {
 
@@ -222,4 +222,4 @@ TEST_CASE("what does not go with ranks is refused") {
   CHECK(contains(alone("asker", {"--idle=spin"}).errors, "--idle does not go with --runner=threads"));
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::programs_test

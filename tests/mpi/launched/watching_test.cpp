@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::watching_test {
 
 namespace {
 
@@ -78,4 +78,4 @@ TEST_CASE("a process whose clock shows another time tells its times by that of r
   CHECK(last_us(json_in(folder / "trace.json")) < 2'000e6);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::watching_test

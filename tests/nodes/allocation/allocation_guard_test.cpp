@@ -50,7 +50,7 @@ void operator delete[](void* place, std::align_val_t /*alignment*/, const std::n
   dmpc::tests::allocation_guard::release(place);
 }
 
-namespace dmpc::tests {
+namespace dmpc::tests::allocation_guard_test {
 namespace {
 
 TEST_CASE("array and aligned forms are counted like the plain one") {
@@ -73,4 +73,4 @@ TEST_CASE("a thread that is not under watch is not counted") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::allocation_guard_test

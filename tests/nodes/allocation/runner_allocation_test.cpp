@@ -9,7 +9,7 @@
 #include "tests/nodes/toy_machine.h"
 #include "tests/support/allocation_guard.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::runner_allocation_test {
 namespace {
 
 /// Passes the token, and allocates once when node 1 has it.
@@ -52,4 +52,4 @@ TEST_CASE("packets held back take nothing but the node's own memory") {
 TEST_CASE("a program that allocates is found out") { CHECK(allocated_by(making<Spendthrift>(50U)) > 0); }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::runner_allocation_test

@@ -6,7 +6,7 @@
 
 #include "core/base/sampling.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::clock_drift_test {
 namespace {
 
 using namespace nodes;
@@ -62,4 +62,4 @@ TEST_CASE("a clock that gains evenly is corrected at both ends, between and beyo
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::clock_drift_test

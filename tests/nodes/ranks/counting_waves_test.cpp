@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::tests {
+namespace dmpc::tests::counting_waves_test {
 namespace {
 
 using nodes::CountingWaves;
@@ -59,4 +59,4 @@ TEST_CASE("a rank may be one wave ahead of those that have not heard all, and no
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::counting_waves_test

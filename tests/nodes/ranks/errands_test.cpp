@@ -12,6 +12,8 @@
 #include "nodes/ranks/dismissal.h"
 #include "nodes/ranks/fabric.h"
 
+namespace errands_test {
+
 namespace {
 
 using namespace dmpc;
@@ -126,3 +128,5 @@ TEST_CASE("when looking after fails, life is shown until the work is done, and w
 }
 
 }  // namespace
+
+}  // namespace errands_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace dmpc::tests {
+namespace dmpc::tests::nap_test {
 
 namespace {
 
@@ -45,4 +45,4 @@ TEST_CASE("who spins never sleeps") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::nap_test

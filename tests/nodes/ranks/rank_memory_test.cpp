@@ -7,7 +7,7 @@
 #include "nodes/ranks/loopback.h"
 #include "tests/nodes/toy_machine.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::rank_memory_test {
 namespace {
 
 using namespace nodes;
@@ -85,4 +85,4 @@ TEST_CASE("frames and the stream before the run are a rank's, too, but rank 0 is
   CHECK(second.total() == second.outbox_bytes + second.sent_bytes + second.stream_bytes);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::rank_memory_test

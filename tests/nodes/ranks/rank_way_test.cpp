@@ -8,7 +8,7 @@
 
 #include "nodes/ranks/loopback.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::rank_way_test {
 namespace {
 
 using namespace nodes;
@@ -89,4 +89,4 @@ TEST_CASE("a frame that is cut off is found out") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::rank_way_test

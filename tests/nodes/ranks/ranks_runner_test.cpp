@@ -22,7 +22,7 @@
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/scaled.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::ranks_ranks_runner_test {
 namespace {
 
 using namespace nodes;
@@ -379,4 +379,4 @@ TEST_CASE("a computer with fewer nodes than ranks is refused") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::ranks_ranks_runner_test

@@ -18,6 +18,8 @@
 #include "nodes/ranks/streams_to_ranks.h"
 #include "tests/support/loopback_ranks.h"
 
+namespace streams_test {
+
 namespace {
 
 using namespace dmpc;
@@ -27,7 +29,7 @@ using nodes::StreamsToRanks;
 
 constexpr nodes::RankSilence impatient{.life_sign = std::chrono::milliseconds{5}, .longest = std::chrono::milliseconds{100}};
 
-/// Of a rank's own.
+/// Bytes of a rank's own.
 std::vector<std::byte> bytes_for(std::uint32_t rank, std::size_t count) {
   std::vector<std::byte> bytes(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -151,3 +153,5 @@ TEST_CASE("what fails while others are shown that a rank lives fails here") {
 }
 
 }  // namespace
+
+}  // namespace streams_test

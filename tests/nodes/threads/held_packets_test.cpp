@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::held_packets_test {
 namespace {
 
 /// Keeps what arrives: target and number, in order.
@@ -198,4 +198,4 @@ TEST_CASE("a packet larger than the room and a header that lies are broken invar
 }
 
 }  // namespace
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::held_packets_test

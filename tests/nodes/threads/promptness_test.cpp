@@ -6,7 +6,7 @@
 #include <optional>
 #include <thread>
 
-namespace dmpc::tests {
+namespace dmpc::tests::promptness_test {
 
 namespace {
 
@@ -30,4 +30,4 @@ TEST_CASE("a prompt thread and those that it starts wake on time, and it is as b
   CHECK(slack_of_a_new_thread_ns() == before_ns);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::promptness_test

@@ -22,7 +22,7 @@
 #include "tests/nodes/toy_machine.h"
 #include "tests/nodes/toy_programs.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::threads_runner_test {
 namespace {
 
 using namespace nodes;
@@ -316,7 +316,7 @@ TEST_CASE("nodes compute alike, however the thread that starts them flushes to z
 TEST_CASE("a memory is sealed before the run begins") {
   ThreadsRunner runner(equal_nodes(2, {}, making<ToyProgram>()));
   CHECK(runner.node(0).memory().sealed());
-  CHECK(runner.node(0).memory().used()[Category::queues] == credit_table_bytes(2));
+  CHECK(runner.node(0).memory().used()[Category::queues] == MemoryPlan(credit_table(2)).total());
 }
 
 TEST_CASE("a runner runs once") {
@@ -363,4 +363,4 @@ TEST_CASE("busy, asleep and wall time of a node fit together") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::threads_runner_test

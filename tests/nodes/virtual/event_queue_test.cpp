@@ -9,7 +9,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::event_queue_test {
 namespace {
 
 using nodes::Event;
@@ -99,4 +99,4 @@ TEST_CASE("whatever the order of pushes and pops, events come out in theirs") {
   }
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::event_queue_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/topologies.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::virtual_links_test {
 namespace {
 
 using nodes::Links;
@@ -32,21 +32,21 @@ Machine wired_as(TopologyKind kind) {
 
 Links links_of(TopologyKind kind, std::uint32_t node_count) { return Links(wired_as(kind), node_count); }
 
-/// The same without contention.
+/// Such links without contention.
 Links free_links_of(TopologyKind kind, std::uint32_t node_count) {
   Machine machine = wired_as(kind);
   machine.has_contention = false;
   return Links(machine, node_count);
 }
 
-/// The same with a memory port for each node.
+/// Such links with a memory port for each node.
 Links ported_links_of(TopologyKind kind, std::uint32_t node_count) {
   Machine machine = wired_as(kind);
   machine.has_memory_port = true;
   return Links(machine, node_count);
 }
 
-/// The same by packets, each hop of which takes 3 ns.
+/// Such links switched by packets, each hop of which takes 3 ns.
 Links packet_links_of(TopologyKind kind, std::uint32_t node_count, bool has_memory_port = false) {
   Machine machine = wired_as(kind);
   machine.switching = nodes::Switching::packet;
@@ -416,4 +416,4 @@ TEST_CASE("without contention a memory port is never waited for") {
   CHECK(links.traffic().wait_ns == 0);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::virtual_links_test

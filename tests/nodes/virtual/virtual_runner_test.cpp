@@ -17,7 +17,7 @@
 
 #include "tests/nodes/scripted_machine.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::virtual_runner_test {
 namespace {
 
 using namespace nodes;
@@ -122,7 +122,8 @@ VirtualReport report_on(const Machine& machine) {
 
 std::uint64_t hash_of(const Machine& machine) { return report_on(machine).hash; }
 
-/// Of one letter that may be changed so that no time changes: the toy's short messages all cost the same but for their bytes.
+/// The hash of a run with one letter that may be changed so that no time changes: the toy's short messages all cost the same but
+/// for their bytes.
 std::uint64_t hash_of(const Letter& letter) {
   Machine machine = toy_model();
   machine.short_message.byte_ps = 0;
@@ -389,4 +390,4 @@ TEST_CASE("the busiest links are listed, as many as there is room for") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::virtual_runner_test

@@ -8,7 +8,7 @@
 
 #include "tests/nodes/scripted_machine.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::virtual_times_test {
 namespace {
 
 using namespace nodes;
@@ -374,4 +374,4 @@ TEST_CASE("a total is the sum of its parts") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::virtual_times_test

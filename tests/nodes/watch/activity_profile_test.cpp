@@ -7,7 +7,7 @@
 
 #include "nodes/program.h"
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::activity_profile_test {
 
 namespace {
 
@@ -113,4 +113,4 @@ TEST_CASE("what a profile on another rank has seen is taken over, in steps of on
   CHECK(steps.nodes[1].at(3)[other] == 200);
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::activity_profile_test

@@ -10,7 +10,7 @@
 #include "core/base/expect.h"
 #include "tests/nodes/watch/toy_kind.h"
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::heat_map_test {
 
 TEST_CASE("a heat map keeps numbers of the kinds that it was made for, and no others") {
   HeatMap map(3, std::array{ToyKind::steps, ToyKind::depth, ToyKind::steps});
@@ -87,4 +87,4 @@ TEST_CASE("a map of other items or kinds is not added") {
   CHECK_THROWS_AS(map.add(HeatMap(2, std::array{ToyKind::steps, ToyKind::time}).bytes()), core::InternalError);
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::heat_map_test

@@ -10,7 +10,7 @@
 #include "nodes/threads/clock.h"
 #include "tests/nodes/watch/toy_kind.h"
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::heat_meter_test {
 
 namespace {
 
@@ -84,4 +84,4 @@ TEST_CASE("without a machine the time is the processor's") {
   CHECK(time_ps <= (nanoseconds(CLOCK_THREAD_CPUTIME_ID) - before_ns) * 1000);
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::heat_meter_test

@@ -7,7 +7,7 @@
 
 #include "tests/nodes/watch/toy_kind.h"
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::meter_test {
 
 namespace {
 
@@ -56,4 +56,4 @@ TEST_CASE("a meter tells the heat map and the observer, whichever there is") {
   CHECK(listener.heard[0].depth == 4);
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::meter_test

@@ -6,7 +6,7 @@
 
 #include "nodes/program.h"
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::observer_group_test {
 
 namespace {
 
@@ -46,4 +46,4 @@ TEST_CASE("all who look on are told everything, in order") {
 
 TEST_CASE("nobody can look on, too") { ObserverGroup({}).sent({}); }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::observer_group_test

@@ -11,11 +11,11 @@
 #include "core/base/sampling.h"
 #include "nodes/program.h"
 
-namespace dmpc::nodes {
+namespace dmpc::nodes::watch_trace_test {
 
 namespace {
 
-/// Of a program nothing but its levels.
+/// A program that has nothing but its levels.
 class Gauge final : public Program {
  public:
   void receive(const Packet& /*packet*/) override {}
@@ -384,4 +384,4 @@ TEST_CASE("a node that has told something on two ranks is an error") {
   CHECK_THROWS_AS(here.recorder.add(elsewhere.recorder.bytes(), {}), core::InternalError);
 }
 
-}  // namespace dmpc::nodes
+}  // namespace dmpc::nodes::watch_trace_test

@@ -8,14 +8,14 @@
 #include "core/families/scenes.h"
 #include "core/picture/bundle_task.h"
 #include "nodes/threads/threads_runner.h"
-#include "svm/forest.h"
+#include "svm/forest/forest.h"
 #include "svm/local_copy.h"
-#include "svm/pager.h"
+#include "svm/pages/pager.h"
+#include "svm/pages/watch/counting_pager.h"
 #include "svm/run.h"
-#include "svm/watch/counting_pager.h"
 #include "tests/support/allocation_guard.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::svm_program_allocation_test {
 
 namespace {
 
@@ -81,4 +81,4 @@ TEST_CASE("a node of replicated allocates nothing while it renders") {
 }
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::svm_program_allocation_test

@@ -21,7 +21,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::reader_test {
 
 namespace {
 
@@ -370,4 +370,4 @@ TEST_CASE("instances stand where their attributes say, and hidden nodes are not 
   CHECK(scene.vertices[3] == Vec3d{0, 0, 2});
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::reader_test

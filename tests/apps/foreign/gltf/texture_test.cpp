@@ -14,7 +14,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::gltf_texture_test {
 
 namespace {
 
@@ -87,4 +87,4 @@ TEST_CASE("that a texture's alpha is left out is said where it would blend") {
   CHECK(count(notes.at(0) + notes.at(1), "materials blended by the alpha of their texture, shown without it: 1") == 1);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::gltf_texture_test

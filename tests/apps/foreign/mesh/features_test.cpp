@@ -10,7 +10,7 @@
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::features_test {
 
 namespace {
 
@@ -45,4 +45,4 @@ TEST_CASE("alpha masks are said") {
   CHECK(has(read_mesh_file(folder / "a.gltf").notes, "materials with an alpha mask, shown opaque: 1"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::features_test

@@ -4,7 +4,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::geometry_test {
 
 TEST_CASE("a scene has room for as many corners as 32 bits count, and no more") {
   CHECK_NOTHROW(check_size({}));
@@ -28,4 +28,4 @@ TEST_CASE("a mesh is called by its number, and its name if it has one") {
   CHECK(name_of(mesh, 3) == "mesh 3 'wheel'");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::geometry_test

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::lights_test {
 
 using core::Scene;
 using core::Vec3d;
@@ -114,4 +114,4 @@ TEST_CASE("of several cameras the first is taken") {
   CHECK(says(seen("[" + camera + "," + camera + "]", R"("children":[2]},{"camera":1)"), "the first of 2 cameras"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::lights_test

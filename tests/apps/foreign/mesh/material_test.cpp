@@ -9,7 +9,7 @@
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::material_test {
 
 using core::Material;
 using core::Vec3d;
@@ -140,4 +140,4 @@ TEST_CASE("the rougher, the wider the highlight") {
   CHECK(shine_of_roughness(1) == 1);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::material_test

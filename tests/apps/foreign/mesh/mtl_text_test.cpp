@@ -15,7 +15,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::mtl_text_test {
 
 namespace {
 
@@ -122,4 +122,4 @@ TEST_CASE("a file of materials is found in other letters' case") {
                    "a file of materials was found under another name: paint.mtl for Paint.MTL") == 1);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::mtl_text_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace dmpc::apps {
+namespace dmpc::apps::smooth_test {
 
 using core::Vec3d;
 
@@ -52,4 +52,4 @@ TEST_CASE("a face without area has no normals and gives none") {
 
 TEST_CASE("nothing has no normals") { CHECK(smooth_normals({}, {}, 60).empty()); }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::smooth_test

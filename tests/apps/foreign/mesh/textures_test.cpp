@@ -12,7 +12,7 @@
 #include "core/scene/scene.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::tests {
+namespace dmpc::tests::textures_test {
 
 namespace {
 
@@ -120,4 +120,4 @@ TEST_CASE("a texture that several materials have is read once") {
   CHECK(textured_count(scene) > 1000);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::textures_test

@@ -16,7 +16,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::whole_file_test {
 
 namespace {
 
@@ -108,4 +108,4 @@ TEST_CASE("a Collada file without a mesh is refused, and no figure is shown in i
   CHECK(tests::contains(refusal, "there is no mesh in it"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::whole_file_test

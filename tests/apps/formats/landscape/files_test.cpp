@@ -10,7 +10,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::landscape_files_test {
 
 using tests::file_text;
 using tests::TemporaryFolder;
@@ -92,4 +92,4 @@ TEST_CASE("scene writes a landscape where it is told, and nowhere else") {
   CHECK(status({"landscape-2", "-o", folder / "none" / "b.gltf"}) == 1);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::landscape_files_test

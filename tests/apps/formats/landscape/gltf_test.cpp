@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace dmpc::apps {
+namespace dmpc::apps::gltf_test {
 
 TEST_CASE("the text names its files, and its views make up all numbers") {
   const LandscapeGltf gltf = landscape_gltf(ground_mesh(2), lake_mesh(), "a.bin", "a.png");
@@ -36,4 +36,4 @@ TEST_CASE("the camera's matrix turns and moves, and does not scale") {
   CHECK(matrix[15] == 1);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::gltf_test

@@ -7,7 +7,7 @@
 #include "apps/formats/landscape/terrain.h"
 #include "core/base/expect.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::mesh_test {
 
 namespace {
 
@@ -65,4 +65,4 @@ TEST_CASE("the lake is flat") {
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::mesh_test

@@ -6,7 +6,7 @@
 
 #include "core/base/expect.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::paint_test {
 
 TEST_CASE("a picture of the ground has colours everywhere, whatever its size") {
   for (const int side : {1, 15, 16, 17, 40}) {
@@ -25,4 +25,4 @@ TEST_CASE("the ground is painted the same every time, and not alike everywhere")
 
 TEST_CASE("a picture without texels is refused") { CHECK_THROWS_AS(ground_picture(0), core::InternalError); }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::paint_test

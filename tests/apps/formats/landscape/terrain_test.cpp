@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace dmpc::apps {
+namespace dmpc::apps::terrain_test {
 
 using core::Vec3d;
 
@@ -60,4 +60,4 @@ TEST_CASE("flat ground is sand at the lake and snow up high, steep ground is roc
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::terrain_test

@@ -18,7 +18,7 @@ void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* block, std::size_t size);
 }
 
-namespace dmpc::tests {
+namespace dmpc::tests::picture_files_allocation_test {
 namespace {
 
 struct FailingAllocator {
@@ -31,7 +31,7 @@ struct FailingAllocator {
 FailingAllocator allocator;
 
 }  // namespace
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::picture_files_allocation_test
 
 extern "C" {
 void* malloc(std::size_t size) noexcept { return dmpc::tests::allocator.fails() ? nullptr : __libc_malloc(size); }
@@ -43,7 +43,7 @@ void* realloc(void* block, std::size_t size) noexcept {
 }
 }
 
-namespace dmpc::tests {
+namespace dmpc::tests::picture_files_allocation_test {
 namespace {
 
 template <class Pack>
@@ -99,4 +99,4 @@ TEST_CASE("whichever allocation fails while a PNG file is packed, it is std::bad
   CHECK(fail_each([&] { return apps::png_file(width, height, rgb); }) > 5);
 }
 
-}  // namespace dmpc::tests
+}  // namespace dmpc::tests::picture_files_allocation_test

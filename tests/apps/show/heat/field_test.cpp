@@ -9,7 +9,7 @@
 #include "core/picture/heat_kind.h"
 #include "tests/apps/show/rendered.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::field_test {
 
 using core::HeatKind;
 
@@ -91,4 +91,4 @@ TEST_CASE("a kind that was not recorded is not shown") {
   CHECK_THROWS_AS(heat_field(HeatKind::faults, Rendered(options).record()), core::InternalError);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::field_test

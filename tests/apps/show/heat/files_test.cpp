@@ -11,7 +11,7 @@
 #include "tests/apps/show/rendered.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::heat_files_test {
 
 using core::HeatKind;
 using tests::TemporaryFolder;
@@ -62,4 +62,4 @@ TEST_CASE("the counters list the heat maps") {
   CHECK(value(json, "repeatable") == "true");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::heat_files_test

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "apps/picture/color_map.h"
+#include "apps/edge/picture/color_map.h"
 #include "core/picture/heat_kind.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::heat_picture_test {
 
 namespace {
 
@@ -55,4 +55,4 @@ TEST_CASE("the legend tells different numbers and sources apart") {
   CHECK(first.rgb == heat_picture(field(1, 1, {1}), "a").rgb);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::heat_picture_test

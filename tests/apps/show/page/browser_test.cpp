@@ -12,7 +12,7 @@
 #include "tests/support/browser.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::page_browser_test {
 
 namespace {
 
@@ -51,4 +51,4 @@ TEST_CASE("a browser shows the page whole, on a screen and on a telephone, light
   }
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::page_browser_test

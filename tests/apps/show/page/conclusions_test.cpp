@@ -8,7 +8,7 @@
 #include "core/picture/heat_kind.h"
 #include "tests/apps/show/watched.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::page_conclusions_test {
 
 TEST_CASE("rays between nodes are concluded with the pair that has most of them") {
   CHECK(
@@ -45,4 +45,4 @@ TEST_CASE("a heat map is concluded with the share of its hottest pixels, where i
   CHECK(heat_conclusion({.kind = core::HeatKind::rays, .width = 1, .height = 1, .values = {0}}).empty());
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::page_conclusions_test

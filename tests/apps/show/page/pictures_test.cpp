@@ -7,7 +7,7 @@
 
 #include "tests/support/text.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::pictures_test {
 
 using tests::contains;
 
@@ -58,4 +58,4 @@ TEST_CASE("a picture can be saved whole and without a script") {
                  "download=\"the-picture-of-x.png\" href=\"" + picture_url(Image(1025, 1)) + "\""));
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::pictures_test

@@ -8,7 +8,7 @@
 #include "core/picture/heat_kind.h"
 #include "tests/apps/show/watched.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::render_page_test {
 
 namespace {
 
@@ -98,4 +98,4 @@ TEST_CASE("a scene's name is no markup") {
   CHECK(contains(text, "&lt;script&gt;alert(1)"));
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::render_page_test

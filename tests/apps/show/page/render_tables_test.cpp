@@ -8,7 +8,7 @@
 
 #include "tests/apps/show/watched.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::render_tables_test {
 
 namespace {
 
@@ -143,4 +143,4 @@ TEST_CASE("each rank has a row, with what is its own beside its nodes' memories"
   CHECK(std::get<std::uint64_t>(cell(table, 1, "sent")) == 900);
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::render_tables_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/text.h"
 
-namespace dmpc::apps::html {
+namespace dmpc::apps::html::sweep_page_test {
 
 using tests::contains;
 
@@ -43,4 +43,4 @@ TEST_CASE("a part without a heading is no section, and no parts are a page all t
   CHECK(contains(sweep_page({"Sweep", {}, {}}, {}, complaints), "<h1>Sweep</h1>"));
 }
 
-}  // namespace dmpc::apps::html
+}  // namespace dmpc::apps::html::sweep_page_test

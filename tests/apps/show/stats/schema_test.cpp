@@ -18,7 +18,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::schema_test {
 
 namespace {
 
@@ -193,4 +193,4 @@ TEST_CASE("a figure that the schema does not know, one that is missing and one o
   }
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::schema_test

@@ -1,5 +1,5 @@
 #include "apps/show/stats/stats.h"
-#include "apps/line/number_text.h"
+#include "apps/edge/line/number_text.h"
 
 #include <doctest/doctest.h>
 
@@ -16,7 +16,7 @@
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::stats_test {
 
 using tests::TemporaryFolder;
 
@@ -249,4 +249,4 @@ TEST_CASE("a hash is sixteen digits") {
   CHECK(hash_text(0xfedcba9876543210ULL) == "fedcba9876543210");
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::stats_test

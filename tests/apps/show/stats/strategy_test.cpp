@@ -9,7 +9,7 @@
 
 #include "tests/apps/show/rendered.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::strategy_test {
 
 namespace {
 
@@ -19,7 +19,7 @@ StrategyStats stats_of(const Rendered& rendered) {
 
 StrategyStats stats_of(const RenderOptions& options) { return stats_of(Rendered(options)); }
 
-/// Of what stands at `path` in every node's object.
+/// The sum of what stands at `path` in every node's object.
 std::uint64_t sum_over_nodes(const StrategyStats& stats, const char* path) {
   const Json::json_pointer pointer(path);
   return std::accumulate(stats.nodes.begin(), stats.nodes.end(), std::uint64_t{0},
@@ -185,4 +185,4 @@ TEST_CASE("pages and work of svm are counted by node, and a cache has svm alone"
   CHECK(stats.packets_overflowed == 0);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::strategy_test

@@ -1,15 +1,15 @@
 #include "apps/show/stats/virtual.h"
-#include "apps/line/number_text.h"
+#include "apps/edge/line/number_text.h"
 
 #include <doctest/doctest.h>
 
 #include <string>
 #include <vector>
 
-#include "apps/machine/machine_file.h"
+#include "apps/edge/machine/machine_file.h"
 #include "tests/apps/show/rendered.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::stats_virtual_test {
 
 namespace {
 
@@ -164,4 +164,4 @@ TEST_CASE("two runs of one machine have one hash, and another machine has anothe
   CHECK(hash(modelled()).size() == 16);
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::stats_virtual_test

@@ -8,7 +8,7 @@
 #include "tests/apps/show/trace/traced.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::file_test {
 
 using tests::contains;
 
@@ -49,4 +49,4 @@ TEST_CASE("what was lost is said with its count and its time") {
   CHECK_FALSE(contains(loss_note({.events_lost = 1}, {.every = 2}), "--trace-every"));
 }
 
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::file_test

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/machine/machines.h"
+#include "apps/edge/machine/machines.h"
 #include "apps/run/render_record.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/load_scene.h"

@@ -1,0 +1,44 @@
+// The machines that have a name: their figures, each with where it comes from and how far it can be trusted.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "nodes/charge.h"
+#include "nodes/machine.h"
+
+namespace dmpc::apps {
+
+/// The keys of a machine file that have a source, in order; cached_lookup is one of those in operation_ps.
+inline constexpr std::array<std::string_view, 11> sourced_keys = {
+    "topology", "uplinks",    "switching",    "short_bytes_max", "short_message",  "long_message",
+    "hop_ns",   "service_ns", "operation_ps", "cached_lookup",   "has_memory_port"};
+
+/// A machine and what its figures rest on.
+struct MachineDescription {
+  nodes::Machine machine;
+  /// Some of sourced_keys, each with a sentence on its source and certainty.
+  std::vector<std::pair<std::string, std::string>> sources;
+  std::string title = {};  ///< what it is, in a line; empty of a machine of one's own
+};
+
+/// ipsc2, ipsc860, paragon, cm5, cs2, gigabit and hdr. Thread-safe.
+const std::vector<MachineDescription>& machine_presets();
+/// Null if no preset has this name. Thread-safe.
+const MachineDescription* find_machine_preset(std::string_view name);
+/// "ipsc2, ipsc860, ..., hdr", for messages.
+std::string machine_preset_names();
+
+/// The machine's name and what is special about its links, if anything is: "ipsc2", "ipsc2 without contention" or "ipsc2 with
+/// memory ports". Thread-safe.
+std::string name_with_links(const nodes::Machine& machine);
+
+/// What the operations cost on a processor that takes `slowdown` times as long as the core on which core/trace/work.cpp's
+/// prices were measured, in picoseconds by core::Charge. Thread-safe.
+std::array<std::uint64_t, nodes::charge_count> operation_costs_ps(std::uint64_t slowdown);
+
+}  // namespace dmpc::apps

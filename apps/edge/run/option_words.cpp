@@ -1,0 +1,14 @@
+#include "apps/edge/run/option_words.h"
+
+#include <algorithm>
+
+namespace dmpc::apps {
+
+std::string in_options(const core::Sentence& sentence, std::span<const OptionWord> words) {
+  return sentence.text([&](const core::Field& field) {
+    const auto word = std::find_if(words.begin(), words.end(), [&](const OptionWord& each) { return each.field == field; });
+    return word == words.end() ? field.name() : std::string_view(word->option);
+  });
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,37 @@
+// What a plan says of its fields, in the words of the command line.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/base/refusal.h"
+#include "nodes/computer_request.h"
+
+namespace dmpc::apps {
+
+/// The option that sets a field.
+struct OptionWord {
+  core::Field field;
+  const char* option;
+};
+
+/// The words of every program on the computer.
+inline constexpr OptionWord computer_words[] = {{core::field_of<&nodes::ComputerRequest::node_count>(), "--nodes"},
+                                                {core::field_of<&nodes::ComputerRequest::node_memory_bytes>(), "--node-memory"}};
+
+/// The sentence with options in place of the fields that they set; any other field by its own name.
+std::string in_options(const core::Sentence& sentence, std::span<const OptionWord> words);
+
+/// What `make` returns; a refusal that it throws, in_options(), as a core::UsageError or core::RoomError.
+template <class Make>
+auto with_options_named(std::span<const OptionWord> words, const Make& make) {
+  try {
+    return make();
+  } catch (const core::Refusal<core::UsageError>& refusal) {
+    throw core::UsageError(in_options(refusal.sentence, words));
+  } catch (const core::Refusal<core::RoomError>& refusal) {
+    throw core::RoomError(in_options(refusal.sentence, words));
+  }
+}
+
+}  // namespace dmpc::apps

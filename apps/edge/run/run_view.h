@@ -1,0 +1,19 @@
+// What is shown of a run beyond its counters.
+#pragma once
+
+#include <optional>
+
+#include "apps/edge/run/miss_estimate.h"
+#include "nodes/watch/activity_profile.h"
+#include "svm/pages/watch/fetch_watch.h"
+
+namespace dmpc::apps {
+
+/// All of it is kept outside the nodes' memories.
+struct RunView {
+  nodes::ActivitySteps steps;
+  std::optional<svm::Fetches> fetches;  ///< of svm
+  std::optional<MissEstimate> misses;   ///< of svm, unless it counts different pages
+};
+
+}  // namespace dmpc::apps

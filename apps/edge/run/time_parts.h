@@ -1,0 +1,59 @@
+// What became of a node's virtual time: computing, and what was lost to everything else.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "nodes/virtual/virtual_times.h"
+
+namespace dmpc::apps {
+
+/// Which waits are what, for a strategy.
+struct WaitKinds {
+  const char* data = "";         ///< what travels: "page" or "ray"
+  std::uint32_t data_kinds = 0;  ///< a bit for each kind of packet that brings it
+  std::uint32_t work_kinds = 0;  ///< a bit for each kind that nodes without work exchange
+  std::uint32_t end_kinds = 0;   ///< a bit for each kind that ends a run
+};
+
+/// The parts of a time, in order.
+enum class TimePart : std::uint8_t {
+  computing,    ///< the operations charged
+  data_wait,    ///< nothing to do until a page or rays came
+  work_wait,    ///< nothing to do until work, or word of it, came
+  other_wait,   ///< nothing to do until another packet came, such as credit
+  stolen,       ///< service of interrupts while there was something to do
+  lent,         ///< and while there was nothing
+  messages,     ///< sending and receiving
+  idle_at_end,  ///< nothing to do any more
+};
+inline constexpr std::size_t time_part_count = 8;
+/// As keys of the counters.
+inline constexpr std::array<const char*, time_part_count> time_part_names = {
+    "computing", "data_wait", "work_wait", "other_wait", "stolen", "lent", "messages", "idle_at_end"};
+
+/// A time by TimePart. Thread-safe like any value.
+struct TimeParts {
+  std::array<std::uint64_t, time_part_count> ns{};
+
+  std::uint64_t total_ns() const;
+  /// Each part in percent of the total; they add up to 100. A run that took no time was all computing.
+  std::array<double, time_part_count> percent() const;
+};
+
+/// As people read them: "page wait".
+std::string words_of(TimePart part, const WaitKinds& waits);
+
+TimeParts parts_of(const nodes::VirtualTimes& times, const WaitKinds& waits);
+
+/// Part by part.
+void add_times(nodes::VirtualTimes& sum, const nodes::VirtualTimes& more);
+/// Summed over the nodes without the host: their number times the length of the run.
+nodes::VirtualTimes sum_of_nodes(const nodes::VirtualReport& report);
+
+/// "computing 90.0 %, page wait 4.0 %, ...", without what is nothing; as they stand there the figures add up to 100 %.
+std::string parts_text(const TimeParts& parts, const WaitKinds& waits);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,107 @@
+#include "apps/edge/show/page/origin.h"
+
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "apps/edge/line/number_text.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// The last second of the year 9999.
+constexpr std::int64_t last_second = 253'402'300'799;
+
+constexpr std::string_view plain_letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/@%";
+
+std::string shell_word(const std::string& word) {
+  if (!word.empty() && word.find_first_not_of(plain_letters) == std::string::npos) {
+    return word;
+  }
+  std::string quoted = "'";
+  for (const char character : word) {
+    quoted += character == '\'' ? "'\\''" : std::string(1, character);
+  }
+  return quoted + "'";
+}
+
+/// Empty if the system does not tell.
+std::vector<std::string> own_words() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) {
+    words.push_back(word);
+  }
+  return words;
+}
+
+std::uint64_t processor_count() { return static_cast<std::uint64_t>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN))); }
+
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) {
+      return line.substr(std::min(line.size(), line.find(':') + 2));
+    }
+  }
+  utsname system{};
+  return ::uname(&system) == 0 ? system.machine : "unknown";
+}
+
+std::string build_text() {
+#ifdef NDEBUG
+  const std::string kind = "release";
+#else
+  const std::string kind = "debug";
+#endif
+#ifdef __clang__
+  return kind + " build, " __VERSION__;
+#else
+  return kind + " build, GCC " __VERSION__;
+#endif
+}
+
+}  // namespace
+
+Origin this_origin(std::optional<std::uint64_t> scene_digest) {
+  return {.command = command_text(own_words()),
+          .program = "dmpc " DMPC_VERSION " (" + build_text() + ")",
+          .date = date_text(std::getenv("SOURCE_DATE_EPOCH"), std::time(nullptr)),
+          .computer = counted(processor_count(), "processor") + ", " + processor_name(),
+          .scene_digest = scene_digest};
+}
+
+std::string command_text(std::span<const std::string> words) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? shell_word(std::filesystem::path(word).filename().string()) : " " + shell_word(word));
+  }
+  return text;
+}
+
+std::string date_text(const char* epoch, std::int64_t now_seconds) {
+  std::int64_t seconds = 0;
+  const char* const end = epoch == nullptr ? nullptr : epoch + std::strlen(epoch);
+  const bool is_given = epoch != nullptr && std::from_chars(epoch, end, seconds).ptr == end && epoch != end && seconds >= 0 &&
+                        seconds <= last_second;
+  const std::time_t time = is_given ? seconds : now_seconds;
+  std::tm parts{};
+  ::gmtime_r(&time, &parts);
+  std::ostringstream text;
+  text << std::put_time(&parts, "%Y-%m-%d %H:%M UTC");
+  return text.str();
+}
+
+}  // namespace dmpc::apps

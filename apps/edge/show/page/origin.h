@@ -1,0 +1,29 @@
+// Where a page comes from: what a reader needs to make its figures again, and to cite them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace dmpc::apps {
+
+/// All of it as people read it.
+struct Origin {
+  std::string command;   ///< as a shell takes it
+  std::string program;   ///< name, version and build
+  std::string date;      ///< "2026-11-22 21:40 UTC"
+  std::string computer;  ///< its processors
+  std::optional<std::uint64_t> scene_digest = {};
+};
+
+/// The origin of what this process makes now. The date is that of SOURCE_DATE_EPOCH (seconds since 1970) where this is a number.
+Origin this_origin(std::optional<std::uint64_t> scene_digest = {});
+
+/// The words as a shell takes them, in quotes where they need some; the program without its folder.
+std::string command_text(std::span<const std::string> words);
+
+/// In UTC, to the minute; `epoch` is the text of SOURCE_DATE_EPOCH, or nullptr.
+std::string date_text(const char* epoch, std::int64_t now_seconds);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,68 @@
+// One page of HTML that needs no other file and no network: sections of text, tables, pictures and plots.
+#pragma once
+
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/edge/help/glossary.h"
+#include "apps/edge/show/page/charts.h"
+#include "apps/edge/show/page/number_map.h"
+#include "apps/edge/show/page/origin.h"
+#include "apps/edge/table/plot.h"
+#include "apps/edge/table/table.h"
+
+namespace dmpc::apps::html {
+
+/// Names and what they are.
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+/// Whose page it is.
+struct PageSpeaker {
+  std::string name = "dmpc";  ///< of the program, before what it complains of
+  /// What words mean that may occur; outlives the page.
+  std::span<const GlossaryEntry> words = glossary();
+};
+
+/// A document under way. All texts are shown as they are, whatever they contain, but for code between backticks in paragraphs,
+/// cells and notes. Pictures, plots and tables have links that save them. Not thread-safe.
+class Page {
+ public:
+  /// `complaints` as Charts.
+  Page(std::string title, std::ostream& complaints, PageSpeaker speaker = {});
+
+  /// What follows belongs to it, and the page's list of contents leads there.
+  void begin_section(const std::string& heading);
+  void add_text(const std::string& paragraph);
+  /// What a section comes to, in one sentence; nothing if it is empty.
+  void add_conclusion(const std::string& sentence);
+  void add_facts(const Facts& facts);
+  /// To be selected whole by one click: a command, a citation.
+  void add_code(const std::string& text);
+  /// What is shown from its `url`, with `attributes` of its element. `description`: for those who do not see it. `save`: a link
+  /// that saves it.
+  void add_figure(const std::string& url, const std::string& attributes, const std::string& description,
+                  const std::string& caption, const std::string& save);
+  void add_map(const NumberMap& map, const std::string& caption);
+  /// With title and notes; a long one is folded.
+  void add_table(const Table& table);
+  /// Nothing if there is nothing to see, or no program to draw it.
+  void add_plot(const Plot& plot, const Table& table);
+  /// How to make it again, and what to cite: where it comes from, and the `results` by which another run is known to be the same.
+  void add_origin(const Origin& origin, const Facts& results);
+
+  /// The whole document, with what its words mean at the end.
+  std::string text() const;
+
+ private:
+  std::string title_;
+  std::span<const GlossaryEntry> glossary_;
+  Charts charts_;
+  std::vector<std::string> headings_;
+  std::string body_;
+  std::string words_;  ///< all that is shown, without markup
+};
+
+}  // namespace dmpc::apps::html

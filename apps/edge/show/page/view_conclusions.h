@@ -1,0 +1,18 @@
+// What was seen of a run beyond its counters, in a sentence or two for each section of its page, empty where there is nothing to
+// say.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "apps/edge/run/run_view.h"
+#include "svm/pages/pager.h"
+
+namespace dmpc::apps::html {
+
+std::string time_conclusion(const nodes::ActivitySteps& steps);
+std::string page_conclusion(const svm::PageCounters& pages, const svm::Fetches& fetches);
+std::string fetch_conclusion(const svm::Fetches& fetches);
+std::string cache_conclusion(const MissEstimate& misses, std::uint32_t cache_pages, std::uint32_t page_count);
+
+}  // namespace dmpc::apps::html

@@ -1,0 +1,34 @@
+// Page references as a CSV file: what render --references writes, and what other programs have recorded.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <istream>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "svm/pages/page.h"
+#include "svm/pages/watch/reference_log.h"
+
+namespace dmpc::apps {
+
+/// Who referenced what, in order.
+struct ReferenceTrace {
+  std::vector<std::vector<svm::PageId>> nodes;  ///< by node; of one page in a row the first
+  std::uint64_t reference_count = 0;            ///< those that are left out, too
+  std::uint32_t page_count = 0;                 ///< different pages, numbered from 0 on
+};
+
+/// One line for what the columns are, one for each reference: the node, the number of the reference of this node's, the page, and
+/// how many bytes it has.
+void write_references(std::ostream& output, const std::vector<svm::ReferenceLog>& logs, std::size_t page_bytes);
+
+/// Reads a file or a pipe with a column `page`, and perhaps `node` (else all are node 0's); others are passed over. Pages are
+/// whole numbers below 2^64, whatever they mean. Throws core::InputError naming the line, core::RoomError for more than 2^32 - 2
+/// references.
+ReferenceTrace read_references(const std::filesystem::path& path);
+/// Reads text that is called `name` in messages.
+ReferenceTrace read_references(std::istream& input, const std::string& name);
+
+}  // namespace dmpc::apps

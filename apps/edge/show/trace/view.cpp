@@ -1,0 +1,110 @@
+#include "apps/edge/show/trace/view.h"
+
+#include <map>
+
+#include "apps/edge/run/work.h"
+#include "svm/pages/packets.h"
+
+namespace dmpc::apps {
+
+using nodes::Activity;
+
+std::string node_name(const TraceView& view, std::size_t index) {
+  return index + 1 == view.trace.nodes.size() ? "host" : "node " + std::to_string(index);
+}
+
+SpanName name_of(const nodes::TraceSpan& span) {
+  switch (span.activity) {
+    case Activity::serve:
+      return SpanName::serve_page;
+    case Activity::send:
+      return SpanName::send;
+    case Activity::take_over:
+      return SpanName::take_packet;
+    default:
+      break;
+  }
+  switch (doing_of(span.charged)) {
+    case Doing::trace:
+      return SpanName::trace;
+    case Doing::shade:
+      return SpanName::shade;
+    case Doing::install:
+      return SpanName::install_page;
+    case Doing::pack:
+      return span.activity == Activity::work ? SpanName::pack_rays : SpanName::unpack_rays;
+    default:
+      return SpanName::control;
+  }
+}
+
+std::vector<const char*> TraceView::span_texts() const {
+  std::vector<const char*> texts(activity_names.begin(), activity_names.end());
+  texts.insert(texts.end(), operation_names.begin(), operation_names.end());
+  return texts;
+}
+
+std::size_t TraceView::text_number(const nodes::TraceSpan& span) const {
+  const bool is_call = span.activity != Activity::send && span.activity != Activity::take_over;
+  for (std::size_t i = 0; is_call && i < operation_names.size(); ++i) {
+    if (operation_names[i] != nullptr && (span.charged >> i & 1U) != 0) {
+      return activity_names.size() + i;
+    }
+  }
+  return static_cast<std::size_t>(name_of(span));
+}
+
+std::vector<PageWait> page_waits(const TraceView& view) {
+  std::vector<PageWait> waits;
+  if (!view.has_pages) {
+    return waits;
+  }
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> open;  // since when, by node and page
+  for (const nodes::TraceMessage& message : view.trace.messages) {        // a reply is sent after its request
+    if (message.kind == svm::number_of(svm::Kind::page_request)) {
+      open[{nodes::index_of(message.source), message.first_word}] = message.sent_ns;
+    } else if (message.kind == svm::number_of(svm::Kind::page_reply)) {
+      const std::uint32_t node = nodes::index_of(message.target);
+      if (const auto found = open.find({node, message.first_word}); found != open.end()) {
+        waits.push_back({node, message.first_word, found->second, message.received_ns});
+        open.erase(found);
+      }
+    }
+  }
+  return waits;
+}
+
+std::vector<TraceItem> items_of(const nodes::Trace& trace, std::span<const PageWait> waits) {
+  std::vector<TraceItem> items;
+  const auto add = [&items](std::uint64_t time_ns, std::uint32_t node, std::uint32_t call, TraceMoment moment,
+                            std::size_t index) {
+    items.push_back({time_ns, node, call, moment, static_cast<std::uint32_t>(index)});
+  };
+  for (std::uint32_t node = 0; node < trace.nodes.size(); ++node) {
+    const nodes::TraceNode& of = trace.nodes[node];
+    for (std::size_t i = 0; i < of.spans.size(); ++i) {
+      add(of.spans[i].begin_ns, node, of.spans[i].call, TraceMoment::span_begin, i);
+      add(of.spans[i].end_ns, node, of.spans[i].call, TraceMoment::span_end, i);
+    }
+    for (std::size_t i = 0; i < of.levels.size(); ++i) {
+      add(of.levels[i].time_ns, node, 0, TraceMoment::level, i);
+    }
+  }
+  for (std::size_t i = 0; i < trace.messages.size(); ++i) {
+    const nodes::TraceMessage& message = trace.messages[i];
+    add(message.sent_ns, index_of(message.source), message.sent_call, TraceMoment::sent, i);
+    add(message.received_ns, index_of(message.target), message.received_call, TraceMoment::received, i);
+  }
+  for (std::size_t i = 0; i < waits.size(); ++i) {
+    add(waits[i].begin_ns, waits[i].node, 0, TraceMoment::wait_begin, i);
+    add(waits[i].end_ns, waits[i].node, 0, TraceMoment::wait_end, i);
+  }
+  return items;
+}
+
+std::string thousandths(std::uint64_t value) {
+  const std::string rest = std::to_string(value % 1000);
+  return std::to_string(value / 1000) + "." + std::string(3 - rest.size(), '0') + rest;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,48 @@
+// A program as a process of its own, with nothing to read and nobody to write to but whoever started it.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/edge/system/memory_file.h"
+
+namespace dmpc::apps {
+
+/// How a program is started.
+struct ChildSettings {
+  std::string program;  ///< looked for along PATH unless it has a slash
+  std::vector<std::string> arguments;
+  std::filesystem::path folder = ".";  ///< where it runs
+  bool gets_ctrl_c = true;             ///< the terminal's Ctrl-C reaches it, too
+};
+
+/// Killed and waited for in the end, unless it has ended before. Signals that are blocked or ignored here are neither there.
+class ChildProcess {
+ public:
+  /// Throws core::InputError "PROGRAM cannot be started: ...", as ComputerRoomError if this computer has no room for it.
+  explicit ChildProcess(const ChildSettings& settings);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  pid_t id() const { return id_; }
+  /// Its exit status, once it has ended; below 0: the signal that ended it.
+  std::optional<int> status();
+  /// Waits for the end, and says how it ended.
+  int wait();
+  /// What it has written to stderr so far.
+  std::string errors() const { return errors_.bytes(); }
+
+ private:
+  int take(int status);
+
+  MemoryFile errors_;
+  pid_t id_ = -1;
+  std::optional<int> status_;
+};
+
+}  // namespace dmpc::apps

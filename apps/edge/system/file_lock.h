@@ -1,0 +1,33 @@
+// A claim on a file that only one process at a time has.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "apps/edge/system/interrupt.h"
+
+namespace dmpc::apps {
+
+/// While it lives no other FileLock of any process has the same `path`. The file there, which has nothing in it, is made if need
+/// be, and removed in the end, after a killed process too by the next that locks it: the kernel itself takes the lock from a
+/// process that has ended. Not thread-safe.
+class FileLock {
+ public:
+  /// Nothing, if another has it. Where the file system knows no locks everybody gets one. Throws core::InputError if the file
+  /// cannot be made, or is a symbolic link, which is not followed.
+  static std::optional<FileLock> try_lock(const std::filesystem::path& path);
+  FileLock(FileLock&& other) noexcept;
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+  ~FileLock();
+
+ private:
+  FileLock(const std::filesystem::path& path, int file);
+
+  std::filesystem::path path_;
+  int file_;
+  std::unique_ptr<RemovedAtOnce> removed_at_once_;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,96 @@
+#include "apps/edge/system/module.h"
+
+#include <dlfcn.h>
+
+#include <latch>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "apps/edge/system/companion_path.h"
+#include "apps/edge/system/last_words.h"
+#include "apps/edge/system/shortage.h"
+#include "core/base/usual_arithmetic.h"
+
+#if defined(__SANITIZE_ADDRESS__)
+namespace {
+bool is_any_opened = false;
+}
+/// LeakSanitizer crashes now and then where it looks through the thread-local data of libraries that were opened like this, with
+/// their threads still there: who has opened one is not searched for leaks.
+extern "C" int __lsan_is_turned_off();
+extern "C" int __lsan_is_turned_off() { return is_any_opened ? 1 : 0; }
+#endif
+
+namespace dmpc::apps {
+
+namespace {
+
+std::string loader_complaint() {
+  const char* const complaint = ::dlerror();
+  return complaint == nullptr ? "the dynamic loader does not say why" : complaint;
+}
+
+/// There may be libraries that wait for ever if they cannot start their threads.
+void check_thread_room(const std::string& what, std::size_t count) {
+  std::latch over(1);
+  std::vector<std::jthread> threads;
+  try {
+    while (threads.size() < count) {
+      threads.emplace_back([&over] { over.wait(); });
+    }
+  } catch (const std::system_error& error) {
+    over.count_down();
+    throw_if_short(error.code().value(), what + " cannot start its threads");
+    throw;
+  }
+  over.count_down();
+}
+
+/// A file name alone is looked for by the dynamic loader.
+std::string path_of(const std::string& file, const std::string& what, ModulePlace place) {
+  try {
+    return companion_path(file, "../lib/dmpc", what).lexically_normal().string();
+  } catch (const InstallationError&) {
+    if (place == ModulePlace::companion) {
+      throw;
+    }
+    return file;
+  }
+}
+
+/// Its libraries may start threads as they are loaded, and change the arithmetic.
+void* load(const std::string& path) {
+  const LoadsLibrary loads_library;
+#if defined(__SANITIZE_ADDRESS__)
+  is_any_opened = true;
+#endif
+  void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  core::use_usual_arithmetic();
+  return library;
+}
+
+}  // namespace
+
+const void* open_module(const std::string& name, const std::string& purpose, std::size_t threads_at_once, ModulePlace place) {
+  const std::string file = "dmpc_" + name + ".so", what = "the module " + file + ", with which dmpc " + purpose + ",";
+  const std::string path = path_of(file, what, place);
+  check_thread_room(what, threads_at_once);
+  void* const opened = load(path);
+  if (opened == nullptr) {
+    const std::string complaint = loader_complaint();
+    throw_if_short(complaint, what + " cannot be opened");
+    throw InstallationError(what + " cannot be opened: " + complaint +
+                            ": install the libraries that it needs, or build or install dmpc as a whole");
+  }
+  const auto* const module = static_cast<const Module*>(::dlsym(opened, "dmpc_module"));
+  if (module == nullptr || std::string_view(module->build) != DMPC_MODULES_BUILD) {
+    throw InstallationError(what + " is of another build than this program (" + path + " is of \"" +
+                            (module == nullptr ? "none" : module->build) +
+                            "\", expected \"" DMPC_MODULES_BUILD "\"): build or install dmpc as a whole");
+  }
+  return module->interface;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,16 @@
+// Averages of measured numbers.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace dmpc::apps {
+
+/// The geometric mean of numbers above 0; nothing if there are none.
+std::optional<double> geometric_mean(std::span<const double> numbers);
+
+/// The middle one, or the mean of the two in the middle. Requires some.
+double median(std::vector<double> numbers);
+
+}  // namespace dmpc::apps

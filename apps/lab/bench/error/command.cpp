@@ -1,0 +1,243 @@
+#include "apps/lab/bench/error/command.h"
+
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/system/output_file.h"
+#include "apps/edge/system/real_load.h"
+#include "apps/edge/table/shown_rows.h"
+#include "apps/edge/table/table_files.h"
+#include "apps/lab/bench/error/findings.h"
+#include "apps/lab/bench/error/table.h"
+#include "apps/lab/study/engine/tabled_job.h"
+#include "apps/scene/load_scene.h"
+#include "core/base/expect.h"
+#include "svm/plan.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr std::uint32_t default_reference_side = 32;
+/// A quick bench is to end within half a minute on two cores.
+constexpr std::uint32_t quick_reference_side = 16;
+constexpr Resolution quick_resolution{192, 192};
+
+/// An even number: the reference has two halves.
+std::uint32_t parse_reference_side(const std::string& text) {
+  std::uint32_t side = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, side);
+  if (error != std::errc() || rest != end || side < 2 || side > 128 || side % 2 != 0) {
+    throw core::UsageError("--reference-samples=" + text + ": expected an even number from 2 to 128");
+  }
+  return side;
+}
+
+std::string plot_name_of(const std::string& scene) { return "error_" + file_text(scene); }
+std::string data_file_of(const std::string& scene) { return plot_name_of(scene) + ".csv"; }
+
+void check_scenes(const ErrorOptions& options) {
+  if (options.scenes.empty()) {
+    throw core::UsageError("SCENE: expected one or more");
+  }
+  std::set<std::string> names;
+  for (const std::string& scene : options.scenes) {
+    if (!names.insert(file_text(scene)).second) {
+      throw core::UsageError("SCENE " + scene + ": there is another one with this name, and their outputs would clash");
+    }
+    if (options.has_tessellation && tessellations_of(scene, options.measure.is_quick).empty()) {
+      throw core::UsageError(
+          "--knobs=tessellation: " + scene +
+          " is no built-in scene of at most a million triangles that has exact spheres or cones to tessellate");
+    }
+  }
+}
+
+/// Names of pictures of errors are known when they are drawn.
+TableFiles files_of(const ErrorOptions& options) {
+  OtherFiles others;
+  std::vector<PlottedNames> plotted;
+  for (const std::string& scene : options.scenes) {
+    add_scene_file(scene, others.inputs);
+    plotted.push_back({data_file_of(scene), {plot_name_of(scene) + "_seconds", plot_name_of(scene) + "_rays"}});
+  }
+  if (options.measure.pictures) {
+    make_output_folder(*options.measure.pictures, "--pictures");
+  }
+  return {options.table, plotted, others};
+}
+
+std::string title_of(const ErrorOptions& options) {
+  const MeasureOptions& measure = options.measure;
+  return "Error against time: about " + counted(static_cast<std::uint64_t>(measure.picture.samples), "sample") +
+         " a pixel at depth " + std::to_string(measure.picture.depth) + ", convention " +
+         (measure.picture.convention == core::Convention::haines ? "haines" : "paper") + ", " +
+         name_of(measure.strategy.strategy) + " on " + counted(measure.strategy.computer.node_count, "node") + ", " +
+         counted(measure.rounds, "round");
+}
+
+const std::vector<std::string>& explanations() {
+  static const std::vector<std::string> sentences = {
+      "Errors without a word before them are against the converged picture in double precision; a row below the reference, whose "
+      "RMSE is less than 10 times the reference's own error, claims nothing and is on no Pareto front.",
+      "Deterministic errors are those of the knob alone: against the picture with the same samples and the knob at its exact "
+      "position, of arithmetic against the same samples in double precision.",
+      "Adaptive sampling is asked for no smaller error than the reference's own.",
+      "Ratios at equal RMSE are interpolated in logarithms, after the reference's own error is taken off in squares."};
+  return sentences;
+}
+
+Table finished_table(const ErrorOptions& options, std::span<const SceneResult> results, double load, bool is_whole) {
+  Table table = table_of(results, title_of(options));
+  for (const std::string& sentence : explanations()) {
+    table.add_note(sentence);
+  }
+  if (options.measure.pictures) {
+    table.add_note("Pictures show the absolute error, " + fixed(static_cast<double>(picture_scale), 0) + " times as bright.");
+  }
+  for (const SceneResult& result : results) {
+    for (std::string& sentence : findings_of(result)) {
+      table.add_note(std::move(sentence));
+    }
+  }
+  for (std::string& sentence : findings_of_all(results)) {
+    table.add_note(std::move(sentence));
+  }
+  table.add_note(load_note(load));
+  if (!is_whole) {
+    table.add_note("Ended before its time: points or rounds are missing.");
+  }
+  return table;
+}
+
+std::vector<PlottedTable> plotted_tables(std::span<const SceneResult> results) {
+  std::vector<PlottedTable> plotted;
+  for (const SceneResult& result : results) {
+    plotted.push_back({plotted_table(result), data_file_of(result.scene), plots_of(result, plot_name_of(result.scene))});
+  }
+  return plotted;
+}
+
+/// Shows points that were rendered once; what their times are in the end the table says.
+void show_rows(const SceneResult& result, ShownRows& shown) {
+  constexpr std::size_t key_count = 3;  // scene, knob and setting
+  if (shown.is_shown()) {
+    shown.show(table_of({&result, 1}, ""), key_count);
+  }
+}
+
+void measure_all(const ErrorOptions& options, const TableFiles& files, const Interrupt& interrupt,
+                 std::vector<SceneResult>& results) {
+  MeasureOptions measure = options.measure;
+  measure.outputs = files.names();
+  ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
+  measure.told = [&](const SceneResult& result) { show_rows(result, shown); };
+  for (const std::string& scene : options.scenes) {
+    measure_scene(scene, measure, interrupt, results.emplace_back());
+  }
+}
+
+bool has_measurements(const SceneResult& result) {
+  return std::any_of(result.measurements.begin(), result.measurements.end(), [](const auto& one) { return one.is_done(); });
+}
+
+/// What the user says otherwise stands.
+void choose_quick(const OptionSet& set, MeasureOptions& measure) {
+  if (!set.is_given("--resolution")) {
+    measure.picture.resolution = quick_resolution;
+  }
+  measure.rounds = set.is_given("--repeat") ? measure.rounds : 1;
+  if (!set.is_given("--reference-samples")) {
+    measure.reference.samples_a_side = quick_reference_side;
+  }
+}
+
+/// What is turned, and what stays.
+void add_turned_options(OptionSet set, ErrorOptions& options) {
+  MeasureOptions& measure = options.measure;
+  set.add_text(
+      "--knobs", "NAME,NAME,... [all]",
+      [&](const std::string& text) {
+        measure.knobs = parse_knobs(text);
+        options.has_tessellation = measure.knobs.contains(Knob::tessellation);
+      },
+      "What is turned, one at a time: samples, adaptive (sampling), cutoff, depth, tessellation, arithmetic, quality (draft, "
+      "default); adaptive with cutoff or depth together as well");
+  set.add_flag(
+      "--quick", measure.is_quick,
+      "Fewer positions of each knob, and, where nothing else is said, 192x192 pixels, one round and 16 x 16 rays through "
+      "each pixel of the reference: half a minute");
+  set.add_number("--repeat", measure.rounds, 1, 1000, "3", "Rounds in which everything is rendered and timed");
+  set.add_number("--samples", measure.picture.samples, 2, 4096, std::to_string(measure.picture.samples),
+                 "Rays through each pixel where they are not what is turned");
+}
+
+}  // namespace
+
+ErrorOptions::ErrorOptions() {
+  measure.picture.samples = Setting().samples;
+  measure.picture.depth = Setting().depth;
+  measure.strategy.strategy = Strategy::replicated;
+  measure.strategy.computer.node_count = core_count();
+  measure.knobs = all_knobs();
+  measure.reference.samples_a_side = default_reference_side;
+}
+
+void add_options(OptionSet set, ErrorOptions& options) {
+  MeasureOptions& measure = options.measure;
+  set.add_arguments(
+      "SCENE", [&options](const std::string& text) { options.scenes.push_back(text); },
+      "NFF or mesh files, or built-in scenes such as teapot-12, rings-3, tetra-6");
+  add_turned_options(set, options);
+  add_options(set, measure.picture.staging);
+  add_view_options(set, measure.picture);
+  set.add_text(
+      "--reference-samples", "N, even, 2..128 [" + std::to_string(default_reference_side) + "]",
+      [&measure](const std::string& text) { measure.reference.samples_a_side = parse_reference_side(text); },
+      "N x N rays through each pixel of the reference");
+  set.add_path("--references", "FOLDER [~/.cache/dmpc]", measure.reference.folder, "Where references are kept");
+  add_strategy_option(set, measure.strategy.strategy);
+  set.add_number("--nodes", measure.strategy.computer.node_count, 1, nodes::node_count_max,
+                 std::to_string(measure.strategy.computer.node_count), "Nodes that render");
+  set.add_path("--pictures", "FOLDER", measure.pictures,
+               "Where pictures of every point's error go, " + fixed(static_cast<double>(picture_scale), 0) + " times as bright");
+  add_options(set, options.table, TableExtras::plots);
+  set.add_quiet(options.quiet);
+  set.set_examples(
+      "Examples:\n"
+      "  dmpc bench error teapot-12 --quick\n"
+      "  dmpc bench error rings-3 balls-3 --knobs=samples,adaptive --plots=plots -o error.md\n"
+      "  dmpc bench error shells-3 --knobs=depth,cutoff --repeat=1 --pictures=errors --format=csv -o shells.csv\n"
+      "The reference and the base point have the depth given; the other depths are below it.");
+  set.check_in_the_end([set, &options] {
+    options.measure.is_quiet = options.quiet;
+    if (options.measure.is_quick) {
+      choose_quick(set, options.measure);
+    }
+    check_scenes(options);
+    check_together(set, options.measure.strategy);
+  });
+}
+
+int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::ostream& output) {
+  const TableFiles files = files_of(options);
+  const double load = machine_load();
+  std::vector<SceneResult> results;
+  const auto write = [&](bool is_whole, Attempts& attempts) {
+    files.write({.text = text_of(finished_table(options, results, load, is_whole), options.table.format),
+                 .plotted = [&] { return plotted_tables(results); }},
+                output, std::cerr, attempts);
+  };
+  return run_tabled({.measure = [&] { measure_all(options, files, interrupt, results); },
+                     .has_findings = [&] { return std::any_of(results.begin(), results.end(), has_measurements); },
+                     .consequence = "the table has the points measured before",
+                     .write = write},
+                    interrupt);
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,32 @@
+// The command `bench error`: what every knob of a render costs, and what it does to the picture's error.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/system/interrupt.h"
+#include "apps/edge/table/table_options.h"
+#include "apps/lab/bench/error/measure.h"
+
+namespace dmpc::apps {
+
+struct ErrorOptions {
+  ErrorOptions();  ///< 16 samples and depth 8, replicated on as many nodes as there are cores
+
+  std::vector<std::string> scenes;
+  MeasureOptions measure;
+  TableOutput table;              ///< without a page
+  bool has_tessellation = false;  ///< asked for by name: a scene that has none is refused
+  bool quiet = false;             ///< no progress
+};
+
+/// Declares them.
+void add_options(OptionSet set, ErrorOptions& options);
+
+/// Measures and writes as run_tabled() does. Throws core::UsageError for outputs that clash, core::InputError for a scene that
+/// will not do or outputs that cannot be made.
+int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::ostream& output);
+
+}  // namespace dmpc::apps

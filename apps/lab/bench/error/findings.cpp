@@ -1,0 +1,236 @@
+#include "apps/lab/bench/error/findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/table/averages.h"
+#include "apps/lab/bench/error/curve.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr double step = 1.0 / 255, quarter_step = step / 4;
+
+/// The curve of one knob, by both costs.
+struct Curve {
+  std::vector<CostPoint> rays, seconds;
+};
+
+Curve curve_of(const SceneResult& result, Knob knob) {
+  Curve curve;
+  for (std::size_t point = 0; point < result.points.size(); ++point) {
+    const Measurement& measurement = result.of(point);
+    const auto error = measurement.is_done() ? error_without_reference(result, measurement) : std::nullopt;
+    if (result.points[point].knob == knob && error) {
+      curve.rays.push_back({static_cast<double>(measurement.rays), *error});
+      curve.seconds.push_back({median(measurement.seconds), *error});
+    }
+  }
+  return curve;
+}
+
+const Measurement* uniform(const SceneResult& result, int samples) {
+  for (std::size_t point = 0; point < result.points.size(); ++point) {
+    if (result.points[point].knob == Knob::samples && result.points[point].setting.samples == samples &&
+        result.of(point).is_done()) {
+      return &result.of(point);
+    }
+  }
+  return nullptr;
+}
+
+std::optional<double> divided(std::optional<double> cost, double whole) {
+  return cost && whole > 0 ? std::optional(*cost / whole) : std::nullopt;
+}
+
+AdaptiveRatio ratio_at(const SceneResult& result, const Curve& adaptive, int samples) {
+  const Measurement* const even = uniform(result, samples);
+  const auto error = even != nullptr ? error_without_reference(result, *even) : std::nullopt;
+  if (!error) {
+    return {.samples = samples};
+  }
+  return {.samples = samples,
+          .rays = divided(cost_at(adaptive.rays, *error), static_cast<double>(even->rays)),
+          .seconds = divided(cost_at(adaptive.seconds, *error), median(even->seconds)),
+          .is_claimed = is_claimed(result, *even)};
+}
+
+std::string times_text(const std::optional<double>& ratio) { return ratio ? fixed(*ratio, 3) : "?"; }
+
+/// "0.320, 0.290, ? times the seconds (0.310, 0.280, ? times the rays)".
+std::string times_text(const std::vector<AdaptiveRatio>& ratios) {
+  std::string rays, seconds;
+  for (const AdaptiveRatio& ratio : ratios) {
+    const std::string comma = rays.empty() ? "" : ", ";
+    rays += comma + times_text(ratio.rays);
+    seconds += comma + times_text(ratio.seconds);
+  }
+  return seconds + " times the seconds (" + rays + " times the rays)";
+}
+
+bool has_any(const std::vector<AdaptiveRatio>& ratios) {
+  return std::any_of(ratios.begin(), ratios.end(), [](const AdaptiveRatio& ratio) { return ratio.rays.has_value(); });
+}
+
+std::string gain_text(const SceneResult& result) {
+  const AdaptiveGain gain = adaptive_gain(result);
+  return gain.seconds && gain.rays ? result.scene + ": for an RMSE of 1/255 uniform samples take " + fixed(*gain.seconds, 2) +
+                                         " times the time of adaptive ones (" + fixed(*gain.rays, 2) + " times the rays)."
+                                   : "";
+}
+
+std::string adaptive_text(const SceneResult& result) {
+  const std::vector<AdaptiveRatio> ratios = adaptive_ratios(result);
+  if (!has_any(ratios)) {
+    return "";
+  }
+  const bool is_unclaimed =
+      std::any_of(ratios.begin(), ratios.end(), [](const auto& one) { return one.rays && !one.is_claimed; });
+  return result.scene + ": at the RMSE of 16, 32, 64 uniform samples adaptive sampling takes " + times_text(ratios) +
+         (is_unclaimed ? "; an error here is below the reference and rests on the reference's own being taken off" : "") + ".";
+}
+
+/// "1/255 (0.123/255, 0.81 times the rays)".
+std::string point_text(const SceneResult& result, std::size_t point) {
+  const auto exact = std::find_if(result.measurements.begin(), result.measurements.end(),
+                                  [&](const Measurement& one) { return one.setting == result.base; });
+  const double error = 255 * result.of(point).deterministic->root_mean_square;
+  const double share = static_cast<double>(result.of(point).rays) / static_cast<double>(std::max<std::uint64_t>(exact->rays, 1));
+  return result.points[point].text + " (" + fixed(error, 3) + "/255, " + fixed(share, 3) + " times the rays)";
+}
+
+std::string cheapest_text(const SceneResult& result) {
+  std::string text;
+  for (const Knob knob : {Knob::cutoff, Knob::depth}) {
+    if (const auto point = cheapest_point(result, knob)) {
+      text += (text.empty() ? "" : ", ") + std::string(name_of(knob)) + " " + point_text(result, *point);
+    }
+  }
+  return text.empty() ? ""
+                      : result.scene + ": cheapest with a deterministic RMSE below a quarter of an 8-bit step: " + text + ".";
+}
+
+const Measurement* measured(const SceneResult& result, Knob knob, const std::string& position) {
+  for (std::size_t point = 0; point < result.points.size(); ++point) {
+    if (result.points[point].knob == knob && result.points[point].text == position && result.of(point).is_done()) {
+      return &result.of(point);
+    }
+  }
+  return nullptr;
+}
+
+/// "0.9/255" with a mark where it is not claimed.
+std::string error_text(const SceneResult& result, const Measurement& measurement) {
+  return fixed(255 * measurement.error.root_mean_square, 2) + "/255" +
+         (is_claimed(result, measurement) ? "" : " (below the reference)");
+}
+
+std::string quality_text(const SceneResult& result) {
+  const Measurement *const draft = measured(result, Knob::quality, "draft"), *const standard =
+                                                                                 measured(result, Knob::quality, "default");
+  if (draft == nullptr || standard == nullptr) {
+    return "";
+  }
+  const double rays = static_cast<double>(draft->rays) / static_cast<double>(std::max<std::uint64_t>(standard->rays, 1));
+  return result.scene + ": default quality has an RMSE of " + error_text(result, *standard) + ", draft " +
+         error_text(result, *draft) + " for " + fixed(rays, 3) + " times the rays (" +
+         fixed(median(draft->seconds) / median(standard->seconds), 3) + " times the seconds).";
+}
+
+std::string scientific(double value) {
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+std::string reference_text(const SceneResult& result) {
+  const std::string n = std::to_string(result.reference_samples_a_side);
+  return result.scene + ": the reference has " + n + "x" + n + " samples a pixel, depth " + std::to_string(result.base.depth) +
+         ", " + grouped(result.reference.rays) + " rays in " + seconds_text(result.reference.seconds) +
+         (result.reference.from_cache ? " when it was made" : "") + "; its own error is " +
+         fixed(255 * result.reference.own_error, 4) + "/255 (relative MSE " +
+         scientific(result.reference.own_relative_mean_square) + ").";
+}
+
+std::string mean_text(const std::vector<double>& numbers) {
+  const auto mean = geometric_mean(numbers);
+  return mean ? fixed(*mean, 3) + " (of " + counted(numbers.size(), "scene") + ")" : "?";
+}
+
+}  // namespace
+
+std::vector<AdaptiveRatio> adaptive_ratios(const SceneResult& result) {
+  const Curve adaptive = curve_of(result, Knob::adaptive);
+  std::vector<AdaptiveRatio> ratios;
+  for (const int samples : {16, 32, 64}) {
+    ratios.push_back(ratio_at(result, adaptive, samples));
+  }
+  return ratios;
+}
+
+AdaptiveGain adaptive_gain(const SceneResult& result) {
+  const Curve even = curve_of(result, Knob::samples), adaptive = curve_of(result, Knob::adaptive);
+  const auto gain = [](std::span<const CostPoint> of_even, std::span<const CostPoint> of_adaptive) {
+    return divided(cost_at(of_even, step), cost_at(of_adaptive, step).value_or(0));
+  };
+  return {.seconds = gain(even.seconds, adaptive.seconds), .rays = gain(even.rays, adaptive.rays)};
+}
+
+std::optional<std::size_t> cheapest_point(const SceneResult& result, Knob knob) {
+  std::optional<std::size_t> cheapest;
+  for (std::size_t point = 0; point < result.points.size(); ++point) {
+    const auto& error = result.of(point).deterministic;
+    const bool is_good = result.points[point].knob == knob && error && error->root_mean_square < quarter_step;
+    if (is_good && (!cheapest || result.of(point).rays < result.of(*cheapest).rays)) {
+      cheapest = point;
+    }
+  }
+  return cheapest;
+}
+
+std::vector<std::string> findings_of(const SceneResult& result) {
+  std::vector<std::string> sentences;
+  for (std::string text :
+       {gain_text(result), reference_text(result), adaptive_text(result), cheapest_text(result), quality_text(result)}) {
+    if (!text.empty()) {
+      sentences.push_back(std::move(text));
+    }
+  }
+  return sentences;
+}
+
+std::vector<std::string> findings_of_all(std::span<const SceneResult> results) {
+  std::vector<std::vector<double>> rays(3), seconds(3);
+  std::vector<double> gains;
+  std::vector<std::string> sentences;
+  for (const SceneResult& result : results) {
+    if (const auto gain = adaptive_gain(result).seconds) {
+      gains.push_back(*gain);
+    }
+    const std::vector<AdaptiveRatio> ratios = adaptive_ratios(result);
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+      if (ratios[i].rays && ratios[i].seconds) {
+        rays[i].push_back(*ratios[i].rays);
+        seconds[i].push_back(*ratios[i].seconds);
+      }
+    }
+  }
+  if (results.size() > 1 && !gains.empty()) {
+    sentences.push_back("For an RMSE of 1/255 uniform samples take " + mean_text(gains) +
+                        " times the time of adaptive ones, as a geometric mean.");
+  }
+  for (std::size_t i = 0; results.size() > 1 && i < rays.size(); ++i) {
+    if (!rays[i].empty()) {
+      sentences.push_back("At the RMSE of " + std::to_string(16 << i) + " uniform samples adaptive sampling takes " +
+                          mean_text(seconds[i]) + " times the seconds and " + mean_text(rays[i]) +
+                          " times the rays, as geometric means.");
+    }
+  }
+  return sentences;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,285 @@
+#include "apps/lab/bench/error/measure.h"
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <utility>
+
+#include "apps/edge/system/progress.h"
+#include "apps/edge/system/real_load.h"
+#include "apps/edge/system/stopwatch.h"
+#include "apps/edge/table/rounds.h"
+#include "apps/effort/effort.h"
+#include "apps/effort/pilot.h"
+#include "apps/lab/oracle/accurate/picture.h"
+#include "apps/picture/film_image.h"
+#include "apps/run/run_strategy.h"
+#include "apps/scene/load_scene.h"
+#include "apps/scene/subject.h"
+#include "core/base/expect.h"
+#include "core/families/scenes.h"
+
+namespace dmpc::apps {
+namespace {
+
+PictureOptions picture_of(PictureOptions picture, const Setting& setting) {
+  picture.samples = setting.samples;
+  picture.is_refined = setting.is_refined();
+  picture.refinement.error = setting.error;
+  picture.depth = setting.depth;
+  picture.cutoff = setting.cutoff;
+  return picture;
+}
+
+/// The scene in all its tessellations, each built when it is first asked for.
+class Scenes {
+ public:
+  Scenes(const std::string& name, const MeasureOptions& options)
+      : picture_(options.picture), database_(usual_database(options.strategy.strategy)), outputs_(options.outputs) {
+    picture_.scene = name;
+    add(0);
+  }
+
+  struct Built {
+    core::Scene scene;
+    Subject subject;
+  };
+  const Built& of(int tessellation) { return scenes_.contains(tessellation) ? scenes_.at(tessellation) : add(tessellation); }
+  const core::Scene& exact() const { return scenes_.at(0).scene; }
+
+  /// Throws core::UsageError if `picture` falls on a file that the scene was read from, or on another output.
+  void check_apart(const NamedFile& picture) const {
+    check_not_read(opened_, {picture});
+    check_distinct(outputs_, {picture});
+  }
+
+ private:
+  const Built& add(int tessellation) {
+    core::Scene scene = load(tessellation);
+    Subject subject = build_subject(scene, picture_, database_);
+    return scenes_.emplace(tessellation, Built{std::move(scene), std::move(subject)}).first->second;
+  }
+  core::Scene load(int tessellation) {
+    if (tessellation == 0) {
+      core::Scene scene = load_scene(picture_, LoadNotes::said, &opened_);
+      check_not_read(opened_, outputs_);
+      return scene;
+    }
+    core::SceneName name = core::parse_scene_name(picture_.scene);
+    name.tessellation = tessellation;
+    return core::built_in_scene(name);
+  }
+
+  PictureOptions picture_;
+  DatabaseOptions database_;
+  std::vector<NamedFile> outputs_;
+  OpenedFiles opened_;
+  std::map<int, Built> scenes_;
+};
+
+/// One render that has ended.
+struct Rendered {
+  Image picture;
+  double seconds = 0;
+  std::uint64_t rays = 0, samples = 0, film_hash = 0;
+};
+
+Image accurate_image(const AccuratePicture& accurate) {
+  Image image(accurate.width, accurate.height);
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+    image.rgb[i] = static_cast<float>(accurate.radiance[i / 3][i % 3]);
+  }
+  return image;
+}
+
+/// Makes the measurements of one scene.
+class Bench {
+ public:
+  Bench(const std::string& scene, const MeasureOptions& options, const Interrupt& interrupt, SceneResult& result)
+      : options_(options), interrupt_(interrupt), result_(result), scenes_(scene, options) {
+    const core::View& view = scenes_.exact().view;
+    const Resolution size = options.picture.resolution.value_or(Resolution{view.width, view.height});
+    result_.scene = scene;
+    result_.width = size.width;
+    result_.height = size.height;
+    result_.base = {.samples = options.picture.samples, .depth = options.picture.depth};
+    result_.reference_samples_a_side = options.reference.samples_a_side;
+  }
+
+  void measure() {
+    announce_effort();
+    find_reference();
+    find_accurate();
+    plan();
+    Progress progress(std::cerr, stderr_is_terminal(), result_.scene + ":", "renders");
+    round_by_round(options_.rounds, result_.measurements.size(), progress,
+                   [&](std::size_t index) { measure(result_.measurements[index]); });
+  }
+
+ private:
+  /// By the base point's picture: double precision takes longer a ray, most other points take less. A reference that is kept from
+  /// before takes nothing; that is found out later.
+  void announce_effort() {
+    if (options_.is_quiet || !stderr_is_terminal()) {
+      return;
+    }
+    constexpr double double_factor = 3.5, quick_renders = 8, renders = 18;
+    const Scenes::Built& built = scenes_.of(0);
+    const core::Database& database = built.subject.database;
+    const PictureOptions base = picture_of(options_.picture, result_.base);
+    const double picture = picture_seconds(database, render_settings(base, built.scene, database));
+    const double side = options_.reference.samples_a_side;
+    const double reference = double_factor * picture * side * side / result_.base.samples;
+    const double rounds = static_cast<double>(options_.rounds) * (options_.is_quick ? quick_renders : renders) * picture;
+    announce("bench error " + result_.scene, {.seconds = (reference + rounds) / core_count()}, false, std::cerr);
+  }
+
+  /// An error smaller than the reference's own could not be seen.
+  void plan() {
+    SweepOptions options{.knobs = options_.knobs, .is_quick = options_.is_quick, .error_least = result_.reference.own_error};
+    if (options.knobs.contains(Knob::tessellation)) {
+      options.tessellations = tessellations_of(result_.scene, options.is_quick);
+    }
+    result_.points = sweep(result_.base, options);
+    add_measurements();
+  }
+
+  /// The base point comes first, if any point is there: others are held against its picture.
+  void add_measurements() {
+    for (const Point& point : result_.points) {
+      if (point.setting == result_.base && result_.measurements.empty()) {
+        result_.measurements.push_back({.setting = result_.base});
+      }
+    }
+    for (const Point& point : result_.points) {
+      auto& all = result_.measurements;
+      const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.setting == point.setting; });
+      result_.measurement_of.push_back(static_cast<std::size_t>(found - all.begin()));
+      if (found == all.end()) {
+        all.push_back({.setting = point.setting});
+      }
+    }
+  }
+
+  void find_reference() {
+    Progress progress(std::cerr, stderr_is_terminal(), "reference of " + result_.scene + ":", "rows");
+    const PictureOptions picture = picture_of(options_.picture, result_.base);
+    result_.reference = reference_for(scenes_.exact(), picture, options_.reference, attendance(progress));
+  }
+
+  Attendance attendance(Progress& progress) const {
+    return {.progress = [&progress](std::uint64_t done, std::uint64_t all) { progress.update(done, all); },
+            .stop = interrupt_.token()};
+  }
+
+  /// The base point in double precision, sample by sample, if that is asked for.
+  void find_accurate() {
+    if (!options_.knobs.contains(Knob::arithmetic)) {
+      return;
+    }
+    Progress progress(std::cerr, stderr_is_terminal(), result_.scene + " in double precision:", "rows");
+    const AccurateScene scene = accurate_scene(scenes_.exact());
+    const AccurateFinder finder(scene, scenes_.exact().view.from);
+    const AccurateCamera camera(scenes_.exact().view, result_.width, result_.height);
+    const auto pattern = SamplePattern::of_product(static_cast<std::uint32_t>(result_.base.samples));
+    const core::RenderSettings settings =
+        render_settings(picture_of(options_.picture, result_.base), scenes_.exact(), scenes_.of(0).subject.database);
+    accurate_ = accurate_image(render_accurately(scene, finder, camera, pattern, settings.shade, attendance(progress)));
+  }
+
+  Rendered render(const Setting& setting) {
+    const Scenes::Built& built = scenes_.of(setting.tessellation);
+    const core::Database& database = built.subject.database;
+    const core::RenderSettings settings = render_settings(picture_of(options_.picture, setting), built.scene, database);
+    const ReadyRun run = make_ready(options_.strategy, database, settings, interrupt_.token());
+    interrupt_.check();
+    Stopwatch stopwatch;
+    const Report report = run.start([](std::uint32_t, std::uint32_t) {}, interrupt_.token());
+    const double seconds = stopwatch.lap();
+    interrupt_.check();
+    const Account account = account_of(report);
+    return {.picture = image_of(account.film),
+            .seconds = seconds,
+            .rays = account.operations.ray_count(),
+            .samples = account.film.samples(),
+            .film_hash = account.film.hash()};
+  }
+
+  void measure(Measurement& measurement) {
+    const Rendered rendered = render(measurement.setting);
+    if (measurement.is_done()) {
+      core::expect(rendered.film_hash == measurement.film_hash, "a setting has one film in all rounds");
+    } else {
+      measurement.rays = rendered.rays;
+      measurement.samples = rendered.samples;
+      measurement.film_hash = rendered.film_hash;
+      judge(measurement, rendered.picture);
+    }
+    measurement.seconds.push_back(rendered.seconds);
+    if (measurement.seconds.size() == 1 && options_.told) {
+      options_.told(result_);
+    }
+  }
+
+  void judge(Measurement& measurement, const Image& picture) {
+    const Setting& setting = measurement.setting;
+    if (setting == result_.base) {
+      base_ = picture;
+      if (accurate_) {
+        result_.arithmetic = measure_error(picture, *accurate_);
+      }
+    }
+    measurement.error = measure_error(picture, result_.reference.picture);
+    if (base_ && !setting.is_refined() && setting.samples == result_.base.samples) {
+      measurement.deterministic = measure_error(picture, *base_);
+    }
+    if (options_.pictures) {
+      write_pictures(measurement, picture);
+    }
+  }
+
+  void write_pictures(const Measurement& measurement, const Image& picture) const {
+    for (std::size_t point = 0; point < result_.points.size(); ++point) {
+      if (&result_.of(point) != &measurement) {
+        continue;
+      }
+      const std::string name = file_text(result_.scene) + "_" + file_text(name_of(result_.points[point].knob)) + "_" +
+                               file_text(result_.points[point].text);
+      write_error(name, picture, result_.reference.picture);
+      if (deterministic_error(result_, point)) {
+        write_error(name + "_deterministic", picture, result_.points[point].knob == Knob::arithmetic ? *accurate_ : *base_);
+      }
+    }
+  }
+  void write_error(const std::string& name, const Image& picture, const Image& reference) const {
+    Image error = difference_picture(picture, reference);
+    std::transform(error.rgb.begin(), error.rgb.end(), error.rgb.begin(), [](float value) { return picture_scale * value; });
+    const std::filesystem::path path = *options_.pictures / (name + ".png");
+    scenes_.check_apart({"--pictures", path});
+    write_image(path, error);
+  }
+
+  const MeasureOptions& options_;
+  const Interrupt& interrupt_;
+  SceneResult& result_;
+  Scenes scenes_;
+  std::optional<Image> accurate_, base_;
+};
+
+}  // namespace
+
+std::string file_text(const std::string& text) {
+  std::string safe = text;
+  std::replace_if(
+      safe.begin(), safe.end(), [](unsigned char character) { return std::isalnum(character) == 0; }, '-');
+  return safe;
+}
+
+void measure_scene(const std::string& scene, const MeasureOptions& options, const Interrupt& interrupt, SceneResult& result) {
+  Bench(scene, options, interrupt, result).measure();
+  result.reference.picture = {};
+}
+
+}  // namespace dmpc::apps

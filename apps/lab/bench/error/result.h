@@ -1,0 +1,54 @@
+// What `bench error` found for one scene.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/lab/bench/error/sweep.h"
+#include "apps/lab/oracle/accurate/reference.h"
+#include "apps/picture/picture_error.h"
+
+namespace dmpc::apps {
+
+/// One setting, rendered once in each round.
+struct Measurement {
+  Setting setting;
+  std::vector<double> seconds;  ///< of the phase `render`, by round; empty: not measured yet
+  std::uint64_t rays = 0;       ///< of all kinds
+  std::uint64_t samples = 0;    ///< of all pixels
+  std::uint64_t film_hash = 0;
+  PictureError error;                         ///< against the reference: sampling and all else
+  std::optional<PictureError> deterministic;  ///< against the base point's picture, if that has the same samples
+
+  bool is_done() const { return !seconds.empty(); }
+};
+
+struct SceneResult {
+  std::string scene;
+  int width = 0, height = 0;
+  Setting base;
+  Reference reference;  ///< its picture is empty when the scene is done with
+  std::uint32_t reference_samples_a_side = 0;
+  std::vector<Point> points;
+  std::vector<std::size_t> measurement_of;  ///< by point: its setting's place among the measurements
+  std::vector<Measurement> measurements;
+  std::optional<PictureError> arithmetic;  ///< of the base point's picture against the same samples in double
+
+  const Measurement& of(std::size_t point) const { return measurements[measurement_of[point]]; }
+  std::uint64_t pixels() const { return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height); }
+};
+
+/// An error is claimed if the reference's own one, which may be a part of it, is at most a tenth of it.
+bool is_claimed(const SceneResult& result, const Measurement& measurement);
+
+/// The root mean square error without the reference's own: both are independent, so their squares add up. Nothing if less than
+/// twice the reference's own is left to be told from it.
+std::optional<double> error_without_reference(const SceneResult& result, const Measurement& measurement);
+
+/// The deterministic error of a point's knob, where it has one and is measured.
+std::optional<PictureError> deterministic_error(const SceneResult& result, std::size_t point);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,196 @@
+#include "apps/lab/bench/error/sweep.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include "apps/scene/picture_options.h"
+#include "core/base/expect.h"
+#include "core/families/scenes.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// A number as people write it.
+struct Named {
+  const char* text;
+  double value;
+};
+
+constexpr std::array<Named, 8> errors = {{{"16/255", 16.0 / 255},
+                                          {"8/255", 8.0 / 255},
+                                          {"4/255", 4.0 / 255},
+                                          {"2/255", 2.0 / 255},
+                                          {"1/255", 1.0 / 255},
+                                          {"1/510", 1.0 / 510},
+                                          {"1/1020", 1.0 / 1020},
+                                          {"1/2040", 1.0 / 2040}}};
+constexpr std::array<Named, 6> cutoffs = {
+    {{"1/64", 1.0 / 64}, {"1/255", 1.0 / 255}, {"1/512", 1.0 / 512}, {"1/1024", 1.0 / 1024}, {"1/4096", 1.0 / 4096}, {"0", 0}}};
+constexpr std::array depths = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 16, 24, 32, 64, 128};
+
+constexpr std::uint64_t tessellated_primitives_max = 1'000'000;
+
+/// The points of one sweep on their way. A quick sweep leaves out every other position, but never the last one.
+class Sweep {
+ public:
+  Sweep(const Setting& base, const SweepOptions& options) : base_(base), options_(options) {}
+
+  void add(Knob knob) {
+    switch (knob) {
+      case Knob::samples:
+        return add_samples();
+      case Knob::adaptive:
+        return add_errors();
+      case Knob::cutoff:
+        return add_each(cutoffs, [&](const Named& cutoff) { add(Knob::cutoff, cutoff.text, cut(base_, cutoff)); });
+      case Knob::depth:
+        return add_depths();
+      case Knob::tessellation:
+        return add_tessellations();
+      case Knob::arithmetic:
+        return add(Knob::arithmetic, "float", base_);
+      case Knob::quality:
+        add(Knob::quality, "draft", with_quality(Quality::draft));
+        return add(Knob::quality, "default", with_quality(Quality::standard));
+      case Knob::adaptive_and_cutoff:
+        return add_pairs(std::array{cutoffs[1], cutoffs[3]}, knob, " cutoff ", cut);
+      case Knob::adaptive_and_depth:
+        return add_pairs(std::array<Named, 2>{{{"3", 3}, {"5", 5}}}, knob, " depth ", shallow);
+    }
+  }
+
+  std::vector<Point> points;
+
+ private:
+  void add(Knob knob, const std::string& text, const Setting& setting) { points.push_back({knob, text, setting}); }
+
+  template <class Positions, class Add>
+  void add_each(const Positions& positions, const Add& add_one) const {
+    const std::size_t last = positions.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i) {
+      if (!options_.is_quick || (last - i) % 2 == 0) {
+        add_one(positions[i]);
+      }
+    }
+  }
+
+  Setting refined(const Named& error) const {
+    Setting setting = base_;
+    setting.samples = refined_samples;
+    setting.error = error.value;
+    return setting;
+  }
+  Setting with_quality(Quality quality) const {
+    Setting setting = base_;
+    setting.samples = refined_samples;
+    setting.error = choice_of(quality).error;
+    setting.cutoff = choice_of(quality).cutoff;
+    return setting;
+  }
+  static Setting cut(Setting setting, const Named& cutoff) {
+    setting.cutoff = cutoff.value;
+    return setting;
+  }
+  static Setting shallow(Setting setting, const Named& depth) {
+    setting.depth = static_cast<int>(depth.value);
+    return setting;
+  }
+
+  /// A quick sweep has those about an 8-bit step.
+  void add_errors() {
+    for (std::size_t i = options_.is_quick ? 1 : 0; i < (options_.is_quick ? 6 : errors.size()); ++i) {
+      add_refined(Knob::adaptive, errors[i].text, refined(errors[i]));
+    }
+  }
+  void add_refined(Knob knob, const std::string& text, const Setting& setting) {
+    if (setting.error >= options_.error_least) {
+      add(knob, text, setting);
+    }
+  }
+
+  void add_samples() {
+    std::set<int> counts = options_.is_quick ? std::set{1, 4, 16, 32, 64} : std::set{1, 4, 16, 32, 64, 256};
+    counts.insert(base_.samples);
+    for (const int count : counts) {
+      Setting setting = base_;
+      setting.samples = count;
+      add(Knob::samples, std::to_string(count), setting);
+    }
+  }
+
+  void add_depths() {
+    std::vector<int> positions(depths.begin(), std::lower_bound(depths.begin(), depths.end(), base_.depth));
+    positions.push_back(base_.depth);
+    add_each(positions, [&](int depth) {
+      Setting setting = base_;
+      setting.depth = depth;
+      add(Knob::depth, std::to_string(depth), setting);
+    });
+  }
+
+  void add_tessellations() {
+    for (const int tessellation : options_.tessellations) {
+      Setting setting = base_;
+      setting.tessellation = tessellation;
+      add(Knob::tessellation, "t" + std::to_string(tessellation), setting);
+    }
+    if (!options_.tessellations.empty()) {
+      add(Knob::tessellation, "exact", base_);
+    }
+  }
+
+  /// Errors near an 8-bit step with each position of the other knob that is not the base point's.
+  template <class Positions, class Turn>
+  void add_pairs(const Positions& positions, Knob knob, const std::string& between, const Turn& turn) {
+    for (const Named& position : positions) {
+      for (std::size_t error = 1; error + 1 < errors.size(); error += options_.is_quick ? 3 : 1) {
+        const Setting setting = turn(refined(errors[error]), position);
+        if (setting.depth < base_.depth || setting.cutoff > 0) {
+          add_refined(knob, errors[error].text + between + position.text, setting);
+        }
+      }
+    }
+  }
+
+  const Setting& base_;
+  const SweepOptions& options_;
+};
+
+}  // namespace
+
+std::vector<Point> sweep(const Setting& base, const SweepOptions& options) {
+  core::expect(!base.is_refined() && base.cutoff == 0 && base.tessellation == 0, "the base point is exact");
+  Sweep result(base, options);
+  for (const Knob knob : options.knobs) {
+    result.add(knob);
+  }
+  return std::move(result.points);
+}
+
+std::vector<int> tessellations_of(const std::string& scene, bool is_quick) {
+  auto name = core::find_scene_name(scene);
+  if (!name || name->tessellation > 0) {
+    return {};
+  }
+  std::vector<int> found;
+  std::uint64_t before = core::primitive_count(*name);
+  for (int n = 1; n <= (is_quick ? 2 : 16); n *= 2) {
+    name->tessellation = n;
+    try {
+      core::check_scene_name(*name);
+    } catch (const core::InputError&) {
+      break;
+    }
+    const std::uint64_t count = core::primitive_count(*name);
+    if (count == before || count > tessellated_primitives_max) {
+      break;
+    }
+    before = count;
+    found.push_back(n);
+  }
+  return found;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,165 @@
+#include "apps/lab/bench/precision/command.h"
+
+#include <algorithm>
+#include <iostream>
+#include <ostream>
+
+#include "apps/edge/system/progress.h"
+#include "apps/edge/table/shown_rows.h"
+#include "apps/edge/table/table_files.h"
+#include "apps/effort/effort.h"
+#include "apps/lab/bench/precision/precision.h"
+#include "apps/lab/study/engine/tabled_job.h"
+#include "apps/scene/load_scene.h"
+#include "core/families/scenes.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr int unexplained_status = 3;
+/// Unexplained pixels of one scene that are described.
+constexpr std::size_t errors_shown = 10;
+
+/// Every family in the size that is its own.
+std::vector<std::string> all_families() {
+  std::vector<std::string> scenes;
+  for (const char* family :
+       {"balls", "gears", "jacks", "lattice", "mount", "rings", "shells", "sombrero", "teapot", "tetra", "tree"}) {
+    scenes.push_back(core::parse_scene_name(family).text());
+  }
+  return scenes;
+}
+
+TableFiles files_of(const PrecisionOptions& options) {
+  OtherFiles others;
+  for (const std::string& scene : options.scenes) {
+    add_scene_file(scene, others.inputs);
+  }
+  return {options.table, {}, others};
+}
+
+Table empty_table(const PrecisionOptions& options) {
+  std::vector<Column> columns{
+      {"scene"}, {"primitives"}, {"rays"}, {"equal pixels", "%", 4}, {"RMSE", "1/255", 4}, {"largest", "1/255", 3}, {"differ"}};
+  for (std::size_t cause = 0; cause < pixel_cause_count; ++cause) {
+    columns.push_back({std::string(name_of(static_cast<PixelCause>(cause)))});
+  }
+  columns.push_back({"largest step", "", 2});
+  Table table("Precision of the picture in float against double precision: " + std::to_string(options.resolution.width) + "x" +
+                  std::to_string(options.resolution.height) + " pixels, one sample a pixel, depth " +
+                  std::to_string(options.depth) + ", convention haines",
+              std::move(columns));
+  table.add_note("Pixels are compared in 8 bits with the sRGB curve; RMSE and largest are of linear light.");
+  table.add_note(
+      "The pixels that differ stand under what comes first where the two renderers follow the same pixel: two surfaces at the "
+      "same "
+      "distance, a silhouette seen or shadowing, a hit at the end of a shadow ray, a surface that turns away from its light, "
+      "total reflection, or nothing but the rounding of colours.");
+  table.add_note(
+      "Every ray, hit and answer on the product's way was checked on its own: the largest step is the farthest that one was off, "
+      "in "
+      "units of what rounding to float does; " +
+      std::to_string(static_cast<int>(StepAudit::steps_allowed)) + " are allowed.");
+  return table;
+}
+
+double percent_equal(const Precision& precision) {
+  return 100 * (1 - static_cast<double>(precision.differing_pixels) / static_cast<double>(precision.pixels));
+}
+
+std::vector<Cell> row_of(const std::string& scene, const Precision& precision) {
+  std::vector<Cell> row{scene,
+                        precision.primitives,
+                        precision.rays,
+                        percent_equal(precision),
+                        255 * precision.root_mean_square,
+                        255 * precision.largest,
+                        precision.differing_pixels};
+  row.insert(row.end(), precision.causes.begin(), precision.causes.end());
+  row.emplace_back(precision.largest_step);
+  return row;
+}
+
+void describe_errors(const std::string& scene, const Precision& precision, Table& table) {
+  for (std::size_t index = 0; index < std::min(errors_shown, precision.errors.size()); ++index) {
+    table.add_note("UNEXPLAINED in " + scene + ", " + precision.errors[index] + ".");
+  }
+}
+
+/// By processor time of a server's core in November 2026.
+Effort effort_of(const PrecisionOptions& options, std::size_t scene_count) {
+  constexpr double pixel_seconds = 5e-6;
+  const double pixels = static_cast<double>(options.resolution.width) * options.resolution.height;
+  return {.seconds = pixel_seconds * pixels * static_cast<double>(scene_count)};
+}
+
+Precision measure(const PrecisionOptions& options, const std::string& name, const TableFiles& files, Interrupt& interrupt) {
+  PictureOptions picture{.scene = name, .resolution = options.resolution, .depth = options.depth, .staging = options.staging};
+  const core::Scene scene = load_scene_beside(picture, files.names());
+  Progress progress(std::cerr, stderr_is_terminal(), name + " ", "rows");
+  return measure_precision(
+      scene, picture,
+      {.progress = [&](std::uint64_t done, std::uint64_t rows) { progress.update(done, rows); }, .stop = interrupt.token()});
+}
+
+/// `is_explained` becomes false if a pixel is not.
+void measure_all(const PrecisionOptions& options, const std::vector<std::string>& scenes, const TableFiles& files,
+                 Interrupt& interrupt, Table& table, bool& is_explained) {
+  for (const std::string& scene : scenes) {
+    interrupt.check();
+    const Precision precision = measure(options, scene, files, interrupt);
+    table.add_row(row_of(scene, precision));
+    describe_errors(scene, precision, table);
+    is_explained = is_explained && precision.errors.empty();
+  }
+}
+
+const char* verdict_of(bool is_complete, bool is_explained) {
+  return !is_explained ? "UNEXPLAINED pixels: one of the renderers has an error."
+         : is_complete ? "Every pixel is explained."
+                       : "Ended before its time: scenes are missing.";
+}
+
+}  // namespace
+
+void add_options(OptionSet set, PrecisionOptions& options) {
+  set.add_arguments(
+      "SCENE", [&options](const std::string& text) { options.scenes.push_back(text); },
+      "NFF files, mesh files or built-in scenes; all families if none is given");
+  set.add_text(
+      "--resolution", "WxH [256x256]", [&options](const std::string& text) { options.resolution = parse_resolution(text); },
+      "Pixels of the pictures");
+  set.add_number("--depth", options.depth, 1, 255, "5", "Longest chain of reflections and refractions");
+  add_options(set, options.staging);
+  add_options(set, options.table, TableExtras::none);
+  set.add_quiet(options.quiet);
+  set.set_examples(
+      "Examples:\n"
+      "  dmpc bench precision\n"
+      "  dmpc bench precision teapot-12 balls-4 --resolution=512x512\n"
+      "  dmpc bench precision mine.nff --format=csv -o mine.csv\n"
+      "  dmpc bench precision model.glb --camera=4,3,5/0,0,0 --light=10,20,10\n"
+      "Exit status 3 says that a pixel differs for no reason that rounding gives.");
+}
+
+int bench_precision_command(const PrecisionOptions& options, Interrupt& interrupt, std::ostream& output) {
+  const TableFiles files = files_of(options);
+  const std::vector<std::string> scenes = options.scenes.empty() ? all_families() : options.scenes;
+  announce("bench precision", effort_of(options, scenes.size()), options.quiet, std::cerr);
+  Table table = empty_table(options);
+  ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
+  table.set_listener([&shown](const Table& rows) { shown.show(rows); });
+  bool is_explained = true;
+  const auto write = [&](bool is_whole, Attempts& attempts) {
+    table.add_note(verdict_of(is_whole, is_explained));
+    files.write({.text = text_of(table, options.table.format)}, output, std::cerr, attempts);
+  };
+  const int status = run_tabled({.measure = [&] { measure_all(options, scenes, files, interrupt, table, is_explained); },
+                                 .has_findings = [&] { return !table.rows().empty(); },
+                                 .consequence = "the table has the scenes measured before",
+                                 .write = write},
+                                interrupt);
+  return is_explained ? status : unexplained_status;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,32 @@
+// The command `bench precision`: the product's pictures in float against double precision, pixel by pixel.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/system/interrupt.h"
+#include "apps/edge/table/table_options.h"
+#include "apps/scene/picture_options.h"
+
+namespace dmpc::apps {
+
+struct PrecisionOptions {
+  std::vector<std::string> scenes;  ///< NFF files or built-in names; none: every family in its own size
+  Resolution resolution{256, 256};
+  int depth = 5;
+  Staging staging;     ///< of all scenes
+  TableOutput table;   ///< without a page and plots
+  bool quiet = false;  ///< no progress
+};
+
+/// Declares them.
+void add_options(OptionSet set, PrecisionOptions& options);
+
+/// Measures and writes as run_tabled() does. The exit status is 3 if a pixel that differs is not explained. Throws
+/// core::InputError for a scene that cannot be read or a table that cannot be made, core::UsageError for an output that is a file
+/// the scene is read from.
+int bench_precision_command(const PrecisionOptions& options, Interrupt& interrupt, std::ostream& output);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,34 @@
+// The product's picture of one scene against the same picture in double precision.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/lab/oracle/accurate/picture.h"
+#include "apps/lab/oracle/accurate/pixel_judge.h"
+#include "apps/scene/picture_options.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+/// What came of one scene, one sample a pixel.
+struct Precision {
+  std::uint64_t pixels = 0;
+  std::uint64_t primitives = 0;
+  std::uint64_t rays = 0;              ///< the accurate renderer's, of all kinds
+  std::uint64_t differing_pixels = 0;  ///< in 8 bits with the sRGB curve, in any channel
+  double root_mean_square = 0;         ///< of linear radiance, over all channels of all pixels
+  double largest = 0;
+  std::array<std::uint64_t, pixel_cause_count> causes{};  ///< of the pixels that differ
+  double largest_step = 0;                                ///< of any audit of them
+  std::vector<std::string> errors;                        ///< "pixel (3, 4): ..." for each unexplained one, row by row
+};
+
+/// Renders `scene` in float, as every strategy does to the last bit, and in double with the same samples; judges every pixel that
+/// differs in 8 bits. Uses all cores; the same for every number of them. `picture` asks for one sample a pixel. Progress counts
+/// rows of the accurate picture. Throws Interrupted when a stop is requested.
+Precision measure_precision(const core::Scene& scene, const PictureOptions& picture, const Attendance& attendance = {});
+
+}  // namespace dmpc::apps

@@ -1,0 +1,67 @@
+#include "apps/lab/bench/speed/comparison.h"
+
+#include <algorithm>
+
+#include "apps/edge/table/averages.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+std::size_t Comparison::rounds() const { return std::min(subject_figures.size(), rival_figures.size()); }
+
+RatioSpread ratio_of(const Comparison& comparison) {
+  std::vector<double> ratios(comparison.rounds());
+  for (std::size_t round = 0; round < ratios.size(); ++round) {
+    core::expect(comparison.rival_figures[round] > 0, "a ratio is taken to a figure above 0");
+    ratios[round] = comparison.subject_figures[round] / comparison.rival_figures[round];
+  }
+  core::expect(!ratios.empty(), "a comparison has been measured at least once");
+  const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+  return {median(ratios), *least, *most};
+}
+
+Comparisons measured(std::span<const Comparison> comparisons, const std::function<bool(const Comparison&)>& is_meant) {
+  Comparisons chosen;
+  for (const Comparison& comparison : comparisons) {
+    if (comparison.rounds() > 0 && is_meant(comparison)) {
+      chosen.push_back(&comparison);
+    }
+  }
+  return chosen;
+}
+
+std::vector<Comparisons> grouped(const Comparisons& comparisons,
+                                 const std::function<bool(const Comparison&, const Comparison&)>& are_alike) {
+  std::vector<Comparisons> groups;
+  for (const Comparison* const comparison : comparisons) {
+    const auto found = std::find_if(groups.begin(), groups.end(),
+                                    [&](const Comparisons& group) { return are_alike(*group.front(), *comparison); });
+    (found == groups.end() ? groups.emplace_back() : *found).push_back(comparison);
+  }
+  return groups;
+}
+
+std::vector<double> ratios_of(const Comparisons& comparisons) {
+  std::vector<double> ratios;
+  for (const Comparison* const comparison : comparisons) {
+    ratios.push_back(ratio_of(*comparison).median);
+  }
+  return ratios;
+}
+
+void add_timed(Comparison comparison, std::vector<Comparison>& results) {
+  for (const char* clock : {"wall clock", "processor time"}) {
+    comparison.detail = clock;
+    results.push_back(comparison);
+  }
+}
+
+void note(const Times& times, bool is_rival, Comparison* first) {
+  constexpr double least_seconds = 1e-9;
+  for (const double seconds : {times.wall_seconds, times.processor_seconds}) {
+    (is_rival ? first->rival_figures : first->subject_figures).push_back(std::max(seconds, least_seconds));
+    ++first;
+  }
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,54 @@
+// What was measured of one thing, side by side with what it is held against.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/edge/system/stopwatch.h"
+#include "apps/lab/bench/speed/part.h"
+
+namespace dmpc::apps {
+
+/// Figures by round; of each round's two the ratio is taken, so that a busy minute of the machine touches both.
+struct Comparison {
+  SpeedPart part{};
+  std::string scene;
+  std::string what;            ///< "closest hit", "whole picture"
+  std::string detail = {};     ///< a kind of `what`, such as the class of rays; may be empty
+  std::uint32_t threads = 0;   ///< that worked, or nodes that rendered; 0: does not matter
+  std::string subject, rival;  ///< whose figures they are
+  std::string unit;            ///< of the figures: "Mray/s", "s"
+  std::vector<double> subject_figures = {}, rival_figures = {};
+
+  bool is_by_wall_clock() const { return detail == "wall clock"; }
+  /// Rounds that have both figures.
+  std::size_t rounds() const;
+};
+
+/// The middle one of the rounds' ratios of subject to rival, and the outermost ones. Figures of the rival are above 0.
+struct RatioSpread {
+  double median = 0, least = 0, most = 0;
+};
+/// Requires a round.
+RatioSpread ratio_of(const Comparison& comparison);
+
+/// Some of what was measured, each outliving this.
+using Comparisons = std::vector<const Comparison*>;
+/// Those that are meant and have a round.
+Comparisons measured(std::span<const Comparison> comparisons, const std::function<bool(const Comparison&)>& is_meant);
+/// In groups of such as are alike, in the order in which the first of each comes.
+std::vector<Comparisons> grouped(const Comparisons& comparisons,
+                                 const std::function<bool(const Comparison&, const Comparison&)>& are_alike);
+/// The median one of each.
+std::vector<double> ratios_of(const Comparisons& comparisons);
+
+/// Adds the comparison twice: its detail "wall clock", then "processor time".
+void add_timed(Comparison comparison, std::vector<Comparison>& results);
+/// Notes what the subject or the rival took, in one round, in two comparisons made by add_timed(), the first of which is given.
+void note(const Times& times, bool is_rival, Comparison* first);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,41 @@
+#include "apps/lab/bench/speed/embree_tree.h"
+
+#include <optional>
+
+#include "apps/oracle/curved.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// Within the ray, whose components Embree keeps one by one.
+std::optional<float> distance(const embree::CurvedQuery& query) {
+  RTCRayN* const ray = query.ray;
+  const unsigned count = query.ray_count, i = query.index;
+  core::Ray asked;
+  asked.origin = {RTCRayN_org_x(ray, count, i), RTCRayN_org_y(ray, count, i), RTCRayN_org_z(ray, count, i)};
+  asked.direction = {RTCRayN_dir_x(ray, count, i), RTCRayN_dir_y(ray, count, i), RTCRayN_dir_z(ray, count, i)};
+  asked.t_max = RTCRayN_tfar(ray, count, i);
+  const std::optional<double> t = nearest_on_curved(query.shapes.primitives[query.id], asked);
+  return t ? std::optional(static_cast<float>(*t)) : std::nullopt;
+}
+
+}  // namespace
+
+EmbreeTree::EmbreeTree(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode, EmbreeQuality quality,
+                       std::uint32_t thread_count)
+    : shapes_(primitives),
+      tree_(mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE,
+            quality == EmbreeQuality::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM, thread_count) {
+  if (!shapes_.triangles.empty()) {
+    tree_.attach(embree::triangle_mesh(tree_.device(), shapes_));
+  }
+  if (!shapes_.curved.empty()) {
+    tree_.attach(embree::curved_geometry<distance>(tree_.device(), shapes_));
+  }
+  DoubleStopwatch stopwatch;
+  tree_.build();
+  build_times_ = stopwatch.lap();
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,54 @@
+// A scene's rays and everybody who traces them, for the kernel of `bench speed`.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/lab/bench/speed/part.h"
+#include "apps/lab/bench/speed/recording.h"
+#include "apps/lab/bench/speed/rival.h"
+#include "apps/lab/bench/speed/warm_pager.h"
+#include "apps/scene/subject.h"
+
+namespace dmpc::apps {
+
+/// Who traces: our grid over records in an array, or through a pager, by single rays or by bundles of them; Embree by single
+/// rays, or by the same bundles.
+enum class Contender : std::uint8_t { grid, paged_grid, bundles, paged_bundles, robust, fast, robust_packets };
+inline constexpr std::size_t contender_count = 7;
+/// As tables call it.
+const char* name_of(Contender contender);
+
+/// What came of some rays.
+struct RaysTraced {
+  std::uint64_t hits = 0;
+  double seconds = 0;  ///< processor time of the thread that had most to do
+};
+
+class KernelArena {
+ public:
+  /// Renders the scene, and builds what the contenders need. Throws core::InputError for a scene that will not do.
+  KernelArena(const std::string& scene, const SpeedSettings& settings);
+
+  const std::string& name() const { return name_; }
+  bool has(RayClass ray_class) const { return ray_count(ray_class) > 0; }
+  std::size_t ray_count(RayClass ray_class) const { return recording_.of(ray_class).rays.size(); }
+
+  /// All rays of the class, on at most as many threads as the settings have.
+  RaysTraced trace(Contender contender, RayClass ray_class, Query query, std::uint32_t threads);
+
+ private:
+  void ask(RayClass ray_class, Query query);
+  std::uint64_t trace_piece(Contender contender, RayClass ray_class, const BundleSpan& piece, Query query, std::size_t thread);
+
+  std::string name_;
+  Subject subject_;
+  Recording recording_;
+  EmbreeRival robust_, fast_;
+  std::vector<std::unique_ptr<WarmPager>> pagers_;  ///< a node each, by thread
+};
+
+}  // namespace dmpc::apps

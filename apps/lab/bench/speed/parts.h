@@ -1,0 +1,43 @@
+// What each part of `bench speed` measures.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "apps/edge/system/interrupt.h"
+#include "apps/lab/bench/speed/comparison.h"
+#include "apps/lab/bench/speed/part.h"
+
+namespace dmpc::apps {
+
+/// Measures the part on each of its scenes, in rounds where it is timed. `results` has what is measured so far at any time,
+/// thrown at or not. Progress goes to stderr if that is a terminal. Throws Interrupted after a signal; core::InputError for a
+/// scene that will not do.
+using MeasurePart = void(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results);
+
+/// Times the phase `render` by PlainRenderer on 1 and 2 threads, by svm on 1, 2, 8 and 64 nodes, by dataflow and replicated, and
+/// by svm on a modelled machine, each held against the plain renderer on 2 threads; compares rays shot, and what building took.
+/// Leaves out scenes with textures, which it says on stderr. Throws core::InternalError, too, if our films are not one or the
+/// plain picture is another.
+MeasurePart measure_plain;
+/// Records each scene's rays and lets everybody trace them, class by class, as closest and as any hit, on each number of threads,
+/// all in every round.
+MeasurePart measure_kernel;
+/// Renders each scene as `render` does, on two nodes: with svm and our grid, and replicated with Embree, whose tree is built
+/// within its phase `render`.
+MeasurePart measure_picture;
+/// Times the phase `render` with svm on 2, 8 and 64 nodes whose caches hold all pages, on 8 with caches of a part of the
+/// database, and with dataflow on 2 and 64. The films are expected to be one.
+MeasurePart measure_emulation;
+/// Builds each scene's database and two of Embree's trees, the robust one and the fast one of high quality, on each number of
+/// threads. Embree's time is its tree's alone, from vertices that lie ready; ours is from the scene to the pages.
+MeasurePart measure_build;
+/// Runs `dmpc render` on 8 nodes as a process of its own, for each scene and for one of a single triangle, and holds the most
+/// anonymous memory that it ever had, above the triangle's, against the sum of the nodes' local memories. Once: nothing is timed.
+/// Throws core::InputError if the program cannot be run, too.
+MeasurePart measure_memory;
+/// Counts KB and distinct pages a pixel of each scene that the article has, once: nothing is timed. Rays are counted by the
+/// article's convention.
+MeasurePart measure_pages;
+
+}  // namespace dmpc::apps

@@ -1,0 +1,51 @@
+// A plain renderer of our scenes, as a good engineer would write it over Embree: what all our own is held against.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "apps/edge/system/stopwatch.h"
+#include "apps/scene/subject.h"
+#include "core/base/vec.h"
+#include "core/base/zeroed_array.h"
+#include "core/picture/film.h"
+
+namespace dmpc::apps {
+
+struct PlainPicture {
+  core::ZeroedArray<core::Color> pixels;  ///< linear radiance, row by row from the top left
+  std::uint64_t rays = 0;                 ///< of all kinds
+};
+
+/// Recursive shading after Whitted in single precision, one ray at a time asked of Embree's robust tree, one process, one copy of
+/// the scene, and threads that take the next tile of the picture when they are done with one. It emulates nothing, counts nothing
+/// but rays and keeps no two pictures equal. The rays are ours: Haines' convention, the same offsets, the same left out for what
+/// they cannot bring. Spheres and cones, of which Embree knows nothing, are ours in double precision. No textures, no more than
+/// one sample a pixel. Immutable; render() is thread-safe.
+class PlainRenderer {
+ public:
+  /// Builds the tree, of high quality, on all cores. `subject` outlives it.
+  explicit PlainRenderer(const Subject& subject);
+  ~PlainRenderer();
+  PlainRenderer(const PlainRenderer&) = delete;
+  PlainRenderer& operator=(const PlainRenderer&) = delete;
+
+  /// Memory for the picture and starting the threads are part of it.
+  PlainPicture render(std::uint32_t thread_count) const;
+  /// What Embree took for its tree, from vertices that lay ready.
+  const Times& build_times() const;
+
+ private:
+  struct Stage;
+  class Painter;
+  std::unique_ptr<Stage> stage_;
+};
+
+/// The most, root mean square, that a picture of the plain renderer may lie from ours, in linear radiance.
+inline constexpr double plain_error_max = 1.0 / 255;
+
+/// How far it lies from our film of `scene`. Throws core::InternalError if that is more than plain_error_max.
+double distance_to_ours(const PlainPicture& picture, const core::Film& film, const std::string& scene);
+
+}  // namespace dmpc::apps

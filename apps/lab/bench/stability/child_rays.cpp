@@ -1,0 +1,217 @@
+// R10: what a hit spawns meets neither its own surface nor anything that lies wholly behind it, and no light gets through two
+// sheets close together.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "apps/lab/bench/stability/bodies.h"
+#include "apps/lab/bench/stability/case.h"
+#include "apps/lab/bench/stability/children.h"
+#include "apps/lab/bench/stability/judge.h"
+#include "apps/lab/bench/stability/rays.h"
+#include "apps/lab/bench/stability/targets.h"
+#include "core/families/scenes.h"
+#include "core/scene/frame.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::Hit;
+using core::PrimitiveKind;
+using core::PrimitiveValues;
+using core::Ray;
+using core::Scene;
+using core::Vec3d;
+using Must = StabilityExpectation::Must;
+
+/// Surfaces are no flatter than float makes them: what reaches less than this in front of one cannot be in the way of its
+/// children.
+constexpr double reach_in_front = 0x1p-22;
+
+/// The plane that touches a hit's surface, with the side that a child starts on in front.
+struct Tangent {
+  Vec3d point, normal;
+
+  double height(const Vec3d& at) const { return dot(at - point, normal); }
+};
+
+/// Where the ray meets the sphere or cone, and its normal there, by the implicit function's gradient, not normalised.
+Vec3d curved_normal(const PrimitiveValues& body, const Vec3d& at) {
+  const Vec3d from = at - body.vector(0);
+  if (body.kind == PrimitiveKind::sphere) {
+    return from;
+  }
+  const Vec3d axis = body.vector(4) - body.vector(0);
+  const double height = dot(from, axis) / dot(axis, axis), low = std::fabs(double{body.value[3]});
+  const double widening = std::fabs(double{body.value[7]}) - low, radius = low + widening * height;
+  return from - axis * height - axis * (radius * widening / dot(axis, axis));
+}
+
+Tangent tangent_at(const PrimitiveValues& body, const Ray& parent, const Hit& hit, const Ray& child) {
+  Tangent tangent;
+  if (body.kind == PrimitiveKind::triangle) {
+    tangent.point = body.vector(0);
+    tangent.normal = cross(body.vector(3) - tangent.point, body.vector(6) - tangent.point);
+  } else {
+    tangent.point = parent.full_origin() + parent.full_direction() * double{hit.t};
+    tangent.normal = curved_normal(body, tangent.point);
+  }
+  tangent.normal = normalize(tangent.normal);
+  if (dot(tangent.normal, child.full_direction()) < 0) {
+    tangent.normal = -tangent.normal;
+  }
+  return tangent;
+}
+
+/// How far the body reaches in front, at most: exact for triangles and spheres, an upper bound for cones.
+double reach_of(const PrimitiveValues& body, const Tangent& tangent) {
+  const double first = tangent.height(body.vector(0));
+  switch (body.kind) {
+    case PrimitiveKind::triangle:
+      return std::max({first, tangent.height(body.vector(3)), tangent.height(body.vector(6))});
+    case PrimitiveKind::sphere:
+      return first + std::fabs(double{body.value[3]});
+    case PrimitiveKind::cone:
+      break;
+  }
+  const Vec3d axis = normalize(body.vector(4) - body.vector(0));
+  const double slant = std::sqrt(std::max(0.0, 1 - dot(axis, tangent.normal) * dot(axis, tangent.normal)));
+  return std::max(first + slant * std::fabs(double{body.value[3]}),
+                  tangent.height(body.vector(4)) + slant * std::fabs(double{body.value[7]}));
+}
+
+/// Counts the kernels' answers to a child ray: a hit on something behind its surface is acne.
+class ChildJudge {
+ public:
+  ChildJudge(const StabilitySubject& subject, KernelCounts& counts) : subject_(subject), counts_(counts) {}
+
+  void judge_children(const Ray& parent) {
+    const Hit hit = shoot(subject_.database, parent);
+    for (const Ray& child : children_of(subject_.database, parent, hit)) {
+      judge_child(child, tangent_at(subject_.database.primitives()[hit.primitive], parent, hit, child));
+    }
+  }
+
+ private:
+  void judge_child(const Ray& child, const Tangent& tangent) {
+    const StabilityAnswers answers = ask_kernels(subject_, child);
+    const Hit& grid = answers[index_of(StabilityKernel::grid)];
+    for (std::size_t k = 0; k < answers.size(); ++k) {
+      const auto kernel = static_cast<StabilityKernel>(k);
+      const bool any_hit = kernel == StabilityKernel::any_hit;
+      ++counts_[k].tried;
+      if (answers[k].found() && reach_of(subject_.database.primitives()[answers[k].primitive], tangent) < reach_in_front) {
+        ++counts_[k].wrong_hits;
+      } else if (!is_embree(kernel) && !(any_hit ? answers[k].found() == grid.found() : same_hit(answers[k], grid))) {
+        ++counts_[k].unexplained;
+      } else if (is_embree(kernel) && answers[k].primitive != grid.primitive) {
+        ++counts_[k].explained;
+      }
+    }
+  }
+
+  const StabilitySubject& subject_;
+  KernelCounts& counts_;
+};
+
+/// Near the surfaces of random primitives, at all angles down to some 10^-4 radians.
+Ray ray_onto(const core::Database& database, Random& random) {
+  const PrimitiveValues& body = database.primitives()[random.below(database.primitives().size())];
+  const Vec3d at = surface_point(body, random);
+  const Vec3d normal = body.kind == PrimitiveKind::triangle
+                           ? cross(body.vector(3) - body.vector(0), body.vector(6) - body.vector(0))
+                           : curved_normal(body, at);
+  const Vec3d up = normalize(normal), along = normalize(cross(up, random.direction()));
+  const double rise = std::pow(10.0, random.between(-4, 0));
+  return ray_through(at + normalize(along + up * rise) * random.between(0.05, 1.0), at);
+}
+
+ShootRays children_in(const Scene& scene) {
+  const auto subject = std::make_shared<const StabilitySubject>(scene);
+  return each_ray([subject](Random& random, std::uint64_t, KernelCounts& counts) {
+    ChildJudge(*subject, counts).judge_children(ray_onto(subject->database, random));
+  });
+}
+
+/// A mirror under eight lights that surround it.
+Scene lit(Scene scene) {
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    scene.lights.push_back({{(i & 1U) != 0 ? 9.0 : -8.0, (i & 2U) != 0 ? 7.0 : -9.0, (i & 4U) != 0 ? 8.0 : -7.0}});
+  }
+  for (core::Material& material : scene.materials) {
+    material.specular = 0.5;
+    material.shine = 10;
+  }
+  return scene;
+}
+
+void add_bodies(const StabilityAmount& amount, StabilityCases& cases) {
+  const auto bodies = closed_bodies();
+  for (const ClosedBody& body : bodies) {
+    cases.push_back({"R10 children of bodies", body.name, amount.share(1'000'000, bodies.size()),
+                     [body] { return children_in(lit(body.scene)); }});
+  }
+}
+
+void add_spd_children(const StabilityAmount& amount, StabilityCases& cases) {
+  constexpr std::array<double, 3> scales{1e-6, 1, 1e6};
+  constexpr std::array<const char*, 11> names{"balls-2",  "gears-1",    "jacks-2",  "lattice-2", "mount-4", "rings-2",
+                                              "shells-2", "sombrero-1", "teapot-6", "tetra-5",   "tree-5"};
+  for (const char* name : names) {
+    for (const double scale : scales) {
+      const int exponent = static_cast<int>(std::lround(std::log10(scale)));
+      cases.push_back({"R10 children in the SPD", std::string(name) + " 1e" + std::to_string(exponent),
+                       amount.share(1'000'000, names.size() * scales.size()), [name, scale] {
+                         return children_in(transformed(core::built_in_scene(core::parse_scene_name(name)), scale, {}));
+                       }});
+    }
+  }
+}
+
+Scene two_sheets() {
+  Scene scene;
+  scene.view = {.from = {0, 0, 3}, .at = {0, 0, 0}, .up = {0, 1, 0}};
+  core::SceneBuilder builder(scene);
+  builder.light({.position = {0.3, 0.2, 5}});
+  builder.material({.specular = 0.5, .shine = 10});
+  for (const double z : {0.0, 1e-4}) {
+    builder.polygon({{-0.5, -0.5, z}, {0.5, -0.5, z}, {0.5, 0.5, z}, {-0.5, 0.5, z}});
+  }
+  return scene;
+}
+
+/// Between the sheets every child is caught; above them none is.
+ShootRays children_of_sheets(double scale) {
+  const auto subject = std::make_shared<const StabilitySubject>(transformed(two_sheets(), scale, {}));
+  return each_ray([subject, scale](Random& random, std::uint64_t i, KernelCounts& counts) {
+    const Vec3d at{random.between(-0.45, 0.45), random.between(-0.45, 0.45), 5e-5};
+    const bool between = i % 2 == 0;
+    const Vec3d from = between ? at : Vec3d{at.x, at.y, 1}, to = between ? Vec3d{at.x, at.y, -1} : at;
+    const Ray parent = ray_through(to_local(subject->frame(), from * scale), to_local(subject->frame(), to * scale));
+    for (const Ray& child : children_of(subject->database, parent, shoot(subject->database, parent))) {
+      judge(*subject, child, ask_kernels(*subject, child), {between ? Must::hit : Must::miss}, counts);
+    }
+  });
+}
+
+void add_sheets(const StabilityAmount& amount, StabilityCases& cases) {
+  constexpr std::array<double, 3> scales{1e-6, 1, 1e6};
+  for (const double scale : scales) {
+    cases.push_back({"R10 sheets 1e-4 apart", "scale " + std::to_string(scale), amount.share(1'000'000, scales.size()),
+                     [scale] { return children_of_sheets(scale); }});
+  }
+}
+
+}  // namespace
+
+StabilityCases child_cases(const StabilityAmount& amount) {
+  StabilityCases cases;
+  add_bodies(amount, cases);
+  add_spd_children(amount, cases);
+  add_sheets(amount, cases);
+  return cases;
+}
+
+}  // namespace dmpc::apps

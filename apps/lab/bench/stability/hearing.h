@@ -1,0 +1,32 @@
+// One ray before the referee.
+#pragma once
+
+#include "apps/lab/oracle/encounter.h"
+#include "apps/lab/oracle/referee.h"
+#include "core/database/database.h"
+#include "core/record/hit.h"
+#include "core/record/ray.h"
+
+namespace dmpc::apps {
+
+/// Distances within this share of each other need no explanation.
+inline constexpr double level_share = 1e-6;
+
+/// Asks `referee`, which is over the primitives of `database`, about the answers to `ray`. Both outlive the hearing. Thread-safe.
+class Hearing {
+ public:
+  Hearing(const core::Database& database, const Referee& referee, const core::Ray& ray)
+      : database_(database), referee_(referee), ray_(ray) {}
+
+  /// Whether rounding can have made `renderer` give this answer. To a shadow ray only found() counts.
+  bool admissible(const core::Hit& hit, Renderer renderer) const;
+  /// Whether rounding can have given the distance of `hit`, which is admissible.
+  bool distance_explained(const core::Hit& hit) const;
+
+ private:
+  const core::Database& database_;
+  const Referee& referee_;
+  core::Ray ray_;
+};
+
+}  // namespace dmpc::apps

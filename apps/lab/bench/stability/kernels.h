@@ -1,0 +1,51 @@
+// Every way to a ray's hit that the stability tests compare.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "apps/lab/bench/stability/subject.h"
+#include "core/record/hit.h"
+#include "core/record/ray.h"
+
+namespace dmpc::apps {
+
+/// The first eight answer any ray; the others are asked by the tests that are about them.
+enum class StabilityKernel : std::uint8_t {
+  grid,           ///< the walk with vectors of 8 triangles
+  scalar,         ///< the walk with the scalar twin
+  plain,          ///< the walk that leaves empty space cell by cell
+  resumed,        ///< the walk stopped by an absent record before each of its steps
+  bundle,         ///< the walk beside three others
+  any_hit,        ///< as a shadow ray: only whether there is a hit
+  embree_fast,    ///< Embree without its robust flag
+  embree_robust,  ///< Embree with it
+  regions,        ///< the walk from owner to owner of a space cut into regions
+  planes,         ///< the walk's planes alone, finest cell by finest cell
+  listing,        ///< no walk: which primitives the boxes around a point list
+  certified,      ///< hits of the grid or of its scalar twins, each with a certificate
+};
+inline constexpr std::size_t stability_kernel_count = 12;
+inline constexpr std::size_t compared_kernel_count = 8;
+
+constexpr std::size_t index_of(StabilityKernel kernel) { return static_cast<std::size_t>(kernel); }
+constexpr bool is_embree(StabilityKernel kernel) {
+  return kernel == StabilityKernel::embree_fast || kernel == StabilityKernel::embree_robust;
+}
+/// A few words for tables.
+std::string_view name_of(StabilityKernel kernel);
+
+/// By kernel. Of `any_hit` only found() means anything.
+using StabilityAnswers = std::array<core::Hit, compared_kernel_count>;
+
+/// One ray through each of the first eight kernels; Embree misses what it does not take. Closest hits for all but `any_hit`,
+/// whatever the ray's kind. Thread-safe.
+StabilityAnswers ask_kernels(const StabilitySubject& subject, const core::Ray& ray);
+
+/// Whether Embree takes `ray`: debug checks in Debian's build end the process where a number is above 1.844e18 or the ray's end
+/// is not above 0.
+bool embree_takes(const core::Ray& ray);
+
+}  // namespace dmpc::apps

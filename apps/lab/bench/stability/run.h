@@ -1,0 +1,58 @@
+// Carries out the cases of stability tests, batch by batch, over the real computer's cores; it can be stopped and gone on with.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/lab/bench/stability/case.h"
+
+namespace dmpc::apps {
+
+/// A row of the table: the sum over the cases that count for it.
+struct StabilityRow {
+  std::string name;
+  KernelCounts counts{};
+};
+
+/// How far a run is: what it has counted in all batches before.
+struct StabilityState {
+  std::size_t case_index = 0;   ///< cases before are done
+  std::uint64_t rays_done = 0;  ///< of this case
+  std::vector<StabilityRow> rows;
+
+  /// Rays of all rows that our own kernels failed, each kernel for itself.
+  std::uint64_t own_failures() const;
+};
+
+class StabilityRun {
+ public:
+  /// A batch of rays is the same whatever the number of cores, and so is what it draws: a hash of `seed`, case and batch.
+  StabilityRun(StabilityCases cases, std::uint64_t seed);
+
+  /// Nothing done.
+  StabilityState start() const;
+  /// Takes `state` to the end. After each batch, in their order and one at a time, calls after_batch(), which may throw to stop:
+  /// `state` is then good to go on from. Whatever a batch throws is thrown on.
+  void go_on(StabilityState& state, const std::function<void()>& after_batch) const;
+
+  std::uint64_t total_rays() const;
+  std::uint64_t rays_done(const StabilityState& state) const;
+  /// "R1 closed bodies, cube"; the last case's once all are done.
+  std::string place(const StabilityState& state) const;
+  const StabilityCases& cases() const { return cases_; }
+
+ private:
+  void run_case(const StabilityCase& one, StabilityState& state, const std::function<void()>& after_batch) const;
+
+  StabilityCases cases_;
+  std::uint64_t seed_;
+};
+
+/// The cases of the tests named ("R1", "quadrics"; all if none is), in the order of grid tests R1 to R16. Throws core::UsageError
+/// for a name that is none, saying what there is.
+StabilityCases stability_cases(const StabilityAmount& amount, const std::vector<std::string>& tests);
+
+}  // namespace dmpc::apps

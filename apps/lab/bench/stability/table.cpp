@@ -1,0 +1,73 @@
+#include "apps/lab/bench/stability/table.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/oracle/oracle.h"
+#include "core/trace/kernel.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr double per_billion = 1e9;
+/// Where the columns behind `wrong hits` stand.
+constexpr std::size_t claims_column = 5, unexplained_column = 6, explained_column = 7, rate_column = 8, error_column = 9;
+
+void add_row(Table& table, const std::string& test, StabilityKernel kernel, const StabilityCounts& counts) {
+  std::vector<Cell> row{test, std::string(name_of(kernel)), counts.tried, counts.leaks, counts.wrong_hits};
+  row.resize(table.columns().size());
+  if (kernel == StabilityKernel::regions) {
+    row[claims_column] = counts.double_claims;
+  }
+  row[unexplained_column] = counts.unexplained;
+  row[explained_column] = counts.explained;
+  row[rate_column] = failure_rate_bound(counts.failures(), counts.tried) * per_billion;
+  if (counts.error_milliulp > 0) {
+    row[error_column] = static_cast<double>(counts.error_milliulp) / 1000;
+  }
+  table.add_row(std::move(row));
+}
+
+void add_notes(Table& table, const StabilityState& state) {
+  const std::uint64_t failures = state.own_failures();
+  table.add_note(failures == 0 ? "Our grid: no failure." : "OUR GRID FAILS: " + std::to_string(failures) + " times.");
+  table.add_note(
+      "Leak: missed what rounding cannot make a ray miss. Wrong hit: hit what rounding cannot make it hit. Unexplained: "
+      "other bits than the grid's, or a distance farther off than rounding moves it. Within rounding: another answer "
+      "than the grid's, explained by the referee; no failure.");
+  table.add_note(
+      "R11 also counts as unexplained each 1,024 rays that take more than 2.5 times the steps and tests of usual ones.");
+  table.add_note("The failure rate is below the figure with a confidence of 95 %.");
+  table.add_note("Embree is judged by bounds for its robust mode. Its spheres and cones are ours, in double precision.");
+  table.add_note(
+      "R13, messages out of order: tests/chaos and tests/whole/chaos_test.cpp. R15, known bugs put back: tests/mutation.");
+}
+
+}  // namespace
+
+Table table_of(const StabilityState& state, std::uint64_t seed) {
+  Table table("Numerical stability: our grid (" + std::string(core::simd_name()) + ") beside Embree " + embree_version() +
+                  ", seed " + std::to_string(seed),
+              {{"test"},
+               {"kernel"},
+               {"rays tried"},
+               {"leaks"},
+               {"wrong hits"},
+               {"double claims"},
+               {"unexplained"},
+               {"within rounding"},
+               {"failure rate at most", "per 10^9", 0},
+               {"worst error", "ulp", 3}});
+  for (const StabilityRow& row : state.rows) {
+    for (std::size_t k = 0; k < row.counts.size(); ++k) {
+      if (row.counts[k].tried > 0) {
+        add_row(table, row.name, static_cast<StabilityKernel>(k), row.counts[k]);
+      }
+    }
+  }
+  add_notes(table, state);
+  return table;
+}
+
+}  // namespace dmpc::apps

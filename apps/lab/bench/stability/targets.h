@@ -1,0 +1,59 @@
+// The points of a primitive that rays are aimed at because they are easily missed.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "apps/lab/bench/stability/random.h"
+#include "apps/lab/bench/stability/rays.h"
+#include "core/database/database.h"
+
+namespace dmpc::apps {
+
+/// Three vertices, five points of every edge and the middle.
+inline constexpr std::size_t targets_per_triangle = 19;
+inline constexpr std::size_t vertices_per_triangle = 3;
+inline constexpr std::size_t middle_of_triangle = targets_per_triangle - 1;
+
+/// The point of the edge from vertex `edge` on at `share` of its length, grid-local.
+inline core::Vec3d on_edge(const core::PrimitiveValues& triangle, std::size_t edge, double share) {
+  const core::Vec3d from = triangle.vector(3 * edge), to = triangle.vector(3 * ((edge + 1) % 3));
+  return from + (to - from) * share;
+}
+
+/// Target `index`, below targets_per_triangle: vertices first, then the edges, then the middle.
+inline core::Vec3d target_of(const core::PrimitiveValues& triangle, std::size_t index) {
+  constexpr std::array<double, 5> shares{0.125, 0.3, 0.5, 0.7, 0.9375};
+  if (index < vertices_per_triangle) {
+    return triangle.vector(3 * index);
+  }
+  if (index == middle_of_triangle) {
+    return (triangle.vector(0) + triangle.vector(3) + triangle.vector(6)) * (1.0 / 3.0);
+  }
+  const std::size_t on_edges = index - vertices_per_triangle;
+  return on_edge(triangle, on_edges / shares.size(), shares[on_edges % shares.size()]);
+}
+
+/// A point of the primitive's surface, grid-local, off by less than 1e-15: often on an edge or at an end.
+inline core::Vec3d surface_point(const core::PrimitiveValues& primitive, Random& random) {
+  switch (primitive.kind) {
+    case core::PrimitiveKind::triangle: {
+      const double share = random.below(4) == 0 ? 0.0 : random.unit(),
+                   other = random.below(4) == 0 ? 0.0 : random.unit() * (1 - share);
+      const core::Vec3d a = primitive.vector(0);
+      return a + (primitive.vector(3) - a) * share + (primitive.vector(6) - a) * other;
+    }
+    case core::PrimitiveKind::sphere:
+      return primitive.vector(0) + random.direction() * std::fabs(double{primitive.value[3]});
+    case core::PrimitiveKind::cone:
+      break;
+  }
+  const core::Vec3d base = primitive.vector(0), axis = primitive.vector(4) - base;
+  const core::Vec3d radial = normalize(cross(axis, random.direction()));
+  const double height = random.below(8) == 0 ? 1.0 : random.unit();
+  const double low = std::fabs(double{primitive.value[3]}), high = std::fabs(double{primitive.value[7]});
+  return base + axis * height + radial * (low + (high - low) * height);
+}
+
+}  // namespace dmpc::apps

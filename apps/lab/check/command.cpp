@@ -1,0 +1,270 @@
+#include "apps/lab/check/command.h"
+
+#include <algorithm>
+#include <array>
+#include <iomanip>
+#include <iostream>
+#include <numeric>
+#include <ostream>
+#include <string>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/system/output_file.h"
+#include "apps/edge/system/progress.h"
+#include "apps/effort/render_effort.h"
+#include "apps/lab/check/inspection.h"
+#include "apps/scene/load_scene.h"
+#include "apps/scene/subject.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr std::array<const char*, core::ray_kind_count> kind_names{"primary", "reflected", "refracted", "shadow"};
+constexpr int unexplained_status = 3;
+
+/// Counts of differences, of one kind of ray or of all.
+struct Tally {
+  std::uint64_t rays = 0, differences = 0, favours_grid = 0, favours_oracle = 0, unexplained = 0;
+  std::array<std::uint64_t, verdict_count> verdicts{};
+
+  void count(const Ruling& ruling) {
+    ++differences;
+    ++verdicts[static_cast<std::size_t>(ruling.verdict)];
+    favours_grid += ruling.favours_grid ? 1 : 0;
+    favours_oracle += ruling.favours_oracle ? 1 : 0;
+    unexplained += explained(ruling.verdict) ? 0 : 1;
+  }
+};
+
+constexpr int name_width = 10;
+constexpr int number_width = 13;
+
+template <class... Cells>
+void print_row(std::ostream& output, const std::string& name, const Cells&... cells) {
+  output << std::left << std::setw(name_width) << name << std::right;
+  ((output << std::setw(number_width) << cells), ...);
+  output << '\n';
+}
+
+void print_tally(std::ostream& output, const std::string& name, const Tally& tally) {
+  const auto& verdicts = tally.verdicts;
+  print_row(output, name, tally.rays, tally.differences, verdicts[0], verdicts[1], verdicts[2], verdicts[3], tally.favours_grid,
+            tally.favours_oracle, tally.unexplained);
+}
+
+std::string answer_text(const Answer& answer, bool shadow) {
+  if (!answer.hit || shadow) {
+    return answer.hit ? "blocked" : shadow ? "free" : "miss";
+  }
+  return std::string("#").append(std::to_string(answer.primitive));
+}
+
+/// One primitive that somebody named, as the referee sees it.
+void print_named(std::ostream& output, const Referee& referee, const core::Ray& ray, const char* who, const Answer& answer) {
+  if (!answer.hit || answer.primitive == core::no_primitive) {
+    return;
+  }
+  const Encounter seen = referee.examine(ray, answer.primitive);
+  output << "    " << who << " #" << answer.primitive << ": t " << std::setprecision(9) << answer.t << ", referee's t "
+         << std::setprecision(17) << seen.t << " +- " << std::setprecision(3) << seen.t_error << ", margin " << seen.margin[0]
+         << " (grid's roundings), " << seen.margin[1] << " (Embree's)\n";
+}
+
+void print_doubtful(std::ostream& output, const Referee& referee, const core::Ray& ray) {
+  for (const Encounter& seen : referee.encounters(ray)) {
+    output << "    may block: #" << seen.primitive << " at t " << std::setprecision(17) << seen.t << " +- "
+           << std::setprecision(3) << seen.t_error << " of " << std::setprecision(9) << ray.t_max << ", margin "
+           << std::setprecision(3) << seen.margin[0] << ", " << seen.margin[1] << '\n';
+  }
+}
+
+void print_difference(std::ostream& output, const Referee& referee, const SettledRay& settled, std::uint32_t width) {
+  const core::Ray& ray = settled.traced.ray;
+  const bool shadow = ray.kind == core::RayKind::shadow;
+  const std::string exact = answer_text(settled.ruling.exact, shadow);
+  output << "  pixel (" << ray.pixel % width << ", " << ray.pixel / width << ") ray " << settled.traced.number << ", depth "
+         << int{ray.depth} << ", " << kind_names[static_cast<std::size_t>(ray.kind)] << ": grid "
+         << answer_text(settled.traced.grid, shadow) << ", Embree " << answer_text(settled.traced.oracle, shadow) << ", exactly "
+         << exact << ": " << name_of(settled.ruling.verdict) << '\n';
+  if (shadow) {
+    print_doubtful(output, referee, ray);
+  } else {
+    print_named(output, referee, ray, "grid", settled.traced.grid);
+    print_named(output, referee, ray, "Embree", settled.traced.oracle);
+  }
+}
+
+/// The first `most`, unexplained ones before all others.
+void print_list(std::ostream& output, const Referee& referee, std::vector<SettledRay> rays, std::uint32_t most,
+                std::uint32_t width) {
+  std::stable_partition(rays.begin(), rays.end(), [](const SettledRay& ray) { return !explained(ray.ruling.verdict); });
+  for (std::size_t index = 0; index < std::min<std::size_t>(most, rays.size()); ++index) {
+    print_difference(output, referee, rays[index], width);
+  }
+}
+
+std::uint64_t print_table(std::ostream& output, const Inspection& inspection) {
+  print_row(output, "rays", "traced", "differ", "ties", "silhouettes", "ray ends", "oracle wrong", "grid exact", "oracle exact",
+            "unexplained");
+  Tally all;
+  std::array<Tally, core::ray_kind_count> tallies{};
+  for (const SettledRay& difference : inspection.differences) {
+    tallies[static_cast<std::size_t>(difference.traced.ray.kind)].count(difference.ruling);
+    all.count(difference.ruling);
+  }
+  for (std::size_t kind = 0; kind < core::ray_kind_count; ++kind) {
+    tallies[kind].rays = inspection.operations.rays[kind];
+    all.rays += tallies[kind].rays;
+    print_tally(output, kind_names[kind], tallies[kind]);
+  }
+  print_tally(output, "all", all);
+  return all.unexplained;
+}
+
+/// Rays that both may agree on and that the referee denies nevertheless.
+std::vector<SettledRay> refused(const std::vector<SettledRay>& rays) {
+  std::vector<SettledRay> result;
+  std::copy_if(rays.begin(), rays.end(), std::back_inserter(result),
+               [](const SettledRay& ray) { return !explained(ray.ruling.verdict); });
+  return result;
+}
+
+std::uint64_t print_brute_force(std::ostream& output, const Inspection& inspection, const Referee& referee, std::uint32_t list,
+                                std::uint32_t width) {
+  if (inspection.brute_forced.empty()) {
+    return 0;
+  }
+  const std::vector<SettledRay> bad = refused(inspection.brute_forced);
+  const auto exact = std::count_if(inspection.brute_forced.begin(), inspection.brute_forced.end(),
+                                   [](const SettledRay& ray) { return ray.ruling.favours_grid; });
+  output << "Brute force: " << inspection.brute_forced.size() << " random rays against all primitives: " << exact
+         << " answers of the grid exact, " << inspection.brute_forced.size() - static_cast<std::size_t>(exact) - bad.size()
+         << " within rounding, " << bad.size() << " unexplained\n";
+  print_list(output, referee, bad, list, width);
+  return bad.size();
+}
+
+void print_failed(std::ostream& output, const CertifiedRay& ray, std::uint32_t width) {
+  const TracedRay& traced = ray.traced;
+  output << "  pixel (" << traced.ray.pixel % width << ", " << traced.ray.pixel / width << ") ray " << traced.number << ", "
+         << kind_names[static_cast<std::size_t>(traced.ray.kind)] << ": #" << traced.hit.primitive << " at t "
+         << std::setprecision(9) << traced.hit.t << ": " << name_of(ray.certified.fault) << '\n';
+}
+
+void print_spread(std::ostream& output, const char* what, const Spread& spread) {
+  output << "  " << what << ": median " << std::setprecision(3) << spread.median() << " ulp, worst " << spread.worst()
+         << " ulp\n";
+}
+
+/// Returns the number of certificates that fail.
+std::uint64_t print_certified(std::ostream& output, const Inspection& inspection, std::uint32_t list, std::uint32_t width) {
+  if (inspection.certified.empty()) {
+    return 0;
+  }
+  CertifiedCounts counts;
+  for (const CertifiedRay& ray : inspection.certified) {
+    counts.count(ray.certified);
+  }
+  output << "Certificates: " << counts.hits << " random hits against rational arithmetic: " << counts.failures() << " fail, "
+         << counts.undecided << " undecided, " << counts.inside << " surely on their primitive\n";
+  print_spread(output, "interval of the exact t", counts.width_ulp);
+  print_spread(output, "if surely on it, the hit's t is off by at most", counts.error_ulp);
+  print_spread(output, "if surely on it, the kernels' bound allows", counts.allowed_ulp);
+  for (const CertifiedRay& ray : inspection.certified) {
+    if (ray.certified.fault != CertificateFault::none && list > 0) {
+      print_failed(output, ray, width);
+      --list;
+    }
+  }
+  return counts.failures();
+}
+
+/// Says how far the picture is the one that Embree would make.
+void print_pixels(std::ostream& output, std::uint64_t differing, std::uint64_t pixels) {
+  output << "Pixels that Embree would change: " << differing << " of " << pixels << ", "
+         << fixed(1e6 * static_cast<double>(differing) / static_cast<double>(pixels), 1) << " ppm\n";
+}
+
+Inspection inspect_shown(const CheckOptions& options, const core::Database& database, const core::RenderSettings& settings) {
+  const EmbreeScene embree(database.primitives(), EmbreeMode::robust);
+  Progress progress(std::cerr, stderr_is_terminal());
+  InspectionOptions inspection_options;
+  inspection_options.brute_force = options.brute_force;
+  inspection_options.certify = options.certify;
+  inspection_options.progress = [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
+  return inspect(database, embree, settings, inspection_options);
+}
+
+/// Returns the number of unexplained rays and of certificates that fail.
+std::uint64_t print_report(std::ostream& output, const CheckOptions& options, const core::Database& database,
+                           const core::Camera& camera, const Inspection& inspection) {
+  const auto width = static_cast<std::uint32_t>(camera.width());
+  output << options.picture.scene << ": " << database.primitives().size() << " primitives, " << width << "x" << camera.height()
+         << " pixels, our grid against Embree " << embree_version() << " (robust)\n";
+  const Referee referee(database.primitives());
+  std::uint64_t unexplained = print_table(output, inspection);
+  print_list(output, referee, inspection.differences, options.list, width);
+  print_pixels(output, inspection.differing_pixels, camera.pixel_count());
+  unexplained += print_brute_force(output, inspection, referee, options.list, width);
+  output << (unexplained == 0 ? "Every ray is explained.\n" : "UNEXPLAINED rays: our grid has an error.\n");
+  const std::uint64_t failed = print_certified(output, inspection, options.list, width);
+  output << (failed == 0 ? "" : "CERTIFICATES FAIL: our bounds or our kernels have an error.\n");
+  return unexplained + failed;
+}
+
+void announce_effort(const CheckOptions& options, const Subject& subject) {
+  if (options.quiet || !stderr_is_terminal()) {
+    return;
+  }
+  if (const Effort effort = check_effort(subject); is_long(effort)) {
+    announce("check " + options.picture.scene, effort, options.quiet, std::cerr);
+  }
+}
+
+}  // namespace
+
+void add_options(OptionSet options, CheckOptions& check) {
+  add_options(options, check.picture);
+  options.check_in_the_end([&check] {
+    if (check.picture.is_refined) {
+      throw core::UsageError(
+          "--samples=auto and --quality go with render and study; check traces as many rays through each pixel as you say");
+    }
+  });
+  options.add_number("--list", check.list, 0, 1000000, "10", "Differences to print in full");
+  options.add_number("--brute-force", check.brute_force, 0, std::int64_t{1} << 40U, "0",
+                     "Rays that are tested against every primitive in double precision, too");
+  options.add_flag_with_text("--certify", "100000", check.certify_text,
+                             "Hold the certificates of so many random hits, where the exact answer lies and how far the kernels "
+                             "may be off, against rational arithmetic");
+  options.check_in_the_end([&check] {
+    if (!check.certify_text.empty()) {
+      check.certify = parse_seed(check.certify_text, "--certify");
+    }
+  });
+  options.add_quiet(check.quiet);
+  options.set_examples(
+      "Examples:\n"
+      "  dmpc check teapot-12\n"
+      "  dmpc check tetra-9 --resolution=128x128 --brute-force=1000\n"
+      "  dmpc check rings-3 --certify=1000000\n"
+      "Exit status 3 says that a difference stays unexplained or a certificate does not hold.");
+}
+
+int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostream& output) {
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  core::Scene scene = load_scene(options.picture);
+  const Subject subject = build_subject(std::move(scene), options.picture, {}, true);
+  announce_effort(options, subject);
+  const core::Database& database = subject.database;
+  const core::RenderSettings& settings = subject.settings;
+  const Inspection inspection = inspect_shown(options, database, settings);
+  interrupt.set_consequence("the report is incomplete");
+  const std::uint64_t unexplained = print_report(output, options, database, settings.camera, inspection);
+  finish_output(output, "the report");
+  return unexplained == 0 ? 0 : unexplained_status;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,31 @@
+// The command `check`: every ray of a render against the Embree oracle and the double-precision referee.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/system/interrupt.h"
+#include "apps/scene/picture_options.h"
+
+namespace dmpc::apps {
+
+struct CheckOptions {
+  PictureOptions picture;
+  std::uint32_t list = 10;        ///< differences to print in full, at most
+  std::uint64_t brute_force = 0;  ///< rays of the render that go to the referee too, whether they differ or not
+  std::uint64_t certify = 0;      ///< hits of the render whose certificates are held against rational arithmetic
+  std::string certify_text;       ///< the command line's word for that; empty: none
+  bool quiet = false;             ///< no progress
+};
+
+/// Declares them.
+void add_options(OptionSet options, CheckOptions& check);
+
+/// Prints the report to stdout, remarks and progress to stderr. A signal ends the process. Returns the exit status: 0 if no
+/// difference is unexplained and no certificate fails, 3 otherwise. Throws core::InputError for a scene that cannot be read or a
+/// report that cannot be written, Interrupted if a signal came before.
+int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostream& output);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,145 @@
+#include "apps/lab/compare/command.h"
+
+#include <algorithm>
+#include <iostream>
+#include <string>
+
+#include "apps/edge/line/exit_status.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/system/distinct_files.h"
+#include "apps/edge/system/output_file.h"
+#include "apps/lab/compare/report.h"
+#include "apps/picture/image_file.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+bool holds_counters(const std::filesystem::path& path) { return path.extension() == ".json"; }
+
+void check_outputs(const CompareOptions& options) {
+  std::vector<NamedFile> outputs;
+  if (options.difference) {
+    outputs.push_back({"--difference", *options.difference});
+  }
+  if (options.flip) {
+    outputs.push_back({"--flip", *options.flip});
+  }
+  check_distinct({{"A", options.a}, {"B", options.reference}}, outputs);
+  for (const NamedFile& output : outputs) {
+    check_image_path(output.path, output.name);
+  }
+}
+
+void write_picture(const std::filesystem::path& path, const Image& image, Interrupt& interrupt) {
+  OutputFile file(path);
+  file.write(encoded_picture(path, image));
+  interrupt.set_consequence("the output may be incomplete");
+  file.commit();
+}
+
+/// What `sentences` say, if anything, is on stderr.
+int status_after(const CompareOptions& options, const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) {
+    std::cerr << "dmpc: " << options.a.string() << " and " << options.reference.string() << " differ: " << sentence << '\n';
+  }
+  return sentences.empty() ? 0 : differs_status;
+}
+
+int compare_pictures(const CompareOptions& options, Interrupt& interrupt, std::ostream& output) {
+  const Image picture = read_image(options.a);
+  const Image reference = read_image(options.reference);
+  const PictureError error = measure_error(picture, reference);
+  if (options.difference) {
+    write_picture(*options.difference, difference_picture(picture, reference), interrupt);
+  }
+  if (options.flip) {
+    write_picture(*options.flip, flip_picture(picture, reference), interrupt);
+  }
+  interrupt.set_consequence("the output may be incomplete");
+  const std::vector<std::string> passed = passed_limits(options.limits, error);
+  if (options.format == CompareFormat::json) {
+    print_json(output, {options.a, options.reference}, error, passed);
+  } else {
+    print_text(output, {options.a, options.reference}, error);
+  }
+  finish_output(output, "the figures");
+  return status_after(options, passed);
+}
+
+int compare_counters(const CompareOptions& options, std::ostream& output) {
+  const FigureComparison comparison = compare_figures(read_figures(options.a), read_figures(options.reference), options.figures);
+  if (options.format == CompareFormat::json) {
+    print_json(output, {options.a, options.reference}, comparison);
+  } else {
+    print_text(output, {options.a, options.reference}, comparison);
+  }
+  finish_output(output, "the figures");
+  std::vector<std::string> sentences;
+  if (const std::size_t count = comparison.differences.size(); count > 0) {
+    sentences.push_back(counted(count, "counter") + " of " + grouped(comparison.compared));
+  }
+  return status_after(options, sentences);
+}
+
+/// Options of the one kind of file do not go with the other.
+void check_together(const OptionSet& set, const CompareOptions& compare) {
+  const bool counters = holds_counters(compare.a);
+  if (counters != holds_counters(compare.reference)) {
+    throw core::UsageError("A " + compare.a.string() + " and B " + compare.reference.string() +
+                           ": expected two pictures, or two files of counters, which end in .json");
+  }
+  for (const char* const option : {"--difference", "--flip", "--fail-above"}) {
+    if (counters && set.is_given(option)) {
+      throw core::UsageError(std::string(option) + " goes with pictures: of counters --tolerance says what may differ");
+    }
+  }
+  for (const char* const option : {"--only", "--tolerance"}) {
+    if (!counters && set.is_given(option)) {
+      throw core::UsageError(std::string(option) + " goes with counters: of pictures --fail-above says how far they may differ");
+    }
+  }
+}
+
+}  // namespace
+
+void add_options(OptionSet options, CompareOptions& compare) {
+  options.add_argument(
+      "A", [&compare](const std::string& text) { compare.a = text; }, "A picture, or what --stats of a render wrote (.json)");
+  options.add_argument(
+      "B", [&compare](const std::string& text) { compare.reference = text; }, "Another of the same size, the reference");
+  options.add_path("--difference", "IMAGE", compare.difference, "Write the absolute differences as a picture");
+  options.add_path("--flip", "IMAGE", compare.flip, "Write the differences that an eye perceives, by FLIP, as a picture");
+  options.add_texts(
+      "--fail-above", "MEASURE:NUMBER", [&compare](const std::string& text) { compare.limits.push_back(parse_limit(text)); },
+      "End with status 5 if the pictures lie further apart, by " + measure_names() + "; may be given several times");
+  options.add_texts(
+      "--only", "KEY", [&compare](const std::string& text) { compare.figures.only.push_back(text); },
+      "Compare these counters and what lies below them, such as rays or nodes.*.pages; may be given several times");
+  options.add_texts(
+      "--tolerance", "KEY:SHARE",
+      [&compare](const std::string& text) { compare.figures.tolerances.push_back(parse_tolerance(text)); },
+      "Let these counters differ by a share of the reference's; may be given several times");
+  options.add_choice<CompareFormat>("--format", compare.format, {{"text", CompareFormat::text}, {"json", CompareFormat::json}},
+                                    "How the figures are printed");
+  options.check_in_the_end([options, &compare] { check_together(options, compare); });
+  options.set_examples(
+      "Examples:\n"
+      "  dmpc compare draft.exr final.exr --difference=error.exr --flip=seen.png\n"
+      "  dmpc compare draft.exr final.exr --format=json\n"
+      "  dmpc compare new.exr kept.exr --fail-above=rmse:1/255 --fail-above=max:0.1\n"
+      "  dmpc compare new.json kept.json\n"
+      "  dmpc compare new.json kept.json --only=film_hash --only=pages --tolerance=pages.faults:0.05\n"
+      "  dmpc compare new.json kept.json --only=seconds --tolerance=seconds:0.5\n"
+      "Status 5 says that they differ. Seconds of the wall clock are left out unless there is a tolerance for them. With "
+      "threads\n"
+      "faults and packets hang on the schedule; with --runner=virtual all counters are the same in every run.");
+}
+
+int compare_command(const CompareOptions& options, Interrupt& interrupt, std::ostream& output) {
+  check_outputs(options);
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  return holds_counters(options.a) ? compare_counters(options, output) : compare_pictures(options, interrupt, output);
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,37 @@
+// The command `compare`: how far two pictures lie apart, or in which counters two runs differ.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <vector>
+
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/system/interrupt.h"
+#include "apps/lab/compare/differences.h"
+#include "apps/lab/compare/limit.h"
+
+namespace dmpc::apps {
+
+enum class CompareFormat : std::uint8_t { text, json };
+
+struct CompareOptions {
+  std::filesystem::path a, reference;               ///< two pictures, or two files of counters, which end in .json
+  std::optional<std::filesystem::path> difference;  ///< where the picture |A - B| goes
+  std::optional<std::filesystem::path> flip;        ///< where the picture of perceived differences goes
+  CompareFormat format = CompareFormat::text;
+  std::vector<Limit> limits = {};  ///< of pictures
+  FigureChoice figures = {};       ///< of counters
+};
+
+/// Declares them.
+void add_options(OptionSet options, CompareOptions& compare);
+
+/// Reads both, writes the pictures asked for, prints to `output` the figures of PictureError, or the counters that differ. A
+/// signal ends the process. Returns differs_status, with a sentence on stderr, where a limit is passed or a counter differs,
+/// else 0. Throws core::UsageError if a picture would replace another one of them, core::InputError if a file cannot be read or
+/// something cannot be written, Interrupted if a signal came before.
+int compare_command(const CompareOptions& options, Interrupt& interrupt, std::ostream& output);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,34 @@
+// A JSON file of ours, such as --stats writes, as named figures one after the other. Its .cpp names nlohmann-json.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace dmpc::apps {
+
+/// What stands in one place: null, true or false, a whole number from 0 on, any other number, a text.
+using FigureValue = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
+
+struct Figure {
+  std::string name;  ///< the keys that lead to it, with dots between, places in lists by number: "nodes.3.pages.faults"
+  FigureValue value;
+};
+
+/// All that a text has, in its order; `file` is what messages call it. Throws core::InputError for what is no JSON, or none of
+/// this dmpc's json_format.
+std::vector<Figure> parse_figures(std::string_view text, const std::string& file);
+
+/// Reads those of a file. Throws core::InputError if it cannot be read, too.
+std::vector<Figure> read_figures(const std::filesystem::path& file);
+
+/// As JSON has it, but a text without quotes: "null", "812", "svm".
+std::string text_of(const FigureValue& value);
+
+/// Whether the figure stands at `key` or below it; "*" in a key is any one name: "nodes.*.pages" has "nodes.3.pages.faults".
+bool is_within(std::string_view name, std::string_view key);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,176 @@
+#include "apps/lab/oracle/accurate/body.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dmpc::apps {
+namespace {
+
+using core::PrimitiveKind;
+using core::Vec3d;
+
+/// Beyond it the product leaves primitives out, too.
+constexpr double coordinate_max = 1e30;
+
+bool is_usable(const Vec3d& v) {
+  return std::fabs(v.x) < coordinate_max && std::fabs(v.y) < coordinate_max && std::fabs(v.z) < coordinate_max;
+}
+
+double squared(const Vec3d& v) { return dot(v, v); }
+
+/// Volumes of the ray's direction with each corner's opposite edge, as seen from the ray's origin. Swapping an edge's ends
+/// changes the sign and nothing else, in floating point as well.
+std::array<double, 3> volumes(const AccurateBody& body, const AccurateRay& ray) {
+  const Vec3d a = body.place[0] - ray.origin, b = body.place[1] - ray.origin, c = body.place[2] - ray.origin;
+  return {dot(ray.direction, cross(b, c)), dot(ray.direction, cross(c, a)), dot(ray.direction, cross(a, b))};
+}
+
+std::optional<double> to_triangle(const AccurateBody& body, const AccurateRay& ray) {
+  const auto [a, b, c] = volumes(body, ray);
+  if ((a < 0 || b < 0 || c < 0) && (a > 0 || b > 0 || c > 0)) {
+    return std::nullopt;
+  }
+  const Vec3d normal = cross(body.place[1] - body.place[0], body.place[2] - body.place[0]);
+  const double approach = dot(ray.direction, normal);
+  if (approach == 0) {
+    return std::nullopt;
+  }
+  const double t = dot(body.place[0] - ray.origin, normal) / approach;
+  return t > 0 && t < ray.t_max ? std::optional(t) : std::nullopt;
+}
+
+AccurateSurface on_triangle(const AccurateBody& body, const AccurateRay& ray) {
+  AccurateSurface surface;
+  surface.weight = volumes(body, ray);
+  const double sum = surface.weight[0] + surface.weight[1] + surface.weight[2];
+  for (std::size_t k = 0; k < 3; ++k) {
+    surface.weight[k] = sum != 0 ? std::clamp(surface.weight[k] / sum, 0.0, 1.0) : 1.0 / 3;
+    surface.point = surface.point + body.place[k] * surface.weight[k];
+  }
+  surface.normal = normalize(cross(body.place[1] - body.place[0], body.place[2] - body.place[0]));
+  return surface;
+}
+
+/// The real roots of a t^2 + 2 b t + c in ascending order, neither by a difference of numbers that are nearly equal (W. Press and
+/// others, Numerical Recipes, section 5.6). `quarter` is b^2 - a c. NaN stands for a root that there is not.
+std::array<double, 2> roots(double a, double b, double c, double quarter) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!(quarter >= 0)) {
+    return {none, none};
+  }
+  const double q = b > 0 ? -b - std::sqrt(quarter) : std::sqrt(quarter) - b;
+  const double one = a != 0 ? q / a : none, other = q != 0 ? c / q : one;
+  return one > other ? std::array{other, one} : std::array{one, other};
+}
+
+template <class Accept>
+std::optional<double> first_root(const std::array<double, 2>& candidates, const AccurateRay& ray, double shift,
+                                 const Accept& accept) {
+  for (const double root : candidates) {
+    const double t = root + shift;
+    if (t > 0 && t < ray.t_max && accept(root)) {
+      return t;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<double> to_sphere(const AccurateBody& body, const AccurateRay& ray) {
+  const double radius = std::fabs(body.radius[0]);
+  const double shift = dot(body.place[0] - ray.origin, ray.direction) / squared(ray.direction);
+  const Vec3d nearest = ray.origin + ray.direction * shift - body.place[0];
+  const double a = squared(ray.direction), b = dot(nearest, ray.direction), off = length(nearest);
+  const double c = (off - radius) * (off + radius);
+  return first_root(roots(a, b, c, b * b - a * c), ray, shift, [&](double root) { return body.radius[0] > 0 || root > 0; });
+}
+
+/// A cone as seen along its axis; the radius changes by `slope` for each unit of height.
+struct Axial {
+  explicit Axial(const AccurateBody& body)
+      : base(body.place[0]),
+        height(length(body.place[1] - body.place[0])),
+        axis((body.place[1] - body.place[0]) * (1 / height)),
+        base_radius(std::fabs(body.radius[0])),
+        slope((std::fabs(body.radius[1]) - base_radius) / height) {}
+
+  Vec3d base;
+  double height;
+  Vec3d axis;
+  double base_radius, slope;
+};
+
+std::optional<double> to_cone(const AccurateBody& body, const AccurateRay& ray) {
+  const Axial cone(body);
+  const Vec3d middle = cone.base + cone.axis * (cone.height / 2);
+  const double shift = dot(middle - ray.origin, ray.direction) / squared(ray.direction);
+  const Vec3d start = ray.origin + ray.direction * shift - cone.base;
+  const double rise = dot(ray.direction, cone.axis), up = dot(start, cone.axis);
+  const Vec3d off = start - cone.axis * up, going = ray.direction - cone.axis * rise;
+  const double radius = cone.base_radius + cone.slope * up, widening = cone.slope * rise;
+  const double a = squared(going) - widening * widening, b = dot(off, going) - radius * widening;
+  const double c = (length(off) - radius) * (length(off) + radius);
+  const bool inside_only = body.radius[0] < 0 || body.radius[1] < 0;
+  return first_root(roots(a, b, c, b * b - a * c), ray, shift, [&](double root) {
+    const double at = up + rise * root;
+    const double leaving = dot(off + going * root, going) - (radius + widening * root) * widening;
+    return at >= 0 && at <= cone.height && (!inside_only || leaving > 0);
+  });
+}
+
+AccurateSurface on_sphere(const AccurateBody& body, const Vec3d& point) {
+  const Vec3d outward = normalize(point - body.place[0]);
+  return {.point = body.place[0] + outward * std::fabs(body.radius[0]), .normal = outward};
+}
+
+AccurateSurface on_cone(const AccurateBody& body, const Vec3d& point) {
+  const Axial cone(body);
+  const double up = std::clamp(dot(point - cone.base, cone.axis), 0.0, cone.height);
+  const Vec3d off = point - cone.base - cone.axis * up;
+  const double distance = length(off);
+  const Vec3d radial = distance > 0 ? off * (1 / distance) : Vec3d{};
+  return {.point = cone.base + cone.axis * up + radial * (cone.base_radius + cone.slope * up),
+          .normal = normalize(radial - cone.axis * cone.slope)};
+}
+
+}  // namespace
+
+bool is_usable(const AccurateBody& body) {
+  const auto& place = body.place;
+  switch (body.kind) {
+    case PrimitiveKind::triangle:
+      return is_usable(place[0]) && is_usable(place[1]) && is_usable(place[2]) &&
+             squared(cross(place[1] - place[0], place[2] - place[0])) > 0;
+    case PrimitiveKind::sphere:
+      return is_usable(place[0]) && body.radius[0] != 0 && std::fabs(body.radius[0]) < coordinate_max;
+    case PrimitiveKind::cone:
+      break;
+  }
+  return is_usable(place[0]) && is_usable(place[1]) && place[0] != place[1] && (body.radius[0] != 0 || body.radius[1] != 0) &&
+         std::fabs(body.radius[0]) < coordinate_max && std::fabs(body.radius[1]) < coordinate_max;
+}
+
+std::optional<double> distance_to(const AccurateBody& body, const AccurateRay& ray) {
+  return body.kind == PrimitiveKind::triangle ? to_triangle(body, ray)
+         : body.kind == PrimitiveKind::sphere ? to_sphere(body, ray)
+                                              : to_cone(body, ray);
+}
+
+AccurateSurface surface_at(const AccurateBody& body, const AccurateRay& ray, double t) {
+  const Vec3d point = ray.origin + ray.direction * t;
+  return body.kind == PrimitiveKind::triangle ? on_triangle(body, ray)
+         : body.kind == PrimitiveKind::sphere ? on_sphere(body, point)
+                                              : on_cone(body, point);
+}
+
+core::Box bounds_of(const AccurateBody& body) {
+  core::Box box;
+  const std::size_t places = body.kind == PrimitiveKind::triangle ? 3 : body.kind == PrimitiveKind::sphere ? 1 : 2;
+  for (std::size_t k = 0; k < places; ++k) {
+    const double reach = places == 3 ? 0.0 : std::fabs(body.radius[k]);
+    box.include(body.place[k] - Vec3d{reach, reach, reach});
+    box.include(body.place[k] + Vec3d{reach, reach, reach});
+  }
+  return box;
+}
+
+}  // namespace dmpc::apps

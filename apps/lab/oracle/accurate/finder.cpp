@@ -1,0 +1,197 @@
+#include "apps/lab/oracle/accurate/finder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "apps/lab/oracle/accurate/shared_plane.h"
+#include "apps/oracle/embree.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::Vec3d;
+
+/// In sizes of the scene; float moves a ray that starts one size away by less than 1e-6.
+constexpr double box_margin = 1e-5;
+
+/// In sizes of the scene, along a ray: triangles of one plane are hit no farther from each other, however it grazes them.
+constexpr double level_reach = 1e-5;
+
+/// What the callbacks know of the query under way. Embree hands back the address of `context`, the first member.
+struct Query {
+  embree::Context context;
+  const AccurateRay* ray = nullptr;
+  AccurateHit best;
+  std::array<AccurateHit, 32> level{};  ///< hits so near to each other that they may lie in one plane
+  std::size_t level_count = 0;
+};
+static_assert(std::is_standard_layout_v<Query>);
+
+Query& query_of(embree::Context* context) { return *reinterpret_cast<Query*>(context); }
+
+}  // namespace
+
+struct AccurateFinder::Parts {
+  const AccurateScene* scene = nullptr;
+  Vec3d middle;
+  double unit = 1, margin = box_margin;  ///< a unit of Embree's in the world's; `margin` in Embree's
+  const embree::Library& library = embree::library();
+  embree::OwnedScene boxes{RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH};
+
+  void build();
+  RTCRay embree_ray(const AccurateRay& ray) const;
+  /// `t` in Embree's units, rounded up.
+  float end_of(double t) const;
+  /// Tests one body; returns whether it is the query's best so far, or level with that.
+  bool test(unsigned body, Query& query) const;
+  /// Whether it lies in the plane that the ray starts on, at its start.
+  bool starts_on(unsigned body, double t, const AccurateRay& ray) const;
+  void note_level(const AccurateHit& hit, Query& query) const;
+  /// Who shows of those that are level with the best in its plane.
+  AccurateHit shown(const Query& query) const;
+  double reach() const { return level_reach * scene->size; }
+
+  static const Parts& of(const void* user_data) { return *static_cast<const Parts*>(user_data); }
+  static void bounds_callback(const RTCBoundsFunctionArguments* arguments);
+  static void intersect_callback(const RTCIntersectFunctionNArguments* arguments);
+  static void occluded_callback(const RTCOccludedFunctionNArguments* arguments);
+};
+
+void AccurateFinder::Parts::build() {
+  RTCGeometry geometry = library.new_geometry(boxes.device(), RTC_GEOMETRY_TYPE_USER);
+  library.set_geometry_user_primitive_count(geometry, static_cast<unsigned>(scene->bodies.size()));
+  library.set_geometry_user_data(geometry, this);
+  library.set_geometry_bounds_function(geometry, bounds_callback, nullptr);
+  library.set_geometry_intersect_function(geometry, intersect_callback);
+  library.set_geometry_occluded_function(geometry, occluded_callback);
+  boxes.attach(geometry);
+  boxes.build();
+}
+
+float AccurateFinder::Parts::end_of(double t) const {
+  return std::nextafter(static_cast<float>(t / unit), std::numeric_limits<float>::infinity());
+}
+
+RTCRay AccurateFinder::Parts::embree_ray(const AccurateRay& ray) const {
+  const core::Vec3f origin((ray.origin - middle) * (1 / unit)), direction(ray.direction);
+  RTCRay result{};
+  result.org_x = origin.x, result.org_y = origin.y, result.org_z = origin.z;
+  result.dir_x = direction.x, result.dir_y = direction.y, result.dir_z = direction.z;
+  result.tfar = end_of(ray.t_max);
+  result.mask = ~0U;
+  return result;
+}
+
+bool AccurateFinder::Parts::test(unsigned body, Query& query) const {
+  const AccurateBody& tested = scene->bodies[body];
+  if (body == query.ray->ignored_body && tested.kind == core::PrimitiveKind::triangle) {
+    return false;
+  }
+  const std::optional<double> t = distance_to(tested, *query.ray);
+  AccurateHit& best = query.best;
+  if (!t || *t > best.t + reach() || starts_on(body, *t, *query.ray)) {
+    return false;
+  }
+  if (*t < best.t || (*t == best.t && body < best.body)) {
+    best = {*t, body};
+  }
+  note_level({*t, body}, query);
+  return true;
+}
+
+bool AccurateFinder::Parts::starts_on(unsigned body, double t, const AccurateRay& ray) const {
+  return t < reach() && ray.ignored_body != core::no_primitive && share_plane(*scene, ray.ignored_body, body);
+}
+
+void AccurateFinder::Parts::note_level(const AccurateHit& hit, Query& query) const {
+  if (query.level_count == query.level.size()) {
+    const auto end = std::remove_if(query.level.begin(), query.level.end(),
+                                    [&](const AccurateHit& other) { return other.t > query.best.t + reach(); });
+    query.level_count = static_cast<std::size_t>(end - query.level.begin());
+  }
+  if (query.level_count < query.level.size()) {
+    query.level[query.level_count++] = hit;
+  }
+}
+
+AccurateHit AccurateFinder::Parts::shown(const Query& query) const {
+  AccurateHit shown = query.best;
+  const auto transmits = [&](std::uint32_t body) { return scene->materials[scene->bodies[body].material].transmittance > 0; };
+  for (std::size_t i = 0; i < query.level_count; ++i) {
+    const std::uint32_t body = query.level[i].body;
+    if (scene->bodies[body].object == scene->bodies[query.best.body].object) {
+      continue;  // a polygon's triangles lie side by side
+    }
+    const bool comes_before = std::pair(transmits(body), body) < std::pair(transmits(shown.body), shown.body);
+    if (comes_before && query.level[i].t <= query.best.t + reach() && share_plane(*scene, query.best.body, body)) {
+      shown.body = body;
+    }
+  }
+  return shown;
+}
+
+void AccurateFinder::Parts::bounds_callback(const RTCBoundsFunctionArguments* arguments) {
+  const Parts& parts = of(arguments->geometryUserPtr);
+  const core::Box box = bounds_of(parts.scene->bodies[arguments->primID]);
+  const Vec3d margin{parts.margin, parts.margin, parts.margin};
+  const core::Vec3f low((box.low - parts.middle) * (1 / parts.unit) - margin);
+  const core::Vec3f high((box.high - parts.middle) * (1 / parts.unit) + margin);
+  RTCBounds& bounds = *arguments->bounds_o;
+  bounds.lower_x = low.x, bounds.lower_y = low.y, bounds.lower_z = low.z;
+  bounds.upper_x = high.x, bounds.upper_y = high.y, bounds.upper_z = high.z;
+}
+
+void AccurateFinder::Parts::intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
+  Query& query = query_of(arguments->context);
+  const Parts& parts = of(arguments->geometryUserPtr);
+  if (arguments->valid[0] == 0 || !parts.test(arguments->primID, query)) {
+    return;
+  }
+  RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) = parts.end_of(query.best.t + parts.reach());
+  RTCHitN* hit = RTCRayHitN_HitN(arguments->rayhit, arguments->N);
+  RTCHitN_primID(hit, arguments->N, 0) = arguments->primID;
+  RTCHitN_geomID(hit, arguments->N, 0) = arguments->geomID;
+}
+
+void AccurateFinder::Parts::occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
+  if (arguments->valid[0] != 0 && of(arguments->geometryUserPtr).test(arguments->primID, query_of(arguments->context))) {
+    RTCRayN_tfar(arguments->ray, arguments->N, 0) = -std::numeric_limits<float>::infinity();
+  }
+}
+
+AccurateFinder::AccurateFinder(const AccurateScene& scene, const core::Vec3d& eye) : parts_(std::make_unique<Parts>()) {
+  parts_->scene = &scene;
+  parts_->unit = scene.size;
+  if (!scene.bounds.empty()) {
+    parts_->middle = scene.bounds.center();
+    parts_->margin = box_margin * std::max(1.0, length(eye - parts_->middle) / scene.size);
+  }
+  parts_->build();
+}
+
+AccurateFinder::~AccurateFinder() = default;
+
+AccurateHit AccurateFinder::closest(const AccurateRay& ray) const {
+  Query query{.context = {}, .ray = &ray, .best = {}};
+  embree::start(query.context);
+  RTCRayHit ray_hit{};
+  ray_hit.ray = parts_->embree_ray(ray);
+  ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  embree::intersect(parts_->library, parts_->boxes.scene(), query.context, ray_hit);
+  return query.level_count > 1 ? parts_->shown(query) : query.best;
+}
+
+AccurateHit AccurateFinder::any(const AccurateRay& ray) const {
+  Query query{.context = {}, .ray = &ray, .best = {}};
+  embree::start(query.context);
+  RTCRay asked = parts_->embree_ray(ray);
+  embree::occlude(parts_->library, parts_->boxes.scene(), query.context, asked);
+  return query.best;
+}
+
+}  // namespace dmpc::apps

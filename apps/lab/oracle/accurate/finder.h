@@ -1,0 +1,36 @@
+// What a ray in double precision hits: Embree offers the boxes on its way, and the hit in each is computed in double.
+#pragma once
+
+#include <memory>
+
+#include "apps/lab/oracle/accurate/ray.h"
+#include "apps/lab/oracle/accurate/scene.h"
+
+namespace dmpc::apps {
+
+/// Embree sees boxes in float, about the scene's middle and in units of its size, each grown by `box_margin` times the distance
+/// of the farthest ray's start: more than float can move a ray, so no body is passed by, whatever the scene's place and scale.
+/// Immutable once made; every query is thread-safe.
+class AccurateFinder {
+ public:
+  /// `scene` outlives the finder; `eye` is where the farthest rays start. Builds with all cores. Throws InternalError if Embree
+  /// reports an error.
+  AccurateFinder(const AccurateScene& scene, const core::Vec3d& eye);
+  ~AccurateFinder();
+  AccurateFinder(const AccurateFinder&) = delete;
+  AccurateFinder& operator=(const AccurateFinder&) = delete;
+
+  /// The hit with the least (t, body) in (0, ray.t_max); the triangle ray.ignored_body is left out, and at the ray's start what
+  /// lies in its plane. Of triangles of one plane, but for what float makes of their corners, that are hit there together, the
+  /// first counts that lets no light through, or the first of all (core/database/coplanar.h finds them when a database is built;
+  /// here it is asked at each hit).
+  AccurateHit closest(const AccurateRay& ray) const;
+  /// Some hit, or none.
+  AccurateHit any(const AccurateRay& ray) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace dmpc::apps

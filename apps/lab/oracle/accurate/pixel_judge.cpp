@@ -1,0 +1,78 @@
+#include "apps/lab/oracle/accurate/pixel_judge.h"
+
+#include <array>
+#include <cmath>
+
+namespace dmpc::apps {
+namespace {
+
+using core::RayKind;
+
+constexpr std::array<std::string_view, pixel_cause_count> cause_names{
+    "tie", "silhouette", "shadow silhouette", "ray end", "terminator", "critical angle", "rounding", "unexplained"};
+
+/// Two distances are level within so much of the farther one and of the grid-local unit: some roundings of each.
+constexpr double level = 64 * 0x1p-24;
+/// Within so much of its start, grid-local, or so small a share of its length before its end a shadow ray's hit lies at its end.
+constexpr double ray_end = 8e-6;
+
+PixelCause undecided(const LoggedRay& ray) {
+  return ray.kind == RayKind::shadow ? PixelCause::terminator : PixelCause::critical_angle;
+}
+
+}  // namespace
+
+std::string_view name_of(PixelCause cause) { return cause_names[static_cast<std::size_t>(cause)]; }
+
+PixelJudge::PixelJudge(const core::Database& database, const core::RenderSettings& settings, const AccurateScene& scene,
+                       const AccurateFinder& finder, const AccurateCamera& camera)
+    : logger_(database, settings, scene),
+      audit_(database, settings.shade, scene, finder),
+      options_(settings.shade),
+      scene_(scene),
+      finder_(finder),
+      camera_(camera),
+      unit_(1 / database.header().frame.scale) {}
+
+Judgement PixelJudge::judge(std::uint32_t pixel) const {
+  const auto width = static_cast<std::uint32_t>(camera_.width());
+  const AccurateRay primary = camera_.ray_through(pixel % width, pixel / width);
+  const ProductLog product = logger_.log_of(pixel);
+  const Audit audit = audit_.of(product, primary);
+  const PixelCause cause = audit.error.empty()
+                               ? cause_of_parting(product, accurate_log(scene_, finder_, options_, primary), audit)
+                               : PixelCause::unexplained;
+  return {cause, audit.largest_step, audit.error};
+}
+
+PixelCause PixelJudge::cause_of_parting(const ProductLog& product, const RayLog& accurate, const Audit& audit) const {
+  for (std::size_t index = 0; index < product.rays.size(); ++index) {
+    const LoggedRay& ray = product.rays[index];
+    const LoggedRay* const other = accurate.find(ray.path);
+    if (other == nullptr) {
+      return undecided(ray);
+    }
+    if (!ray.agrees_with(*other)) {
+      return cause_of_answers(ray, *other, audit.doubts[index]);
+    }
+  }
+  for (const LoggedRay& ray : accurate.rays) {
+    if (product.find(ray.path) == nullptr) {
+      return undecided(ray);
+    }
+  }
+  return PixelCause::rounding;
+}
+
+PixelCause PixelJudge::cause_of_answers(const LoggedRay& product, const LoggedRay& accurate,
+                                        const std::optional<Verdict>& doubt) const {
+  if (product.kind == RayKind::shadow) {
+    const LoggedRay& hidden = product.hit ? product : accurate;
+    const bool at_end = hidden.t < ray_end * unit_ || hidden.t > hidden.t_max * (1 - ray_end);
+    return at_end || doubt == Verdict::end ? PixelCause::ray_end : PixelCause::shadow_silhouette;
+  }
+  const bool is_level = product.hit && accurate.hit && std::fabs(product.t - accurate.t) <= level * (accurate.t + unit_);
+  return is_level || doubt == Verdict::tie ? PixelCause::tie : PixelCause::silhouette;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,59 @@
+// Why a pixel of the product's picture is not that of the accurate one.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "apps/lab/oracle/accurate/camera.h"
+#include "apps/lab/oracle/accurate/ray_log.h"
+#include "apps/lab/oracle/accurate/step_audit.h"
+
+namespace dmpc::apps {
+
+/// Where the rays of the two renderers part first, if they do.
+enum class PixelCause : std::uint8_t {
+  tie,                ///< two surfaces lie so near to each other that rounding orders them
+  silhouette,         ///< a ray passes one within rounding
+  shadow_silhouette,  ///< a shadow ray does
+  ray_end,            ///< what hides a light lies within rounding of the shadow ray's start or end
+  terminator,         ///< the surface all but turns away from a light, and rounding decides whether it is asked
+  critical_angle,     ///< rounding decides whether a ray still leaves glass
+  rounding,           ///< the same surfaces all the way: the colours differ by rounding alone
+  unexplained         ///< none of these: an error of one of the renderers
+};
+inline constexpr std::size_t pixel_cause_count = 8;
+std::string_view name_of(PixelCause cause);
+
+struct Judgement {
+  PixelCause cause{};
+  double largest_step = 0;  ///< of the pixel's Audit
+  std::string error;        ///< of an unexplained pixel
+};
+
+/// Follows a pixel's rays in both renderers to the first place where they part. The pixel is explained if StepAudit has no error
+/// to report: then each step is right but for rounding, and what parts lies within what roundings grew to on the way there.
+/// Thread-safe.
+class PixelJudge {
+ public:
+  /// All outlive the judge; `scene` is what `database` was built of, `finder` is made of it.
+  PixelJudge(const core::Database& database, const core::RenderSettings& settings, const AccurateScene& scene,
+             const AccurateFinder& finder, const AccurateCamera& camera);
+
+  /// Judges a pixel of a picture with one sample a pixel.
+  Judgement judge(std::uint32_t pixel) const;
+
+ private:
+  PixelCause cause_of_parting(const ProductLog& product, const RayLog& accurate, const Audit& audit) const;
+  PixelCause cause_of_answers(const LoggedRay& product, const LoggedRay& accurate, const std::optional<Verdict>& doubt) const;
+
+  ProductLogger logger_;
+  StepAudit audit_;
+  core::ShadeOptions options_;
+  const AccurateScene& scene_;
+  const AccurateFinder& finder_;
+  const AccurateCamera& camera_;
+  double unit_;  ///< the product's grid-local unit in the world's
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,105 @@
+#include "apps/lab/oracle/accurate/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/scene/triangulate.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::PrimitiveKind;
+using core::Vec3d;
+
+Vec3d unit_or_zero(const Vec3d& v) {
+  const double size = length(v);
+  return size > 0 && std::isfinite(size) ? v * (1 / size) : Vec3d{};
+}
+
+void add(AccurateScene& to, AccurateBody body) {
+  if (is_usable(body)) {
+    const core::Box box = bounds_of(body);
+    to.bounds.include(box.low);
+    to.bounds.include(box.high);
+    to.bodies.push_back(body);
+  }
+}
+
+/// A place that is far away or no number counts as 0.
+AccuratePlace usable(const std::array<float, 2>& place) {
+  constexpr double place_max = 1 << 20;
+  const auto usable = [](double coordinate) { return std::fabs(coordinate) < place_max ? coordinate : 0; };
+  return {usable(double{place[0]}), usable(double{place[1]})};
+}
+
+/// What the corners of a triangle have beside their positions.
+void add_corners(AccurateScene& to, const core::Scene& scene, const core::Object& object, AccurateBody& body) {
+  const bool is_textured = object.kind == core::ObjectKind::textured;
+  body.first_normal = static_cast<std::uint32_t>(to.normals.size());
+  body.first_place = is_textured ? static_cast<std::uint32_t>(to.places.size()) : AccurateBody::flat;
+  for (const std::uint32_t index : body.corner) {
+    const std::size_t corner = object.first_normal + index;
+    to.normals.push_back(unit_or_zero(is_textured ? scene.corners[corner].normal : scene.normals[corner]));
+    if (is_textured) {
+      to.places.push_back(usable(scene.corners[corner].place));
+    }
+  }
+}
+
+void add_polygon(AccurateScene& to, const core::Scene& scene, const core::Object& object, AccurateBody body) {
+  const auto vertices = std::span(scene.vertices).subspan(object.first, object.vertex_count);
+  for (const auto& corners : core::triangulate(vertices)) {
+    body.corner = corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      body.place[k] = vertices[corners[k]];
+    }
+    if (object.kind == core::ObjectKind::patch || object.kind == core::ObjectKind::textured) {
+      add_corners(to, scene, object, body);
+    }
+    add(to, body);
+  }
+}
+
+void add_object(AccurateScene& to, const core::Scene& scene, std::uint32_t index) {
+  const core::Object& object = scene.objects[index];
+  AccurateBody body{.material = object.material, .object = index};
+  if (object.kind == core::ObjectKind::sphere) {
+    const core::Sphere& sphere = scene.spheres[object.first];
+    body.kind = PrimitiveKind::sphere;
+    body.place[0] = sphere.center;
+    body.radius[0] = sphere.radius;
+    add(to, body);
+  } else if (object.kind == core::ObjectKind::cone) {
+    const core::Cone& cone = scene.cones[object.first];
+    body.kind = PrimitiveKind::cone;
+    body.place = {cone.base, cone.apex};
+    body.radius = {cone.base_radius, cone.apex_radius};
+    add(to, body);
+  } else {
+    add_polygon(to, scene, object, body);
+  }
+}
+
+}  // namespace
+
+AccurateScene accurate_scene(const core::Scene& scene) {
+  AccurateScene result;
+  result.textures = scene.textures;
+  result.materials = scene.materials;
+  result.background = scene.background;
+  for (const core::PointLight& light : scene.lights) {
+    result.lights.push_back({light.position, core::intensity_of(light, scene)});
+  }
+  for (std::uint32_t index = 0; index < scene.objects.size(); ++index) {
+    add_object(result, scene, index);
+  }
+  if (!result.bounds.empty()) {
+    const Vec3d extent = result.bounds.high - result.bounds.low;
+    const double size = std::max({extent.x, extent.y, extent.z});
+    result.size = size > 0 ? size : 1;
+  }
+  return result;
+}
+
+}  // namespace dmpc::apps

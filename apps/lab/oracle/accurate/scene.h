@@ -1,0 +1,36 @@
+// A scene in double precision as the accurate renderer takes it: flat lists, world coordinates.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "apps/lab/oracle/accurate/body.h"
+#include "apps/lab/oracle/accurate/texture.h"
+#include "core/base/box.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+struct AccurateLight {
+  core::Vec3d position;
+  core::Vec3d intensity;
+};
+
+/// Bodies stand in the order of the product's primitives: objects in file order, polygons as core/scene/triangulate.h splits
+/// them. The product leaves out what has no area in float; here only what has none in double is missing. Immutable once made.
+struct AccurateScene {
+  std::vector<AccurateBody> bodies;
+  std::vector<core::Vec3d> normals;   ///< of smooth triangles, of unit length; 0 for none
+  std::vector<AccuratePlace> places;  ///< of textured triangles' corners
+  std::vector<core::Texture> textures;
+  std::vector<core::Material> materials;
+  std::vector<AccurateLight> lights;
+  core::Vec3d background;
+  core::Box bounds;  ///< of all bodies
+  double size = 1;   ///< the largest extent of `bounds`, above 0
+};
+
+/// Lights without a colour get 1 / sqrt(their number), as in the product.
+AccurateScene accurate_scene(const core::Scene& scene);
+
+}  // namespace dmpc::apps

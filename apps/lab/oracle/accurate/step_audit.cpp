@@ -1,0 +1,187 @@
+#include "apps/lab/oracle/accurate/step_audit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "apps/lab/oracle/accurate/disturbance.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::RayKind;
+using core::Vec3d;
+using Rays = std::vector<AccurateRay>;
+
+constexpr std::size_t trial_count = 16;
+/// What rounding takes of a weight that is a product of some floats, and of what a light's rounded place does to a highlight.
+constexpr double weight_rounding = 8e-6;
+/// The product's shadow rays end so much of their length before the light.
+constexpr double end_rounding = 4e-6;
+/// The product's rays have the width of their cones in two bytes.
+constexpr double cone_rounding = 0x1p-7;
+/// A body's own distance, if it is so near to the product's, in sizes of both.
+constexpr double same_hit = 1e-4;
+
+/// The ray of this kind and light, or null.
+const AccurateRay* find(const Rays& rays, const AccurateRay& like) {
+  const auto at = std::find_if(rays.begin(), rays.end(),
+                               [&](const AccurateRay& ray) { return ray.kind == like.kind && ray.light == like.light; });
+  return at == rays.end() ? nullptr : &*at;
+}
+
+/// How far a ray is from another in each respect.
+struct Distance {
+  double start = 0, direction = 0, weight = 0;
+
+  static Distance between(const AccurateRay& a, const AccurateRay& b) {
+    return {length(a.origin - b.origin), length(a.direction - b.direction), length(a.weight - b.weight)};
+  }
+  void include(const Distance& other) {
+    start = std::max(start, other.start);
+    direction = std::max(direction, other.direction);
+    weight = std::max(weight, other.weight);
+  }
+  /// The largest quotient.
+  double over(const Distance& other) const {
+    return std::max({start / other.start, direction / other.direction, weight / other.weight});
+  }
+};
+
+std::string text_of(const AccurateRay& ray) {
+  constexpr std::array<const char*, core::ray_kind_count> kinds{"primary", "reflected", "refracted", "shadow"};
+  return std::string("a ") + kinds[static_cast<std::size_t>(ray.kind)] + " ray of depth " + std::to_string(ray.depth);
+}
+
+}  // namespace
+
+class StepAudit::Case {
+ public:
+  Case(const StepAudit& audit, const ProductLog& log) : audit_(audit), log_(log) { result_.doubts.resize(log.rays.size()); }
+
+  Audit of(const AccurateRay& primary) {
+    check_primary(primary);
+    for (std::size_t index = 0; index < log_.rays.size(); ++index) {
+      check_answer(index);
+      if (log_.rays[index].hit && log_.rays[index].kind != RayKind::shadow) {
+        check_spawned(index);
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void complain(const std::string& error) { result_.error = result_.error.empty() ? error : result_.error; }
+
+  /// A ray of an eye that is far away starts nearer.
+  void check_primary(AccurateRay primary) {
+    primary.origin =
+        primary.origin + primary.direction * dot(log_.shots.front().world.origin - primary.origin, primary.direction);
+    std::vector<Rays> trials;
+    for (std::uint64_t seed = 0; seed < trial_count; ++seed) {
+      trials.push_back({primary});
+      Disturbance(audit_.unit_, seed).shoot(trials.back().front());
+    }
+    compare(log_.shots.front().world, primary, trials);
+  }
+
+  void check_answer(std::size_t index) {
+    const ProductLog::Shot& shot = log_.shots[index];
+    const LoggedRay& logged = log_.rays[index];
+    const bool shadow = logged.kind == RayKind::shadow;
+    const AccurateHit hit = shadow ? audit_.finder_.any(shot.world) : audit_.finder_.closest(shot.world);
+    if (hit.found() == logged.hit && (shadow || hit.body == logged.body)) {
+      return;
+    }
+    const Ruling ruling = audit_.referee_.settle(shot.ray, shot.answer, shot.answer);
+    if (!explained(ruling.verdict)) {
+      complain(text_of(shot.world) + " whose answer the referee does not allow");
+    } else if (!ruling.favours_grid) {
+      result_.doubts[index] = ruling.verdict;
+    }
+  }
+
+  AccurateHit hit_of(std::size_t index) const {
+    const LoggedRay& logged = log_.rays[index];
+    const std::optional<double> t = distance_to(audit_.scene_.bodies[logged.body], log_.shots[index].world);
+    const bool is_same = t && std::fabs(*t - logged.t) < same_hit * (logged.t + audit_.unit_);
+    return {is_same ? *t : logged.t, logged.body};
+  }
+
+  void check_spawned(std::size_t index) {
+    const AccurateRay& from = log_.shots[index].world;
+    if (log_.rays[index].body == core::no_primitive) {
+      return complain(text_of(from) + " hits what double precision leaves out");
+    }
+    const AccurateHit hit = hit_of(index);
+    const Rays exact = AccurateTracer(audit_.scene_, audit_.finder_, audit_.options_).spawned(from, hit);
+    const std::vector<Rays> trials = disturbed(from, hit);
+    Rays found;
+    for (std::size_t child = index + 1; child < log_.rays.size(); ++child) {
+      if (log_.rays[child].maker == log_.rays[index].path) {
+        found.push_back(log_.shots[child].world);
+      }
+    }
+    for (const AccurateRay& ray : found) {
+      const AccurateRay* const right = find(exact, ray);
+      right != nullptr ? compare(ray, *right, trials) : check_decision(ray, trials, true);
+    }
+    for (const AccurateRay& ray : exact) {
+      if (find(found, ray) == nullptr) {
+        check_decision(ray, trials, false);
+      }
+    }
+  }
+
+  std::vector<Rays> disturbed(const AccurateRay& from, const AccurateHit& hit) const {
+    std::vector<Rays> trials;
+    for (std::uint64_t seed = 0; seed < trial_count; ++seed) {
+      Disturbance disturbance(audit_.unit_, seed);
+      trials.push_back(AccurateTracer(audit_.scene_, audit_.finder_, audit_.options_, &disturbance).spawned(from, hit));
+      for (AccurateRay& ray : trials.back()) {
+        disturbance.shoot(ray);
+      }
+    }
+    return trials;
+  }
+
+  /// A ray that only one of the two shot.
+  void check_decision(const AccurateRay& ray, const std::vector<Rays>& trials, bool was_shot) {
+    if (std::none_of(trials.begin(), trials.end(),
+                     [&](const Rays& trial) { return (find(trial, ray) != nullptr) == was_shot; })) {
+      complain(text_of(ray) + (was_shot ? " that should not be there" : " that is missing"));
+    }
+  }
+
+  void compare(const AccurateRay& found, const AccurateRay& right, const std::vector<Rays>& trials) {
+    Distance spread{.start = float_rounding * audit_.unit_ / 4,
+                    .direction = float_rounding / 4,
+                    .weight = weight_rounding * (length(right.weight) + weight_rounding)};
+    for (const Rays& trial : trials) {
+      if (const AccurateRay* const ray = find(trial, right)) {
+        spread.include(Distance::between(*ray, right));
+      }
+    }
+    const double step = Distance::between(found, right).over(spread);
+    result_.largest_step = std::max(result_.largest_step, step);
+    if (!(step <= steps_allowed)) {
+      std::ostringstream text;
+      text << text_of(found) << " that is off by " << step << " times what rounding does";
+      complain(text.str());
+    }
+    if (std::isfinite(right.t_max) && !(std::fabs(found.t_max - right.t_max) <= end_rounding * (right.t_max + audit_.unit_))) {
+      complain(text_of(found) + " with another end");
+    }
+    if (!(std::fabs(found.cone - right.cone) <= cone_rounding * right.cone)) {
+      complain(text_of(found) + " with another cone");
+    }
+  }
+
+  const StepAudit& audit_;
+  const ProductLog& log_;
+  Audit result_;
+};
+
+Audit StepAudit::of(const ProductLog& log, const AccurateRay& primary) const { return Case(*this, log).of(primary); }
+
+}  // namespace dmpc::apps

@@ -1,0 +1,59 @@
+// Whether each single step of the product's way through a pixel is right but for rounding, however far the steps lead together.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/lab/oracle/accurate/ray_log.h"
+#include "apps/lab/oracle/referee.h"
+
+namespace dmpc::apps {
+
+/// What an audit of a pixel found.
+struct Audit {
+  /// For each ray of the log: why rounding let the product answer otherwise than exact geometry, where it did.
+  std::vector<std::optional<Verdict>> doubts;
+  /// The farthest that a ray lies from where it should, in units of what disturbances (disturbance.h) do to it.
+  double largest_step = 0;
+  std::string error;  ///< what cannot be explained, in words; empty if all can
+};
+
+/// Takes the product's rays as they are, floats and all, and asks at each of them in double precision:
+///   - Is the answer right? If the accurate renderer answers the very same ray otherwise, the referee must allow the product's
+///   answer
+///     (brute force, margins in roundings).
+///   - Do the right rays start from the hit: those towards lights, mirrored, refracted, with start, direction and weight? They
+///   may
+///     be off by `steps_allowed` times as much as disturbances move them; a ray may be there or missing only where a disturbance
+///     decides so, too.
+/// So nothing is left to how mirrors and glass multiply errors: a picture that passes is the exact picture of rays and surfaces
+/// that were rounded at each step. Immutable, thread-safe.
+class StepAudit {
+ public:
+  static constexpr double steps_allowed = 4;
+
+  /// All outlive the audit; `scene` is what `database` was built of, `finder` is made of it.
+  StepAudit(const core::Database& database, const core::ShadeOptions& options, const AccurateScene& scene,
+            const AccurateFinder& finder)
+      : unit_(1 / database.header().frame.scale),
+        options_(options),
+        scene_(scene),
+        finder_(finder),
+        referee_(database.primitives()) {}
+
+  /// `primary` is the ray that the log should begin with.
+  Audit of(const ProductLog& log, const AccurateRay& primary) const;
+
+ private:
+  class Case;
+
+  double unit_;  ///< the product's grid-local unit in the world's
+  core::ShadeOptions options_;
+  const AccurateScene& scene_;
+  const AccurateFinder& finder_;
+  Referee referee_;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,174 @@
+#include "apps/lab/oracle/accurate/texture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::TextureWrap;
+using core::Vec3d;
+
+/// Probes of a look-up at most; a longer line has wider ones.
+constexpr double strides_max = 15;
+/// The least cosine between a cone and a surface that is told from 0.
+constexpr double cosine_min = 1e-6;
+
+/// IEC 61966-2-1.
+double light_of(std::uint32_t byte) {
+  const double signal = byte / 255.0;
+  return signal <= 0.04045 ? signal / 12.92 : std::pow((signal + 0.055) / 1.055, 2.4);
+}
+
+std::array<double, 256> light_of_bytes() {
+  std::array<double, 256> light{};
+  for (std::uint32_t byte = 0; byte < light.size(); ++byte) {
+    light[byte] = light_of(byte);
+  }
+  return light;
+}
+
+/// EXT_texture_shared_exponent: three mantissas of 9 bits, an exponent of 5 bits with a bias of 15.
+Vec3d light_of_exponent(std::uint32_t texel) {
+  const int exponent = static_cast<int>(texel / (1U << 27U)) - 24;
+  return Vec3d{static_cast<double>(texel % 512), static_cast<double>(texel / 512 % 512),
+               static_cast<double>(texel / 262144 % 512)} *
+         std::ldexp(1.0, exponent);
+}
+
+Vec3d light_of(const core::Texture& texture, std::uint32_t texel) {
+  static const std::array<double, 256> light = light_of_bytes();
+  return texture.format == core::TexelFormat::srgb
+             ? Vec3d{light[texel % 256], light[texel / 256 % 256], light[texel / 65536 % 256]}
+             : light_of_exponent(texel);
+}
+
+/// Which of a side's texels lies at `place`, in texels, on or beyond the texture.
+std::size_t texel_at(double place, std::uint32_t size, TextureWrap wrap) {
+  const double period = size;
+  if (wrap == TextureWrap::clamp) {
+    return static_cast<std::size_t>(std::clamp(place, 0.0, period - 1));
+  }
+  const double turn = std::floor(place / period), within = std::clamp(place - turn * period, 0.0, period - 1);
+  const bool is_turned = wrap == TextureWrap::mirror && std::fmod(turn, 2.0) != 0;
+  return static_cast<std::size_t>(is_turned ? period - 1 - within : within);
+}
+
+/// Between the four texels about a place.
+Vec3d blend(const core::Texture& texture, const core::TextureLevel& level, const AccuratePlace& place) {
+  const double x = place[0] * level.width - 0.5, y = place[1] * level.height - 0.5;
+  Vec3d sum;
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 2; ++column) {
+      const double left = std::floor(x) + column, top = std::floor(y) + row;
+      const std::size_t index =
+          texel_at(top, level.height, texture.wrap_t) * level.width + texel_at(left, level.width, texture.wrap_s);
+      sum = sum + light_of(texture, level.texels[index]) * ((1 - std::fabs(x - left)) * (1 - std::fabs(y - top)));
+    }
+  }
+  return sum;
+}
+
+/// Between the two levels whose texels are next in size to `width` of the finest level's.
+Vec3d probe(const core::Texture& texture, double width, const AccuratePlace& place) {
+  const double coarsest = static_cast<double>(texture.levels.size()) - 1;
+  const double detail = std::clamp(std::log2(std::max(width, 1.0)), 0.0, coarsest), level = std::floor(detail);
+  const auto finer = static_cast<std::size_t>(level);
+  const Vec3d fine = blend(texture, texture.levels[finer], place);
+  return detail > level ? fine * (1 - (detail - level)) + blend(texture, texture.levels[finer + 1], place) * (detail - level)
+                        : fine;
+}
+
+/// Where the ends of a cone's ellipse come to lie, in texels from its middle; the longer axis of what lies there.
+struct Axes {
+  double angle = 0;  ///< of the longer one on the texture
+  double longer = 0, shorter = 0;
+};
+
+/// The singular values of the matrix with the columns (a, c) and (b, d), by the sum of a similarity and a reflected one.
+Axes axes_of(double a, double b, double c, double d) {
+  const double similar = std::hypot(a + d, c - b) / 2, reflected = std::hypot(a - d, c + b) / 2;
+  const double one = std::atan2(c - b, a + d), other = std::atan2(c + b, a - d);
+  return {(one + other) / 2, similar + reflected, std::fabs(similar - reflected)};
+}
+
+/// How far from `middle` one may go by steps of `length`, at most `reach` of them, until `low` or `high`.
+double reach_to(double middle, double length, double low, double high, double reach) {
+  if (length == 0) {
+    return reach;
+  }
+  const double border = (length > 0) == (reach > 0) ? high : low, steps = (border - middle) / length;
+  return reach > 0 ? std::clamp(steps, 0.0, reach) : std::clamp(steps, reach, 0.0);
+}
+
+/// The change of (s, t) over a step in the triangle's plane.
+AccuratePlace change_over(const AccuratePaint& paint, const Vec3d& step) {
+  const Vec3d normal = cross(paint.corner[1] - paint.corner[0], paint.corner[2] - paint.corner[0]);
+  AccuratePlace change{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d opposite = paint.corner[(k + 2) % 3] - paint.corner[(k + 1) % 3];
+    const double share = dot(cross(normal, opposite), step) / dot(normal, normal);
+    change[0] += share * paint.place[k][0];
+    change[1] += share * paint.place[k][1];
+  }
+  return change;
+}
+
+}  // namespace
+
+AccurateFootprint footprint_of(const AccuratePaint& paint, const core::Texture& texture, const std::array<double, 3>& weight,
+                               const Vec3d& direction, double cone) {
+  AccurateFootprint footprint;
+  for (std::size_t k = 0; k < 3; ++k) {
+    footprint.middle[0] += weight[k] * paint.place[k][0];
+    footprint.middle[1] += weight[k] * paint.place[k][1];
+  }
+  if (cone == 0) {
+    return footprint;
+  }
+  const Vec3d edge = paint.corner[1] - paint.corner[0];
+  const Vec3d normal = normalize(cross(edge, paint.corner[2] - paint.corner[0]));
+  const Vec3d sideways = cross(direction, normal);
+  const Vec3d across = length(sideways) > 0 ? normalize(sideways) : normalize(edge), along = cross(normal, across);
+  const AccuratePlace far = change_over(paint, along * (cone / std::max(std::fabs(dot(direction, normal)), cosine_min)));
+  const AccuratePlace wide = change_over(paint, across * cone);
+  const double columns = texture.levels[0].width, rows = texture.levels[0].height;
+  const Axes axes = axes_of(far[0] * columns, wide[0] * columns, far[1] * rows, wide[1] * rows);
+  const double texel = std::max(axes.shorter, 1.0), between = std::max(axes.longer - texel, 0.0);
+  const AccuratePlace step{std::cos(axes.angle) / columns, std::sin(axes.angle) / rows};
+  double from = -between / 2, to = between / 2;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto [low, high] = std::minmax({paint.place[0][side], paint.place[1][side], paint.place[2][side]});
+    from = reach_to(footprint.middle[side], step[side], low, high, from);
+    to = reach_to(footprint.middle[side], step[side], low, high, to);
+  }
+  const double all = to - from + texel, stride = std::max(texel, all / strides_max);
+  for (std::size_t side = 0; side < 2; ++side) {
+    footprint.middle[side] += step[side] * (from + to) / 2;
+    footprint.stride[side] = step[side] * stride;
+  }
+  footprint.width = stride > texel ? stride : axes.shorter;
+  footprint.strides = all / stride;
+  return footprint;
+}
+
+/// A probe a stride from the middle outwards; what is left at the ends counts as much as it is, with its outer edge at the end.
+Vec3d texture_color(const core::Texture& texture, const AccurateFootprint& footprint) {
+  const auto at = [&](double offset) {
+    return probe(texture, footprint.width,
+                 {footprint.middle[0] + footprint.stride[0] * offset, footprint.middle[1] + footprint.stride[1] * offset});
+  };
+  Vec3d sum = at(0);
+  const double half = footprint.strides / 2;
+  for (double begin = 0.5; begin < half; begin += 1) {
+    const double end = std::min(begin + 1, half);
+    sum = sum + (at(end - 0.5) + at(0.5 - end)) * (end - begin);
+  }
+  return sum * (1 / footprint.strides);
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,188 @@
+#include "apps/lab/oracle/accurate/tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dmpc::apps {
+namespace {
+
+using core::RayKind;
+using core::Vec3d;
+
+/// How far a secondary ray starts from its surface: of the body's coordinates, as a point is computed to some 1e-16 of them, and
+/// of its radius, next to which a ray that grazes it meets it again. Nothing else in the scene, however large, moves a shadow.
+constexpr double flat_gap = 1e-13, curved_gap = 1e-9;
+/// A shadow ray ends this share of its length before the light, so that a surface through the light does not hide it.
+constexpr double light_gap = 1e-9;
+
+Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) { return direction - normal * (2 * dot(direction, normal)); }
+
+double start_gap(const AccurateBody& body) {
+  double coordinate = 0;
+  for (const Vec3d& place : body.place) {
+    coordinate = std::max(coordinate, largest_component(place));
+  }
+  const double radius = std::max(std::fabs(body.radius[0]), std::fabs(body.radius[1]));
+  return flat_gap * (coordinate + radius) + curved_gap * radius;
+}
+
+/// In single precision, as the product judges it.
+bool brings_nothing(const AccurateRay& shadow) { return core::Color(shadow.weight) == core::Color{}; }
+
+}  // namespace
+
+/// A hit that is being shaded.
+struct AccurateTracer::Touch {
+  const AccurateRay& ray;
+  std::uint32_t body;
+  const core::Material& material;
+  AccurateSurface surface;
+  Vec3d normal;      ///< for shading: on the ray's side, between a patch's normals
+  double index = 1;  ///< of refraction: on the ray's side over the other one
+  double cone = 0;   ///< the width of the ray's cone here
+  Vec3d color;       ///< of the diffuse part, with what a texture makes of it
+
+  /// The square of the cosine behind the surface by Snell's law; below 0 all is reflected.
+  double refracted_cosine_squared() const {
+    const double cosine = dot(ray.direction, normal);
+    return 1 - index * index * (1 - cosine * cosine);
+  }
+  bool transmits() const { return material.transmittance > 0 && refracted_cosine_squared() >= 0; }
+};
+
+Vec3d AccurateTracer::radiance(AccurateRay ray) {
+  const AccurateHit hit = trace(ray);
+  if (!hit.found()) {
+    return ray.weight * scene_.background;
+  }
+  Vec3d sum;
+  for (AccurateRay& child : spawned(ray, hit)) {
+    if (child.kind != RayKind::shadow) {
+      sum = sum + radiance(child);
+    } else if (!trace(child).found()) {
+      sum = sum + child.weight;
+    }
+  }
+  return sum;
+}
+
+std::vector<AccurateRay> AccurateTracer::spawned(const AccurateRay& ray, const AccurateHit& hit) const {
+  const Touch met = touch(ray, hit);
+  std::vector<AccurateRay> rays;
+  rays.reserve(scene_.lights.size() + 2);
+  add_shadow_rays(met, rays);
+  if (ray.depth < options_.depth_max && (met.material.specular > 0 || met.material.transmittance > 0)) {
+    add_children(met, rays);
+  }
+  return rays;
+}
+
+AccurateHit AccurateTracer::trace(AccurateRay& ray) {
+  ++rays_;
+  if (watcher_ != nullptr) {
+    watcher_->shoot(ray);
+  }
+  const AccurateHit hit = ray.kind == RayKind::shadow ? finder_.any(ray) : finder_.closest(ray);
+  if (watcher_ != nullptr) {
+    watcher_->end(ray, hit);
+  }
+  return hit;
+}
+
+AccurateTracer::Touch AccurateTracer::touch(const AccurateRay& ray, const AccurateHit& hit) const {
+  const AccurateBody& body = scene_.bodies[hit.body];
+  Touch result{ray, hit.body, scene_.materials[body.material], surface_at(body, ray, hit.t), {}};
+  if (watcher_ != nullptr) {
+    watcher_->touch(ray, body, result.surface);
+  }
+  const bool leaving = dot(ray.direction, result.surface.normal) > 0;
+  result.normal = leaving ? -result.surface.normal : result.surface.normal;
+  if (body.is_smooth()) {
+    Vec3d blend;
+    for (std::size_t k = 0; k < 3; ++k) {
+      blend = blend + scene_.normals[body.first_normal + k] * result.surface.weight[k];
+    }
+    const double size = length(blend);
+    result.normal = size > 0 ? blend * ((dot(blend, result.normal) < 0 ? -1 : 1) / size) : result.normal;
+  }
+  const double inside = result.material.refraction_index > 0 ? result.material.refraction_index : 1;
+  result.index = leaving ? inside : 1 / inside;
+  result.cone = ray.cone + hit.t * options_.pixel_angle / std::sqrt(static_cast<double>(options_.first_samples));
+  result.color = body.is_textured() ? painted(result) : result.material.color;
+  return result;
+}
+
+/// The material's colour times the texture's.
+Vec3d AccurateTracer::painted(const Touch& touch) const {
+  const AccurateBody& body = scene_.bodies[touch.body];
+  AccuratePaint paint{.corner = body.place, .place = {}};
+  std::copy_n(scene_.places.begin() + body.first_place, paint.place.size(), paint.place.begin());
+  const core::Texture& texture = scene_.textures[touch.material.texture];
+  AccurateFootprint footprint = footprint_of(paint, texture, touch.surface.weight, touch.ray.direction, touch.cone);
+  if (watcher_ != nullptr) {
+    watcher_->look_up(footprint);
+  }
+  return touch.material.color * texture_color(texture, footprint);
+}
+
+AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayKind kind) const {
+  const double side = dot(towards, touch.surface.normal) < 0 ? -1 : 1;
+  AccurateRay ray;
+  ray.origin = touch.surface.point + touch.surface.normal * (side * start_gap(scene_.bodies[touch.body]));
+  ray.direction = normalize(towards);
+  ray.ignored_body = touch.body;
+  ray.weight = touch.ray.weight;
+  ray.depth = touch.ray.depth + (kind == RayKind::shadow ? 0 : 1);
+  ray.kind = kind;
+  ray.cone = kind == RayKind::shadow ? 0 : touch.cone;
+  return ray;
+}
+
+/// Each with the diffuse light and Phong's highlight that it brings unless something hides the light.
+void AccurateTracer::add_shadow_rays(const Touch& touch, std::vector<AccurateRay>& rays) const {
+  const core::Material& material = touch.material;
+  const Vec3d mirror = mirrored(touch.ray.direction, touch.normal);
+  for (std::uint32_t index = 0; index < scene_.lights.size(); ++index) {
+    const AccurateLight& light = scene_.lights[index];
+    const Vec3d towards = light.position - touch.surface.point;
+    const double distance = length(towards), cosine = distance > 0 ? dot(towards, touch.normal) / distance : 0;
+    if (!(cosine > 0) && options_.convention == core::Convention::haines) {
+      continue;
+    }
+    AccurateRay ray = child(touch, towards, RayKind::shadow);
+    const Vec3d from_start = light.position - ray.origin;
+    ray.direction = normalize(from_start);
+    ray.t_max = length(from_start) * (1 - light_gap);
+    ray.light = index;
+    ray.weight = {};
+    if (cosine > 0) {
+      const double lobe = std::clamp(dot(mirror, towards) / distance, 0.0, 1.0);
+      const double highlight = material.specular > 0 ? material.specular * std::pow(lobe, material.shine) : 0;
+      ray.weight = touch.ray.weight * light.intensity *
+                   (touch.color * (material.diffuse * cosine) + Vec3d{highlight, highlight, highlight});
+    }
+    if (options_.convention == core::Convention::paper || !brings_nothing(ray)) {
+      rays.push_back(ray);
+    }
+  }
+}
+
+/// The mirrored ray and the one through glass. What cannot be transmitted is reflected.
+void AccurateTracer::add_children(const Touch& touch, std::vector<AccurateRay>& rays) const {
+  const core::Material& material = touch.material;
+  const double mirrored_share = material.specular + (touch.transmits() ? 0 : material.transmittance);
+  if (mirrored_share > 0) {
+    AccurateRay reflected = child(touch, mirrored(touch.ray.direction, touch.normal), RayKind::reflected);
+    reflected.weight = reflected.weight * mirrored_share;
+    rays.push_back(reflected);
+  }
+  if (touch.transmits()) {
+    const double cosine = -dot(touch.ray.direction, touch.normal), behind = std::sqrt(touch.refracted_cosine_squared());
+    const Vec3d through = touch.ray.direction * touch.index + touch.normal * (touch.index * cosine - behind);
+    AccurateRay refracted = child(touch, through, RayKind::refracted);
+    refracted.weight = refracted.weight * material.transmittance;
+    rays.push_back(refracted);
+  }
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,63 @@
+// The light that a ray brings, in double precision throughout: NFF's surfaces as Haines defines them, written anew from the
+// definition, as what core's shading is measured against.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "apps/lab/oracle/accurate/finder.h"
+#include "apps/lab/oracle/accurate/scene.h"
+#include "core/picture/shade.h"
+
+namespace dmpc::apps {
+
+/// Sees, and may disturb, every ray of a tracer. Rays come in the order of the product: depth first, a hit's shadow rays in the
+/// order of the lights, then its reflected ray with all that follows from it, then the refracted one.
+class RayWatcher {
+ public:
+  virtual ~RayWatcher() = default;
+
+  /// A ray is about to be traced.
+  virtual void shoot(AccurateRay&) {}
+  /// A ray that is no shadow ray met `body` here.
+  virtual void touch(const AccurateRay&, const AccurateBody&, AccurateSurface&) {}
+  /// A texture is about to be looked up there.
+  virtual void look_up(AccurateFootprint&) {}
+  /// A ray was traced.
+  virtual void end(const AccurateRay&, const AccurateHit&) {}
+};
+
+/// Not thread-safe: one a thread.
+class AccurateTracer {
+ public:
+  /// All outlive the tracer; `watcher` may be null. Secondary rays start 1e-9 of the scene's size off their surface. Rays look at
+  /// textures as the product's first samples do; where the options have no pixel angle, at points of them.
+  AccurateTracer(const AccurateScene& scene, const AccurateFinder& finder, const core::ShadeOptions& options,
+                 RayWatcher* watcher = nullptr)
+      : scene_(scene), finder_(finder), options_(options), watcher_(watcher) {}
+
+  /// Linear radiance that a ray brings, with all rays that follow from it.
+  core::Vec3d radiance(AccurateRay ray);
+  /// The rays that start where `ray`, which is no shadow ray, meets `hit`, in the order in which they are traced.
+  std::vector<AccurateRay> spawned(const AccurateRay& ray, const AccurateHit& hit) const;
+  /// Rays traced so far, of all kinds.
+  std::uint64_t rays() const { return rays_; }
+
+ private:
+  struct Touch;
+
+  AccurateHit trace(AccurateRay& ray);
+  Touch touch(const AccurateRay& ray, const AccurateHit& hit) const;
+  core::Vec3d painted(const Touch& touch) const;
+  AccurateRay child(const Touch& touch, const core::Vec3d& towards, core::RayKind kind) const;
+  void add_shadow_rays(const Touch& touch, std::vector<AccurateRay>& rays) const;
+  void add_children(const Touch& touch, std::vector<AccurateRay>& rays) const;
+
+  const AccurateScene& scene_;
+  const AccurateFinder& finder_;
+  core::ShadeOptions options_;
+  RayWatcher* watcher_;
+  std::uint64_t rays_ = 0;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,120 @@
+#include "apps/lab/study/cache_curves.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/lab/crowd/side_by_side.h"
+#include "svm/pages/replacement.h"
+#include "svm/pages/watch/optimum.h"
+#include "svm/pages/watch/policy_misses.h"
+
+namespace dmpc::apps {
+namespace {
+
+using svm::Replacement;
+/// By size: of each of the other policies, then of the optimum.
+using Faults = std::vector<std::vector<std::uint64_t>>;
+
+/// Those beside lru, whose misses are known for all sizes at once, in the order of their columns.
+std::vector<Replacement> other_policies() {
+  std::vector<Replacement> policies;
+  for (std::size_t i = 0; i < svm::policy_kinds().size(); ++i) {
+    if (const auto policy = static_cast<Replacement>(i); policy != Replacement::lru) {
+      policies.push_back(policy);
+    }
+  }
+  return policies;
+}
+
+/// `distinct_pages`: of the references.
+Faults faults_of(CacheCurves::NodeReferences references, std::uint32_t distinct_pages, std::uint32_t node,
+                 const std::vector<std::uint32_t>& sizes, const std::function<void()>& check) {
+  const svm::Optimum optimum(references);
+  Faults faults;
+  for (const std::uint32_t asked : sizes) {
+    const std::uint32_t size =
+        std::min(asked, std::max(1U, distinct_pages));  // whoever has room for all pages takes each in once
+    std::vector<std::uint64_t>& row = faults.emplace_back();
+    for (const Replacement policy : other_policies()) {
+      check();
+      row.push_back(svm::policy_misses(policy, references, size, node));
+    }
+    row.push_back(optimum.misses(size));
+  }
+  return faults;
+}
+
+void add(const Faults& more, Faults& sums) {
+  for (std::size_t row = 0; row < sums.size(); ++row) {
+    std::transform(more[row].begin(), more[row].end(), sums[row].begin(), sums[row].begin(), std::plus());
+  }
+}
+
+std::string fault_column(Replacement policy) { return "faults " + std::string(svm::name_of(policy)); }
+
+}  // namespace
+
+CacheCurves::CacheCurves(const std::vector<NodeReferences>& nodes, std::uint64_t reference_count,
+                         std::vector<std::uint32_t> sizes, const std::function<void()>& check)
+    : sizes_(std::move(sizes)),
+      reference_count_(reference_count),
+      faults_(sizes_.size(), std::vector<std::uint64_t>(other_policies().size() + 1)) {
+  side_by_side(nodes.size(), [&](std::size_t node) -> std::function<void()> {
+    svm::MissCurve lru(nodes[node]);
+    Faults faults = faults_of(nodes[node], lru.distinct_pages(), static_cast<std::uint32_t>(node), sizes_, check);
+    return [this, faults = std::move(faults), lru = std::move(lru)] {
+      lru_ += lru;
+      add(faults, faults_);
+    };
+  });
+}
+
+std::uint64_t CacheCurves::check_count(std::size_t node_count, std::size_t size_count) {
+  return std::uint64_t{node_count} * size_count * other_policies().size();
+}
+
+std::vector<Column> CacheCurves::columns(const std::string& share) {
+  std::vector<Column> columns = {{"cache pages"}, {share, "%", 2}, {"misses lru", "%", 4}, {fault_column(Replacement::lru)}};
+  for (const Replacement policy : other_policies()) {
+    columns.push_back({fault_column(policy)});
+  }
+  columns.push_back({"faults optimum"});
+  return columns;
+}
+
+PlotAxis CacheCurves::size_axis() { return {.label = "cache of a node (pages)", .scale = PlotScale::powers_of_10}; }
+
+Plot CacheCurves::plot() {
+  std::vector<PlotSeries> policies = {{"lru", fault_column(Replacement::lru)}};
+  for (const Replacement policy : other_policies()) {
+    policies.push_back({.title = std::string(svm::name_of(policy)), .column = fault_column(policy), .color = policies.size()});
+  }
+  policies.push_back({.title = "optimum", .column = "faults optimum", .color = policies.size()});
+  return curves("cache_faults", "Page faults", "cache pages", size_axis(), {.label = "faults", .scale = PlotScale::powers_of_10},
+                std::move(policies));
+}
+
+std::string CacheCurves::note() {
+  return "Lru: from the stack distances of the references (Mattson, Gecsei, Slutz and Traiger, 1970). Other policies: by a cache "
+         "of each size, fed with them. Optimum: the page that leaves is the one needed last (Belady, 1966).";
+}
+
+std::vector<Cell> CacheCurves::row(std::size_t index, std::uint32_t page_count) const {
+  const std::uint64_t misses = lru_.misses(sizes_[index]);
+  std::vector<Cell> cells = {std::uint64_t{sizes_[index]}, percent_of<std::uint64_t>(sizes_[index], page_count),
+                             percent_of<std::uint64_t>(misses, reference_count_), misses};
+  cells.insert(cells.end(), faults_[index].begin(), faults_[index].end());
+  return cells;
+}
+
+std::string CacheCurves::needs_note() const {
+  if (lru_.references() == 0) {
+    return "No node references a page of another.";
+  }
+  return "The node that references most has to do with " + counted(lru_.distinct_pages(), "different page") +
+         " of others; from " + counted(std::max(lru_.sufficient_pages(), 1U), "frame") +
+         " on lru faults on each page's first reference only, " + counted(lru_.cold_misses(), "time") + " in all.";
+}
+
+}  // namespace dmpc::apps

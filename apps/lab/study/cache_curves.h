@@ -1,0 +1,49 @@
+// What caches of several sizes miss of the same references, under every policy.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/edge/table/plot.h"
+#include "apps/edge/table/table.h"
+#include "svm/pages/page.h"
+#include "svm/pages/watch/miss_curve.h"
+
+namespace dmpc::apps {
+
+/// The curves of all nodes together, each with a cache of its own. A value.
+class CacheCurves {
+ public:
+  /// The references of one node, in order; those of one page in a row may be one.
+  using NodeReferences = std::span<const svm::PageId>;
+
+  /// `reference_count`: those that a share of misses is of. `sizes`: in pages. `check` is called check_count()
+  /// times, from any thread, and may throw. On all cores.
+  CacheCurves(const std::vector<NodeReferences>& nodes, std::uint64_t reference_count, std::vector<std::uint32_t> sizes,
+              const std::function<void()>& check);
+
+  static std::uint64_t check_count(std::size_t node_count, std::size_t size_count);
+  /// The columns of the cells that row() has. `share`: what the second says that the cache is a share of.
+  static std::vector<Column> columns(const std::string& share);
+  static Plot plot();
+  static PlotAxis size_axis();
+  /// Where the figures come from.
+  static std::string note();
+
+  std::size_t row_count() const { return sizes_.size(); }
+  std::vector<Cell> row(std::size_t index, std::uint32_t page_count) const;
+  /// How many pages the nodes have to do with.
+  std::string needs_note() const;
+
+ private:
+  std::vector<std::uint32_t> sizes_;
+  std::uint64_t reference_count_;
+  svm::MissCurve lru_;
+  std::vector<std::vector<std::uint64_t>> faults_;  ///< by size: of each of the other policies, then of the optimum
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,183 @@
+#include "apps/lab/study/command.h"
+
+#include <exception>
+#include <iostream>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/machine/machines.h"
+#include "apps/edge/system/progress.h"
+#include "apps/edge/table/shown_rows.h"
+#include "apps/edge/table/table_files.h"
+#include "apps/effort/effort.h"
+#include "apps/lab/study/conclusions.h"
+#include "apps/lab/study/effort.h"
+#include "apps/lab/study/engine/tabled_job.h"
+#include "apps/lab/study/runs.h"
+#include "apps/render/picture_identity.h"
+#include "apps/run/render_record.h"
+#include "apps/scene/load_scene.h"
+#include "apps/scene/subject.h"
+#include "core/families/scenes.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// What the pictures are drawn from, in their folder.
+std::string data_file_of(const std::string& study) { return study + ".csv"; }
+
+TableFiles files_of(const StudyOptions& options) {
+  std::vector<NamedFile> inputs;
+  add_scene_file(options.picture.scene, inputs);
+  if (!options.machine_name.empty() && find_machine_preset(options.machine_name) == nullptr) {
+    inputs.push_back({"--machine", options.machine_name});
+  }
+  const PlottedNames plotted =
+      std::visit([](const auto& study) { return names_of(data_file_of(study.name), study.plots()); }, options.study);
+  return {options.table, {plotted}, {.inputs = std::move(inputs)}};
+}
+
+/// What is studied, and the digest of its scene if a page tells it.
+struct Loaded {
+  Subject subject;
+  std::optional<std::uint64_t> scene_digest;
+  std::optional<core::Scene> scene;  ///< for a study that builds other databases of it
+};
+
+/// A signal ends the process here and now.
+Loaded load(const StudyOptions& options, const TableFiles& files, Interrupt& interrupt) {
+  const Interrupt::EndAtOnce end_at_once(interrupt);
+  OpenedFiles opened;
+  core::Scene scene = load_scene(options.picture, LoadNotes::said, &opened);
+  check_not_read(opened, files.names());
+  const auto digest = options.table.report ? std::optional(scene_digest(scene)) : std::nullopt;
+  auto kept = std::holds_alternative<SystemsStudy>(options.study) ? std::optional(scene) : std::nullopt;
+  return {build_subject(std::move(scene), options.picture, options.database, true), digest, std::move(kept)};
+}
+
+std::string samples_text(const PictureOptions& picture) {
+  const std::string text = picture.is_refined
+                               ? "samples refined to an error of " + fixed(255 * picture.refinement.error, 3) + "/255"
+                               : std::to_string(picture.samples) + (picture.samples == 1 ? " sample" : " samples") + " a pixel";
+  return picture.cutoff > 0 ? text + ", cutoff " + fixed(255 * picture.cutoff, 3) + "/255" : text;
+}
+
+std::string title_of(const std::string& study, const StudyOptions& options, const Subject& subject) {
+  const PictureOptions& picture = options.picture;
+  const core::Camera& camera = subject.settings.camera;
+  return "Study " + study + " of " + picture.scene + ": " + std::to_string(camera.width()) + "x" +
+         std::to_string(camera.height()) + " pixels, " + samples_text(picture) + ", depth " + std::to_string(picture.depth) +
+         ", convention " + (picture.convention == core::Convention::haines ? "haines" : "paper") + ", grid axes " +
+         name_of(options.database.axes) + ", record order " + name_of(options.database.build.record_order) + ", " +
+         counted(subject.database.header().primitive_count, "primitive");
+}
+
+std::string film_note(const StudyRuns& runs) {
+  if (!runs.film_hash()) {
+    return "No picture was rendered.";
+  }
+  return "Film of every run, " + std::to_string(runs.count()) + " in all: " + hash_text(*runs.film_hash()) + ".";
+}
+
+/// By which another study is known to be of the same.
+struct Marks {
+  std::optional<std::uint64_t> scene_digest;
+  std::optional<std::uint64_t> film_hash;
+};
+
+template <class OneStudy>
+TableResult result_of(const OneStudy& study, const Table& table, const Marks& marks, const StudyOptions& options) {
+  return study_result({.title = "Study " + std::string(OneStudy::name) + " of " + options.picture.scene,
+                       .table = table,
+                       .data_file = data_file_of(OneStudy::name),
+                       .plots = study.plots(),
+                       .conclusion = conclusion_of(study, table),
+                       .facts = marks.film_hash ? html::Facts{{"film", hash_text(*marks.film_hash)}} : html::Facts{},
+                       .scene_digest = marks.scene_digest},
+                      options.table.format);
+}
+
+template <class OneStudy>
+Table empty_table(const OneStudy& study, const StudyOptions& options, const Subject& subject) {
+  Table table(title_of(OneStudy::name, options, subject), study.columns());
+  for (std::string& note : study.notes(options.picture.scene)) {
+    table.add_note(std::move(note));
+  }
+  return table;
+}
+
+/// If something ends it before its time, the table has the rows finished before, and a note that others are missing.
+template <class OneStudy>
+void measure(const OneStudy& study, StudyRuns& runs, Table& table) {
+  try {
+    study.measure(runs, table);
+  } catch (const Interrupted&) {
+    table.add_note("Interrupted: rows are missing.");
+    throw;
+  } catch (const NothingFits&) {
+    throw;
+  } catch (const std::exception&) {
+    table.add_note("Ended by an error: rows are missing.");
+    throw;
+  }
+}
+
+/// A signal ends the process here and now.
+void announce_effort(const StudyOptions& options, const Subject& subject, Interrupt& interrupt) {
+  if (!options.quiet && stderr_is_terminal()) {
+    const Interrupt::EndAtOnce end_at_once(interrupt);
+    const std::vector<PlannedRun> runs = planned_runs(options.study);
+    const std::string name = std::visit([](const auto& study) { return std::string(study.name); }, options.study);
+    announce("study " + name + ", " + counted(runs.size(), "run"), effort_of(runs, subject), options.quiet, std::cerr);
+  }
+}
+
+/// A study that compares structures is given the scene to build them from.
+void give_scene(SystemsStudy& study, const core::Scene& scene, const StudyOptions& options) {
+  study.build = [&scene, &options](core::Structure structure, std::size_t page_size_bytes) {
+    DatabaseOptions other = options.database;
+    other.build.structure = structure;
+    other.build.page_size_bytes = page_size_bytes;
+    return build_subject_quietly(scene, options.picture, other);
+  };
+}
+
+/// Returns the exit status.
+template <class OneStudy>
+int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& files, Interrupt& interrupt, std::ostream& output) {
+  const auto [subject, digest, scene] = load(options, files, interrupt);
+  if constexpr (std::is_same_v<OneStudy, SystemsStudy>) {
+    give_scene(study, *scene, options);
+  }
+  announce_effort(options, subject, interrupt);
+  Table table = empty_table(study, options, subject);
+  ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
+  table.set_listener([&shown](const Table& rows) { shown.show(rows); });
+  StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal(), study.run_count()}, interrupt);
+  const auto write = [&](bool is_whole, Attempts& attempts) {
+    table.add_note(film_note(runs));
+    std::optional<Interrupt::EndAtOnce> end_at_once;
+    if (is_whole) {
+      interrupt.set_consequence(options.table.file ? "nothing was written" : "the table is incomplete");
+      end_at_once.emplace(interrupt);
+    }
+    files.write(result_of(study, table, {digest, runs.film_hash()}, options), output, std::cerr, attempts);
+  };
+  return run_tabled(
+      {.measure = [&] { measure(study, runs, table); }, .has_findings = [&] { return !table.rows().empty(); }, .write = write},
+      interrupt);
+}
+
+}  // namespace
+
+int study_command(const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
+  const TableFiles files = files_of(options);
+  return std::visit([&](const auto& study) { return carry_out(study, options, files, interrupt, output); }, options.study);
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,50 @@
+#include "apps/lab/study/engine/tabled_job.h"
+
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <utility>
+
+#include "apps/edge/show/page/origin.h"
+#include "apps/show/page/sweep_page.h"
+
+namespace dmpc::apps {
+namespace {
+
+std::string page_of(const StudyFindings& findings) {
+  const html::SweepPart part{"", findings.table, findings.plots, findings.conclusion};
+  return html::sweep_page({findings.title, {}, {part}, findings.facts}, this_origin(findings.scene_digest), std::cerr);
+}
+
+}  // namespace
+
+int run_tabled(const TabledJob& job, Interrupt& interrupt) {
+  std::exception_ptr failure;
+  try {
+    job.measure();
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  Attempts attempts(std::cerr);
+  if (!failure || (job.has_findings && job.has_findings())) {
+    interrupt.set_consequence(job.consequence);
+    job.write(!failure, attempts);
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+  return attempts.status();
+}
+
+TableResult study_result(StudyFindings findings, TableFormat format) {
+  std::string text = text_of(findings.table, format);
+  const auto kept = std::make_shared<const StudyFindings>(std::move(findings));
+  return {.text = std::move(text),
+          .page = [kept] { return page_of(*kept); },
+          .plotted =
+              [kept] {
+                return std::vector<PlottedTable>{{kept->table, kept->data_file, kept->plots}};
+              }};
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,266 @@
+#include "apps/lab/study/paper/conclusions.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "apps/edge/line/number_text.h"
+
+namespace dmpc::apps {
+namespace {
+
+using Row = std::vector<Cell>;
+
+/// Sizes of numbers over rows.
+struct Sizes {
+  double sum = 0, most = 0;
+  std::size_t count = 0;
+  const Row* of_most = nullptr;
+
+  void add(double number, const Row& row) {
+    const double size = std::fabs(number);
+    if (of_most == nullptr || size > most) {
+      most = size;
+      of_most = &row;
+    }
+    sum += size;
+    ++count;
+  }
+  double mean() const { return sum / static_cast<double>(count); }
+};
+
+/// The sizes of the rows that have a number in the column.
+Sizes sizes_of(const Table& table, const char* column) {
+  Sizes sizes;
+  for (const Row& row : table.rows()) {
+    if (const auto number = number_in(table, row, column)) {
+      sizes.add(*number, row);
+    }
+  }
+  return sizes;
+}
+
+/// "Teapot, nodes 64": what stands in the row's first two cells.
+std::string place_of(const Table& table, const Row& row) {
+  const std::vector<std::string> texts = texts_of(table, row);
+  return texts[0] + ", " + table.columns()[1].name + " " + texts[1];
+}
+
+std::string points_text(double points) { return fixed(points, 1) + " points"; }
+
+/// Rows whose column `name` has the most that any has.
+std::vector<const Row*> rows_of_most(const Table& table, const char* name) {
+  std::vector<const Row*> rows;
+  const Sizes sizes = sizes_of(table, name);
+  for (const Row& row : table.rows()) {
+    if (number_in(table, row, name) == sizes.most) {
+      rows.push_back(&row);
+    }
+  }
+  return rows;
+}
+
+std::string on_table_2(const Table& table) {
+  std::vector<double> ratios;
+  for (const Row& row : table.rows()) {
+    const auto printed = number_in(table, row, "pages a pixel printed"), ours = number_in(table, row, "pages a pixel");
+    if (printed && ours && *printed > 0) {
+      ratios.push_back(*ours / *printed);
+    }
+  }
+  if (ratios.empty()) {
+    return "";
+  }
+  const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+  return "A pixel takes " + fixed(*least, 2) + " to " + fixed(*most, 2) + " times the pages that the article prints.";
+}
+
+std::string on_table_3(const Table& table) {
+  Sizes sizes;
+  for (const Row& row : table.rows()) {
+    const auto difference = number_in(table, row, "difference");
+    if (difference && texts_of(table, row).back() == "predicted") {
+      sizes.add(*difference, row);
+    }
+  }
+  return sizes.count == 0 ? ""
+                          : "The efficiencies that were predicted lie " + points_text(sizes.mean()) +
+                                " from the printed ones in the mean, at worst " + points_text(sizes.most) + " (" +
+                                place_of(table, *sizes.of_most) + ").";
+}
+
+std::string on_calibration(const Table& table) {
+  const Sizes sizes = sizes_of(table, "change");
+  return sizes.count == 0 ? ""
+                          : "The fit changes a figure of the machine by " + fixed(sizes.most, 1) + " % at most (" +
+                                texts_of(table, *sizes.of_most)[0] + ").";
+}
+
+std::string on_law(const Table& table) {
+  const Sizes ours = sizes_of(table, "our difference"), law = sizes_of(table, "the law's difference");
+  return ours.count == 0 || law.count == 0 ? ""
+                                           : "Over these cells we are " + points_text(ours.mean()) +
+                                                 " off in the mean, the law " + points_text(law.mean()) + ".";
+}
+
+std::string on_errors(const Table& table) {
+  if (table.rows().empty()) {
+    return "";
+  }
+  const auto ours = number_in(table, table.rows()[0], "our mean error"),
+             law = number_in(table, table.rows()[0], "the law's mean error");
+  if (!ours || !law) {
+    return "";
+  }
+  return "Over " + texts_of(table, table.rows()[0])[0] + " " + (*ours < *law ? "we are" : "the law is") +
+         " nearer: " + points_text(std::min(*ours, *law)) + " off in the mean, against " + points_text(std::max(*ours, *law)) +
+         ".";
+}
+
+/// The columns behind the printed one are ways to choose memories.
+std::string on_memories(const Table& table) {
+  std::map<double, std::string> by_error;
+  for (std::size_t column = 3; column < table.columns().size(); ++column) {
+    const std::string& name = table.columns()[column].name;
+    Sizes errors;
+    for (const Row& row : table.rows()) {
+      const auto printed = number_in(table, row, "printed"), ours = number_in(table, row, name);
+      if (printed && ours) {
+        errors.add(*ours - *printed, row);
+      }
+    }
+    if (errors.count > 0) {
+      by_error.emplace(errors.mean(), name);
+    }
+  }
+  return by_error.empty() ? ""
+                          : "Nearest to what is printed is \"" + by_error.begin()->second + "\", " +
+                                points_text(by_error.begin()->first) + " off in the mean.";
+}
+
+std::string on_losses(const Table& table) {
+  const std::vector<const Row*> rows = rows_of_most(table, "nodes");
+  std::pair<double, std::string> largest;
+  for (const Column& column : table.columns()) {
+    double sum = 0;
+    for (const Row* row : rows) {
+      sum += column.unit == "%" && column.name != "computing" ? number_in(table, *row, column.name).value_or(0) : 0;
+    }
+    largest = std::max(largest, {sum, column.name});
+  }
+  if (rows.empty() || largest.first == 0) {
+    return "";
+  }
+  std::replace(largest.second.begin(), largest.second.end(), '_', ' ');
+  return "On " + fixed(*number_in(table, *rows[0], "nodes"), 0) + " nodes the largest loss is " + largest.second + ": " +
+         fixed(largest.first / static_cast<double>(rows.size()), 1) + " % of the nodes' time in the mean over scenes.";
+}
+
+std::string on_algorithms(const Table& table) {
+  std::string text;
+  for (const Row* row : rows_of_most(table, "nodes")) {
+    const auto rays = number_in(table, *row, "rays travel"), pages = number_in(table, *row, "pages travel");
+    if (rays && pages && *rays > 0 && *pages > 0) {
+      text += (text.empty() ? "On " + texts_of(table, *row)[1] + " nodes pages that travel take " : ", ") +
+              fixed(*pages / *rays, 2) + " times as long as rays (" + texts_of(table, *row)[0] + ")";
+    }
+  }
+  return text.empty() ? "" : text + ".";
+}
+
+std::string on_caches(const Table& table) {
+  const Sizes sizes = sizes_of(table, "efficiency");
+  if (sizes.count == 0) {
+    return "";
+  }
+  const auto worst = std::min_element(table.rows().begin(), table.rows().end(), [&](const Row& a, const Row& b) {
+    return number_in(table, a, "efficiency") < number_in(table, b, "efficiency");
+  });
+  const auto share = [&](const Row& row) { return fixed(number_in(table, row, "of the database").value_or(0), 2) + " %"; };
+  return "The efficiency goes from " + fixed(number_in(table, *worst, "efficiency").value_or(0), 1) + " % with caches of " +
+         share(*worst) + " of the database to " + fixed(sizes.most, 1) + " % with " + share(*sizes.of_most) + ".";
+}
+
+std::string on_ray_ways(const Table& table) {
+  const Sizes sizes = sizes_of(table, "efficiency");
+  return sizes.count == 0 ? ""
+                          : "Rays travel best, with an efficiency of " + fixed(sizes.most, 1) + " %, on " +
+                                texts_of(table, *sizes.of_most)[0] + " by " + texts_of(table, *sizes.of_most)[1] + ".";
+}
+
+std::string on_work_items(const Table& table) {
+  if (table.rows().empty()) {
+    return "";
+  }
+  const auto seconds = [&](const Row& row) { return number_in(table, row, "seconds").value_or(0); };
+  const auto [least, most] = std::minmax_element(table.rows().begin(), table.rows().end(),
+                                                 [&](const Row& a, const Row& b) { return seconds(a) < seconds(b); });
+  const auto of = [&](const Row& row) {
+    return fixed(seconds(row), 0) + " s with " + texts_of(table, row)[0] + " asked of " + texts_of(table, row)[1];
+  };
+  return "The picture takes from " + of(*least) + " to " + of(*most) + ".";
+}
+
+std::string on_page_sizes(const Table& table) {
+  if (table.rows().empty()) {
+    return "";
+  }
+  const auto seconds = [&](const Row& row) { return number_in(table, row, "seconds").value_or(0); };
+  const auto best = std::min_element(table.rows().begin(), table.rows().end(),
+                                     [&](const Row& a, const Row& b) { return seconds(a) < seconds(b); });
+  return "The picture comes soonest, in " + fixed(seconds(*best), 0) + " s, with pages of " +
+         fixed(number_in(table, *best, "page").value_or(0), 0) + " bytes in " + texts_of(table, *best)[0] + ".";
+}
+
+std::string on_claims(const Table& table) {
+  std::map<std::string, std::size_t> verdicts;
+  for (const Row& row : table.rows()) {
+    ++verdicts[texts_of(table, row)[1]];
+  }
+  if (table.rows().empty()) {
+    return "";
+  }
+  const std::string judged = std::to_string(verdicts["held"]) + " of " + counted(table.rows().size(), "claim") + " held";
+  return verdicts["not judged"] > 0 ? judged + ", " + std::to_string(verdicts["not judged"]) + " were not judged." : judged + ".";
+}
+
+std::string on_sensitivity(const Table& table) {
+  const Sizes errors = sizes_of(table, "mean error");
+  return errors.count == 0 ? ""
+                           : "The mean error is largest, " + points_text(errors.most) + ", where \"" +
+                                 texts_of(table, *errors.of_most)[0] + "\" is changed.";
+}
+
+struct Conclusion {
+  const char* name;
+  std::string (*on)(const Table& table);
+};
+
+constexpr std::array<Conclusion, 14> conclusions = {{{"table_2", on_table_2},
+                                                     {"table_3", on_table_3},
+                                                     {"calibration", on_calibration},
+                                                     {"law", on_law},
+                                                     {"against_law", on_errors},
+                                                     {"memories", on_memories},
+                                                     {"losses", on_losses},
+                                                     {"algorithms", on_algorithms},
+                                                     {"ray_ways", on_ray_ways},
+                                                     {"work_items", on_work_items},
+                                                     {"page_sizes", on_page_sizes},
+                                                     {"caches", on_caches},
+                                                     {"claims", on_claims},
+                                                     {"sensitivity", on_sensitivity}}};
+
+}  // namespace
+
+std::string paper_conclusion(const std::string& name, const Table& table) {
+  const auto found =
+      std::find_if(conclusions.begin(), conclusions.end(), [&](const Conclusion& one) { return one.name == name; });
+  return found == conclusions.end() ? "" : found->on(table);
+}
+
+}  // namespace dmpc::apps

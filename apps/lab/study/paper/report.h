@@ -1,0 +1,43 @@
+// The report of the study `paper`: its tables, and the pictures of them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "apps/edge/system/attempts.h"
+#include "apps/edge/system/output_set.h"
+#include "apps/edge/table/table.h"
+
+namespace dmpc::apps {
+
+/// A table with the name of its files.
+struct NamedTable {
+  std::string name;
+  Table table;
+};
+
+struct PaperReport {
+  std::vector<NamedTable> tables;
+  std::uint32_t resolution = 0;  ///< pixels a side of the pictures that the tables are of
+  bool is_complete = true;       ///< no row is missing
+};
+
+/// In Markdown, without pictures.
+std::string text_of(const PaperReport& report);
+
+/// What write_report() writes, whatever rows the tables have, as outputs of `option`.
+std::vector<OutputName> report_files(const PaperReport& report, const std::filesystem::path& folder, const std::string& option);
+
+/// Writes to a folder each table as CSV and JSON, a gnuplot script for each picture, the pictures that gnuplot makes of them, and
+/// as report.md the text with links to the pictures. Returns sentences about pictures that could not be drawn, which stand in
+/// report.md, too. Each file is one of the attempts.
+std::vector<std::string> write_report(const PaperReport& report, const std::filesystem::path& folder, Attempts& attempts);
+
+/// The report as a page. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
+/// written.
+std::string page_of(const PaperReport& report, std::ostream& complaints);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,149 @@
+#include "apps/lab/study/paper/runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "apps/edge/system/progress.h"
+#include "apps/lab/study/engine/measure_each.h"
+#include "apps/lab/study/paper/hot_spots.h"
+#include "apps/run/report.h"
+#include "apps/scene/load_scene.h"
+#include "core/base/expect.h"
+#include "dataflow/regions/bsp.h"
+#include "dataflow/run.h"
+#include "svm/packets.h"
+#include "svm/run.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// In the middle of Rings4.
+constexpr core::PointLight inner_light{.position = {-1, 7.36, 0.5}};
+
+/// The article's program counts rays as this convention does, and traced all of them. Its nodes asked each other for work in
+/// turn.
+PictureOptions picture_of(const PaperRun& run) {
+  const auto side = static_cast<int>(run.resolution);
+  PictureOptions picture{.scene = run.scene, .resolution = Resolution{side, side}, .convention = core::Convention::paper};
+  picture.skips.background = false;
+  picture.skips.idle_nodes = false;
+  if (run.has_inner_light) {
+    picture.skips.empty_regions = false;
+    picture.staging.lights = {inner_light};
+  }
+  return picture;
+}
+
+std::uint64_t pixels_of(const PaperRun& run) { return std::uint64_t{run.resolution} * run.resolution; }
+
+const Subject& subject_of(const PaperRun& run, std::span<const PaperSubject> subjects) {
+  const auto found =
+      std::find_if(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); });
+  core::expect(found != subjects.end(), "every run has its scene");
+  return found->subject;
+}
+
+std::optional<std::uint32_t> cache_pages_of(const PaperRun& run, const core::Database& database) {
+  if (!run.cache_share) {
+    return std::nullopt;
+  }
+  const double pages = *run.cache_share * static_cast<double>(database.page_count());
+  return std::max(1U, static_cast<std::uint32_t>(std::lround(pages)));
+}
+
+Report report_of(const PaperRun& run, const Subject& subject, const std::stop_token& stop) {
+  if (run.strategy == Strategy::dataflow) {
+    dataflow::RunOptions options{
+        .computer = {.node_count = run.node_count, .node_memory_bytes = run.node_memory_bytes, .machine = run.machine},
+        .rays = run.rays};
+    options.rays.topology = run.machine.topology;
+    return dataflow::run_dataflow(subject.database, subject.settings, options, stop);
+  }
+  svm::RunOptions options{
+      .computer = {.node_count = run.node_count, .node_memory_bytes = run.node_memory_bytes, .machine = run.machine},
+      .pages = run.pages};
+  options.pages.cache_pages = cache_pages_of(run, subject.database);
+  if (run.strategy == Strategy::replicated) {
+    return svm::run_replicated(subject.database, subject.settings, options, stop);
+  }
+  return svm::run_svm(subject.database, subject.settings, options, stop);
+}
+
+PaperResult result_of(const Report& report, const core::Database& database) {
+  const Account account = account_of(report);
+  PaperResult result{.total_ns = account.virtual_time->total_ns,
+                     .parts = parts_of(sum_of_nodes(*account.virtual_time), account.waits),
+                     .rays = account.operations.ray_count(),
+                     .tests = std::accumulate(account.operations.primitive_tests.begin(),
+                                              account.operations.primitive_tests.end(), std::uint64_t{0}),
+                     .film_hash = account.film.hash()};
+  if (const auto* rays = std::get_if<dataflow::Report>(&report)) {
+    result.flood = shadow_flood(database, *rays);
+    result.average_load = dataflow::average_load(rays->work());
+    const dataflow::Gather::Counters gathers = rays->gathers();
+    result.overflowed =
+        gathers.packets == 0 ? 0 : static_cast<double>(gathers.packets_overflowed) / static_cast<double>(gathers.packets);
+    result.ray_bytes = dataflow::ray_traffic(account.sent).bytes;
+  }
+  if (const auto* pages = std::get_if<svm::Report>(&report)) {
+    result.flood = page_flood(*pages);
+    result.references = pages->pages().references;
+    result.faults = pages->pages().faults;
+    result.cache_pages = pages->plan.pages().cache.frame_count;
+    result.page_bytes = account.sent[svm::number_of(svm::Kind::page_reply)].bytes;
+    result.pages_a_pixel = static_cast<double>(pages->pages().distinct_pages) / static_cast<double>(account.film.pixels().size());
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
+  std::vector<PaperSubject> subjects;
+  for (const PaperRun& run : runs) {
+    if (std::none_of(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); })) {
+      const PictureOptions picture = picture_of(run);
+      subjects.push_back({run.scene, run.resolution, run.record_order, run.page_size_bytes, run.has_inner_light,
+                          build_subject(load_scene(picture), picture,
+                                        {.build = {.page_size_bytes = run.page_size_bytes, .record_order = run.record_order}})});
+    }
+  }
+  return subjects;
+}
+
+void carry_out(std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt,
+               PaperResults& results, const std::function<void()>& told) {
+  core::expect(results.size() == runs.size(), "every run has a place for its result");
+  std::map<std::tuple<std::string, std::uint32_t, bool>, std::uint64_t> films;  // by scene, size and light
+  Progress progress(std::cerr, stderr_is_terminal(), std::to_string(runs.size()) + " runs: ");
+  std::uint64_t done_pixels = 0;
+  const std::uint64_t all_pixels = std::accumulate(runs.begin(), runs.end(), std::uint64_t{0},
+                                                   [](auto sum, const PaperRun& run) { return sum + pixels_of(run); });
+  const auto measure = [&](std::size_t index) -> std::optional<PaperResult> {
+    if (interrupt.requested()) {
+      return std::nullopt;
+    }
+    const Subject& subject = subject_of(runs[index], subjects);
+    const Report report = report_of(runs[index], subject, interrupt.token());
+    const bool is_finished = account_of(report).end == nodes::RunEnd::finished;
+    return is_finished ? std::optional(result_of(report, subject.database)) : std::nullopt;
+  };
+  measure_each(runs.size(), Turns::side_by_side, measure, [&](std::size_t index, const std::optional<PaperResult>& result) {
+    if (result) {
+      const PaperRun& run = runs[index];
+      const auto film = films.try_emplace({run.scene, run.resolution, run.has_inner_light}, result->film_hash).first;
+      core::expect(film->second == result->film_hash, "every run of a scene gives the same film");
+      results[index] = result;
+      told();
+      done_pixels += pixels_of(run);
+      progress.update(done_pixels, all_pixels);
+    }
+  });
+}
+
+}  // namespace dmpc::apps

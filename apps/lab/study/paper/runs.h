@@ -1,0 +1,91 @@
+// The runs behind the study `paper`: the article's scenes on modelled machines, as many at once as there are cores.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/edge/run/time_parts.h"
+#include "apps/edge/system/interrupt.h"
+#include "apps/run/strategy_options.h"
+#include "apps/scene/subject.h"
+#include "core/database/record_order.h"
+#include "dataflow/ray_options.h"
+#include "nodes/machine.h"
+#include "svm/page_options.h"
+
+namespace dmpc::apps {
+
+/// One picture on one machine.
+struct PaperRun {
+  std::string scene;  ///< a built-in scene's name
+  std::uint32_t node_count = 1;
+  Strategy strategy = Strategy::svm;
+  nodes::Machine machine;
+  std::optional<double> cache_share = std::nullopt;  ///< of svm: what a node's cache holds, of the database; at least a page
+  svm::PageOptions pages = {.in_flight = 1};         ///< of svm and replicated, but for the cache
+  dataflow::RayOptions rays = {};                    ///< of dataflow; regions are mapped onto the machine
+  std::optional<std::size_t> node_memory_bytes = std::nullopt;
+  std::uint32_t resolution = 512;  ///< pixels a side
+  core::RecordOrder record_order = core::RecordOrder::spatial;
+  std::size_t page_size_bytes = 1024;
+  /// One light in the middle of the scene, which is Rings4, in place of its own, which stand outside. Rays then visit the regions
+  /// on their way where they meet nothing, too.
+  bool has_inner_light = false;
+};
+
+/// What it came to.
+struct PaperResult {
+  std::uint64_t total_ns = 0;
+  TimeParts parts;  ///< summed over the nodes
+  std::uint64_t rays = 0, references = 0, faults = 0, page_bytes = 0;
+  std::uint64_t tests = 0;        ///< of rays against primitives
+  double average_load = 0;        ///< mean over maximum of the nodes' work, if rays travelled
+  double overflowed = 0;          ///< packets of rays by way of the host over all, in [0, 1]
+  std::uint64_t ray_bytes = 0;    ///< of the packets with rays, by whatever way
+  double flood = 0;               ///< what comes to a light's region or from a page's home, over the mean (hot_spots.h)
+  std::uint32_t cache_pages = 0;  ///< of a node, if pages travelled
+  double pages_a_pixel = 0;       ///< if they were counted
+  std::uint64_t film_hash = 0;
+
+  double seconds() const { return 1e-9 * static_cast<double>(total_ns); }
+  /// The share of the look-ups of pages for which a page had to travel.
+  double miss_ratio() const { return references == 0 ? 0 : static_cast<double>(faults) / static_cast<double>(references); }
+  /// Bytes of pages that a node receives a second.
+  double page_rate(std::uint32_t node_count) const {
+    return static_cast<double>(page_bytes) / static_cast<double>(node_count) / seconds();
+  }
+};
+
+/// A scene of the study, built once.
+struct PaperSubject {
+  std::string scene;
+  std::uint32_t resolution = 0;
+  core::RecordOrder record_order = core::RecordOrder::spatial;
+  std::size_t page_size_bytes = 1024;
+  bool has_inner_light = false;
+  Subject subject;
+
+  /// Whether it is the run's.
+  bool is_of(const PaperRun& run) const {
+    return scene == run.scene && resolution == run.resolution && record_order == run.record_order &&
+           page_size_bytes == run.page_size_bytes && has_inner_light == run.has_inner_light;
+  }
+};
+/// Those that the runs need. Takes a second or so for the largest.
+std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs);
+
+/// By a run's number; nothing where it did not come to its end.
+using PaperResults = std::vector<std::optional<PaperResult>>;
+
+/// `told` hears of each result, when it has its place. Gives each run its place in `results`, as many as runs; after a signal
+/// some are left as they are, the last ones mostly. Progress on stderr if that is a terminal. Throws core::InternalError if two
+/// runs of one scene and size give different films, and whatever a run throws: `results` has what was finished before.
+void carry_out(
+    std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt, PaperResults& results,
+    const std::function<void()>& told = [] {});
+
+}  // namespace dmpc::apps

@@ -1,0 +1,111 @@
+#include "apps/lab/study/references/command.h"
+
+#include <iostream>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/show/references/reference_file.h"
+#include "apps/edge/system/progress.h"
+#include "apps/edge/table/geometric_sizes.h"
+#include "apps/edge/table/table_files.h"
+#include "apps/lab/study/cache_curves.h"
+#include "apps/lab/study/engine/tabled_job.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr const char* references_data_file = "references.csv";
+constexpr std::uint32_t references_size_count = 12;
+constexpr std::uint32_t references_cache_pages_max = 0x7fffffff;
+
+TableFiles files_of(const ReferencesOptions& options) {
+  return {options.table, {names_of(references_data_file, {CacheCurves::plot()})}, {.inputs = {{"FILE", options.file}}}};
+}
+
+/// How many caches have been fed, on a terminal. Thread safety: count() from any thread.
+class CachesFed {
+ public:
+  CachesFed(std::uint64_t total, bool is_shown) : progress_(std::cerr, is_shown, "study references: ", "caches"), total_(total) {}
+  void count() {
+    const std::scoped_lock lock(mutex_);
+    progress_.update(fed_, total_);
+    ++fed_;
+  }
+
+ private:
+  std::mutex mutex_;
+  Progress progress_;
+  std::uint64_t fed_ = 0, total_;
+};
+
+std::vector<CacheCurves::NodeReferences> references_of(const ReferenceTrace& trace) {
+  return {trace.nodes.begin(), trace.nodes.end()};
+}
+
+Table table_of(const ReferenceTrace& trace, const ReferencesOptions& options, const Interrupt& interrupt) {
+  Table table("Study references of " + options.file + ": " + counted(trace.reference_count, "reference") + " of " +
+                  counted(trace.page_count, "page") + " by " + counted(trace.nodes.size(), "node"),
+              CacheCurves::columns("share of pages"));
+  const std::vector<std::uint32_t> sizes =
+      options.cache_pages.empty() ? geometric_sizes(trace.page_count, references_size_count) : options.cache_pages;
+  CachesFed fed(CacheCurves::check_count(trace.nodes.size(), sizes.size()), !options.quiet && stderr_is_terminal());
+  const CacheCurves curves(references_of(trace), trace.reference_count, sizes, [&interrupt, &fed] {
+    interrupt.check();
+    fed.count();
+  });
+  for (std::size_t row = 0; row < curves.row_count(); ++row) {
+    table.add_row(curves.row(row, trace.page_count));
+  }
+  table.add_note(
+      "Each node has a cache of its own, and faults are those of all. Share of pages: the cache of one node over all "
+      "that are referenced. Misses are given as a share of all references.");
+  table.add_note(CacheCurves::note());
+  table.add_note(curves.needs_note());
+  return table;
+}
+
+}  // namespace
+
+void add_options(OptionSet set, ReferencesOptions& options) {
+  set.add_argument(
+      "FILE", [&options](const std::string& text) { options.file = text; },
+      "A CSV file whose first line names its columns: page, and perhaps node; others are passed over");
+  set.add_text(
+      "--cache-pages", "N,N,... [12 from 1 to all]",
+      [&options](const std::string& text) {
+        options.cache_pages = parse_numbers(text, "--cache-pages", references_cache_pages_max);
+      },
+      "Sizes of the caches in pages");
+  add_options(set, options.table, TableExtras::plots_and_report);
+  set.add_quiet(options.quiet);
+  set.set_examples(
+      "Examples:\n"
+      "  dmpc study references trace.csv\n"
+      "  dmpc study references trace.csv --cache-pages=16,64,256 --plots=plots --format=csv -o misses.csv\n"
+      "A page is a whole number, whatever it stands for: the references may be any program's.");
+}
+
+int study_references_command(const ReferencesOptions& options, Interrupt& interrupt, std::ostream& output) {
+  const TableFiles files = files_of(options);
+  const ReferenceTrace trace = [&] {
+    const Interrupt::EndAtOnce end_at_once(interrupt);
+    return read_references(std::filesystem::path(options.file));
+  }();
+  std::optional<Table> table;
+  const auto write = [&](bool, Attempts& attempts) {
+    files.write(study_result({.title = "Study references of " + options.file,
+                              .table = *table,
+                              .data_file = references_data_file,
+                              .plots = {CacheCurves::plot()}},
+                             options.table.format),
+                output, std::cerr, attempts);
+  };
+  return run_tabled(
+      {.measure = [&] { table = table_of(trace, options, interrupt); }, .consequence = "nothing was written", .write = write},
+      interrupt);
+}
+
+}  // namespace dmpc::apps

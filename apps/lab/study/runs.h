@@ -1,0 +1,115 @@
+// The runs of a study: one scene rendered again and again by other computers, which must all give one film.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/edge/system/interrupt.h"
+#include "apps/edge/table/table.h"
+#include "apps/run/report.h"
+#include "apps/run/strategy_options.h"
+#include "core/base/expect.h"
+#include "core/database/database.h"
+#include "core/picture/film.h"
+#include "core/picture/pixel_task.h"
+#include "dataflow/run.h"
+#include "svm/run.h"
+
+namespace dmpc::apps {
+
+/// Where the progress of runs is shown, if at all.
+struct StudyProgress {
+  std::ostream& output;
+  bool is_shown = false;
+  std::uint32_t run_count = 0;  ///< of the whole study; 0: not known
+};
+
+/// What became of a run on a modelled machine.
+struct StudyOutcome {
+  std::optional<Report> report;    ///< of a finished run
+  std::string misfit;              ///< without one: why the scene does not fit, naming the memory and what would do
+  std::vector<std::string> notes;  ///< what had to be reduced to fit: sentences
+};
+
+/// Notes of `who`, such as "8 nodes", what was reduced to fit, or why the scene does not.
+void add_notes(const std::string& who, const StudyOutcome& outcome, Table& table);
+
+/// A run on a modelled machine, and what it renders: the study's scene, maybe in another structure. That outlives the run.
+struct StudyRun {
+  StrategyOptions options;
+  const core::Database* database;
+  const core::RenderSettings* settings;
+};
+
+/// All else by default, on the ipsc2: what studies that model a machine begin from.
+StrategyOptions on_usual_machine();
+/// "Machine ipsc2, ... (machine_digest 0123...)", for a note.
+std::string machine_text(const nodes::Machine& machine);
+
+/// The scene fits none of the computers that were to render it: the message is the first one's misfit.
+struct NothingFits : core::RoomError {
+  using core::RoomError::RoomError;
+};
+
+/// Not thread-safe. What it is made from outlives it.
+class StudyRuns {
+ public:
+  StudyRuns(const core::Database& database, const core::RenderSettings& settings, const StudyProgress& progress,
+            const Interrupt& interrupt);
+
+  /// Renders with strategy dataflow or svm and the given options, whose progress is replaced. `computer` says which they are, in
+  /// a few words, to who is waiting. Rays that travel walk alone: with whom else they walk depends on the schedule, and their
+  /// work on that. Throws as the run does, Interrupted if a signal comes before its end, and core::InternalError if the film is
+  /// not the first run's.
+  dataflow::Report run(const std::string& computer, dataflow::RunOptions options);
+  svm::Report run(const std::string& computer, svm::RunOptions options);
+
+  /// Told of runs[i]: one at a time, in the order of i, on any thread.
+  using Take = std::function<void(std::size_t, const StudyOutcome&)>;
+  /// Renders by any strategies on modelled machines, which have no threads, as many at a time as the real computer has cores.
+  /// After a signal the runs that it stopped or kept from beginning are left out, and check() throws. Throws NothingFits when
+  /// `take` has been told of a misfit for every run, if there are any; before that core::UsageError for options that their
+  /// strategy does not take, core::InternalError if a film is not the first run's, and whatever else a run throws: `take` has
+  /// then been told of all runs before that one, and of none after it.
+  void run_side_by_side(std::span<const StudyRun> runs, const Take& take);
+  /// Runs side by side over the study's database.
+  void run_side_by_side(std::span<const StrategyOptions> runs, const Take& take);
+
+  /// What the study renders.
+  const core::Database& database() const { return database_; }
+  const core::RenderSettings& settings() const { return settings_; }
+
+  /// Throws Interrupted if a signal has come. From any thread.
+  void check() const { interrupt_.check(); }
+
+  /// Throws core::InternalError unless `film` equals those that came before: every run's film is held against the first's.
+  void compare(const core::Film& film);
+
+  /// Runs that have ended.
+  std::uint32_t count() const { return count_; }
+  /// The hash of every run's film; nothing before the first.
+  std::optional<std::uint64_t> film_hash() const { return film_hash_; }
+
+ private:
+  std::string numbers(std::size_t run_count) const;
+  template <class Options, class Render>
+  auto run_shown(const std::string& computer, const core::RenderSettings& settings, Options options, const Render& render);
+  std::optional<StudyOutcome> outcome_of(const StudyRun& run,
+                                         const std::function<void(std::uint32_t, std::uint32_t)>& progress) const;
+
+  const core::Database& database_;
+  const core::RenderSettings& settings_;
+  core::RenderSettings alone_;  ///< the same, for rays that walk alone
+  StudyProgress progress_;
+  const Interrupt& interrupt_;
+  std::uint32_t count_ = 0;
+  std::optional<std::uint64_t> film_hash_;
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,130 @@
+#include "apps/lab/study/scale/measure.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/system/progress.h"
+#include "apps/edge/system/scratch_folder.h"
+#include "apps/edge/system/watched_process.h"
+#include "apps/lab/study/engine/measure_each.h"
+#include "apps/lab/study/render_process.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+std::string text_of_file(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// The anonymous memory of a dmpc that does nothing; that ends so soon that it is watched several times, and may not be seen.
+std::optional<std::size_t> idle_bytes(const ScaleSettings& settings, const Interrupt& interrupt) {
+  constexpr int times = 5;
+  std::optional<std::size_t> most;
+  for (int i = 0; i < times; ++i) {
+    const WatchedProcess idle = watch_process(settings.program, {"--version"}, interrupt);
+    if (idle.status != 0) {
+      throw core::InputError(settings.program.string() + " --version ended with status " + std::to_string(idle.status) + ": " +
+                             sentence_of(idle.complaint));
+    }
+    most = std::max(most, idle.peak_anonymous_bytes);
+  }
+  return most;
+}
+
+class ScaleBench {
+ public:
+  ScaleBench(const ScaleSettings& settings, const Interrupt& interrupt)
+      : settings_(settings), interrupt_(interrupt), idle_bytes_(idle_bytes(settings, interrupt)) {}
+
+  ScaleResult measure(const ScaleRun& run) {
+    ScaleResult result{.run = run, .figures = {}, .misfit = {}};
+    std::vector<ScaleFigures> rounds;
+    while (rounds.size() < settings_.rounds && result.misfit.empty()) {
+      interrupt_.check();
+      const WatchedProcess process = render(run);
+      if (const auto misfit = misfit_of(process)) {
+        result.misfit = *misfit;
+      } else {
+        rounds.push_back(scale_figures_of(text_of_file(folder_ / stats_name), above_idle(process.peak_anonymous_bytes)));
+      }
+    }
+    if (result.misfit.empty()) {
+      result.figures = median_figures(rounds);
+      check_film(run, *result.figures);
+    }
+    return result;
+  }
+
+ private:
+  static constexpr const char* stats_name = "stats.json";
+
+  WatchedProcess render(const ScaleRun& run) {
+    const std::string stats = folder_ / stats_name, picture = folder_ / "picture.exr";
+    return watch_process(settings_.program, render_arguments(run, settings_, stats, picture), interrupt_);
+  }
+
+  /// Nothing unless both were seen.
+  std::optional<std::size_t> above_idle(std::optional<std::size_t> bytes) const {
+    return bytes && idle_bytes_ ? std::optional(*bytes - std::min(*bytes, *idle_bytes_)) : std::nullopt;
+  }
+
+  void check_film(const ScaleRun& run, const ScaleFigures& figures) {
+    const auto film = films_.emplace(run.scene.text(), figures.film_hash).first;
+    core::expect(film->second == figures.film_hash, "every run of a scene gives the same film");
+  }
+
+  const ScaleSettings& settings_;
+  const Interrupt& interrupt_;
+  std::optional<std::size_t> idle_bytes_;  ///< of the libraries, before anything is done
+  ScratchFolder folder_;
+  std::map<std::string, std::string> films_;  ///< by scene
+};
+
+std::string label_of(const ScaleRun& run, const ScaleSettings& settings) {
+  return run.scene.text() + ", " + settings.name_of(run.method) + ", " + counted(run.node_count, "node") + ":";
+}
+
+}  // namespace
+
+std::vector<std::string> render_arguments(const ScaleRun& run, const ScaleSettings& settings, const std::string& stats,
+                                          const std::string& picture) {
+  const std::string size = std::to_string(settings.resolution.width) + "x" + std::to_string(settings.resolution.height);
+  std::vector<std::string> words = {"render",
+                                    run.scene.text(),
+                                    "--nodes=" + std::to_string(run.node_count),
+                                    "--quiet",
+                                    "--resolution=" + size,
+                                    "--stats=" + stats,
+                                    "-o",
+                                    picture};
+  if (run.method == ScaleMethod::dataflow) {
+    words.emplace_back("--strategy=dataflow");
+    return words;
+  }
+  words.emplace_back("--count-pages");
+  if (run.method == ScaleMethod::cache) {
+    words.push_back("--cache-pages=" + std::to_string(settings.cache_bytes / ScaleSettings::page_bytes));
+  }
+  return words;
+}
+
+void measure_scale(const std::vector<ScaleRun>& runs, const ScaleSettings& settings, const Interrupt& interrupt,
+                   const std::function<void(ScaleResult)>& take) {
+  ScaleBench bench(settings, interrupt);
+  const auto measure = [&](std::size_t i) {
+    Progress progress(std::cerr, stderr_is_terminal(), label_of(runs[i], settings), "runs");
+    progress.update(i, runs.size());
+    return bench.measure(runs[i]);
+  };
+  measure_each(runs.size(), Turns::one_by_one, measure, [&](std::size_t, ScaleResult result) { take(std::move(result)); });
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,29 @@
+// The command `study sweep`: one scene by all combinations of any options of `render`, and the figures asked for.
+#pragma once
+
+#include <iosfwd>
+#include <map>
+#include <string>
+
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/system/interrupt.h"
+#include "apps/edge/table/table_options.h"
+#include "apps/lab/study/sweep/settings.h"
+
+namespace dmpc::apps {
+
+struct StudySweepOptions {
+  SweepSettings settings;
+  std::map<std::string, bool> flags;  ///< of `render`, by name: set where the line has them
+  TableOutput table;
+  bool quiet = false;  ///< no progress
+};
+
+/// Declares its own and all those of `render` that say how it renders.
+void add_options(OptionSet set, StudySweepOptions& options);
+
+/// Measures and writes as run_tabled() does. Throws core::UsageError for a combination that `render` would not take,
+/// core::InputError for bad input, core::RoomError if no run found room.
+int study_sweep_command(const StudySweepOptions& options, Interrupt& interrupt, std::ostream& output);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,34 @@
+// Counters of runs in a folder, so that a sweep that was stopped goes on and a larger one takes what is there.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "apps/edge/system/opened_files.h"
+#include "apps/lab/figures/figures_file.h"
+#include "apps/lab/study/sweep/settings.h"
+
+namespace dmpc::apps {
+
+/// KEY.json for each run. The key is a digest of all that the counters depend on: the program's own bytes, the options, in
+/// whatever order, and the bytes of files that they and the scene are read from. Safe to be shared by processes: dmpc writes a
+/// file whole or not at all.
+class KeptRuns {
+ public:
+  /// Makes the folder unless there is one, and reads the program and the scene's files. Throws core::InputError unless files can
+  /// be made there.
+  KeptRuns(const std::filesystem::path& folder, const std::filesystem::path& program, const OpenedFiles& scene);
+
+  /// Where the run's counters lie, or are to lie.
+  std::filesystem::path file_of(const SweepRun& run) const;
+  /// Nothing if they are not there, or damaged.
+  std::optional<std::vector<Figure>> find(const SweepRun& run) const;
+
+ private:
+  std::filesystem::path folder_;
+  std::uint64_t common_ = 0;  ///< digest of program and scene
+};
+
+}  // namespace dmpc::apps

@@ -1,0 +1,198 @@
+#include "apps/lab/study/sweep/settings.h"
+
+#include <algorithm>
+#include <set>
+
+#include "apps/edge/line/command_line.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/words.h"
+#include "apps/scene/load_scene.h"
+#include "core/base/expect.h"
+#include "core/base/nearest_word.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr std::size_t runs_max = 10'000;
+
+/// Options of outputs, of what goes on from earlier ones, and of what is said meanwhile.
+constexpr const char* unsweepable[] = {
+    "--help",         "--output",      "--stats",   "--report",           "--heatmap",        "--trace",
+    "--trace-window", "--trace-nodes", "--preview", "--trace-every",      "--trace-events",   "--quiet",
+    "--references",   "--checkpoint",  "--resume",  "--checkpoint-every", "--keep-checkpoint"};
+
+/// `render` alone, for one line.
+class RenderLine {
+ public:
+  RenderLine() { add_options(line_.add_command("render", ""), options_); }
+  // Options are bound to the member.
+  RenderLine(const RenderLine&) = delete;
+  RenderLine& operator=(const RenderLine&) = delete;
+
+  CommandDescription describe() const { return line_.describe().commands.front(); }
+  /// Throws core::UsageError.
+  RenderOptions parse(const std::vector<std::string>& words) {
+    line_.parse(words);
+    return options_;
+  }
+
+ private:
+  CommandLine line_{"", "", ""};
+  RenderOptions options_;
+};
+
+bool is_sweepable(const OptionDescription& option) {
+  return std::find(std::begin(unsweepable), std::end(unsweepable), long_name_of(option)) == std::end(unsweepable);
+}
+
+const OptionDescription& find_option(const std::string& name, const std::string& text) {
+  std::vector<std::string> names;
+  for (const OptionDescription& option : sweepable_options()) {
+    if (long_name_of(option) == "--" + name) {
+      return option;
+    }
+    names.push_back(long_name_of(option).substr(2));
+  }
+  throw core::UsageError("--vary=" + text + ": " + (name.empty() ? "an option's name is missing" : name) +
+                         (name.empty() ? "" : " is no option of dmpc render that says how it renders") +
+                         "; expected one with its values, such as page-size:1KiB,4KiB." + core::did_you_mean(name, names));
+}
+
+void check_values(const VariedOption& variation, const std::string& text) {
+  std::set<std::string> seen;
+  for (const std::string& value : variation.values) {
+    if (value.empty()) {
+      throw core::UsageError("--vary=" + text + ": a value is missing; expected values with commas between");
+    }
+    if (variation.is_flag && value != "on" && value != "off") {
+      throw core::UsageError("--vary=" + text + ": " + variation.option + " is a flag; expected on, off or on,off");
+    }
+    if (!seen.insert(value).second) {
+      throw core::UsageError("--vary=" + text + ": " + value + " is there twice");
+    }
+  }
+}
+
+/// The word that gives an option one of its values; nothing for a flag that is off.
+std::optional<std::string> word_of(const VariedOption& variation, const std::string& value) {
+  if (variation.is_flag) {
+    return value == "on" ? std::optional(variation.option) : std::nullopt;
+  }
+  return variation.option + "=" + value;
+}
+
+/// `runs` with every value of `variation` at the end of each.
+std::vector<SweepRun> varied(const std::vector<SweepRun>& runs, const VariedOption& variation) {
+  std::vector<SweepRun> all;
+  for (const SweepRun& run : runs) {
+    for (const std::string& value : variation.values) {
+      SweepRun& next = all.emplace_back(run);
+      next.values.push_back(value);
+      if (const std::optional<std::string> word = word_of(variation, value)) {
+        next.words.push_back(*word);
+      }
+    }
+  }
+  return all;
+}
+
+void check_count(const SweepSettings& settings) {
+  std::size_t count = 1;
+  for (const VariedOption& variation : settings.variations) {
+    count *= variation.values.size();
+    if (count > runs_max) {
+      throw core::UsageError("these are more than " + grouped(runs_max) + " runs: vary fewer options, or give fewer values");
+    }
+  }
+}
+
+void check_options(const SweepSettings& settings) {
+  std::set<std::string> varied;
+  for (const VariedOption& variation : settings.variations) {
+    const auto is_it = [&](const std::string& word) { return word.substr(0, word.find('=')) == variation.option; };
+    if (std::any_of(settings.fixed.begin(), settings.fixed.end(), is_it)) {
+      throw core::UsageError(variation.option + " is given, and varied, too: expected one of them");
+    }
+    if (!varied.insert(variation.option).second) {
+      throw core::UsageError("--vary=" + variation.option.substr(2) + " is given twice: give all its values at once");
+    }
+  }
+}
+
+/// What `render` makes of a combination.
+RenderOptions options_of(const SweepRun& run, const std::vector<VariedOption>& variations) {
+  try {
+    return RenderLine().parse(render_words(run, "stats.json", "picture.exr"));
+  } catch (const core::UsageError& error) {
+    throw core::UsageError("with " + text_of(variations, run) + " dmpc render would say: " + error.what());
+  }
+}
+
+}  // namespace
+
+std::string long_name_of(const OptionDescription& option) { return option.names.back(); }
+
+const std::vector<OptionDescription>& sweepable_options() {
+  static const std::vector<OptionDescription> options = [] {
+    std::vector<OptionDescription> all = RenderLine().describe().options;
+    std::erase_if(all, [](const OptionDescription& option) { return !is_sweepable(option); });
+    return all;
+  }();
+  return options;
+}
+
+VariedOption parse_variation(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  std::string name = text.substr(0, colon);
+  name.erase(0, name.starts_with("--") ? 2 : 0);
+  const OptionDescription& option = find_option(name, text);
+  if (colon == std::string::npos) {
+    throw core::UsageError("--vary=" + text + ": the values are missing; expected " + name + ":VALUE,VALUE,...");
+  }
+  VariedOption variation{"--" + name, option.value.empty(), words_between(text.substr(colon + 1), ',')};
+  check_values(variation, text);
+  return variation;
+}
+
+std::vector<std::string> render_words(const SweepRun& run, const std::string& stats, const std::string& picture) {
+  std::vector<std::string> words = run.words;
+  words.insert(words.end(), {"--quiet", "--stats=" + stats, "--output=" + picture});
+  return words;
+}
+
+std::vector<SweepRun> sweep_runs(const SweepSettings& settings) {
+  check_count(settings);
+  check_options(settings);
+  std::vector<std::string> words = {"render", settings.scene};
+  words.insert(words.end(), settings.fixed.begin(), settings.fixed.end());
+  std::vector<SweepRun> runs = {{.values = {}, .words = words, .options = {}}};
+  for (const VariedOption& variation : settings.variations) {
+    runs = varied(runs, variation);
+  }
+  for (SweepRun& run : runs) {
+    run.options = options_of(run, settings.variations);
+  }
+  return runs;
+}
+
+OpenedFiles scene_files(const SweepSettings& settings, const SweepRun& run) {
+  OpenedFiles opened;
+  std::vector<NamedFile> named;
+  add_scene_file(settings.scene, named);
+  if (!named.empty()) {
+    load_scene(run.options.picture, LoadNotes::silent, &opened);
+  }
+  return opened;
+}
+
+std::string text_of(const std::vector<VariedOption>& variations, const SweepRun& run) {
+  std::string text;
+  for (std::size_t i = 0; i < variations.size(); ++i) {
+    const std::string word =
+        variations[i].is_flag ? variations[i].option + " " + run.values[i] : variations[i].option + "=" + run.values[i];
+    text += (text.empty() ? "" : " ") + word;
+  }
+  return text;
+}
+
+}  // namespace dmpc::apps

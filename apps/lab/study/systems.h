@@ -1,0 +1,54 @@
+// The study `systems`: the systems of the article's Table 1 on one machine, with the same scene, picture and counters.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/edge/table/plot.h"
+#include "apps/edge/table/table.h"
+#include "apps/lab/study/memory_rule.h"
+#include "apps/lab/study/runs.h"
+#include "apps/run/strategy_options.h"
+#include "apps/run/systems.h"
+#include "apps/scene/subject.h"
+#include "core/database/structure.h"
+#include "nodes/machine.h"
+
+namespace dmpc::apps {
+
+/// For each number of nodes, each rule of memory and each system a row: whether it fits, its virtual time, where that goes, what
+/// travels, and what memory it takes. The article could not make this comparison, since scenes and simulations of the systems
+/// that it classifies differ.
+struct SystemsStudy {
+  static constexpr const char* name = "systems";
+  static constexpr const char* description = "The systems that the 1994 article classifies, side by side on one machine";
+
+  /// The scene and its picture in another structure, or pages of another size, than the study's own database has.
+  using Build = std::function<Subject(core::Structure, std::size_t page_size_bytes)>;
+
+  std::vector<System> chosen = all_systems();
+  std::vector<std::uint32_t> node_counts = {64};
+  std::vector<MemoryRule> memories = {{}, {.share = 0.25}, {.share = 0.05}, {.share = 0.01}};
+  StrategyOptions machine = on_usual_machine();  ///< of the runs, with its runner options; the rest is without meaning
+  Build build;                                   ///< must be there to measure()
+
+  static std::vector<System> all_systems();
+  std::vector<Column> columns() const;
+  std::vector<Plot> plots() const;
+  std::uint32_t run_count() const;
+  /// Adds to `table`, which has columns(), the rows; notes: why a system does not fit, and which of the expectations that were
+  /// written down before the first of these runs have held. A system that memory does not change has one run for all rules.
+  /// Throws as StudyRuns does.
+  void measure(StudyRuns& runs, Table& table) const;
+  /// What the columns mean, and what runs.
+  std::vector<std::string> notes(const std::string& scene) const;
+};
+
+/// Expectations of shared memory against travelling rays and questions, each with what a table of the study says of it: "held" or
+/// "not held", with the figures. None where rows are missing.
+std::vector<std::string> verdicts_of(const Table& table);
+
+}  // namespace dmpc::apps

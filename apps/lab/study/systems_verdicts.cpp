@@ -1,0 +1,106 @@
+// What was expected of the systems, written down before the first comparison, and what a table says of it.
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/lab/study/systems.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// The rows of one number of nodes and one rule of memory that have figures.
+struct Round {
+  double node_count;
+  std::string memory;
+  struct Entry {
+    System system;
+    double seconds;
+  };
+  std::vector<Entry> entries;
+
+  /// The fastest of those; nullptr if there is none.
+  const Entry* fastest(const std::function<bool(System)>& is_meant) const {
+    const Entry* best = nullptr;
+    for (const Entry& entry : entries) {
+      best = is_meant(entry.system) && (best == nullptr || entry.seconds < best->seconds) ? &entry : best;
+    }
+    return best;
+  }
+};
+
+std::vector<Round> rounds_of(const Table& table) {
+  std::vector<Round> rounds;
+  for (const std::vector<Cell>& row : table.rows()) {
+    const double node_count = *number_in(table, row, "nodes");
+    const std::string& memory = std::get<std::string>(row[1]);
+    if (rounds.empty() || rounds.back().node_count != node_count || rounds.back().memory != memory) {
+      rounds.push_back({node_count, memory, {}});
+    }
+    if (const auto seconds = number_in(table, row, "virtual time")) {
+      rounds.back().entries.push_back({find_system(std::get<std::string>(row[0])), *seconds});
+    }
+  }
+  return rounds;
+}
+
+/// That the fastest of the `first` are faster than the fastest of the `others`.
+struct Expectation {
+  const char* text;
+  bool (*is_for)(const Round&);
+  bool (*is_first)(System);
+  bool (*is_other)(System);
+};
+
+bool is_ample(const Round& round) { return round.memory == "auto"; }
+bool is_any(const Round&) { return true; }
+bool is_scarce(const Round& round) { return round.memory == "5%" || round.memory == "1%"; }
+bool is_replicated(System system) { return system == System::replicated || system == System::replicated_extents; }
+bool is_distributed(System system) { return !is_replicated(system); }
+bool is_svm(System system) { return system == System::svm; }
+bool is_other_than_svm(System system) { return is_distributed(system) && !is_svm(system); }
+bool has_host_home(System system) { return system == System::pixel_machine || system == System::green_paddon; }
+bool is_other_than_host_home(System system) { return is_distributed(system) && !has_host_home(system); }
+bool asks(System system) { return system == System::forest; }
+bool is_subsampled(System system) { return system == System::subsampled; }
+bool is_equal_size(System system) { return system == System::equal_size; }
+bool is_moving(System system) { return system == System::moving; }
+
+constexpr std::array<Expectation, 6> expectations = {
+    {{"whole copies are the fastest, where memory allows them", is_ample, is_replicated, is_distributed},
+     {"with ample memory pages are the fastest of what travels", is_ample, is_svm, is_other_than_svm},
+     {"with 1 to 5 % of the database beside its part a node does better by questions than by pages", is_scarce, asks, is_svm},
+     {"whatever the memory, the host is the slowest home", is_any, is_other_than_host_home, has_host_home},
+     {"regions by a subsampled picture are faster than regions of equal size", is_ample, is_subsampled, is_equal_size},
+     {"where hits crowd, regions that move while rays travel are faster than those that stay", is_ample, is_moving,
+      is_subsampled}}};
+
+std::string time_text(const Round::Entry& entry) {
+  return std::string(name_of(entry.system)) + " " + rounded(entry.seconds) + " s";
+}
+
+}  // namespace
+
+std::vector<std::string> verdicts_of(const Table& table) {
+  std::vector<std::string> verdicts;
+  const std::vector<Round> rounds = rounds_of(table);
+  for (const Expectation& expectation : expectations) {
+    for (const Round& round : rounds) {
+      const Round::Entry* const first = round.fastest(expectation.is_first);
+      const Round::Entry* const other = round.fastest(expectation.is_other);
+      if (expectation.is_for(round) && first != nullptr && other != nullptr) {
+        verdicts.push_back("Expected: " + std::string(expectation.text) + ". " +
+                           (first->seconds < other->seconds ? "Held" : "Not held") + " on " +
+                           counted(static_cast<std::uint64_t>(round.node_count), "node") + ", memory " + round.memory + ": " +
+                           time_text(*first) + ", " + time_text(*other) + ".");
+      }
+    }
+  }
+  return verdicts;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,304 @@
+#include "apps/run/strategy_rows.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "apps/run/region_options.h"
+#include "core/database/database.h"
+#include "dataflow/packets.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using dataflow::BalanceOptions;
+using dataflow::RayOptions;
+using nodes::TopologyKind;
+using svm::PageOptions;
+
+/// Columns of loads in 128 MiB.
+constexpr std::int64_t columns_per_side_max = 4096;
+/// No picture has a longer side.
+constexpr std::int64_t subsample_max = 65536;
+
+constexpr const char* fetches_none = "a node of the others fetches no page";
+constexpr const char* works_on_region = "a node of dataflow works on what comes to its region";
+constexpr const char* share_out_pixels = "the others share out pixels, not space";
+constexpr const char* rays_stay = "rays of the others do not travel";
+
+/// As many as there are when an option is declared.
+OptionSet::Choices<svm::Replacement> policy_choices() {
+  OptionSet::Choices<svm::Replacement> all;
+  for (const svm::PolicyKind& kind : svm::policy_kinds()) {
+    all.emplace_back(kind.name, static_cast<svm::Replacement>(all.size()));
+  }
+  return all;
+}
+
+template <class T>
+OptionSet::Choices<T> by_name(std::initializer_list<T> kinds) {
+  OptionSet::Choices<T> all;
+  for (const T kind : kinds) {
+    all.emplace_back(name_of(kind), kind);
+  }
+  return all;
+}
+
+const PageOptions& pages_of(const svm::Plan& plan) { return plan.request.pages; }
+const BalanceOptions& balance_of(const dataflow::Plan& plan) { return plan.request.rays.balance; }
+OptionValue if_by_load(const dataflow::Plan& plan, int number) {
+  return balance_of(plan).is_by_load() ? OptionValue(static_cast<std::uint64_t>(number)) : OptionValue();
+}
+
+std::vector<PageRow> make_page_rows() {
+  using svm::PageHomes, svm::PixelShares, svm::WorkGiver;
+  return {
+      {.name = "--cache-pages",
+       .takes = number<&PageOptions::cache_pages>(1, 0x7fffffff, "a quarter of the database; with --node-memory what it holds"),
+       .help = "Pages of other nodes that a node can keep (svm)",
+       .why = "a node of the others needs no page of another node",
+       .key = "cache_pages",
+       .told = [](const svm::Plan& plan) -> OptionValue { return plan.frames; }},
+      {.name = "--homes",
+       .takes = word<&PageOptions::homes>(by_name({PageHomes::spread, PageHomes::host, PageHomes::tree})),
+       .help =
+           "Who keeps the pages for good: all nodes, each its part, or the host; tree: the host, and nodes ask their parents in "
+           "a tree below it, of which the first that has the page replies (svm)",
+       .why = fetches_none,
+       .key = "homes",
+       .told = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).homes); }},
+      {.name = "--tree-arity",
+       .takes = number<&PageOptions::tree_arity>(1, nodes::node_count_max, std::to_string(svm::default_tree_arity)),
+       .help = "Children of the host, and of each node, with --homes=tree",
+       .why = fetches_none,
+       .key = "tree_arity",
+       .told = [](const svm::Plan& plan) -> OptionValue {
+         return pages_of(plan).homes == PageHomes::tree ? OptionValue(pages_of(plan).tree_arity) : OptionValue();
+       }},
+      {.name = "--resident",
+       .takes = number<&PageOptions::resident_percent>(0, 100, "0"),
+       .help = "Percent of those that every node keeps for good: what a small picture uses most (svm)",
+       .why = "a node of the others has no frames for pages",
+       .key = "resident_pages",
+       .told = [](const svm::Plan& plan) -> OptionValue { return plan.resident_count; }},
+      {.name = "--replacement",
+       .takes = {core::field_of<&PageOptions::replacement>(),
+                 [](OptionSet set, const char* name, const char* help, PageOptions& pages, const std::string&) {
+                   set.add_choice(name, pages.replacement, policy_choices(), help);
+                 }},
+       .help = "Which of them makes room for another (svm)",
+       .why = "a node of the others keeps no page of another node",
+       .key = "replacement",
+       .told = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).replacement); }},
+      {.name = "--in-flight",
+       .takes = number<&PageOptions::in_flight>(1, svm::in_flight_max, "64, replicated 16, runner virtual 1, mpi up to 256"),
+       .help = "Pixels that a node works on at once; on threads the rays of 16 walk together, of fewer alone",
+       .why = "a node of dataflow traces one ray at a time",
+       .key = "in_flight",
+       .told = [](const svm::Plan& plan) -> OptionValue { return plan.in_flight; }},
+      {.name = "--work-item",
+       .takes = number<&PageOptions::work_item_side>(0, 1024, "4, or 3 if rays walk alone"),
+       .help = "Side in pixels of what a node gives to an idle one; 0: nothing is given",
+       .why = works_on_region,
+       .key = "work_item",
+       .told = [](const svm::Plan& plan) -> OptionValue { return plan.work_item_side; }},
+      {.name = "--work-giver",
+       .takes = word<&PageOptions::work_giver>(by_name({WorkGiver::ring, WorkGiver::host})),
+       .help = "ring: nodes start with their parts of the picture and ask each other; host: for each item they ask the host",
+       .why = works_on_region,
+       .key = "work_giver",
+       .told = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).work_giver); }},
+      {.name = "--pixels",
+       .takes = word<&PageOptions::pixel_shares>(by_name({PixelShares::submaps, PixelShares::interleaved})),
+       .help =
+           "submaps: a node starts with a part of the picture. interleaved: with every m-th pixel of every n-th line, on m x n "
+           "nodes",
+       .why = works_on_region,
+       .key = "pixels",
+       .told = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).pixel_shares); }},
+      {.name = "--workers",
+       .takes = number<&PageOptions::worker_count>(1, nodes::node_count_max, "all nodes"),
+       .help = "Nodes that render; the others lend their memories, and serve pages or answer",
+       .why = "every node of dataflow works on what comes to its region",
+       .key = "workers",
+       .told = [](const svm::Plan& plan) -> OptionValue { return plan.worker_count; }},
+      {.name = "--count-pages",
+       .takes = flag<&PageOptions::count_pages>(),
+       .help = "Count the distinct pages of each pixel for --stats (svm; takes memory and time)",
+       .why = "the others look up no pages",
+       .key = "count_pages",
+       .told = [](const svm::Plan& plan) -> OptionValue { return pages_of(plan).count_pages; }},
+  };
+}
+
+std::vector<BalanceRow> make_balance_rows() {
+  using dataflow::Balance, dataflow::CutOrder;
+  return {
+      {.name = "--balance",
+       .takes = word<&BalanceOptions::balance>(
+           by_name({Balance::subsampled, Balance::equal_size, Balance::scattered, Balance::moving})),
+       .help =
+           "Regions of about equal load, by a subsampled picture, or of equal size, or scattered: a lattice of many regions a "
+           "node, neighbours on different nodes; or moving: subsampled, of several units that nodes hand over while rays travel",
+       .why = share_out_pixels,
+       .key = "balance",
+       .told = [](const dataflow::Plan& plan) -> OptionValue { return name_of(balance_of(plan).balance); }},
+      {.name = "--cuts",
+       .takes = word<&BalanceOptions::bsp, &dataflow::BspOptions::order>(by_name({CutOrder::longer_axis, CutOrder::alternating})),
+       .help = "Which way space is cut next: across a box's longer side, or by turns as in 1994",
+       .why = share_out_pixels,
+       .key = "cuts",
+       .told = [](const dataflow::Plan& plan) -> OptionValue {
+         const BalanceOptions& balance = balance_of(plan);
+         return balance.balance == Balance::scattered ? OptionValue() : name_of(balance.bsp.order);
+       }},
+      {.name = "--regions",
+       .takes = number<&BalanceOptions::regions_a_node>(1, dataflow::Scattered::regions_max, "1"),
+       .help = "Regions a node (--balance=scattered), or units of a node's region (--balance=moving)",
+       .key = "regions_a_node",
+       .told = [](const dataflow::Plan& plan) -> OptionValue {
+         return balance_of(plan).has_several_regions() ? balance_of(plan).regions_a_node : 1;
+       }},
+      {.name = "--subsample",
+       .takes = number<&BalanceOptions::subsample>(1, subsample_max, "8"),
+       .help = "The subsampled picture has one pixel of every NxN",
+       .why = share_out_pixels,
+       .key = "subsample",
+       .told = [](const dataflow::Plan& plan) { return if_by_load(plan, balance_of(plan).subsample); }},
+      {.name = "--balance-grid",
+       .takes = number<&BalanceOptions::columns_per_side>(1, columns_per_side_max, "256"),
+       .help = "Columns a side in which the load is counted",
+       .why = share_out_pixels,
+       .key = "balance_grid",
+       .told = [](const dataflow::Plan& plan) { return if_by_load(plan, balance_of(plan).columns_per_side); }},
+  };
+}
+
+std::vector<RayRow> make_ray_rows() {
+  return {
+      {.name = "--ray-batch",
+       .takes = number<&RayOptions::ray_batch>(1, dataflow::ray_batch_max,
+                                               "what fills 4 KiB; 2 KiB if rays walk alone, modelled machines 1 KiB"),
+       .help = "Rays in a packet, at most",
+       .why = rays_stay,
+       .key = "ray_batch",
+       .told = [](const dataflow::Plan& plan) -> OptionValue { return plan.ray_batch; }},
+      {.name = "--ray-credits",
+       .takes =
+           number<&RayOptions::ray_credits>(0, dataflow::ray_credits_max, "4; up to 64 of few nodes whose rays walk together"),
+       .help = "Packets of rays that each node may have under way to each other; 0: all go by way of the host",
+       .why = rays_stay,
+       .key = "ray_credits",
+       .told = [](const dataflow::Plan& plan) { return plan.shares_places() ? OptionValue() : plan.ray_credits; }},
+      {.name = "--ray-places",
+       .takes = number<&RayOptions::ray_places>(1, dataflow::ray_places_max, "64 of more than 128 nodes; else credits"),
+       .help = "Packets of rays from all others that each node has room for, and that they ask for; not with --ray-credits",
+       .why = rays_stay,
+       .key = "ray_places",
+       .told = [](const dataflow::Plan& plan) { return plan.shares_places() ? plan.ray_places : OptionValue(); }},
+      {.name = "--ray-queue",
+       .takes = number<&RayOptions::queue_packets>(0, dataflow::queue_packets_max,
+                                                   "256; 512 if rays walk alone; 128 with --ray-places"),
+       .help = "Packets of rays that can wait on a node for credit before more go by way of the host",
+       .why = rays_stay,
+       .key = "ray_queue",
+       .told = [](const dataflow::Plan& plan) -> OptionValue { return plan.queue_packets; }},
+      {.name = "--tested-objects",
+       .takes = number<&RayOptions::tested_objects>(0, dataflow::tested_objects_max, ""),
+       .help = "Blocks that a ray remembers to have tested, so that other regions need not; rays then walk alone",
+       .why = rays_stay,
+       .key = "tested_objects",
+       .told = [](const dataflow::Plan& plan) -> OptionValue { return plan.tested_objects(); }},
+      {.name = "--no-backpressure",
+       .takes = flag<&RayOptions::without_backpressure>(),
+       .help = "Nodes start primary rays whatever waits, as in 1994: what a full queue leaves goes by way of the host",
+       .why = rays_stay,
+       .key = "backpressure",
+       .told = [](const dataflow::Plan& plan) -> OptionValue { return !plan.request.rays.without_backpressure; }},
+  };
+}
+
+TopologyRow make_topology_row() {
+  return {.name = "--topology",
+          .takes = {core::field_of<&RayOptions::topology>(),
+                    [](OptionSet set, const char* name, const char* help, TopologyKind& kind, const std::string&) {
+                      using enum TopologyKind;
+                      set.add_choice(name, kind, by_name({hypercube, mesh, torus, fat_tree, crossbar}), help);
+                    }},
+          .help = "The wiring onto which neighbouring regions are mapped",
+          .why = "the others map no regions onto nodes",
+          .key = "topology",
+          .told = [](const dataflow::Plan& plan) -> OptionValue { return name_of(*plan.request.rays.topology); }};
+}
+
+/// What a plan tells of a row; a flag that its strategy has not is off.
+template <class Options, class Plan, class OtherPlan>
+OptionValue told_of(const OptionRow<Options, Plan>& row, Strategy strategy, const OtherPlan& plan) {
+  if constexpr (std::is_same_v<Plan, OtherPlan>) {
+    const OptionValue value = row.told(plan);
+    return has(strategy, row) || std::holds_alternative<bool>(value) ? value : OptionValue();
+  } else {
+    return {};
+  }
+}
+
+template <class Plan>
+std::vector<ToldOption> told_by(Strategy strategy, const Plan& plan) {
+  std::vector<ToldOption> told;
+  for_each_row([&](const auto& row) { told.emplace_back(row.key, told_of(row, strategy, plan)); });
+  // The keys are an interface, and their order has always been this.
+  const auto policy = std::find_if(told.begin(), told.end(), [](const ToldOption& each) { return each.first == "replacement"; });
+  std::rotate(told.begin() + 1, policy, policy + 1);
+  return told;
+}
+
+std::vector<OptionWord> make_strategy_words() {
+  std::vector<OptionWord> words = {{core::field_of<&svm::PlanRequest::strategy>(), "--strategy"},
+                                   {core::field_of<&svm::PlanRequest::page_size_bytes>(), "--page-size"},
+                                   {core::field_of<&core::BuildOptions::structure>(), "--structure"},
+                                   {core::field_of<&core::BuildOptions::record_order>(), "--record-order"}};
+  words.insert(words.end(), std::begin(computer_words), std::end(computer_words));
+  for_each_row([&](const auto& row) { words.push_back({row.takes.field, row.name}); });
+  return words;
+}
+
+}  // namespace
+
+const std::vector<PageRow>& page_rows() {
+  static const std::vector<PageRow> rows = make_page_rows();
+  return rows;
+}
+
+const std::vector<BalanceRow>& balance_rows() {
+  static const std::vector<BalanceRow> rows = make_balance_rows();
+  return rows;
+}
+
+const std::vector<RayRow>& ray_rows() {
+  static const std::vector<RayRow> rows = make_ray_rows();
+  return rows;
+}
+
+const TopologyRow& topology_row() {
+  static const TopologyRow row = make_topology_row();
+  return row;
+}
+
+bool has(Strategy strategy, const PageRow& row) {
+  const std::optional<svm::Strategy> with_pages = page_strategy(strategy);
+  return with_pages && svm::goes_with(row.takes.field, *with_pages);
+}
+
+const std::vector<OptionWord>& strategy_words() {
+  static const std::vector<OptionWord> words = make_strategy_words();
+  return words;
+}
+
+std::vector<ToldOption> told_options(Strategy strategy, const svm::Plan& plan) { return told_by(strategy, plan); }
+std::vector<ToldOption> told_options(Strategy strategy, const dataflow::Plan& plan) { return told_by(strategy, plan); }
+
+}  // namespace dmpc::apps

@@ -1,0 +1,56 @@
+// The options that some strategies have and others have not: a row each.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/edge/run/option_words.h"
+#include "apps/run/option_row.h"
+#include "apps/run/strategy_options.h"
+#include "dataflow/plan.h"
+#include "svm/plan.h"
+
+namespace dmpc::apps {
+
+using PageRow = OptionRow<svm::PageOptions, svm::Plan>;
+using BalanceRow = OptionRow<dataflow::BalanceOptions, dataflow::Plan>;
+using RayRow = OptionRow<dataflow::RayOptions, dataflow::Plan>;
+using TopologyRow = OptionRow<nodes::TopologyKind, dataflow::Plan>;
+
+/// In the order in which help has them.
+const std::vector<PageRow>& page_rows();
+const std::vector<BalanceRow>& balance_rows();
+const std::vector<RayRow>& ray_rows();
+const TopologyRow& topology_row();
+
+/// What svm's library calls a strategy of its; nothing for dataflow.
+std::optional<svm::Strategy> page_strategy(Strategy strategy);
+/// Whether a strategy has the row's field.
+bool has(Strategy strategy, const PageRow& row);
+template <class Options>
+bool has(Strategy strategy, const OptionRow<Options, dataflow::Plan>&) {
+  return strategy == Strategy::dataflow;
+}
+
+/// Calls visit(row) for all.
+template <class Visit>
+void for_each_row(const Visit& visit) {
+  std::for_each(page_rows().begin(), page_rows().end(), visit);
+  std::for_each(balance_rows().begin(), balance_rows().end(), visit);
+  std::for_each(ray_rows().begin(), ray_rows().end(), visit);
+  visit(topology_row());
+}
+
+/// The words of all fields of plans, for with_options_named().
+const std::vector<OptionWord>& strategy_words();
+
+/// A key of --stats, and what it tells.
+using ToldOption = std::pair<std::string_view, OptionValue>;
+/// All keys in the order of --stats; null but for the options of the plan's strategy.
+std::vector<ToldOption> told_options(Strategy strategy, const svm::Plan& plan);
+std::vector<ToldOption> told_options(Strategy strategy, const dataflow::Plan& plan);
+
+}  // namespace dmpc::apps

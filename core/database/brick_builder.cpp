@@ -1,0 +1,204 @@
+#include "core/database/brick_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/base/expect.h"
+#include "core/database/overlap.h"
+
+namespace dmpc::core {
+namespace {
+
+constexpr std::uint32_t bound_max = 255;
+/// A million grids: kernels cannot overflow, and from where rays need more than that, a float cannot aim at the grid.
+constexpr double pad_max = 0x1p20;
+
+/// The most of one kind that the uppermost of `levels` of bricks may divide as it likes: even if one child gets nearly all of
+/// them, the levels below hold them, cut evenly. That is 8 in each child of each brick.
+std::size_t carefree_count(int levels) { return std::size_t{1} << (3 * levels); }
+
+/// What a group counts: of faces that need planes each may need a block of its own.
+std::size_t weight_of(const Group& group) { return group.count() * (group.needs_plane ? block_lanes : 1); }
+
+std::size_t weight_of(std::span<const Group> groups) {
+  std::size_t weight = 0;
+  for (const Group& group : groups) {
+    weight += weight_of(group);
+  }
+  return weight;
+}
+
+/// A part of two kinds is cut evenly into 7 groups of one and 1 of the other at worst, the largest of them a quarter of all, not
+/// an eighth.
+std::size_t carefree_count(const CutTree& tree, int levels) {
+  return tree.kinds().size() == 1 ? carefree_count(levels) : carefree_count(levels) / 2;
+}
+
+/// Cuts groups into equal numbers until there are 8 or each fits a block.
+void cut_evenly(std::vector<Group>& groups, Cutter& cutter) {
+  const auto smaller = [](const Group& a, const Group& b) { return weight_of(a) < weight_of(b); };
+  while (groups.size() < brick_children_max) {
+    Group& largest = *std::max_element(groups.begin(), groups.end(), smaller);
+    if (weight_of(largest) <= block_lanes) {
+      return;
+    }
+    const auto [first, second] = cutter.cut(largest, true);
+    largest = first;
+    groups.push_back(second);
+  }
+}
+
+/// A brick without children that can hold groups within `bounds`, padded.
+Brick brick_over(const Bounds& bounds, double pad) {
+  Brick brick;
+  double size = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    brick.origin[axis] = rounded_down(double{bounds.low[axis]} - pad);
+    size = std::max(size, double{bounds.high[axis]} + pad - double{brick.origin[axis]});
+  }
+  int exponent = 0;
+  std::frexp(size / bound_max, &exponent);
+  brick.unit = std::ldexp(1.0F, exponent);
+  return brick;
+}
+
+void add_child(Brick& brick, const Bounds& bounds, double pad) {
+  const std::size_t child = brick.child_count++;
+  const double unit = double{brick.unit};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double origin = double{brick.origin[axis]};
+    brick.bounds[axis][child] = static_cast<std::uint8_t>((double{bounds.low[axis]} - pad - origin) / unit);
+    brick.bounds[axis + 3][child] = static_cast<std::uint8_t>(std::ceil((double{bounds.high[axis]} + pad - origin) / unit));
+  }
+}
+
+}  // namespace
+
+/// Drafts the bricks of one top cell.
+class BrickBuilder::Drafter {
+ public:
+  Drafter(Cutter& cutter, std::span<std::uint32_t> ids, double pad, const Parallel& parallel)
+      : cutter_(cutter), ids_(ids), pad_(pad), parallel_(parallel) {}
+
+  /// `levels`: so many are left.
+  BrickDraft draft(const CutTree& tree, int levels) const {
+    expect(levels > 0, "a tree of bricks is no deeper than a walk can go");
+    const bool too_deep = tree.levels() > levels && weight_of(tree.kinds()) > carefree_count(tree, levels);
+    return too_deep ? draft_evenly(tree, levels) : draft_over(tree.group().bounds, tree.children(), levels);
+  }
+
+ private:
+  BrickDraft draft_over(const Bounds& bounds, const std::vector<const CutTree*>& children, int levels) const {
+    BrickDraft draft{.brick = brick_over(bounds, pad_)};
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      add_child(draft.brick, children[i]->group().bounds, pad_);
+      if (children[i]->is_block()) {
+        draft.blocks[i] = block_of(children[i]->group());
+      } else {
+        draft.bricks.push_back(this->draft(*children[i], levels - 1));
+      }
+    }
+    return draft;
+  }
+
+  /// With children of equal numbers, so that the levels left will do.
+  BrickDraft draft_evenly(const CutTree& tree, int levels) const {
+    std::vector<Group> groups = tree.kinds();
+    for (const Group& group : groups) {
+      cutter_.sort_again(group);  // the tree was cut out of it
+    }
+    cut_evenly(groups, cutter_);
+    std::vector<CutTree> parts;
+    std::vector<const CutTree*> children;
+    parts.reserve(groups.size());
+    for (const Group& group : groups) {
+      children.push_back(&parts.emplace_back(cutter_, group, parallel_));
+    }
+    return draft_over(tree.group().bounds, children, levels);
+  }
+
+  BrickDraft::Block block_of(const Group& group) const {
+    const auto ids = ids_.subspan(group.first, group.count());
+    cutter_.copy_ids(group, ids);
+    std::sort(ids.begin(), ids.end());
+    return {group.first, static_cast<std::uint8_t>(group.count()), group.kind, cutter_.plane_of(group)};
+  }
+
+  Cutter& cutter_;
+  std::span<std::uint32_t> ids_;
+  double pad_;
+  const Parallel& parallel_;
+};
+
+BrickBuilder::BrickBuilder(std::span<const PrimitiveValues> primitives, double pad, const GridFrame& frame,
+                           const Parallel& parallel, int levels_max)
+    : primitives_(primitives), pad_(std::min(pad, pad_max)), frame_(frame), parallel_(&parallel), levels_max_(levels_max) {}
+
+BrickTree BrickBuilder::build(const Corner& corner, std::span<const std::uint32_t> ids) const {
+  Cutter cutter(ids.size(), primitives_);
+  const std::vector<Group> kinds = add_by_kind(cell_at(corner), ids, cutter);
+  if (const std::size_t most = carefree_count(levels_max_), weight = weight_of(kinds); weight > most) {
+    throw RoomError(
+        std::to_string(weight) + " primitives lie in one place, at most " + std::to_string(most) +
+        " may (triangles that cover others in their plane count eightfold): spread them out, or render a smaller scene");
+  }
+  const CutTree cuts = cut(kinds, cutter);
+  BrickTree tree{.top = {}, .ids = std::vector<std::uint32_t>(ids.size())};
+  tree.top = Drafter(cutter, tree.ids, pad_, *parallel_).draft(cuts, levels_max_);
+  return tree;
+}
+
+/// Blocks are of one kind, with planes or without, so the first cuts are between kinds.
+CutTree BrickBuilder::cut(std::span<const Group> kinds, Cutter& cutter) const {
+  auto tree = std::make_unique<CutTree>(cutter, kinds[0], *parallel_);
+  for (const Group& kind : kinds.subspan(1)) {
+    tree = std::make_unique<CutTree>(std::move(tree), std::make_unique<CutTree>(cutter, kind, *parallel_));
+  }
+  return std::move(*tree);
+}
+
+Bounds BrickBuilder::cell_at(const Corner& corner) const {
+  Box cell;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    cell.low[axis] = plane_at(frame_, axis, corner[axis]);
+    cell.high[axis] = plane_at(frame_, axis, corner[axis] + finest_per_top);
+  }
+  return Bounds::around(cell.padded({pad_, pad_, pad_}));
+}
+
+/// The groups of each kind: triangles, those that need planes, then the others.
+std::vector<Group> BrickBuilder::add_by_kind(const Bounds& cell, std::span<const std::uint32_t> ids, Cutter& cutter) const {
+  std::vector<Group> groups;
+  std::size_t first = 0;
+  bool is_any_left = false;
+  const auto add = [&](PrimitiveKind kind, bool needs_plane) {
+    std::size_t last = first;
+    for (const std::uint32_t id : ids) {
+      const PrimitiveValues& primitive = primitives_[id];
+      if (primitive.kind != kind) {
+        continue;
+      }
+      if (primitive.needs_plane() == needs_plane) {
+        cutter.add(id, rounded_bounds_of(primitive).clamped_to(cell));
+        ++last;
+      } else {
+        is_any_left = true;
+      }
+    }
+    if (last > first) {
+      groups.push_back(cutter.group(kind, first, last, needs_plane));
+    }
+    first = last;
+  };
+  for (const PrimitiveKind kind : {PrimitiveKind::triangle, PrimitiveKind::sphere, PrimitiveKind::cone}) {
+    add(kind, false);
+    if (is_any_left && kind == PrimitiveKind::triangle) {
+      add(kind, true);
+    }
+  }
+  return groups;
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,317 @@
+#include "core/database/conversion.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+
+#include "core/base/altitude.h"
+#include "core/base/box.h"
+#include "core/base/units.h"
+#include "core/database/overlap.h"
+#include "core/record/coordinate.h"
+#include "core/record/curved_values.h"
+#include "core/scene/frame.h"
+#include "core/scene/triangulate.h"
+
+namespace dmpc::core {
+namespace {
+
+/// A coordinate beyond this share of float's range cannot be brought into a grid.
+constexpr double coordinate_max = 1e30;
+/// Objects, or vertices, that one thread takes at a time, and such chunks that are under way together.
+constexpr std::size_t chunk_size = 4096;
+constexpr std::size_t chunks_together = 16;
+
+bool usable(const Vec3d& v) {
+  return std::fabs(v.x) < coordinate_max && std::fabs(v.y) < coordinate_max && std::fabs(v.z) < coordinate_max;
+}
+
+void put(PrimitiveValues& primitive, std::size_t row, const Vec3d& v) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    primitive.value[row + axis] = coordinate_of(v[axis]);
+  }
+}
+
+/// Values from `first` on, each to its row, and their rests.
+void put_four(PrimitiveValues& primitive, std::size_t first, const Vec3d& v, double radius) {
+  const std::array<double, 4> values{on_lattice(v.x), on_lattice(v.y), on_lattice(v.z), on_lattice(radius)};
+  std::uint32_t rests = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    float& rounded = primitive.value[first + i] = static_cast<float>(values[i]);
+    rests |= std::uint32_t{static_cast<std::uint8_t>(rest_of(values[i], rounded))} << (8 * i);
+  }
+  primitive.value[rest_row(primitive.kind) + first / 4] = std::bit_cast<float>(rests);
+}
+
+/// Decided on the floats that are stored: equal vertices first, then area (a difference of exact products could be hidden by
+/// fusing).
+bool degenerate_triangle(const PrimitiveValues& triangle) {
+  const Vec3d a = triangle.vector(0), b = triangle.vector(3), c = triangle.vector(6);
+  const Vec3d area = cross(b - a, c - a);
+  return a == b || b == c || c == a || !(dot(area, area) > 0);
+}
+
+/// What is smaller than this, beside a scene of about 1, no ray in floats can tell from a point.
+constexpr double size_least = 0x1p-40;
+
+bool is_point(const PrimitiveValues& primitive) {
+  const Box box = bounds_of(primitive);
+  return largest_component(box.high - box.low) < size_least;
+}
+
+/// Nearer to a line than this share of their coordinates, corners lie on it as far as doubles can tell.
+constexpr double line_share = 0x1p-48;
+
+/// The height of a triangle that is not degenerate, 0 of one that is; `coordinate` is its largest before anything was subtracted.
+double height_of(const std::array<Vec3d, 3>& corner, double coordinate) {
+  const Vec3d a = corner[1] - corner[0], b = corner[2] - corner[0];
+  const double height = least_altitude(a, b, b - a, length(cross(a, b)));
+  return height > line_share * coordinate ? height : 0.0;
+}
+
+using Place = std::array<float, 2>;
+
+/// A place that is no number counts as the texture's corner; one that is too far away to be told from its neighbours, too.
+Place usable_place(Place place) {
+  constexpr float place_max = 0x1p20F;
+  for (float& coordinate : place) {
+    coordinate = std::fabs(coordinate) < place_max ? coordinate : 0.0F;
+  }
+  return place;
+}
+
+bool degenerate_cone(const PrimitiveValues& cone) {
+  return cone.vector(0) == cone.vector(4) || (cone.value[3] == 0.0F && cone.value[7] == 0.0F);
+}
+
+void include_cube(Box& box, const Vec3d& center, double half) {
+  box.include(center - Vec3d{half, half, half});
+  box.include(center + Vec3d{half, half, half});
+}
+
+Vec3f unit_normal(const Vec3d& normal) {
+  const double size = length(normal);
+  return size > 0 && std::isfinite(size) ? Vec3f(normal * (1.0 / size)) : Vec3f{};
+}
+
+/// Appends some objects of a scene to a conversion.
+class Converter {
+ public:
+  Converter(const Scene& scene, const GridFrame& frame, Conversion& result) : scene_(scene), frame_(frame), result_(result) {}
+
+  void add_object(std::uint32_t index) {
+    const Object& object = scene_.objects[index];
+    switch (object.kind) {
+      case ObjectKind::polygon:
+      case ObjectKind::patch:
+      case ObjectKind::textured:
+        return add_polygon(index, object);
+      case ObjectKind::sphere:
+        return add_sphere(index, object, scene_.spheres[object.first]);
+      case ObjectKind::cone:
+        return add_cone(index, object, scene_.cones[object.first]);
+    }
+  }
+
+ private:
+  Vec3d local(const Vec3d& point) const { return to_local(frame_, point); }
+
+  /// `size`: what it has across before it is rounded, `at` where; asked if it is degenerate.
+  template <class Size>
+  void add(const PrimitiveValues& primitive, std::uint32_t object, bool degenerate, std::uint32_t material, const Vec3d& at,
+           const Size& size) {
+    if (degenerate) {
+      ++result_.dropped;
+      if (const double across = size(); across > 0) {
+        result_.collapsed.push_back({Vec3f(local(at)), static_cast<float>(across * frame_.scale)});
+      }
+      return;
+    }
+    result_.primitives.push_back(primitive);
+    result_.sources.push_back({object});
+    result_.shading.push_back(ShadingReference::flat(material));
+  }
+
+  void add_polygon(std::uint32_t index, const Object& object) {
+    const auto vertices = std::span(scene_.vertices).subspan(object.first, object.vertex_count);
+    if (!std::all_of(vertices.begin(), vertices.end(), usable)) {
+      ++result_.dropped;
+      return;
+    }
+    const auto triangles = triangulate(vertices);
+    result_.dropped += triangles.empty() ? 1 : 0;
+    for (const auto& corners : triangles) {
+      add_triangle(index, object, vertices, corners);
+    }
+  }
+
+  void add_triangle(std::uint32_t index, const Object& object, std::span<const Vec3d> vertices,
+                    const std::array<std::uint32_t, 3>& corners) {
+    PrimitiveValues triangle{.kind = PrimitiveKind::triangle};
+    for (std::size_t i = 0; i < 3; ++i) {
+      put(triangle, 3 * i, local(vertices[corners[i]]));
+    }
+    const bool degenerate = degenerate_triangle(triangle) || is_point(triangle);
+    if (object.kind == ObjectKind::patch && !degenerate) {
+      add_normals(object, corners);
+    }
+    if (object.kind == ObjectKind::textured && !degenerate) {
+      add_texture(object, corners);
+    }
+    const std::array<Vec3d, 3> corner{vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]};
+    add(triangle, index, degenerate, object.material, corner[0], [&] {
+      return height_of(corner,
+                       std::max({largest_component(corner[0]), largest_component(corner[1]), largest_component(corner[2])}));
+    });
+  }
+
+  void add_normals(const Object& object, const std::array<std::uint32_t, 3>& corners) {
+    PatchNormals normals{.normal = {}, .material_bits = object.material};
+    for (std::size_t i = 0; i < 3; ++i) {
+      normals.normal[i] = unit_normal(turned(frame_.axes, scene_.normals[object.first_normal + corners[i]]));
+    }
+    result_.smooth.push_back({static_cast<std::uint32_t>(result_.primitives.size()), normals});
+  }
+
+  void add_texture(const Object& object, const std::array<std::uint32_t, 3>& corners) {
+    const std::uint32_t index = scene_.materials[object.material].texture;
+    TexturedNormals textured;
+    textured.normals.material_bits = object.material | PatchNormals::textured_flag;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const TexturedCorner& corner = scene_.corners[object.first_normal + corners[i]];
+      textured.normals.normal[i] = unit_normal(turned(frame_.axes, corner.normal));
+      textured.place[i] = usable_place(corner.place);
+    }
+    result_.textured.push_back({static_cast<std::uint32_t>(result_.primitives.size()), index, textured});
+  }
+
+  void add_sphere(std::uint32_t index, const Object& object, const Sphere& sphere) {
+    PrimitiveValues values{.kind = PrimitiveKind::sphere};
+    put_four(values, 0, local(sphere.center), sphere.radius * frame_.scale);
+    const bool finite = usable(sphere.center) && std::fabs(sphere.radius) < coordinate_max;
+    add(values, index, !finite || is_point(values), object.material, sphere.center,
+        [&] { return finite ? 2 * std::fabs(sphere.radius) : 0.0; });
+  }
+
+  void add_cone(std::uint32_t index, const Object& object, const Cone& cone) {
+    PrimitiveValues values{.kind = PrimitiveKind::cone};
+    put_four(values, 0, local(cone.base), cone.base_radius * frame_.scale);
+    put_four(values, 4, local(cone.apex), cone.apex_radius * frame_.scale);
+    const bool finite = usable(cone.base) && usable(cone.apex) && std::fabs(cone.base_radius) < coordinate_max &&
+                        std::fabs(cone.apex_radius) < coordinate_max;
+    const bool has_radius = cone.base_radius != 0 || cone.apex_radius != 0;
+    add(values, index, !finite || degenerate_cone(values) || is_point(values), object.material, cone.base,
+        [&] { return finite && has_radius ? length(cone.apex - cone.base) : 0.0; });
+  }
+
+  const Scene& scene_;
+  const GridFrame& frame_;
+  Conversion& result_;
+};
+
+Box bounds_of_vertices(const std::vector<Vec3d>& vertices, const GridAxes& axes, const Parallel& parallel) {
+  std::vector<Box> boxes(ceil_divide(vertices.size(), chunk_size));
+  parallel.for_each(boxes.size(), [&](std::size_t chunk) {
+    Box box;
+    for (std::size_t i = chunk * chunk_size; i < std::min(vertices.size(), (chunk + 1) * chunk_size); ++i) {
+      if (usable(vertices[i])) {
+        box.include(turned(axes, vertices[i]));
+      }
+    }
+    boxes[chunk] = box;
+  });
+  Box all;
+  for (const Box& box : boxes) {
+    all.low = {std::min(all.low.x, box.low.x), std::min(all.low.y, box.low.y), std::min(all.low.z, box.low.z)};
+    all.high = {std::max(all.high.x, box.high.x), std::max(all.high.y, box.high.y), std::max(all.high.z, box.high.z)};
+  }
+  return all;
+}
+
+/// At most: polygons may turn out to be degenerate.
+std::size_t primitive_count_max(const Scene& scene) {
+  std::size_t count = 0;
+  for (const Object& object : scene.objects) {
+    count += object.vertex_count > 3 ? object.vertex_count - 2 : 1;
+  }
+  return count;
+}
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+void append(Conversion& all, const Conversion& more) {
+  const auto before = static_cast<std::uint32_t>(all.primitives.size());
+  append(all.primitives, more.primitives);
+  append(all.sources, more.sources);
+  append(all.collapsed, more.collapsed);
+  append(all.shading, more.shading);
+  for (const Conversion::Smooth& smooth : more.smooth) {
+    all.smooth.push_back({before + smooth.primitive, smooth.normals});
+  }
+  for (const Conversion::Textured& textured : more.textured) {
+    all.textured.push_back({before + textured.primitive, textured.texture, textured.normals});
+  }
+  all.dropped += more.dropped;
+}
+
+/// Keeps the room that the lists have taken.
+void clear(Conversion& conversion) {
+  conversion.primitives.clear();
+  conversion.sources.clear();
+  conversion.shading.clear();
+  conversion.smooth.clear();
+  conversion.textured.clear();
+  conversion.collapsed.clear();
+  conversion.dropped = 0;
+}
+
+}  // namespace
+
+Box bounds_of(const Scene& scene, const GridAxes& axes, const Parallel& parallel) {
+  Box box = bounds_of_vertices(scene.vertices, axes, parallel);
+  for (const Sphere& sphere : scene.spheres) {
+    const double r = std::fabs(sphere.radius);
+    if (usable(sphere.center) && r < coordinate_max) {
+      include_cube(box, turned(axes, sphere.center), r);
+    }
+  }
+  for (const Cone& cone : scene.cones) {
+    const double r = std::max(std::fabs(cone.base_radius), std::fabs(cone.apex_radius));
+    for (const Vec3d& end : {cone.base, cone.apex}) {
+      if (usable(end) && r < coordinate_max) {
+        include_cube(box, turned(axes, end), r);
+      }
+    }
+  }
+  return box;
+}
+
+Conversion convert(const Scene& scene, const GridFrame& frame, const Parallel& parallel) {
+  Conversion all;
+  const std::size_t count = primitive_count_max(scene);
+  all.primitives.reserve(count);
+  all.sources.reserve(count);
+  all.shading.reserve(count);
+  std::vector<Conversion> chunks(chunks_together);
+  const std::size_t objects_together = chunk_size * chunks_together;
+  for (std::size_t first = 0; first < scene.objects.size(); first += objects_together) {
+    parallel.for_each(chunks.size(), [&](std::size_t chunk) {
+      clear(chunks[chunk]);
+      Converter converter(scene, frame, chunks[chunk]);
+      const std::size_t begin = first + chunk * chunk_size;
+      for (std::size_t object = begin; object < std::min(begin + chunk_size, scene.objects.size()); ++object) {
+        converter.add_object(static_cast<std::uint32_t>(object));
+      }
+    });
+    for (const Conversion& chunk : chunks) {
+      append(all, chunk);
+    }
+  }
+  return all;
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,28 @@
+// Triangles that cover each other in one plane: a rug in the floor's plane, a box that stands on it, a face that is there twice.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/database/conversion.h"
+#include "core/database/parallel.h"
+#include "core/database/top_cells.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::core {
+
+/// Rounding would let now the one and now the other of them be nearer. So triangles that cover each other and lie in one plane,
+/// but for what rounding their corners to float moves them by, share a FacePlane, by which a ray meets all of them at the same t,
+/// and the least id wins. Ids follow the file's order: the earlier shows. But what lets light through gets a later id than what
+/// it lies on, whose place in the file it takes: whoever looks through a glass box at the floor below it sees the floor. Of
+/// triangles with the same three corners only the first is kept.
+///
+/// What shares an edge or a corner does not cover. Without triangles that cover each other nothing changes. Not judged are
+/// triangles lower than a 2^13th of the scene, unless a coordinate is the same at all their corners: rounding turns them too far.
+/// Where very many lie in a plane, those are taken to cover each other. Takes time in proportion to the triangles.
+///
+/// Returns whether there are any: then ids are no longer those of `cells`, which listed the triangles.
+bool settle_coplanar(Conversion& conversion, const TopCells& cells, std::span<const Material> materials,
+                     const Parallel& parallel);
+
+}  // namespace dmpc::core

@@ -1,0 +1,197 @@
+#include "core/database/cover_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace dmpc::core {
+namespace {
+
+/// Pairs that are looked at, for each face and however few there are: a fan of 700 triangles about one corner is within it.
+constexpr std::size_t pairs_per_face = 256;
+constexpr std::size_t pairs_least = 0x40000;
+/// So few are all in one square.
+constexpr std::size_t one_square_max = 16;
+/// Squares that a face is in, on average, at most.
+constexpr std::size_t squares_per_face = 8;
+constexpr std::size_t raster_side_max = 4096;
+/// Planes of one bucket, where pairs are too many to be looked at.
+constexpr std::size_t planes_max = 64;
+
+}  // namespace
+
+MergedSets::MergedSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0U); }
+
+std::uint32_t MergedSets::least_with(std::uint32_t number) {
+  while (parents_[number] != number) {
+    number = parents_[number] = parents_[parents_[number]];
+  }
+  return number;
+}
+
+void MergedSets::merge(std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t first = least_with(a), second = least_with(b);
+  parents_[std::max(first, second)] = std::min(first, second);
+}
+
+/// Squares over all that is seen.
+class CoverFinder::Raster {
+ public:
+  Raster(std::span<const Seen> seen, std::size_t squares) : side_(squares) {
+    double extent = 0;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      double high = -std::numeric_limits<double>::infinity();
+      for (const Seen& face : seen) {
+        low_[axis] = std::min(low_[axis], face.low[axis]);
+        high = std::max(high, face.high[axis]);
+      }
+      extent = std::max(extent, high - low_[axis]);
+    }
+    scale_ = static_cast<double>(side_) / std::max(extent, 1e-30);
+  }
+
+  std::size_t square(double at, std::size_t axis) const {
+    return std::min(static_cast<std::size_t>((at - low_[axis]) * scale_), side_ - 1);
+  }
+  std::size_t side() const { return side_; }
+
+ private:
+  std::size_t side_;
+  std::array<double, 2> low_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  double scale_ = 1;
+};
+
+void CoverFinder::look_at(std::span<const std::uint32_t> some, std::size_t axis) {
+  see(some, axis);
+  if (!look_at_pairs(axis)) {
+    look_at_planes(some);
+  }
+}
+
+void CoverFinder::see(std::span<const std::uint32_t> some, std::size_t axis) {
+  seen_.clear();
+  for (const std::uint32_t face : some) {
+    const auto& corner = faces_[face].corner;
+    Seen seen{.face = face, .low = {}, .high = {}};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::size_t along = (axis + 1 + i) % 3;
+      seen.low[i] = std::min({corner[0][along], corner[1][along], corner[2][along]});
+      seen.high[i] = std::max({corner[0][along], corner[1][along], corner[2][along]});
+    }
+    seen_.push_back(seen);
+  }
+}
+
+/// Lists the faces of each square, of squares as small as lists of bounded length allow.
+void CoverFinder::list_squares() {
+  const auto root = static_cast<std::size_t>(std::sqrt(static_cast<double>(seen_.size())));
+  std::size_t side = seen_.size() <= one_square_max ? 1 : std::min(root, raster_side_max);
+  while (!list_squares(Raster(seen_, side))) {
+    side /= 2;
+  }
+  sort_by_square(side * side);
+}
+
+/// By counting, which leaves the entries of a square in order.
+void CoverFinder::sort_by_square(std::size_t square_count) {
+  if (square_count == 1) {
+    return;
+  }
+  next_.assign(square_count + 1, 0);
+  for (const Entry& entry : entries_) {
+    ++next_[entry.square + 1];
+  }
+  std::partial_sum(next_.begin(), next_.end(), next_.begin());
+  sorted_.resize(entries_.size());
+  for (const Entry& entry : entries_) {
+    sorted_[next_[entry.square]++] = entry;
+  }
+  std::swap(entries_, sorted_);
+}
+
+/// False if the lists are too long; one square's never is.
+bool CoverFinder::list_squares(const Raster& raster) {
+  const std::size_t most = squares_per_face * seen_.size();
+  entries_.clear();
+  for (std::uint32_t place = 0; place < seen_.size(); ++place) {
+    const Seen& face = seen_[place];
+    const std::size_t left = raster.square(face.low[0], 0), right = raster.square(face.high[0], 0);
+    const std::size_t bottom = raster.square(face.low[1], 1), top = raster.square(face.high[1], 1);
+    if (entries_.size() + (right - left + 1) * (top - bottom + 1) > most) {
+      return false;
+    }
+    for (std::size_t y = bottom; y <= top; ++y) {
+      for (std::size_t x = left; x <= right; ++x) {
+        entries_.push_back({static_cast<std::uint32_t>(y * raster.side() + x), place});
+      }
+    }
+  }
+  return true;
+}
+
+/// False if there are too many.
+bool CoverFinder::look_at_pairs(std::size_t axis) {
+  list_squares();
+  pairs_left_ = pairs_per_face * seen_.size() + pairs_least;
+  for (std::size_t first = 0, last = 0; first < entries_.size(); first = last) {
+    while (last < entries_.size() && entries_[last].square == entries_[first].square) {
+      ++last;
+    }
+    if (!look_at_square(axis, std::span(entries_).subspan(first, last - first))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Those of one object come one behind the other.
+bool CoverFinder::look_at_square(std::size_t axis, std::span<const Entry> square) {
+  const auto object_at = [&](std::size_t i) { return faces_[seen_[square[i].place].face].object; };
+  for (std::size_t i = 0, others = 0; i < square.size(); ++i) {
+    while (others < square.size() && (others <= i || object_at(others) == object_at(i))) {
+      ++others;
+    }
+    const std::size_t pairs = square.size() - others;
+    if (pairs > pairs_left_) {
+      return false;
+    }
+    pairs_left_ -= pairs;
+    const Seen& a = seen_[square[i].place];
+    const auto meets = [&](const Seen& b) {
+      return std::min(a.high[0], b.high[0]) - std::max(a.low[0], b.low[0]) > sliver &&
+             std::min(a.high[1], b.high[1]) - std::max(a.low[1], b.low[1]) > sliver;
+    };
+    for (const Entry& other : square.subspan(others)) {
+      const Seen& b = seen_[other.place];
+      if (meets(b) && sets_.least_with(a.face) != sets_.least_with(b.face) && cover(faces_[a.face], faces_[b.face], axis) &&
+          are_coplanar(faces_[a.face], faces_[b.face])) {
+        merge(a.face, b.face);
+      }
+    }
+  }
+  return true;
+}
+
+/// Takes the largest, all that lie in its plane, the largest of the others, and so on.
+void CoverFinder::look_at_planes(std::span<const std::uint32_t> some) {
+  std::vector<std::uint32_t> rest(some.begin(), some.end());
+  for (std::size_t planes = 0; planes < planes_max && rest.size() > 1; ++planes) {
+    const std::uint32_t largest = *std::max_element(
+        rest.begin(), rest.end(), [&](std::uint32_t a, std::uint32_t b) { return faces_[a].altitude < faces_[b].altitude; });
+    const auto others = std::partition(rest.begin(), rest.end(), [&](std::uint32_t face) {
+      return face != largest && !are_coplanar(faces_[face], faces_[largest]);
+    });
+    std::for_each(others, rest.end(), [&](std::uint32_t face) { merge(face, largest); });
+    rest.erase(others, rest.end());
+  }
+}
+
+void CoverFinder::merge(std::uint32_t a, std::uint32_t b) {
+  if (sets_.least_with(a) != sets_.least_with(b)) {
+    sets_.merge(a, b);
+    found_.emplace_back(faces_[a].id, faces_[b].id);
+  }
+}
+
+}  // namespace dmpc::core

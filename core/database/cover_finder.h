@@ -1,0 +1,70 @@
+// Which triangles of a bucket cover each other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/database/face.h"
+
+namespace dmpc::core {
+
+/// Sets of numbers that grow together. Their least stands for each.
+class MergedSets {
+ public:
+  explicit MergedSets(std::size_t count);
+
+  std::uint32_t least_with(std::uint32_t number);
+  void merge(std::uint32_t a, std::uint32_t b);
+
+ private:
+  std::vector<std::uint32_t> parents_;  ///< none above its child
+};
+
+/// Finds faces of different objects that lie in one plane and cover each other. Looks at those alone that share a square of a
+/// raster, as many as a number in proportion to the faces allows; beyond that it takes all that lie in the plane of the largest
+/// for covering it.
+class CoverFinder {
+ public:
+  /// The faces, of ascending ids, outlive the finder.
+  explicit CoverFinder(std::span<const Face> faces) : faces_(faces), sets_(faces.size()) {}
+
+  /// Looks at some of the faces, ascending, which can be looked at along `axis`.
+  void look_at(std::span<const std::uint32_t> some, std::size_t axis);
+  /// Pairs of ids: what they lead from one to the other is all that covers each other.
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& found() const { return found_; }
+
+ private:
+  /// A face as seen along the axis.
+  struct Seen {
+    std::uint32_t face;
+    std::array<double, 2> low, high;
+  };
+  /// A place in `seen_` that a square holds.
+  struct Entry {
+    std::uint32_t square, place;
+  };
+  class Raster;
+
+  void see(std::span<const std::uint32_t> some, std::size_t axis);
+  void list_squares();
+  bool list_squares(const Raster& raster);
+  void sort_by_square(std::size_t square_count);
+  bool look_at_pairs(std::size_t axis);
+  bool look_at_square(std::size_t axis, std::span<const Entry> square);
+  void look_at_planes(std::span<const std::uint32_t> some);
+  void merge(std::uint32_t a, std::uint32_t b);
+
+  std::span<const Face> faces_;
+  MergedSets sets_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> found_;
+  std::vector<Seen> seen_;
+  std::vector<Entry> entries_, sorted_;
+  std::vector<std::uint32_t> next_;  ///< by square: where its next entry goes
+  std::size_t pairs_left_ = 0;
+};
+
+}  // namespace dmpc::core

@@ -1,0 +1,306 @@
+#include "core/database/cutter.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/base/units.h"
+
+namespace dmpc::core {
+namespace {
+
+/// Groups up to this size are sorted and cut at the best of all places, larger ones between bins.
+constexpr std::uint32_t sorted_count_max = 64;
+constexpr std::size_t bin_count = 32;
+
+float blocks_for(std::uint32_t count) { return static_cast<float>(ceil_divide<std::uint32_t>(count, block_lanes)); }
+
+/// Where to cut, and what a ray that meets the whole pays for the two parts, but for a factor.
+struct Cut {
+  float cost = std::numeric_limits<float>::infinity();
+  std::size_t axis = 0;
+  std::uint32_t place = 0;  ///< how many primitives, or bins, lie before it
+};
+
+/// Where the middles of a group's primitives lie, twice: as Bounds::middle().
+Bounds middles_of(std::span<const Bounds> items) {
+  Bounds middles;
+  for (const Bounds& item : items) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const float middle = item.low[i] + item.high[i];
+      middles.low[i] = std::min(middles.low[i], middle);
+      middles.high[i] = std::max(middles.high[i], middle);
+    }
+  }
+  return middles;
+}
+
+std::size_t longest_axis(const Bounds& bounds) {
+  const float x = bounds.high[0] - bounds.low[0], y = bounds.high[1] - bounds.low[1], z = bounds.high[2] - bounds.low[2];
+  return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+}
+
+/// Slices of equal width of where the middles lie along each axis.
+struct Bins {
+  struct Bin {
+    Bounds bounds;
+    std::uint32_t count = 0;
+  };
+  std::array<float, 4> low{}, scale{};
+  std::array<std::array<Bin, bin_count>, 3> bins{};
+
+  explicit Bins(const Bounds& middles) : low(middles.low) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float slices = static_cast<float>(bin_count) / (middles.high[axis] - middles.low[axis]);
+      scale[axis] = std::isfinite(slices) ? slices : 0.0F;
+    }
+  }
+  /// By one axis: by all at once is slower, as what comes out of a vector register has to be taken apart again.
+  std::size_t of(const Bounds& item, std::size_t axis) const {
+    const auto slice = static_cast<std::int32_t>((item.middle(axis) - low[axis]) * scale[axis]);
+    return static_cast<std::size_t>(std::min<std::int32_t>(slice, bin_count - 1));
+  }
+  void add(const Bounds& item) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Bin& bin = bins[axis][of(item, axis)];
+      bin.bounds.include(item);
+      ++bin.count;
+    }
+  }
+  Cut best_cut(std::size_t axis, std::uint32_t count) const;
+};
+
+/// The best cut between two bins of an axis (I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007).
+Cut Bins::best_cut(std::size_t axis, std::uint32_t count) const {
+  std::array<float, bin_count> rest{};
+  Bounds bounds;
+  std::uint32_t so_far = 0;
+  for (std::size_t i = bin_count; i-- > 1;) {
+    bounds.include(bins[axis][i].bounds);
+    so_far += bins[axis][i].count;
+    rest[i] = so_far > 0 ? bounds.area() * static_cast<float>(so_far) : 0.0F;
+  }
+  Cut best;
+  bounds = {};
+  so_far = 0;
+  for (std::uint32_t i = 1; i < bin_count; ++i) {
+    bounds.include(bins[axis][i - 1].bounds);
+    so_far += bins[axis][i - 1].count;
+    if (so_far > 0 && so_far < count) {
+      const float cost = bounds.area() * static_cast<float>(so_far) + rest[i];
+      best = cost < best.cost ? Cut{cost, axis, i} : best;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Cutter::Cutter(std::size_t count, std::span<const PrimitiveValues> primitives) : primitives_(primitives) {
+  ids_.reserve(count);
+  bounds_.reserve(count);
+  for (auto& order : orders_) {
+    order.resize(count);
+  }
+}
+
+void Cutter::add(std::uint32_t id, const Bounds& bounds) {
+  ids_.push_back(id);
+  bounds_.push_back(bounds);
+}
+
+Group Cutter::group(PrimitiveKind kind, std::size_t first, std::size_t last, bool needs_plane) const {
+  Group group{.first = static_cast<std::uint32_t>(first),
+              .last = static_cast<std::uint32_t>(last),
+              .needs_plane = needs_plane,
+              .kind = kind};
+  group.bounds = bounds_of(group);
+  return group;
+}
+
+std::pair<Group, Group> Cutter::cut(Group whole, bool balanced) {
+  if (!whole.is_sorted && whole.count() <= sorted_count_max) {
+    sort(whole);
+  }
+  if (whole.needs_plane && whole.count() <= block_lanes && !balanced && !lies_in_one(whole)) {
+    return halves(whole, cut_between_planes(whole));
+  }
+  if (whole.is_sorted) {
+    return halves(whole, cut_sorted(whole, balanced));
+  }
+  return halves(whole, balanced ? cut_in_the_middle(whole) : cut_between_bins(whole));
+}
+
+void Cutter::copy_ids(const Group& group, std::span<std::uint32_t> ids) const {
+  for (std::uint32_t place = group.first; place < group.last; ++place) {
+    ids[place - group.first] = ids_[item_at(group, 0, place)];
+  }
+}
+
+void Cutter::sort_again(const Group& group) {
+  for (std::size_t axis = 0; axis < 3 && group.is_sorted; ++axis) {
+    const auto order = std::span(orders_[axis]).subspan(group.first, group.count());
+    const auto along = [&](std::uint8_t item) { return std::pair(bounds_[group.base + item].middle(axis), item); };
+    std::sort(order.begin(), order.end(), [&](std::uint8_t a, std::uint8_t b) { return along(a) < along(b); });
+  }
+}
+
+/// The item at a place of a group: in its order along the axis, if it is sorted.
+std::uint32_t Cutter::item_at(const Group& group, std::size_t axis, std::uint32_t place) const {
+  return group.is_sorted ? group.base + orders_[axis][place] : place;
+}
+
+Bounds Cutter::bounds_of(const Group& group) const {
+  Bounds bounds;
+  for (std::uint32_t place = group.first; place < group.last; ++place) {
+    bounds.include(bounds_[item_at(group, 0, place)]);
+  }
+  return bounds;
+}
+
+std::pair<Group, Group> Cutter::halves(const Group& whole, std::uint32_t middle) const {
+  std::pair<Group, Group> both{whole, whole};
+  both.first.last = both.second.first = middle;
+  both.first.bounds = bounds_of(both.first);
+  both.second.bounds = bounds_of(both.second);
+  return both;
+}
+
+/// Counts for each how many come before it: for so few the quickest way, since nothing has to be guessed.
+void Cutter::sort(Group& group) {
+  group.base = group.first;
+  group.is_sorted = true;
+  const std::uint32_t count = group.count();
+  std::array<float, sorted_count_max> middle{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      middle[i] = bounds_[group.base + i].middle(axis);
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+      std::int32_t before = 0;
+      for (std::uint32_t j = 0; j < i; ++j) {
+        before += middle[j] <= middle[i] ? 1 : 0;
+      }
+      for (std::uint32_t j = i + 1; j < count; ++j) {
+        before += middle[j] < middle[i] ? 1 : 0;
+      }
+      orders_[axis][group.base + static_cast<std::uint32_t>(before)] = static_cast<std::uint8_t>(i);
+    }
+  }
+}
+
+/// The best of all cuts between the primitives in their order along each axis.
+std::uint32_t Cutter::cut_sorted(const Group& whole, bool balanced) {
+  const std::uint32_t count = whole.count();
+  Cut best{.axis = longest_axis(whole.bounds), .place = count / 2};
+  for (std::size_t axis = 0; axis < 3 && !balanced; ++axis) {
+    const auto item = [&](std::uint32_t i) -> const Bounds& { return bounds_[whole.base + orders_[axis][whole.first + i]]; };
+    std::array<float, sorted_count_max> rest{};
+    Bounds bounds;
+    for (std::uint32_t i = count; i-- > 1;) {
+      bounds.include(item(i));
+      rest[i] = bounds.area() * blocks_for(count - i);
+    }
+    bounds = {};
+    for (std::uint32_t i = 1; i < count; ++i) {
+      bounds.include(item(i - 1));
+      const float cost = bounds.area() * blocks_for(i) + rest[i];
+      best = cost < best.cost ? Cut{cost, axis, i} : best;
+    }
+  }
+  std::uint64_t is_first = 0;
+  for (std::uint32_t place = whole.first; place < whole.first + best.place; ++place) {
+    is_first |= std::uint64_t{1} << orders_[best.axis][place];
+  }
+  divide(whole, is_first);
+  return whole.first + best.place;
+}
+
+/// Those in the plane of the first, and the others.
+std::uint32_t Cutter::cut_between_planes(const Group& whole) {
+  std::uint64_t is_first = 0;
+  for (std::uint32_t place = whole.first; place < whole.last; ++place) {
+    const bool belongs = plane_at(whole, place) == plane_of(whole);
+    is_first |= std::uint64_t{belongs ? 1U : 0U} << orders_[0][place];
+  }
+  divide(whole, is_first);
+  return whole.first + static_cast<std::uint32_t>(std::popcount(is_first));
+}
+
+std::uint32_t Cutter::plane_at(const Group& group, std::uint32_t place) const {
+  return primitives_[ids_[item_at(group, 0, place)]].plane();
+}
+
+bool Cutter::lies_in_one(const Group& group) const {
+  for (std::uint32_t place = group.first + 1; place < group.last; ++place) {
+    if (plane_at(group, place) != plane_of(group)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Brings items, a bit each, to the front of all orders.
+void Cutter::divide(const Group& whole, std::uint64_t is_first) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::uint8_t* const order = orders_[axis].data();
+    std::array<std::uint8_t, sorted_count_max> behind{};
+    std::uint32_t first = whole.first, second = 0;
+    for (std::uint32_t place = whole.first; place < whole.last; ++place) {
+      const std::uint8_t item = order[place];
+      const auto belongs = static_cast<std::uint32_t>(is_first >> item & 1U);
+      order[first] = item;
+      behind[second] = item;
+      first += belongs;
+      second += 1 - belongs;
+    }
+    std::copy_n(behind.begin(), second, order + first);
+  }
+}
+
+std::uint32_t Cutter::cut_between_bins(const Group& whole) {
+  const auto items = std::span(bounds_).subspan(whole.first, whole.count());
+  Bins bins(middles_of(items));
+  for (const Bounds& item : items) {
+    bins.add(item);
+  }
+  Cut best;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Cut cut = bins.best_cut(axis, whole.count());
+    best = cut.cost < best.cost ? cut : best;
+  }
+  if (best.place == 0) {
+    return cut_in_the_middle(whole);
+  }
+  return partition(whole, [&](std::uint32_t i) { return bins.of(bounds_[i], best.axis) < best.place; });
+}
+
+/// Equal numbers on both sides, along the axis on which the middles are farthest apart.
+std::uint32_t Cutter::cut_in_the_middle(const Group& whole) {
+  const std::size_t axis = longest_axis(middles_of(std::span(bounds_).subspan(whole.first, whole.count())));
+  std::vector<std::pair<float, std::uint32_t>> along;
+  along.reserve(whole.count());
+  for (std::uint32_t i = whole.first; i < whole.last; ++i) {
+    along.emplace_back(bounds_[i].middle(axis), ids_[i]);
+  }
+  const auto middle = along.begin() + whole.count() / 2;
+  std::nth_element(along.begin(), middle, along.end());
+  return partition(whole, [&](std::uint32_t i) { return std::pair(bounds_[i].middle(axis), ids_[i]) < *middle; });
+}
+
+/// Brings the primitives for which is_first(place) holds to the front, and says where the others begin.
+template <class IsFirst>
+std::uint32_t Cutter::partition(const Group& whole, const IsFirst& is_first) {
+  std::uint32_t middle = whole.first;
+  for (std::uint32_t i = whole.first; i < whole.last; ++i) {
+    if (is_first(i)) {
+      std::swap(ids_[i], ids_[middle]);
+      std::swap(bounds_[i], bounds_[middle]);
+      ++middle;
+    }
+  }
+  return middle;
+}
+
+}  // namespace dmpc::core

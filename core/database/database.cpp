@@ -1,0 +1,319 @@
+#include "core/database/database.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "core/base/box.h"
+#include "core/base/expect.h"
+#include "core/base/forget.h"
+#include "core/database/brick_builder.h"
+#include "core/database/conversion.h"
+#include "core/database/coplanar.h"
+#include "core/database/empty_space.h"
+#include "core/database/parallel.h"
+#include "core/database/record_writer.h"
+#include "core/database/texture_records.h"
+#include "core/database/top_cells.h"
+#include "core/record/directory.h"
+#include "core/record/records.h"
+#include "core/record/texture_layout.h"
+#include "core/scene/detail.h"
+#include "core/scene/frame.h"
+
+namespace dmpc::core {
+namespace {
+
+void forget_objects(Scene& scene) {
+  forget(scene.objects);
+  forget(scene.vertices);
+  forget(scene.normals);
+  forget(scene.spheres);
+  forget(scene.cones);
+  forget(scene.corners);
+}
+
+void forget_texels(Scene& scene) {
+  for (Texture& texture : scene.textures) {
+    for (TextureLevel& level : texture.levels) {
+      forget(level.texels);
+    }
+  }
+}
+
+}  // namespace
+
+/// Builds in order: frame, primitives, then the records.
+class DatabaseBuilder {
+ public:
+  /// `places`: where the records go that it writes; by default in order. `expendable`: the scene, if its objects may be freed
+  /// once they have been converted.
+  DatabaseBuilder(const Scene& scene, const BuildOptions& options, std::vector<Address> places = {}, Scene* expendable = nullptr)
+      : scene_(scene),
+        expendable_(expendable),
+        options_(options),
+        parallel_(options.threads),
+        writer_(options.page_size_bytes, std::move(places)) {
+    expect(options.page_size_bytes >= 512 && options.page_size_bytes <= 65536 &&
+               (options.page_size_bytes & (options.page_size_bytes - 1)) == 0,
+           "a page is a power of two from 512 B to 64 KiB");
+    result_.page_size_ = options.page_size_bytes;
+  }
+
+  Database build() {
+    fit();
+    conversion_ = convert(scene_, header().frame, parallel_);
+    if (expendable_ != nullptr) {
+      forget_objects(*expendable_);
+    }
+    TopCells cells = sort_into_top_cells();
+    if (settle_coplanar(conversion_, cells, scene_.materials, parallel_)) {
+      cells = sort_into_top_cells();
+    }
+    if (options_.structure == Structure::extents) {
+      cells = join_top_cells();
+    }
+    header().primitive_count = static_cast<std::uint32_t>(conversion_.primitives.size());
+    write_records(cells);
+    give_back_freed();  // trees are many small pieces
+    result_.references_ = cells.references();
+    result_.dropped_ = conversion_.dropped;
+    result_.duplicates_ = conversion_.duplicates;
+    result_.shared_planes_ = conversion_.shared_planes;
+    result_.primitives_ = std::move(conversion_.primitives);
+    result_.sources_ = std::move(conversion_.sources);
+    result_.collapsed_ = std::move(conversion_.collapsed);
+    result_.planes_ = std::move(conversion_.planes);
+    result_.bytes_ = std::move(writer_).finish();
+    result_.page_count_ = (result_.bytes_.size() - overread_bytes) / result_.page_size_;
+    return std::move(result_);
+  }
+
+  /// For the records that build() has written, which the next builder writes in the same sequence.
+  std::vector<Address> scattered() const {
+    return scattered_places(writer_.sizes(), writer_.front_bytes(), options_.page_size_bytes);
+  }
+
+ private:
+  DatabaseHeader& header() { return result_.header_; }
+
+  void fit() {
+    const Box bounds = bounds_of(scene_, options_.axes, parallel_);
+    header().frame = fit_frame(bounds, scene_.objects.size(), options_.cells_per_primitive, options_.axes);
+    if (const auto place = place_of_detail(scene_, options_.axes, bounds)) {
+      move_zero(header().frame, *place);
+    }
+    header().background = Color(scene_.background);
+    if (!bounds.empty()) {
+      const Vec3d extent = bounds.high - bounds.low;
+      const double size = std::max({extent.x, extent.y, extent.z, 1e-30});
+      view_distance_ = std::min(length(turned(options_.axes, scene_.view.from) - bounds.center()) / size, 2 * far_eye_diagonals);
+    }
+    set_pad();
+  }
+
+  void set_pad() { result_.pad_ = options_.pad_share * insertion_pad(header().frame, view_distance_); }
+
+  Vec3d local(const Vec3d& point) const { return to_local(result_.header_.frame, point); }
+
+  /// Lists the primitives of every top cell. Where they are so large, so long, so far from the view or so much in one place that
+  /// the lists would be long, cells of twice the size are tried, at last a single one.
+  TopCells sort_into_top_cells() {
+    for (;;) {
+      auto cells = TopCells::list(conversion_.primitives, header().frame, result_.pad_, parallel_);
+      if (cells) {
+        return std::move(*cells);
+      }
+      coarsen();
+    }
+  }
+
+  /// One top cell in place of all. Whatever depends on cells but the boxes of bricks has been settled before, and rays start
+  /// where they would without, so that the picture keeps its bits.
+  TopCells join_top_cells() {
+    header().frame.eye_extent = grid_high(header().frame) - header().frame.low;
+    while (top_cells(header().frame) != std::array<std::int32_t, 3>{1, 1, 1}) {
+      coarsen();
+    }
+    return sort_into_top_cells();
+  }
+
+  void coarsen() {
+    GridFrame& frame = header().frame;
+    for (std::int32_t& cells : frame.resolution) {
+      cells = ceil_divide(cells, 2);
+    }
+    frame.finest_cell *= 2;
+    set_pad();
+  }
+
+  void write_records(const TopCells& cells) {
+    write_tables();
+    std::vector<BrickTree> trees;
+    if (options_.structure == Structure::extents) {
+      trees = draft_trees(cells);
+      write_forest(trees);
+    }
+    write_textures();
+    write_normals();
+    if (options_.structure == Structure::grid) {
+      trees = draft_trees(cells);
+    }
+    write_grid(cells, trees);
+  }
+
+  void write_tables() {
+    header().region.high = grid_size(header().frame);
+    header().directory_size = top_cells(header().frame);
+    header().directory = writer_.allocate_array<DirectoryEntry>(directory_entry_count(header().directory_size));
+    header().light_count = static_cast<std::uint32_t>(scene_.lights.size());
+    header().lights = writer_.allocate_array<LightRecord>(scene_.lights.size());
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+      const PointLight& light = scene_.lights[i];
+      writer_.write(header().lights, i * sizeof(LightRecord),
+                    LightRecord{.position = Vec3f(local(light.position)), .intensity = Color(intensity_of(light, scene_))});
+    }
+    header().material_count = static_cast<std::uint32_t>(scene_.materials.size());
+    header().materials = writer_.allocate_array<MaterialRecord>(scene_.materials.size());
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+      const Material& from = scene_.materials[i];
+      writer_.write(header().materials, i * sizeof(MaterialRecord),
+                    MaterialRecord{Color(from.color), static_cast<float>(from.diffuse), static_cast<float>(from.specular),
+                                   static_cast<float>(from.shine), static_cast<float>(from.transmittance),
+                                   static_cast<float>(from.refraction_index)});
+    }
+    for (const Texture& texture : scene_.textures) {
+      textures_.push_back(reference_to(texture, writer_));
+    }
+  }
+
+  void write_textures() {
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+      write_tiles(scene_.textures[i], textures_[i], writer_);
+      result_.records_.texture_tiles += tile_count(textures_[i]);
+    }
+    if (expendable_ != nullptr) {
+      forget_texels(*expendable_);
+    }
+  }
+
+  void write_normals() {
+    result_.records_.normals = conversion_.smooth.size();
+    for (const Conversion::Smooth& smooth : conversion_.smooth) {
+      conversion_.shading[smooth.primitive] = ShadingReference::smooth(writer_.add(smooth.normals));
+    }
+    forget(conversion_.smooth);
+    result_.records_.textured = conversion_.textured.size();
+    for (Conversion::Textured& textured : conversion_.textured) {
+      textured.normals.texture = textures_[textured.texture];
+      conversion_.shading[textured.primitive] = ShadingReference::smooth(writer_.add(textured.normals));
+    }
+    forget(conversion_.textured);
+  }
+
+  /// Room for the bricks that no page holds together with all that is below them: pages of their own, with the tables.
+  void write_forest(std::vector<BrickTree>& trees) {
+    for (BrickTree& tree : trees) {
+      tree.take_forest_room(writer_, options_.page_size_bytes);
+    }
+    writer_.begin_page();
+    if (options_.record_order == RecordOrder::spatial) {
+      result_.forest_page_count_ = writer_.page_bytes() / options_.page_size_bytes;
+    }
+  }
+
+  /// Cells are built at the same time.
+  std::vector<BrickTree> draft_trees(const TopCells& cells) {
+    const BrickBuilder builder(conversion_.primitives, result_.pad_, header().frame, parallel_);
+    std::vector<BrickTree> trees(cells.size());
+    std::uint64_t sorted = 0;
+    parallel_.for_each(
+        trees.size(), [&](std::size_t i) { trees[i] = builder.build(cells.corner(i), cells.ids(i)); },
+        [&](std::size_t i) {
+          sorted += cells.ids(i).size();
+          if (options_.progress) {
+            options_.progress(sorted, cells.references());
+          }
+        });
+    return trees;
+  }
+
+  /// Trees take their room in order, and are written at the same time.
+  void write_grid(const TopCells& cells, std::vector<BrickTree>& trees) {
+    std::vector<DirectoryEntry> directory(directory_entry_count(header().directory_size));
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+      const std::uint64_t entry = directory_index(header().directory_size, cells.corner(i));
+      trees[i].count(result_.records_);
+      directory[entry].bits = static_cast<std::uint32_t>(trees[i].take_room(writer_));
+    }
+    writer_.make_room();
+    parallel_.for_each(trees.size(), [&](std::size_t i) {
+      trees[i].write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_);
+    });
+    measure_empty_space(header().directory_size, directory);
+    writer_.write(header().directory, 0, std::as_bytes(std::span(directory)));
+  }
+
+  const Scene& scene_;
+  Scene* expendable_;
+  BuildOptions options_;
+  Parallel parallel_;
+  RecordWriter writer_;
+  Database result_;
+  double view_distance_ = 0;  ///< from the scene's middle, in extents
+  Conversion conversion_;
+  std::vector<TextureReference> textures_;  ///< of the scene's, in order
+};
+
+namespace {
+
+/// Looks through the bricks below one.
+void find_places_below(const LocalRecords& records, Address from, std::vector<Database::Place>& places) {
+  const auto brick = read<Brick>(records.find(from));
+  for (std::size_t child = 0; child < brick.child_count; ++child) {
+    const Address address = brick.child[child].address();
+    if (!brick.child[child].is_block()) {
+      find_places_below(records, address, places);
+      continue;
+    }
+    const std::byte* const block = records.find(address);
+    const auto header = read<BlockHeader>(block);
+    const std::byte* const ids = ids_of(header, block);
+    for (std::uint32_t lane = 0; lane < header.count; ++lane) {
+      places[read<std::uint32_t>(ids + lane * sizeof(std::uint32_t))] = {address, lane};
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Database::Place> Database::find_places() const {
+  const LocalRecords records(bytes());
+  std::vector<Place> places(header_.primitive_count);
+  for (std::uint64_t i = 0; i < directory_entry_count(header_.directory_size); ++i) {
+    const auto entry = read<DirectoryEntry>(records.find(header_.directory) + i * sizeof(DirectoryEntry));
+    if (!entry.empty()) {
+      find_places_below(records, entry.brick(), places);
+    }
+  }
+  return places;
+}
+
+Database build_database(const Scene& scene, const BuildOptions& options) {
+  DatabaseBuilder builder(scene, options);
+  Database database = builder.build();
+  return options.record_order == RecordOrder::spatial ? std::move(database)
+                                                      : DatabaseBuilder(scene, options, builder.scattered()).build();
+}
+
+Database build_database(Scene&& scene, const BuildOptions& options) {
+  if (options.record_order == RecordOrder::spatial) {
+    return DatabaseBuilder(scene, options, {}, &scene).build();
+  }
+  Database database = build_database(std::as_const(scene), options);
+  forget_objects(scene);
+  forget_texels(scene);
+  return database;
+}
+
+}  // namespace dmpc::core

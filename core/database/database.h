@@ -1,0 +1,152 @@
+// The scene as flat records cut into pages, ready for nodes (built on the host).
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/base/forget.h"
+#include "core/database/record_order.h"
+#include "core/database/structure.h"
+#include "core/record/curved_values.h"
+#include "core/record/record.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::core {
+
+struct BuildOptions {
+  std::size_t page_size_bytes = 1024;  ///< a power of two, 512 B to 64 KiB
+  double cells_per_primitive = 0.125;  ///< sets the size of cells, and with it that of top cells and of the finest lattice
+  RecordOrder record_order = RecordOrder::spatial;
+  Structure structure = Structure::grid;  ///< other boxes around the same floats: the picture keeps its bits
+  GridAxes axes = world_axes;  ///< the grid's directions: another grid, so other bits, but the same picture to rounding
+  std::uint32_t threads = 0;   ///< that build; 0: one for each core. The bytes are the same
+  /// Called now and then, by one thread at a time, with the references that are sorted into trees and how many there are: the
+  /// longest part of a build. May be empty.
+  std::function<void(std::uint64_t, std::uint64_t)> progress = {};
+  double pad_share = 1;  ///< of insertion_pad(); less than 1 only to test what the pad would hide
+};
+
+/// Where a primitive came from, for messages, for the oracle and for counting; host only.
+struct PrimitiveSource {
+  std::uint32_t object = 0;  ///< index into Scene::objects; triangles of one polygon share it
+};
+
+/// A primitive that rounding to the grid's coordinates left nothing of.
+struct CollapsedPrimitive {
+  Vec3f place;     ///< grid-local
+  float size = 0;  ///< what it would have across, grid-local
+};
+
+/// One primitive as its records hold it, for the oracle and the referee. Rows as in BlockHeader.
+struct PrimitiveValues {
+  PrimitiveKind kind{};
+  std::array<float, value_count_max> value{};
+
+  /// A vertex, centre or end, by the row where it starts: what its floats say.
+  Vec3d vector(std::size_t row) const { return {double{value[row]}, double{value[row + 1]}, double{value[row + 2]}}; }
+  /// The values of a sphere or cone, with rests; no longer than this.
+  CurvedValues curved() const { return {kind, value.data(), 1, 0}; }
+
+  /// The plane() of triangles that have a coordinate in common, by which their plane is known.
+  static constexpr std::uint32_t level_plane = 0xffffffffU;
+
+  /// Says of a triangle which of Database::planes() it shares with others that cover it, from 1 on; 0: none. It stands behind the
+  /// nine values.
+  std::uint32_t plane() const {
+    return kind == PrimitiveKind::triangle ? std::bit_cast<std::uint32_t>(value[value_count(kind)]) : 0;
+  }
+  /// Whether its records have to tell its plane.
+  bool needs_plane() const { return plane() != 0 && plane() != level_plane; }
+  void lie_in(std::uint32_t number) { value[value_count(PrimitiveKind::triangle)] = std::bit_cast<float>(number); }
+};
+static_assert(value_count(PrimitiveKind::triangle) < value_count_max);
+
+/// Records of the grid and of shading, by kind.
+struct RecordCounts {
+  std::uint64_t bricks = 0;
+  std::array<std::uint64_t, primitive_kind_count> blocks{};
+  std::uint64_t normals = 0;        ///< PatchNormals
+  std::uint64_t textured = 0;       ///< TexturedNormals
+  std::uint64_t texture_tiles = 0;  ///< of all levels
+};
+
+class Database {
+ public:
+  const DatabaseHeader& header() const { return header_; }
+  std::size_t page_size() const { return page_size_; }
+  std::size_t page_count() const { return page_count_; }
+  /// page_count() * page_size() bytes (overread_bytes more are readable); none once they are forgotten.
+  std::span<const std::byte> bytes() const { return std::span(bytes_).first(bytes_.empty() ? 0 : page_count_ * page_size_); }
+  std::span<const std::byte> page(std::size_t index) const { return bytes().subspan(index * page_size_, page_size_); }
+
+  /// All primitives, by id: grid-local, the very floats of the records. Ids follow the file's order, but that of faces which
+  /// share a plane those come last that let light through (core/database/coplanar.h).
+  std::span<const PrimitiveValues> primitives() const { return primitives_; }
+  std::span<const PrimitiveSource> sources() const { return sources_; }
+  /// By PrimitiveValues::plane() - 1.
+  std::span<const FacePlane> planes() const { return planes_; }
+  /// Where some copy of primitive `id` lies: what Hit::block and Hit::lane of a hit on it may be.
+  struct Place {
+    Address block = no_address;
+    std::uint32_t lane = 0;
+  };
+  /// Places by id; found by looking through all records, so ask once.
+  std::vector<Place> find_places() const;
+
+  /// Frees the bytes: for when the nodes have them. All figures stay.
+  void forget_records() {
+    forget(bytes_);
+    give_back_freed();
+  }
+  /// Those of dropped() that have a size in the scene.
+  std::span<const CollapsedPrimitive> collapsed() const { return collapsed_; }
+
+  /// Frees primitives(), sources() and planes(): for when no oracle, no referee and no message will ask.
+  void forget_primitives() {
+    forget(primitives_);
+    forget(sources_);
+    forget(planes_);
+  }
+
+  /// Degenerate primitives (zero area or length, radius 0, not finite) that were left out, by reason in total.
+  std::uint32_t dropped() const { return dropped_; }
+  /// Triangles that were left out, since others have the same corners.
+  std::uint32_t duplicates() const { return duplicates_; }
+  /// Planes in which several triangles cover each other.
+  std::uint32_t shared_planes() const { return shared_planes_; }
+  /// Copies of primitives in blocks, at least one each.
+  std::uint64_t references() const { return references_; }
+  const RecordCounts& records() const { return records_; }
+  /// How many pages of one tree in spatial order lie before the first subtree: tables and the bricks above. What a page behind
+  /// them holds of the tree holds all that is below it. 0 for any other database.
+  std::size_t forest_page_count() const { return forest_page_count_; }
+  /// Half the width of the slab within which a primitive counts as touching a cell, grid-local.
+  double pad() const { return pad_; }
+
+ private:
+  friend class DatabaseBuilder;
+  DatabaseHeader header_;
+  std::size_t page_size_ = 0, page_count_ = 0, forest_page_count_ = 0;
+  std::vector<std::byte> bytes_;
+  std::vector<PrimitiveValues> primitives_;
+  std::vector<PrimitiveSource> sources_;
+  std::vector<CollapsedPrimitive> collapsed_;
+  std::vector<FacePlane> planes_;
+  std::uint32_t dropped_ = 0, duplicates_ = 0, shared_planes_ = 0;
+  std::uint64_t references_ = 0;
+  RecordCounts records_;
+  double pad_ = 0;
+};
+
+/// Throws RoomError if the database would exceed 16 GiB.
+Database build_database(const Scene& scene, const BuildOptions& options);
+/// Builds as the other, and frees the scene's objects on the way: they never lie in memory beside the records. View, lights,
+/// materials and background stay, and of textures all but their texels.
+Database build_database(Scene&& scene, const BuildOptions& options);
+
+}  // namespace dmpc::core

@@ -1,0 +1,291 @@
+#include "core/database/extract.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include "core/base/expect.h"
+#include "core/base/units.h"
+#include "core/database/address_map.h"
+#include "core/database/record_writer.h"
+#include "core/database/region_records.h"
+#include "core/database/texture_records.h"
+#include "core/record/directory.h"
+#include "core/record/texture_layout.h"
+
+namespace dmpc::core {
+namespace {
+
+/// Nothing depends on a part's pages; the smallest wastes least at its end.
+constexpr std::size_t part_page_bytes = 512;
+
+class Extractor {
+ public:
+  Extractor(const Database& database, std::span<const Region> regions, Keeps keeps)
+      : whole_(database.header()), bytes_(database.bytes().data()), regions_(regions), writer_(part_page_bytes, keeps) {
+    expect(!regions.empty(), "a part is of one region or more");
+    part_.holds.resize(regions.size());
+  }
+
+  DatabasePart extract() {
+    DatabaseHeader& header = part_.header;
+    header = whole_;
+    header.region = regions_.front();
+    const Region around = box_around_regions();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      header.directory_low[axis] = around.low[axis] / finest_per_top * finest_per_top;
+      header.directory_size[axis] = ceil_divide(around.high[axis] - header.directory_low[axis], finest_per_top);
+    }
+    header.directory = writer_.allocate_array<DirectoryEntry>(directory_entry_count(header.directory_size));
+    header.lights = copy_array<LightRecord>(whole_.lights, whole_.light_count);
+    header.materials = copy_array<MaterialRecord>(whole_.materials, whole_.material_count);
+    copy_directory(around);
+    copy_textures();
+    part_.record_bytes = writer_.page_bytes();
+    part_.bytes = std::move(writer_).finish();
+    return std::move(part_);
+  }
+
+ private:
+  /// Those of the regions, by number, that are still in question: a part of among_, which grows and shrinks like a stack.
+  struct Those {
+    std::size_t first, count;
+  };
+
+  Region box_around_regions() const {
+    Region box = regions_.front();
+    for (const Region& region : regions_) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::min(box.low[axis], region.low[axis]);
+        box.high[axis] = std::max(box.high[axis], region.high[axis]);
+      }
+    }
+    return box;
+  }
+
+  const std::byte* at(Address address) const { return bytes_ + byte_offset(address); }
+
+  template <class T>
+  Address copy_array(Address from, std::size_t count) {
+    const Address to = writer_.allocate_array<T>(count);
+    if (count > 0) {
+      writer_.write(to, 0, std::span(at(from), count * sizeof(T)));
+    }
+    return to;
+  }
+
+  void copy_directory(const Region& around) {
+    const DatabaseHeader& header = part_.header;
+    Corner cell;
+    for (cell[2] = header.directory_low[2]; cell[2] < around.high[2]; cell[2] += finest_per_top) {
+      for (cell[1] = header.directory_low[1]; cell[1] < around.high[1]; cell[1] += finest_per_top) {
+        for (cell[0] = header.directory_low[0]; cell[0] < around.high[0]; cell[0] += finest_per_top) {
+          copy_top_cell(cell);
+        }
+      }
+    }
+  }
+
+  void copy_top_cell(const Corner& cell) {
+    const std::uint64_t from = directory_index(whole_, cell), to = directory_index(part_.header, cell);
+    auto entry = read<DirectoryEntry>(at(directory_address(whole_, from)) + directory_offset(from));
+    if (!entry.empty()) {
+      const Those those = regions_over(cell);
+      const Address copy = those.count > 0 ? copy_brick(brick_at(entry.brick()), those) : no_address;
+      among_.clear();
+      entry.bits = copy != no_address ? static_cast<std::uint32_t>(copy) : DirectoryEntry::empty_flag;
+    }
+    writer_.write(directory_address(part_.header, to), directory_offset(to), entry);
+  }
+
+  Those regions_over(const Corner& cell) {
+    for (std::uint32_t i = 0; i < regions_.size(); ++i) {
+      if (regions_[i].overlaps(cell, finest_per_top)) {
+        among_.push_back(i);
+      }
+    }
+    return {0, among_.size()};
+  }
+
+  /// Those that a child's box touches; let_go() of them before those from which they were chosen.
+  Those touched(const Brick& brick, std::size_t child, const Those& those) {
+    const std::size_t first = among_.size();
+    for (std::size_t i = 0; i < those.count; ++i) {
+      const std::uint32_t region = among_[those.first + i];
+      if (touches(whole_.frame, brick, child, regions_[region])) {
+        among_.push_back(region);
+      }
+    }
+    return {first, among_.size() - first};
+  }
+  void let_go(const Those& those) { among_.resize(those.first); }
+
+  /// Whether one of the regions needs a brick's child: a block whose box touches it, or a brick that has such below.
+  bool needs(const Brick& brick, std::size_t child, const Those& those) {
+    const BrickChild& link = brick.child[child];
+    const Those left = touched(brick, child, those);
+    const bool is_needed = left.count > 0 && (link.is_block() || needs_any_child(brick_at(link.address()), left));
+    let_go(left);
+    return is_needed;
+  }
+  bool needs_any_child(const Brick& brick, const Those& those) {
+    for (std::size_t child = 0; child < brick.child_count; ++child) {
+      if (needs(brick, child, those)) {
+        return true;
+      }
+    }
+    return false;
+  }
+  /// A bit for each.
+  std::uint32_t needed_children(const Brick& brick, const Those& those) {
+    std::uint32_t needed = 0;
+    for (std::size_t child = 0; child < brick.child_count; ++child) {
+      needed |= (needs(brick, child, those) ? 1U : 0U) << child;
+    }
+    return needed;
+  }
+
+  const Brick& brick_at(Address address) const { return *reinterpret_cast<const Brick*>(at(address)); }
+
+  /// Copies what a brick has for the regions; no_address if that is nothing.
+  Address copy_brick(const Brick& from, const Those& those) {
+    std::uint32_t needed = needed_children(from, those);
+    if (needed == 0) {
+      return no_address;
+    }
+    const Address to = writer_.allocate(sizeof(Brick));
+    Brick brick{.origin = from.origin, .unit = from.unit};
+    for (; needed != 0; needed &= needed - 1) {
+      const auto child = static_cast<std::size_t>(std::countr_zero(needed));
+      const std::size_t place = brick.child_count++;
+      brick.child[place] = copy_child(from, child, those);
+      for (std::size_t row = 0; row < 6; ++row) {
+        brick.bounds[row][place] = from.bounds[row][child];
+      }
+    }
+    writer_.write(to, 0, brick);
+    return to;
+  }
+
+  BrickChild copy_child(const Brick& from, std::size_t child, const Those& those) {
+    const Address old = from.child[child].address();
+    const Those left = touched(from, child, those);
+    const BrickChild copy = from.child[child].is_block() ? BrickChild::block(copy_block(old, left, is_shared(from, child, left)))
+                                                         : BrickChild::brick(copy_brick(brick_at(old), left));
+    let_go(left);
+    return copy;
+  }
+
+  /// Whether a child's box lies in none of those regions: a ray may meet it in others, too.
+  bool is_shared(const Brick& brick, std::size_t child, const Those& those) const {
+    const auto holds = [&](std::uint32_t region) {
+      bool is_within = true;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        is_within = is_within && place_of(brick, axis, child) > plane_at(whole_.frame, axis, regions_[region].low[axis]) &&
+                    place_of(brick, axis + 3, child) < plane_at(whole_.frame, axis, regions_[region].high[axis]);
+      }
+      return is_within;
+    };
+    const auto first = among_.begin() + static_cast<std::ptrdiff_t>(those.first);
+    return std::none_of(first, first + static_cast<std::ptrdiff_t>(those.count), holds);
+  }
+
+  Address copy_block(Address from, const Those& those, bool is_shared) {
+    for (std::size_t i = 0; i < those.count; ++i) {
+      part_.holds[among_[those.first + i]] = true;
+    }
+    auto header = read<BlockHeader>(at(from));
+    const std::size_t rows = block_bytes(header.kind, header.count), size = block_bytes(header);
+    const std::size_t row = sizeof(ShadingReference) * header.count;
+    std::array<ShadingReference, block_lanes> lanes;
+    const std::span shading(lanes.data(), header.count);
+    std::memcpy(lanes.data(), at(from) + rows - row, row);
+    for (ShadingReference& reference : shading) {
+      if (reference.is_smooth()) {
+        reference = ShadingReference::smooth(copy_normals(reference.normals()));
+      }
+    }
+    const Address to = writer_.allocate(size);
+    writer_.write(to, 0, std::span(at(from), size));
+    writer_.write(to, rows - row, std::as_bytes(shading));
+    header.shared_name = is_shared ? static_cast<std::uint32_t>(from) + 1 : 0;
+    writer_.write(to, 0, header);
+    part_.primitive_copies += header.count;
+    return to;
+  }
+
+  /// A triangle that lies in several bricks keeps one record of normals.
+  Address copy_normals(Address from) {
+    const auto [copy, is_new] = normals_.find_or_add(from);
+    if (is_new && read<PatchNormals>(at(from)).is_textured()) {
+      auto textured = read<TexturedNormals>(at(from));
+      textured.texture = copy_reference(textured);
+      copy = writer_.add(textured);
+    } else if (is_new) {
+      copy = writer_.add(read<PatchNormals>(at(from)));
+    }
+    return copy;
+  }
+
+  /// Notes which tiles the triangle needs; they are copied when all are known.
+  TextureReference copy_reference(const TexturedNormals& triangle) {
+    const auto [found, is_new] = textures_.try_emplace(static_cast<std::uint32_t>(triangle.texture.tiles));
+    UsedTexture& texture = found->second;
+    if (is_new) {
+      const std::size_t entries = tile_entry_count(triangle.texture);
+      texture.from = texture.to = triangle.texture;
+      texture.to.tiles = writer_.allocate_array<Address>(entries);
+      texture.needed.resize(entries);
+    }
+    for_each_tile(triangle, [&](std::uint32_t tile) { texture.needed[tile] = true; });
+    return texture.to;
+  }
+
+  /// In the order of the whole, which keeps neighbours together.
+  void copy_textures() {
+    for (const auto& [address, texture] : textures_) {
+      const auto* const table = reinterpret_cast<const Address*>(at(texture.from.tiles));
+      std::map<Address, std::size_t> tiles;
+      for (std::size_t tile = 0; tile < texture.needed.size(); ++tile) {
+        if (texture.needed[tile]) {
+          tiles.emplace(table[tile], tile);
+        }
+      }
+      std::vector<Address> copies(texture.needed.size(), no_address);
+      for (const auto& [from, tile] : tiles) {
+        copies[tile] = writer_.add(read<TextureTile>(at(from)));
+      }
+      writer_.write(texture.to.tiles, 0, std::as_bytes(std::span(copies)));
+    }
+  }
+
+  /// A texture that the regions' triangles show.
+  struct UsedTexture {
+    TextureReference from, to;
+    std::vector<bool> needed;  ///< tiles
+  };
+
+  const DatabaseHeader& whole_;
+  const std::byte* bytes_;
+  std::span<const Region> regions_;
+  std::vector<std::uint32_t> among_;
+  RecordWriter writer_;
+  DatabasePart part_;
+  AddressMap normals_;
+  std::map<std::uint32_t, UsedTexture> textures_;  ///< by the old address of their tables
+};
+
+}  // namespace
+
+DatabasePart extract(const Database& database, std::span<const Region> regions) {
+  return Extractor(database, regions, Keeps::records).extract();
+}
+
+DatabasePart measure_part(const Database& database, std::span<const Region> regions) {
+  return Extractor(database, regions, Keeps::nothing).extract();
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,106 @@
+#include "core/database/outline.h"
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include "core/base/units.h"
+#include "core/database/record_writer.h"
+#include "core/record/directory.h"
+
+namespace dmpc::core {
+namespace {
+
+/// Nothing depends on an outline's pages; the smallest wastes least.
+constexpr std::size_t outline_page_bytes = 512;
+/// On 64 nodes and 512x512 pixels rays of four scenes took 0.68 of the processor time with 4 KiB of outline that they took
+/// without, 0.65 with 16 KiB, 0.64 with 64 KiB.
+constexpr std::size_t small_outline_bytes = 16_KiB;
+/// A topmost brick stands for some 4,096 primitives: about a 4,096th of the database.
+constexpr std::size_t database_share = 2048;
+
+/// Copies bricks in the order in which they are met, level by level.
+class Outliner {
+ public:
+  Outliner(const Database& database, std::size_t bytes_max)
+      : whole_(database.header()), bytes_(database.bytes().data()), bytes_max_(bytes_max), writer_(outline_page_bytes) {}
+
+  /// None if the topmost bricks do not fit.
+  std::optional<DatabasePart> outline() {
+    DatabasePart part{.header = whole_};
+    if (!copy_directory(part.header)) {
+      return std::nullopt;
+    }
+    for (; !waiting_.empty(); waiting_.pop_front()) {
+      copy_brick(waiting_.front().first, waiting_.front().second);
+    }
+    part.record_bytes = writer_.page_bytes();
+    part.bytes = std::move(writer_).finish();
+    return part;
+  }
+
+ private:
+  const std::byte* at(Address address) const { return bytes_ + byte_offset(address); }
+
+  /// For one brick more, the last page filled up.
+  bool has_room() const { return writer_.page_bytes_with(sizeof(Brick)) <= bytes_max_; }
+
+  /// Room for the copy of a brick, which is made when its turn comes.
+  Address wait_for(Address from) {
+    const Address to = writer_.allocate(sizeof(Brick));
+    waiting_.emplace_back(from, to);
+    return to;
+  }
+
+  /// False if it does not fit with the bricks that it names.
+  bool copy_directory(DatabaseHeader& header) {
+    const std::uint64_t count = directory_entry_count(whole_.directory_size);
+    bool fits = count * sizeof(DirectoryEntry) <= bytes_max_;
+    header.directory = fits ? writer_.allocate_array<DirectoryEntry>(count) : no_address;
+    for (std::uint64_t index = 0; index < count && fits; ++index) {
+      auto entry = read<DirectoryEntry>(at(directory_address(whole_, index)) + directory_offset(index));
+      fits = entry.empty() || has_room();
+      if (!entry.empty() && fits) {
+        entry.bits = static_cast<std::uint32_t>(wait_for(entry.brick()));
+      }
+      writer_.write(directory_address(header, index), directory_offset(index), entry);
+    }
+    return fits;
+  }
+
+  void copy_brick(Address from, Address to) {
+    auto brick = read<Brick>(at(from));
+    for (std::size_t child = 0; child < brick.child_count; ++child) {
+      const BrickChild whole = brick.child[child];
+      brick.child[child] =
+          whole.is_block() || !has_room() ? BrickChild::block(Address{0}) : BrickChild::brick(wait_for(whole.address()));
+    }
+    writer_.write(to, 0, brick);
+  }
+
+  const DatabaseHeader& whole_;
+  const std::byte* bytes_;
+  std::size_t bytes_max_;
+  RecordWriter writer_;
+  std::deque<std::pair<Address, Address>> waiting_;  ///< bricks to be copied: from, to
+};
+
+DatabasePart nothing_of(const Database& database) {
+  DatabasePart part{.header = database.header(), .bytes = RecordWriter(outline_page_bytes).finish()};
+  part.header.directory = no_address;
+  return part;
+}
+
+}  // namespace
+
+std::size_t outline_bytes_max(const Database& database) {
+  return std::max(small_outline_bytes, database.bytes().size() / database_share);
+}
+
+DatabasePart outline_of(const Database& database, std::size_t bytes_max) {
+  const std::optional<DatabasePart> outline = Outliner(database, bytes_max).outline();
+  return outline ? *outline : nothing_of(database);
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,36 @@
+// Conservative tests whether a primitive's surface touches a box: never a false no.
+#pragma once
+
+#include "core/base/bounds.h"
+#include "core/base/box.h"
+#include "core/database/database.h"
+
+namespace dmpc::core {
+
+/// The primitive's bounding box, not padded.
+Box bounds_of(const PrimitiveValues& primitive);
+/// These bounds in single precision, rounded outwards.
+Bounds rounded_bounds_of(const PrimitiveValues& primitive);
+
+/// One primitive against many boxes. Boxes come enlarged by the pad; comparisons are inclusive.
+/// Triangles: separating axes, T. Akenine-Moeller, "Fast 3D Triangle-Box Overlap Testing", 2001. Spheres: the shell's two radii
+/// against the box's nearest and farthest point. Cones: distance of the box's centre to the lateral surface against its half
+/// diagonal.
+class Overlap {
+ public:
+  explicit Overlap(const PrimitiveValues& primitive);
+  bool touches(const Vec3d& center, const Vec3d& half) const;
+
+ private:
+  bool triangle(const Vec3d& center, const Vec3d& half) const;
+  bool sphere(const Vec3d& center, const Vec3d& half) const;
+  bool cone(const Vec3d& center, const Vec3d& half) const;
+
+  PrimitiveKind kind_;
+  Box bounds_;
+  Vec3d a_, b_, c_;  ///< vertices, or centre, or base and axis
+  Vec3d normal_;
+  double radius_ = 0, apex_radius_ = 0;
+};
+
+}  // namespace dmpc::core

@@ -1,0 +1,33 @@
+// Work shared out among the cores, for building; tracing has no threads.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace dmpc::core {
+
+/// Threads that do the parts of a loop in any order, so that what a part does must not depend on the others. Under the thread
+/// sanitizer, which does not understand oneTBB, one thread does all. Thread safety: for_each() may be called by a part.
+class Parallel {
+ public:
+  /// `threads`: how many do the work; 0: one for each core.
+  explicit Parallel(std::uint32_t threads);
+  ~Parallel();
+  Parallel(const Parallel&) = delete;
+  Parallel& operator=(const Parallel&) = delete;
+
+  /// Calls part(i) once for each i below `count` and returns when all are done. Throws what a part throws, one of them if several
+  /// do.
+  void for_each(std::size_t count, const std::function<void(std::size_t)>& part) const;
+  /// Does as the other, and calls ended(i) after part(i); in any order, but never two of them at a time.
+  void for_each(std::size_t count, const std::function<void(std::size_t)>& part,
+                const std::function<void(std::size_t)>& ended) const;
+
+ private:
+  struct Arena;
+  std::unique_ptr<Arena> arena_;  ///< none: the calling thread alone
+};
+
+}  // namespace dmpc::core

@@ -1,0 +1,113 @@
+// Which records a region of space needs, found by walking down from the directory as a ray might.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "core/base/region.h"
+#include "core/database/texture_records.h"
+#include "core/record/directory.h"
+#include "core/record/record.h"
+#include "core/record/records.h"
+#include "core/record/texture_layout.h"
+
+namespace dmpc::core {
+
+/// Whether the box of a brick's child, borders included, touches a region: a ray in a region that it does not touch never needs
+/// it.
+inline bool touches(const GridFrame& frame, const Brick& brick, std::size_t child, const Region& region) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (place_of(brick, axis, child) > plane_at(frame, axis, region.high[axis]) ||
+        place_of(brick, axis + 3, child) < plane_at(frame, axis, region.low[axis])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Calls visit(address) for the records of a whole database that rays in `region`, and shading the hits there, may ask for, but
+/// for materials and lights; some more than once. Takes no memory but a stack as deep as the trees. Requires that all of them
+/// are there: `records` never answers nullptr.
+template <Records R, class Visit>
+class RegionRecords {
+ public:
+  RegionRecords(R& records, const DatabaseHeader& header, const Region& region, const Visit& visit)
+      : records_(&records), header_(&header), region_(&region), visit_(&visit) {}
+
+  void visit_all() {
+    Corner first;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      first[axis] = region_->low[axis] / finest_per_top * finest_per_top;
+    }
+    Corner cell;
+    for (cell[2] = first[2]; cell[2] < region_->high[2]; cell[2] += finest_per_top) {
+      for (cell[1] = first[1]; cell[1] < region_->high[1]; cell[1] += finest_per_top) {
+        for (cell[0] = first[0]; cell[0] < region_->high[0]; cell[0] += finest_per_top) {
+          visit_top_cell(cell);
+        }
+      }
+    }
+  }
+
+ private:
+  /// The record at an address, for the caller to copy from at once.
+  const std::byte* at(Address address) {
+    (*visit_)(address);
+    return records_->find(address);
+  }
+
+  void visit_top_cell(const Corner& cell) {
+    const std::uint64_t index = directory_index(*header_, cell);
+    const auto entry = read<DirectoryEntry>(at(directory_address(*header_, index)) + directory_offset(index));
+    if (!entry.empty()) {
+      visit_brick(entry.brick());
+    }
+  }
+
+  void visit_brick(Address address) {
+    const auto brick = read<Brick>(at(address));
+    for (std::size_t child = 0; child < brick.child_count; ++child) {
+      if (touches(header_->frame, brick, child, *region_)) {
+        brick.child[child].is_block() ? visit_block(brick.child[child].address()) : visit_brick(brick.child[child].address());
+      }
+    }
+  }
+
+  void visit_block(Address address) {
+    const std::byte* const block = at(address);
+    const auto header = read<BlockHeader>(block);
+    std::array<ShadingReference, block_lanes> lanes;
+    const std::size_t row = sizeof(ShadingReference) * header.count;
+    std::memcpy(lanes.data(), block + block_bytes(header.kind, header.count) - row, row);
+    for (std::size_t lane = 0; lane < header.count; ++lane) {
+      if (lanes[lane].is_smooth()) {
+        visit_normals(lanes[lane].normals());
+      }
+    }
+  }
+
+  void visit_normals(Address address) {
+    const std::byte* const normals = at(address);
+    if (read<PatchNormals>(normals).is_textured()) {
+      const auto textured = read<TexturedNormals>(normals);
+      for_each_tile(textured, [&](std::uint32_t tile) {
+        const Address entry = tile_entry_address(textured.texture, tile);
+        (*visit_)(read<Address>(at(entry) + tile_entry_offset(tile)));
+      });
+    }
+  }
+
+  R* records_;
+  const DatabaseHeader* header_;
+  const Region* region_;
+  const Visit* visit_;
+};
+
+template <Records R, class Visit>
+void for_each_record_of(R& records, const DatabaseHeader& header, const Region& region, const Visit& visit) {
+  RegionRecords<R, Visit>(records, header, region, visit).visit_all();
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,51 @@
+// Which primitives touch which top cells of the grid.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/database/database.h"
+#include "core/database/parallel.h"
+#include "core/record/record.h"
+
+namespace dmpc::core {
+
+/// A list for every occupied top cell, the cells in Morton order.
+class TopCells {
+ public:
+  /// None where the lists would be long: where a primitive lies in more than four cells on average; always some for a single
+  /// cell. A primitive is listed wherever it comes within `pad` of a cell, grid-local, and perhaps a little farther off.
+  static std::optional<TopCells> list(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
+                                      const Parallel& parallel);
+
+  std::size_t size() const { return cells_.size(); }
+  /// The lower corner of cell `index`, in finest cells.
+  const Corner& corner(std::size_t index) const { return cells_[index].corner; }
+  /// The primitives of cell `index`, ascending, at least one.
+  std::span<const std::uint32_t> ids(std::size_t index) const {
+    return std::span(ids_).subspan(cells_[index].first, cells_[index].count);
+  }
+  /// The lengths of all lists.
+  std::uint64_t references() const { return ids_.size(); }
+
+ private:
+  /// That a primitive touches a cell, by the index of its entry in the directory.
+  struct Touch {
+    std::uint32_t cell, id;
+  };
+  struct Cell {
+    std::uint64_t code;
+    Corner corner;
+    std::size_t first, count;  ///< of ids_
+  };
+  class Lister;
+
+  TopCells(const GridFrame& frame, const std::vector<std::vector<Touch>>& touches);
+
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> ids_;
+};
+
+}  // namespace dmpc::core

@@ -1,0 +1,14 @@
+#include "core/trace/work.h"
+
+namespace dmpc::core {
+
+std::uint64_t work_of(const Operations& operations, const WorkPrices& prices) {
+  std::uint64_t sum = operations.traced_ray_count() * prices.ray_ps;
+  for (std::size_t kind = 0; kind < primitive_kind_count; ++kind) {
+    sum += operations.primitive_tests[kind] * prices.primitive_test_ps[kind];
+  }
+  return sum + operations.cell_steps * prices.cell_step_ps + operations.brick_reads * prices.brick_read_ps +
+         operations.shadings * prices.shading_ps + operations.tile_reads * prices.tile_read_ps;
+}
+
+}  // namespace dmpc::core

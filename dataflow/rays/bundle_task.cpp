@@ -1,0 +1,144 @@
+#include "dataflow/rays/bundle_task.h"
+
+#include <utility>
+
+#include "core/base/expect.h"
+#include "core/picture/memory_use.h"
+#include "core/trace/traversal.h"
+
+namespace dmpc::dataflow {
+
+BundleTask::BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max) : self_(self) {
+  std::span<Flights> flights;
+  std::tie(flights, stack_) = layout(depth_max).in(memory);
+  flights_ = flights.data();
+}
+
+nodes::Layout<BundleTask::Flights, core::BundleHit> BundleTask::layout(std::uint32_t depth_max) {
+  return {{core::MemoryUse::ray_stacks, 1}, {core::MemoryUse::ray_stacks, depth_max}};
+}
+
+void BundleTask::shoot(const core::Ray& ray) {
+  core::expect(!has_ended() && count_ < rays_max, "a bundle has room for its rays");
+  flights_->bundle.rays[count_] = ray;
+  flights_->entry[count_++].finder = self_;
+}
+
+void BundleTask::enter(const RayMessage& message) {
+  core::expect(count_ < (has_ended() ? ended_ : rays_max), "a bundle has room for its rays");
+  entered_ |= core::RayMask{1} << count_;
+  flights_->bundle.rays[count_] = message.ray;
+  flights_->entry[count_++] = {message.passage(), nodes::NodeId{message.finder}};
+}
+
+void BundleTask::resume_hit(const RayMessage& message) {
+  core::expect(nodes::NodeId{message.finder} == self_, "a confirmed hit comes to its finder");
+  push(message.ray, message.best);
+}
+
+/// Those that waited come behind those that have been taken up since, each to its own place or one before it.
+void BundleTask::gather_waiting() {
+  for (; waiting_ > 0; --waiting_, ++count_, ++traced_) {
+    flights_->bundle.rays[count_] = flights_->bundle.rays[traced_];
+    flights_->entry[count_] = flights_->entry[traced_];
+    entered_ |= core::RayMask{1} << count_;
+  }
+}
+
+/// That of the first ray; the one before if it starts where the node has none.
+void BundleTask::choose_region(PartTracer& tracer, const core::GridFrame& frame) {
+  if ((entered_ & 1U) != 0) {
+    const bool is_here = tracer.enter_taken_up(flights_->entry[0].passage.cell);
+    core::expect(is_here, "a ray enters a region of the node's");
+  } else if (const auto passage = core::first_passage(flights_->bundle.rays[0], frame)) {
+    tracer.enter(passage->cell);
+  }
+}
+
+/// Puts the rays that enter another region behind the others, where they wait.
+void BundleTask::part_others(const core::Region& region) {
+  for (std::uint32_t i = 0; i < count_;) {
+    if ((entered_ >> i & 1U) == 0 || region.contains(flights_->entry[i].passage.cell)) {
+      ++i;
+      continue;
+    }
+    --count_;
+    ++waiting_;
+    std::swap(flights_->bundle.rays[i], flights_->bundle.rays[count_]);
+    std::swap(flights_->entry[i], flights_->entry[count_]);
+    const core::RayMask last = entered_ >> count_ & 1U, bit = core::RayMask{1} << i;
+    entered_ = static_cast<core::RayMask>((entered_ & ~bit) | (last != 0 ? bit : 0));
+  }
+}
+
+void BundleTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations) {
+  core::expect(!has_ended(), "rays that have ended are seen to before others are traced");
+  gather_waiting();
+  if (tracer.has_several_regions()) {
+    choose_region(tracer, header.frame);
+    part_others(tracer.region());
+  }
+  core::RayBundle& bundle = flights_->bundle;
+  bundle.count = count_;
+  bundle.start();
+  for (std::uint32_t i = 0; entered_ != 0 && i < count_; ++i) {
+    if ((entered_ >> i & 1U) != 0) {
+      core::Passage passage = flights_->entry[i].passage;
+      passage.best.block = flights_->entry[i].finder == self_ ? passage.best.block : core::no_address;
+      bundle.arrive(i, passage);
+    }
+  }
+  core::expect(tracer.trace(bundle, operations), "a node has every record of its region");
+  traced_ = count_;
+  ended_ = count_ = 0;
+  entered_ = 0;
+}
+
+core::Traced BundleTask::traced() const {
+  const core::RayMask bit = core::RayMask{1} << ended_;
+  return (flights_->bundle.left & bit) != 0    ? core::Traced::left
+         : (flights_->bundle.found & bit) != 0 ? core::Traced::hit
+                                               : core::Traced::miss;
+}
+
+void BundleTask::shade_hit() {
+  core::expect(found_here(), "a hit is shaded where its block is");
+  push(ray(), flights_->bundle.hit(ended_));
+}
+
+void BundleTask::push(const core::Ray& ray, const core::Hit& hit) {
+  core::expect(depth_ < stack_.size() && fresh_hits_ < rays_max, "the ray stack holds a bundle of hits a depth");
+  core::BundleHit& hits = stack_[depth_];
+  if (fresh_hits_ == 0) {
+    hits.clear();
+  }
+  hits.add(ray, hit, fresh_hits_++);
+}
+
+/// Those that have been pushed are shaded next.
+void BundleTask::close_hits() {
+  depth_ += fresh_hits_ > 0 ? 1 : 0;
+  fresh_hits_ = 0;
+}
+
+core::Hit BundleTask::travelling_candidate() const {
+  return found_here() || !flights_->bundle.hit(ended_).found() ? flights_->bundle.hit(ended_)
+                                                               : flights_->entry[ended_].passage.best;
+}
+
+nodes::NodeId BundleTask::finder_of_candidate() const { return found_here() ? self_ : flights_->entry[ended_].finder; }
+
+RayMessage BundleTask::leaving() const {
+  core::Passage passage = flights_->bundle.passage(ended_);
+  passage.best = travelling_candidate();
+  return message_of(ray(), passage, finder_of_candidate());
+}
+
+RayMessage BundleTask::confirmed_hit() const {
+  core::expect(traced() == core::Traced::hit && !found_here(), "a hit found here is shaded here");
+  RayMessage message = message_of(ray(), {.best = travelling_candidate()}, finder_of_candidate());
+  message.is_confirmed = 1;
+  return message;
+}
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,117 @@
+// The rays of one kind that walk together on a node, with the hits that they descend from on this node.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/picture/bundle_hit.h"
+#include "core/trace/bundle.h"
+#include "dataflow/packets.h"
+#include "dataflow/rays/ray_task.h"
+#include "nodes/layout.h"
+#include "nodes/local_memory.h"
+#include "nodes/node_id.h"
+
+namespace dmpc::dataflow {
+
+/// RayTask for up to 16 rays: they are traced together, then seen to one by one. The hits among them are shaded side by side, one
+/// bundle of children at a time, each of which is traced to its end in the region before the next is made; so the stack holds at
+/// most the hits of one bundle a depth. A ray that has been seen to may go on in this region, and is then traced again with
+/// others. Thread safety: belongs to one node.
+class BundleTask {
+  struct Flights;
+
+ public:
+  static constexpr std::uint32_t rays_max = core::bundle_rays_max;
+
+  /// Nothing under way. A stack of `depth_max` bundles of hits.
+  BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max);
+  /// What the constructor takes.
+  static nodes::Layout<Flights, core::BundleHit> layout(std::uint32_t depth_max);
+
+  /// Rays are to be traced, once those that have ended are seen to.
+  bool has_rays() const { return count_ + waiting_ > 0; }
+  /// Rays have been traced, and the caller has not seen to them.
+  bool has_ended() const { return ended_ < traced_; }
+  /// No ray, and no hit that has children to be made.
+  bool is_idle() const { return !has_rays() && !has_ended() && fresh_hits_ == 0 && depth_ == 0; }
+
+  // See RayTask. As many rays and hits as rays_max since trace() or next_children(), but for rays that go on in this region:
+  void shoot(const core::Ray& ray);
+  void enter(const RayMessage& message);
+  void resume_hit(const RayMessage& message);
+
+  /// Traces rays until each ends here or leaves its region, or does not start in that: those that enter other regions of the
+  /// node's than the first of them wait for the next call. Requires that none has ended before.
+  void trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations);
+
+  // These speak of the first of those that have ended:
+  core::Traced traced() const;
+  const core::Ray& ray() const { return flights_->bundle.rays[ended_]; }
+  bool found_here() const { return flights_->bundle.hit(ended_).block != core::no_address; }
+  void shade_hit();
+  RayMessage leaving() const;
+  RayMessage confirmed_hit() const;
+  void drop_ended() { ++ended_; }
+
+  /// Shades the newest hits until they make children (true), for each of which shoot(child) is called, or no hit is left (false).
+  /// Requires that no ray is under way.
+  template <class Shoot>
+  bool next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations, const Shoot& shoot);
+
+ private:
+  /// How a ray came into the region, if it did not start in it, and where its candidate's block is if that is not here.
+  struct Entry {
+    core::Passage passage;
+    nodes::NodeId finder{};
+  };
+  /// Rays, and where they are.
+  struct Flights {
+    core::RayBundle bundle;
+    std::array<Entry, rays_max> entry;
+  };
+
+  core::Hit travelling_candidate() const;
+  nodes::NodeId finder_of_candidate() const;
+  void push(const core::Ray& ray, const core::Hit& hit);
+  void close_hits();
+  void gather_waiting();
+  void choose_region(PartTracer& tracer, const core::GridFrame& frame);
+  void part_others(const core::Region& region);
+
+  nodes::NodeId self_;
+  Flights* flights_;
+  std::span<core::BundleHit> stack_;
+  std::uint32_t depth_ = 0;       ///< bundles of hits on the stack, all of whose rays have ended
+  std::uint32_t fresh_hits_ = 0;  ///< in the next one
+  std::uint32_t count_ = 0;       ///< rays to be traced: the first
+  core::RayMask entered_ = 0;     ///< of them, those that have not started here
+  std::uint32_t waiting_ = 0;     ///< rays behind those that were traced, to be traced in another region
+  std::uint32_t ended_ = 0;       ///< rays that were traced and seen to
+  std::uint32_t traced_ = 0;      ///< rays that were traced
+};
+
+template <class Shoot>
+bool BundleTask::next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations,
+                               const Shoot& shoot) {
+  core::expect(!has_rays() && !has_ended(), "children are made when their parents' bundle has ended");
+  close_hits();
+  while (depth_ > 0) {
+    core::BundleHit& hits = stack_[depth_ - 1];
+    if (hits.phase == core::BundleHit::Phase::finished) {
+      --depth_;
+      continue;
+    }
+    core::Address absent = core::no_address;
+    core::BundleShader<PartTracer> shader(hits, tracer, settings, operations);
+    const bool is_here = shader.step(absent, [&](const core::Ray& child, std::uint32_t) { shoot(child); });
+    core::expect(is_here, "a node has every record of its region");
+    if (has_rays()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,158 @@
+// Rays on their way out: gathered by owner, in packets that leave when they are full or when the node has no other work.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dataflow/flow_control.h"
+#include "dataflow/packets.h"
+#include "nodes/layout.h"
+#include "nodes/node.h"
+
+namespace dmpc::dataflow {
+
+/// What one node has sent another, by whatever way.
+struct PairCounters {
+  std::array<std::uint64_t, core::ray_kind_count> rays{};  ///< by kind; confirmed hits included
+  std::uint64_t packets = 0;                               ///< with rays; their bytes follow from both
+  std::uint64_t rays_overflowed = 0;                       ///< of them, by way of the host
+
+  std::uint64_t rays_total() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
+};
+
+/// Open packets for as many owners as there is room for, and a queue of closed ones that found no credit, one room for all
+/// owners. At most one closed packet finds no room there either, and while it waits nothing may be added. Keeps account of the
+/// node's credits for rays, and asks for them where owners share their places. Thread safety: belongs to one node.
+class Gather {
+  struct Slot;
+  struct Owner;
+
+ public:
+  struct Capacity {
+    std::uint32_t node_count = 1;
+    std::uint32_t ray_batch = 1;       ///< rays in a full packet
+    std::uint32_t ray_credits = 1;     ///< for each other node
+    bool shares_places = false;        ///< owners are asked for credits; without that and without credits all go by the host
+    std::uint32_t open_packets = 0;    ///< that are being filled at one time; 0: one for each node
+    std::uint32_t host_credits = 1;    ///< for the host, node `node_count`; at least 1
+    std::uint32_t queue_packets = 0;   ///< full packets that may wait for their owners' credits
+    std::uint32_t tested_objects = 0;  ///< that a ray has with it
+
+    /// Open and queued ones.
+    std::uint32_t packets() const { return open_packets_max() + queue_packets; }
+    std::uint32_t open_packets_max() const { return open_packets == 0 ? node_count : open_packets; }
+  };
+
+  /// What the gather has sent.
+  struct Counters {
+    std::uint64_t packets = 0;             ///< by either way
+    std::uint64_t rays = 0;                ///< in them
+    std::uint64_t packets_overflowed = 0;  ///< of them, by way of the host
+    std::uint64_t rays_overflowed = 0;
+    std::uint64_t packets_flushed = 0;   ///< of them, closed before they were full
+    std::uint64_t packets_queued = 0;    ///< of them, after a time in the queue
+    std::uint64_t queue_high_water = 0;  ///< the most packets in the queue at once
+
+    /// Sums, but for the high water, of which the higher one stays.
+    Counters& operator+=(const Counters& more);
+    /// Mean rays in a packet over `ray_batch`, those in a full one, in (0, 1]; 1 without packets.
+    double mean_fill(std::uint32_t ray_batch) const {
+      return packets == 0 ? 1.0 : static_cast<double>(rays) / static_cast<double>(packets) / ray_batch;
+    }
+  };
+
+  /// Takes the credits.
+  Gather(nodes::Node& node, const Capacity& capacity);
+  /// What the constructor takes.
+  static nodes::Layout<std::byte, Slot, Owner> layout(const Capacity& capacity);
+
+  /// The receiver has taken up `count` packets, or grants a place. Sends it the queued ones that these credits allow, or a
+  /// granted one back, and says how many packets on the channel of rays that made.
+  std::uint32_t credits_returned(nodes::NodeId receiver, std::uint32_t count);
+
+  /// Requires that no packet waits. If the packet for `owner` is full now, it is closed; or the fullest, preferably one that may
+  /// leave, if as many are open as there is room for.
+  void add(nodes::NodeId owner, const RayMessage& message);
+  /// Closes the fullest packet that can be sent. Requires can_flush().
+  void flush();
+  /// Takes the closed packet to its owner, to the queue or to the host, whichever flow_control.h says; says which way it took.
+  Way send();
+
+  /// A packet is closed and has not found its way: call send().
+  bool waits() const { return closed_.has_value(); }
+  /// Some open packet has rays and its owner's credit.
+  bool can_flush() const;
+  /// Packets in the queue.
+  std::uint32_t queued() const { return queued_; }
+  /// No ray is here.
+  bool empty() const { return size_ == 0; }
+  /// Some owner has been asked for a place and has not granted it.
+  bool is_unanswered() const { return asked_ > 0; }
+  /// Rays here, queued ones included.
+  std::uint32_t size() const { return size_; }
+  const Counters& counters() const { return counters_; }
+  /// Packets tell from now on that so many rays are left.
+  void tell(std::uint32_t rays_left) { rays_left_ = rays_left; }
+  /// By owner; of rays gathered, the packets of those sent.
+  std::vector<PairCounters> pairs() const;
+
+ private:
+  static constexpr std::uint16_t none = 0xffff;
+
+  /// A packet's place.
+  struct Slot {
+    std::uint16_t next = none;  ///< of the same owner's queued packets, or of the free slots
+    std::uint16_t count = 0;    ///< rays
+  };
+  struct Owner {
+    std::uint16_t open = none;                ///< the slot that is being filled
+    std::uint16_t first = none, last = none;  ///< queued, in the order of closing
+    bool has_asked = false;                   ///< for a place that is not granted yet
+    PairCounters pair;
+  };
+  static std::size_t stride_bytes(std::size_t bytes);
+
+  std::span<std::byte> packet_in(std::uint16_t slot) const;
+  bool has_credit(nodes::NodeId owner) const { return node_->credits(owner, ray_channel) > 0; }
+  Owner& owner_at(nodes::NodeId owner) const { return owners_[nodes::index_of(owner)]; }
+  bool may_leave(nodes::NodeId owner) const;
+  bool ask_or_decline(nodes::NodeId owner);
+  template <class May>
+  std::optional<nodes::NodeId> fullest(const May& may) const;
+  void close_one();
+  template <class Visit>
+  void for_each_open(const Visit& visit) const;
+  void set_open(nodes::NodeId owner, std::uint16_t slot);
+  void enqueue(nodes::NodeId owner);
+  void dequeue(nodes::NodeId owner);
+  void transmit(nodes::NodeId owner, std::uint16_t slot, bool overflows);
+  void release(std::uint16_t slot);
+
+  nodes::Node* node_;
+  nodes::NodeId host_;
+  std::uint32_t ray_batch_;
+  std::uint32_t queue_capacity_;
+  std::uint32_t tested_objects_;
+  std::uint32_t open_packets_max_;
+  bool shares_places_;
+  bool are_nodes_joined_;  ///< there are credits between nodes
+  std::span<std::byte> room_;
+  std::span<Slot> slots_;
+  std::span<Owner> owners_;
+  std::array<std::uint64_t, region_count_max / 64> open_{};  ///< a bit for each owner whose packet is being filled
+  std::uint16_t free_ = none;
+  std::uint32_t size_ = 0;
+  std::uint32_t queued_ = 0;
+  std::uint32_t open_count_ = 0;
+  std::uint32_t asked_ = 0;              ///< owners
+  std::optional<nodes::NodeId> closed_;  ///< whose open packet is closed
+  Counters counters_;
+  std::uint32_t rays_left_ = 0;  ///< to be told
+};
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,40 @@
+// Which region a ray goes to next: past those where it meets nothing, to the first where it may meet something.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/record/records.h"
+#include "core/trace/operations.h"
+#include "core/trace/skips.h"
+#include "core/trace/traversal.h"
+#include "dataflow/regions/regions.h"
+
+namespace dmpc::dataflow {
+
+/// Where a ray's way leads.
+struct NextStop {
+  /// left: it goes on in `region`. hit: its candidate is the nearest, proved where nothing is. miss: it leaves the grid.
+  core::Traced traced = core::Traced::left;
+  core::Passage passage;     ///< how it enters `region`
+  std::uint32_t region = 0;  ///< by number; without meaning unless it goes on
+};
+
+/// What is known of all of space.
+struct Surroundings {
+  const Regions& regions;
+  const core::DatabaseHeader&
+      outline;                 ///< of the database's outline (core/database/outline.h); without a directory: none is known
+  core::LocalRecords records;  ///< the outline's
+  core::Skips skips;
+
+  bool has_outline() const { return outline.directory != core::no_address; }
+};
+
+/// The way of a ray that enters the grid, or leaves a region, by `passage`; in a region of node `here`'s it stops in any case,
+/// since nobody need be asked. Same bits as if every region were asked. Thread safety: pure but for the steps, bricks and skipped
+/// regions that it adds to `operations`.
+NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Surroundings& surroundings,
+                   std::optional<nodes::NodeId> here, core::Operations& operations);
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,69 @@
+// Which node starts which primary rays: dealt by the host before the start and before every later pass, kept by each node as
+// runs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "core/picture/pixel_task.h"
+#include "core/picture/sample_pass.h"
+#include "dataflow/packets.h"
+#include "dataflow/regions/regions.h"
+#include "nodes/layout.h"
+#include "nodes/local_memory.h"
+
+namespace dmpc::dataflow {
+
+/// For each node, the rays of a pass, but for those of pixels that are done, that enter the grid in a region of its own, or reach
+/// one before any other that holds something, ascending. A ray that meets no such region, or whose pixel shows the background,
+/// only leaves that on the film: these are spread by pixel number, an equal share of the picture a node, so that no node has all
+/// of the sky. Nodes whose regions hold nothing get no ray at all. After a stop is requested it ends early, with what it has.
+std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Regions& partition,
+                                                    const core::Pass& pass, const core::PixelMask& done,
+                                                    const std::stop_token& stop = {});
+
+/// How many runs deal_primaries() would deal to each node, for each of `partitions`, which share out one grid. Takes hardly
+/// longer for many partitions than for one.
+std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings,
+                                                         std::span<const Regions> partitions, const core::Pass& pass,
+                                                         const core::PixelMask& done, const std::stop_token& stop = {});
+
+/// A primary ray that is to start: its number, and that by which it is numbered.
+struct PrimaryStart {
+  std::uint64_t number = 0;
+  core::SampleRange samples;
+};
+
+/// A node's own primary rays, in its local memory: those dealt before the start, then packets of those that the host deals on the
+/// way. Thread safety: belongs to one node.
+class Primaries {
+ public:
+  /// Copies `runs`, which are of the first pass. With `is_dealt` there is room for dealt_packets afterwards.
+  Primaries(nodes::LocalMemory& memory, std::span<const PrimaryRun> runs, const core::SampleRange& samples, bool is_dealt);
+  /// What the constructor takes.
+  static nodes::Room<PrimaryRun> layout(std::size_t run_count, bool is_dealt);
+
+  bool empty() const { return left_ == 0; }
+  /// Rays that have not started.
+  std::uint64_t left() const { return left_; }
+  /// By which the rays of this pass are numbered.
+  const core::SampleRange& samples() const { return samples_; }
+  /// The number of the next ray to start. Requires that one is left.
+  std::uint64_t take();
+  /// Takes in a packet. Requires that none is left of an earlier pass.
+  void put(const DealtPrimaries& dealt);
+  /// Packets taken in whose room has become free since the last call: so many more may come.
+  std::uint32_t packets_worked_off();
+
+ private:
+  std::span<PrimaryRun> runs_;  ///< a ring
+  std::size_t first_ = 0, count_ = 0;
+  std::uint64_t started_of_run_ = 0;
+  std::uint64_t left_ = 0;
+  core::SampleRange samples_;
+  std::uint32_t packets_ = 0;  ///< taken in, and not yet told of as worked off
+};
+
+}  // namespace dmpc::dataflow

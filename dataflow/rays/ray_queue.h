@@ -1,0 +1,160 @@
+// The backlog: rays that a node has received and not taken up, the deepest first.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "core/base/expect.h"
+#include "dataflow/flow_control.h"
+#include "dataflow/packets.h"
+#include "nodes/layout.h"
+#include "nodes/local_memory.h"
+
+namespace dmpc::dataflow {
+
+/// A bounded set of rays in order of depth, and the account of whose credits its places stand for.
+///
+/// Senders whose places are shared count as one. A sender's credit is a place for one full packet. So of the packets that have
+/// come from a sender, as many stay withheld as the rays of it that are still here would fill; the others are owed to it. Thread
+/// safety: belongs to one node.
+class RayQueue {
+  struct Entry;
+  struct Sender;
+
+ public:
+  struct Capacity {
+    std::uint32_t sender_count = 0;    ///< senders have indices below this
+    std::uint32_t packets_each = 0;    ///< that one sender's credits allow, at most
+    std::uint32_t packets = 0;         ///< that all credits together allow
+    std::uint32_t ray_batch = 1;       ///< rays in a full packet
+    std::uint32_t depth_max = 1;       ///< rays have depths 1 .. depth_max
+    bool are_kinds_apart = false;      ///< shadow rays of a depth are not among its other rays
+    std::uint32_t tested_objects = 0;  ///< that a ray has with it
+
+    std::uint32_t rays() const { return packets * ray_batch; }
+    std::uint32_t lists() const { return (depth_max + 1) * (are_kinds_apart ? 2 : 1); }
+  };
+
+  /// Empty.
+  RayQueue(nodes::LocalMemory& memory, const Capacity& capacity)
+      : packets_each_(capacity.packets_each),
+        ray_batch_(capacity.ray_batch),
+        lists_a_depth_(capacity.are_kinds_apart ? 2 : 1),
+        message_bytes_(ray_message_bytes(capacity.tested_objects)) {
+    std::tie(rays_, entries_, newest_, senders_) = layout(capacity).in(memory);
+    for (std::uint32_t& newest : newest_) {
+      newest = none;
+    }
+    for (std::uint32_t i = capacity.rays(); i > 0; --i) {
+      entries_[i - 1].older = free_;
+      free_ = i - 1;
+    }
+  }
+  /// What the constructor takes.
+  static nodes::Layout<std::byte, Entry, std::uint32_t, Sender> layout(const Capacity& capacity) {
+    using nodes::Category;
+    return {{Category::queues, capacity.rays() * ray_message_bytes(capacity.tested_objects)},
+            {Category::queues, capacity.rays()},
+            {Category::queues, capacity.lists()},
+            {Category::queues, capacity.sender_count}};
+  }
+
+  /// A packet with `ray_count` rays from `sender` has come; put() them next.
+  void accept_packet(std::uint32_t sender, std::uint32_t ray_count) {
+    Sender& from = senders_[sender];
+    core::expect(ray_count >= 1 && ray_count <= ray_batch_, "a packet of rays has rays, no more than a full one");
+    core::expect(from.packets < packets_each_, "a sender's packets stay within its credits");
+    ++from.packets;
+  }
+
+  void put(std::uint32_t sender, const RayMessage& message) {
+    core::expect(free_ != none, "a received ray has its place in the backlog");
+    const std::uint32_t list = list_of(message.ray);
+    core::expect(list < newest_.size(), "a ray is no deeper than the picture's depth");
+    const std::uint32_t place = free_;
+    free_ = entries_[place].older;
+    std::memcpy(&rays_[place * message_bytes_], &message, message_bytes_);
+    entries_[place] = {newest_[list], sender};
+    newest_[list] = place;
+    last_ = std::max<std::uint32_t>(last_, list);
+    ++senders_[sender].rays;
+    high_water_ = std::max(high_water_, ++size_);
+  }
+
+  /// Takes out the deepest ray, of equally deep ones the newest, and says who sent it. With kinds apart it is a shadow ray if one
+  /// is as deep. Requires that there is one.
+  RayMessage take(std::uint32_t& sender) {
+    core::expect(size_ > 0, "a ray is taken from a backlog that has one");
+    while (newest_[last_] == none) {
+      --last_;
+    }
+    return take_from(last_, sender);
+  }
+  /// Whether there is another as deep as that ray, and of its kind.
+  bool has_alike(const core::Ray& ray) const { return newest_[list_of(ray)] != none; }
+  /// Takes out the newest of these.
+  RayMessage take_alike(const core::Ray& ray, std::uint32_t& sender) {
+    core::expect(has_alike(ray), "a ray is taken from a backlog that has one");
+    return take_from(list_of(ray), sender);
+  }
+  /// The credits that `sender` can have back: its packets that its rays still here would not fill.
+  std::uint32_t owed(std::uint32_t sender) const {
+    return places_freed(senders_[sender].packets, senders_[sender].rays, ray_batch_);
+  }
+  /// `count` of them, at most owed(), have been given back.
+  void gave_back(std::uint32_t sender, std::uint32_t count) {
+    core::expect(count <= owed(sender), "only credits that are owed are given back");
+    senders_[sender].packets -= count;
+  }
+
+  bool empty() const { return size_ == 0; }
+  std::uint32_t size() const { return size_; }
+  std::uint32_t sender_count() const { return static_cast<std::uint32_t>(senders_.size()); }
+  /// The most rays that were here at once.
+  std::uint32_t high_water() const { return high_water_; }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffU;
+
+  std::uint32_t list_of(const core::Ray& ray) const {
+    return lists_a_depth_ * ray.depth + (lists_a_depth_ > 1 && ray.kind == core::RayKind::shadow ? 1 : 0);
+  }
+  RayMessage take_from(std::uint32_t list, std::uint32_t& sender) {
+    const std::uint32_t place = newest_[list];
+    Entry& entry = entries_[place];
+    newest_[list] = entry.older;
+    entry.older = free_;
+    free_ = place;
+    --size_;
+    sender = entry.sender;
+    --senders_[sender].rays;
+    RayMessage message;
+    std::memcpy(&message, &rays_[place * message_bytes_], message_bytes_);
+    return message;
+  }
+
+  /// What the list needs to know of a ray, by itself: places are found without waiting for the rays' memory.
+  struct Entry {
+    std::uint32_t older = none;  ///< the next of the same depth, or of the free ones
+    std::uint32_t sender = 0;
+  };
+  struct Sender {
+    std::uint32_t packets = 0;  ///< received whose credits have not been given back
+    std::uint32_t rays = 0;     ///< here
+  };
+
+  std::uint32_t packets_each_, ray_batch_, lists_a_depth_;
+  std::size_t message_bytes_;
+  std::span<std::byte> rays_;
+  std::span<Entry> entries_;
+  std::span<std::uint32_t> newest_;  ///< by depth, and by kind if they are apart
+  std::span<Sender> senders_;
+  std::uint32_t free_ = none;
+  std::uint32_t last_ = 0;  ///< no list behind it has a ray
+  std::uint32_t size_ = 0, high_water_ = 0;
+};
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,141 @@
+#include "dataflow/rays/ray_task.h"
+
+#include "core/base/expect.h"
+#include "core/picture/memory_use.h"
+#include "core/trace/traversal.h"
+
+namespace dmpc::dataflow {
+
+RayTask::RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max, std::uint32_t tested_objects)
+    : self_(self), tested_(tested_objects) {
+  std::span<Flight> flight;
+  std::tie(flight, stack_) = layout(depth_max).in(memory);
+  flight_ = flight.data();
+}
+
+nodes::Layout<RayTask::Flight, core::HitState> RayTask::layout(std::uint32_t depth_max) {
+  return {{core::MemoryUse::ray_stacks, 1}, {core::MemoryUse::ray_stacks, depth_max}};
+}
+
+void RayTask::shoot(const core::Ray& ray) {
+  core::expect(stage_ == Stage::none, "one ray at a time is under way");
+  flight_->ray = ray;
+  tested_.set({});
+  stage_ = Stage::shot;
+}
+
+void RayTask::enter(const RayMessage& message) {
+  core::expect(stage_ == Stage::none, "one ray at a time is under way");
+  flight_->ray = message.ray;
+  flight_->cursor = core::arrive(message.passage());
+  flight_->finder = nodes::NodeId{message.finder};
+  flight_->block_at_finder = message.best.block;
+  if (flight_->finder != self_) {
+    flight_->cursor.best.block = core::no_address;
+  }
+  tested_.set(message.tested);
+  entered_cell_ = message.cell;
+  stage_ = Stage::entered;
+}
+
+void RayTask::resume_hit(const RayMessage& message) {
+  core::expect(stage_ == Stage::none, "one ray at a time is under way");
+  core::expect(nodes::NodeId{message.finder} == self_, "a confirmed hit comes to its finder");
+  push(message.ray, message.best);
+}
+
+void RayTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations) {
+  const bool is_here = stage_ == Stage::entered ? tracer.enter_taken_up(entered_cell_) : begin(tracer, header);
+  core::expect(is_here || stage_ != Stage::entered, "a ray enters a region of the node's");
+  if (is_here) {
+    traced_ =
+        tested_.capacity() > 0 ? trace_with_list(tracer, operations) : tracer.trace(flight_->ray, flight_->cursor, operations);
+  }
+  core::expect(traced_ != core::Traced::absent, "a node has every record of its region");
+  stage_ = Stage::ended;
+}
+
+/// A block on the list is tested no more. One that gave a candidate is not put there: the node where that proves to be the hit
+/// is to meet it itself, so that it need not go back to its finder.
+core::Traced RayTask::trace_with_list(PartTracer& tracer, core::Operations& operations) {
+  const core::ShearedRay sheared(flight_->ray);
+  const auto test = [&](const std::byte* record, core::Address address, core::Hit& best) {
+    const auto header = core::read<core::BlockHeader>(record);
+    if (tested_.has(header.shared_name)) {
+      tests_avoided_ += header.count;
+    } else {
+      const core::Hit before = best;
+      core::test_block(flight_->ray, sheared, record, address, best, operations);
+      if (best.block == before.block) {
+        tested_.add(header.shared_name);
+      }
+    }
+  };
+  return tracer.trace(flight_->ray, flight_->cursor, operations, test);
+}
+
+/// Whether the ray starts in a region of the node's. If not, it has left that, or misses the grid.
+bool RayTask::begin(PartTracer& tracer, const core::DatabaseHeader& header) {
+  const auto passage = core::first_passage(flight_->ray, header.frame);
+  flight_->finder = self_;
+  flight_->cursor = core::arrive(passage.value_or(core::Passage{}));
+  const bool is_here = passage && tracer.enter(passage->cell);
+  if (passage && !is_here) {
+    flight_->cursor.arrival = passage->cell;
+  }
+  traced_ = passage ? core::Traced::left : core::Traced::miss;
+  return is_here;
+}
+
+void RayTask::shade_hit() {
+  core::expect(found_here(), "a hit is shaded where its block is");
+  push(flight_->ray, flight_->cursor.best);
+}
+
+void RayTask::push(const core::Ray& ray, const core::Hit& hit) {
+  core::expect(depth_ < stack_.size(), "the ray stack holds a hit a depth");
+  stack_[depth_++] = core::begin_shading(ray, hit);
+}
+
+core::Hit RayTask::travelling_candidate() const {
+  core::Hit candidate = flight_->cursor.best;
+  if (!found_here()) {
+    candidate.block = flight_->block_at_finder;
+  }
+  return candidate;
+}
+
+RayMessage RayTask::leaving() const {
+  core::Passage passage = core::passage_of(flight_->cursor);
+  passage.best = travelling_candidate();
+  RayMessage message = message_of(flight_->ray, passage, finder_of_candidate());
+  message.tested = tested_.names();
+  return message;
+}
+
+RayMessage RayTask::confirmed_hit() const {
+  core::expect(flight_->cursor.best.found() && !found_here(), "a hit found here is shaded here");
+  RayMessage message = message_of(flight_->ray, {.best = travelling_candidate()}, flight_->finder);
+  message.is_confirmed = 1;
+  return message;
+}
+
+bool RayTask::next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child,
+                         core::Operations& operations) {
+  core::expect(stage_ == Stage::none, "a child is made when its parent's ray has ended");
+  while (depth_ > 0) {
+    core::HitState& hit = stack_[depth_ - 1];
+    if (hit.stage == core::HitState::Stage::finished) {
+      --depth_;
+      continue;
+    }
+    const core::Address address = core::record_needed(hit, settings.header);
+    const std::byte* const record = address == core::no_address ? nullptr : tracer.find(address);
+    if (core::Shader(settings.header, settings.shade, settings.skips, operations).step(hit, record, child)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,110 @@
+// The one ray or hit under way on a node, with the hits that it descends from on this node.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/picture/pixel_task.h"
+#include "dataflow/packets.h"
+#include "dataflow/rays/part_tracer.h"
+#include "nodes/layout.h"
+#include "nodes/local_memory.h"
+#include "nodes/node_id.h"
+
+namespace dmpc::dataflow {
+
+/// Depth first: a hit is shaded one child at a time. A child that stays in the region is traced to its end, its own hit shaded
+/// and so on, before the next is made; so the stack holds at most one hit a depth, whatever the number of lights. A child that
+/// leaves is the caller's to send on; it leaves nothing behind. Thread safety: belongs to one node.
+class RayTask {
+  struct Flight;
+
+ public:
+  static constexpr std::uint32_t rays_max = 1;
+
+  /// Nothing under way. A stack of `depth_max` hits.
+  /// With `tested_objects` rays remember so many blocks that they have tested.
+  RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max, std::uint32_t tested_objects = 0);
+  /// What the constructor takes.
+  static nodes::Layout<Flight, core::HitState> layout(std::uint32_t depth_max);
+
+  /// A ray is to be traced.
+  bool has_rays() const { return stage_ == Stage::shot || stage_ == Stage::entered; }
+  /// A ray has been traced, and the caller has not seen to it.
+  bool has_ended() const { return stage_ == Stage::ended; }
+  /// No ray, and no hit that has children to be made.
+  bool is_idle() const { return stage_ == Stage::none && depth_ == 0; }
+
+  // Requires that no ray is under way:
+  /// Takes up a ray that starts, wherever that is.
+  void shoot(const core::Ray& ray);
+  /// Takes up a ray that enters a region of the node's. Where its candidate was found on another node the block's address is
+  /// forgotten here, and kept for that node.
+  void enter(const RayMessage& message);
+  /// Takes up a hit of this node's that another has confirmed.
+  void resume_hit(const RayMessage& message);
+
+  /// Traces the ray until it ends here or leaves its region, or does not start in one of the node's. Never absent.
+  void trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations);
+
+  // After trace():
+  core::Traced traced() const { return traced_; }
+  const core::Ray& ray() const { return flight_->ray; }
+  /// The hit's block was read on this node.
+  bool found_here() const { return flight_->cursor.best.block != core::no_address; }
+  /// Takes up the hit that was found here.
+  void shade_hit();
+  /// The ray as it goes on to the owner of the cell that it enters.
+  RayMessage leaving() const;
+  /// The hit as it goes to its finder.
+  RayMessage confirmed_hit() const;
+  nodes::NodeId finder() const { return flight_->finder; }
+  /// Lanes of blocks that were not tested here, since their ray had them on its list.
+  std::uint64_t tests_avoided() const { return tests_avoided_; }
+  /// The caller has seen to the ray: it is no longer under way.
+  void drop_ended() { stage_ = Stage::none; }
+
+  /// Shades the newest hit until it makes a child (true), for which shoot(child) is called, or no hit is left (false). Requires
+  /// that no ray is under way.
+  template <class Shoot>
+  bool next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations, const Shoot& shoot) {
+    core::Ray child;
+    const bool has_child = next_child(tracer, settings, child, operations);
+    if (has_child) {
+      shoot(child);
+    }
+    return has_child;
+  }
+
+ private:
+  /// How far the ray under way is.
+  enum class Stage : std::uint8_t { none, shot, entered, ended };
+
+  /// A ray, where it is, and where its candidate's block is if that is not here.
+  struct Flight {
+    core::Ray ray;
+    core::Cursor cursor;
+    nodes::NodeId finder{};
+    core::Address block_at_finder = core::no_address;
+  };
+
+  /// The candidate as another node may know it, with the finder's address.
+  core::Hit travelling_candidate() const;
+  nodes::NodeId finder_of_candidate() const { return found_here() ? self_ : flight_->finder; }
+  void push(const core::Ray& ray, const core::Hit& hit);
+  bool next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child, core::Operations& operations);
+  core::Traced trace_with_list(PartTracer& tracer, core::Operations& operations);
+  bool begin(PartTracer& tracer, const core::DatabaseHeader& header);
+
+  nodes::NodeId self_;
+  TestedObjects tested_;  ///< by the ray under way
+  std::uint64_t tests_avoided_ = 0;
+  Flight* flight_;
+  std::span<core::HitState> stack_;
+  std::uint32_t depth_ = 0;      ///< hits on the stack
+  core::Corner entered_cell_{};  ///< with Stage::entered: the finest cell
+  Stage stage_ = Stage::none;
+  core::Traced traced_ = core::Traced::miss;
+};
+
+}  // namespace dmpc::dataflow

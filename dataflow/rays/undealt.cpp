@@ -1,0 +1,86 @@
+#include "dataflow/rays/undealt.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/expect.h"
+
+namespace dmpc::dataflow {
+
+Undealt::Undealt(std::uint32_t node_count, std::uint64_t run_rays_max)
+    : runs_(node_count), held_back_(node_count), run_rays_max_(run_rays_max), begun_(0) {
+  core::expect(run_rays_max > 0, "a run of primary rays has some");
+}
+
+void Undealt::begin_pass(std::vector<std::vector<PrimaryRun>> runs, const core::SampleRange& samples,
+                         const core::PixelMask& done) {
+  core::expect(is_empty() && !holds_back_ && runs.size() == runs_.size(), "a pass begins when the one before is dealt");
+  runs_ = std::move(runs);
+  for (Runs& of_node : runs_) {
+    std::reverse(of_node.begin(), of_node.end());
+  }
+  samples_ = samples;
+  begun_ = done;
+}
+
+bool Undealt::is_empty() const {
+  return std::all_of(runs_.begin(), runs_.end(), [](const Runs& runs) { return runs.empty(); });
+}
+
+DealtPrimaries Undealt::take(std::uint32_t node) {
+  Runs& runs = runs_[node];
+  core::expect(!runs.empty(), "a node that is dealt to has rays");
+  DealtPrimaries packet{.samples = samples_};
+  while (!runs.empty() && packet.count < packet.runs.size()) {
+    const PrimaryRun dealt{runs.back().first, std::min(runs.back().count, run_rays_max_)};
+    begin_pixels(dealt);
+    packet.runs[packet.count++] = dealt;
+    runs.back() = {dealt.first + dealt.count, runs.back().count - dealt.count};
+    if (runs.back().count == 0) {
+      runs.pop_back();
+    }
+  }
+  return packet;
+}
+
+void Undealt::begin_pixels(const PrimaryRun& run) {
+  for (std::uint32_t pixel = pixel_of(run.first, samples_); pixel <= pixel_of(run.first + run.count - 1, samples_); ++pixel) {
+    begun_.add(pixel);
+  }
+}
+
+/// Where the rays from `first` on, before `end`, stop to be all of pixels that have begun, or all of others.
+std::uint64_t Undealt::end_of_stretch(std::uint64_t first, std::uint64_t end) const {
+  const bool has_begun = begun_.has(pixel_of(first, samples_));
+  std::uint64_t number = first;
+  while (number < end && begun_.has(pixel_of(number, samples_)) == has_begun) {
+    number = (std::uint64_t{pixel_of(number, samples_)} + 1) * samples_.count;
+  }
+  return std::min(number, end);
+}
+
+void Undealt::hold_back() {
+  core::expect(!holds_back_, "rays are held back once");
+  for (std::size_t node = 0; node < runs_.size(); ++node) {
+    const Runs runs = std::exchange(runs_[node], {});
+    for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
+      const std::uint64_t end = run->first + run->count;
+      for (std::uint64_t first = run->first, next = 0; first < end; first = next) {
+        next = end_of_stretch(first, end);
+        Runs& target = begun_.has(pixel_of(first, samples_)) ? runs_[node] : held_back_[node];
+        target.push_back({first, next - first});
+      }
+    }
+    std::reverse(runs_[node].begin(), runs_[node].end());
+    std::reverse(held_back_[node].begin(), held_back_[node].end());
+    holds_back_ = holds_back_ || !held_back_[node].empty();
+  }
+}
+
+void Undealt::release() {
+  core::expect(is_empty() && holds_back_, "what was held back follows what has begun");
+  holds_back_ = false;
+  std::swap(runs_, held_back_);
+}
+
+}  // namespace dmpc::dataflow

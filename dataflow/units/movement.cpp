@@ -1,0 +1,217 @@
+#include "dataflow/units/movement.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/base/expect.h"
+#include "core/picture/memory_use.h"
+
+namespace dmpc::dataflow {
+
+Movement::Movement(nodes::Node& node, const Plan& plan, const Units& units) : node_(&node), units_(units) {
+  std::tie(version_, pages_of_, rays_told_, stale_, packet_) = layout(plan).in(node.memory());
+  std::fill(stale_.begin(), stale_.end(), none);
+}
+
+nodes::Layout<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, std::byte> Movement::layout(const Plan& plan) {
+  return {{core::MemoryUse::page_table, plan.unit_count()},
+          {core::MemoryUse::page_table, plan.unit_count()},
+          {core::MemoryUse::page_table, plan.node_count()},
+          {core::MemoryUse::page_table, plan.node_count()},
+          {nodes::Category::queues, plan.unit_packet_bytes()}};
+}
+
+void Movement::tell_news(nodes::NodeId sender) {
+  std::uint32_t& stale = stale_[nodes::index_of(sender)];
+  if (stale != none) {
+    send_control(*node_, sender, Kind::unit_moved,
+                 UnitMoved{stale, version_[stale], nodes::index_of(units_.regions->owner_at(stale))});
+    stale = none;
+  }
+}
+
+bool Movement::receive(const nodes::Packet& packet) {
+  switch (Kind{packet.kind}) {
+    case Kind::unit_ask:
+      take_ask(packet.source, packet.as<UnitAsk>());
+      return true;
+    case Kind::unit_refusal:
+      take_refusal();
+      return false;
+    case Kind::unit_page:
+      take_page(packet);
+      return true;
+    case Kind::unit_primaries:
+      take_primaries(packet.source, packet.as<UnitPrimaryRays>());
+      return true;
+    default:
+      core::expect(Kind{packet.kind} == Kind::unit_acknowledgement, "a packet of a transfer is a question or part of an answer");
+      return take_acknowledgement();
+  }
+}
+
+/// The node with most primary rays left that it has heard of, if it has none itself.
+std::optional<nodes::NodeId> Movement::partner() const {
+  const auto most = std::max_element(rays_told_.begin(), rays_told_.end());
+  if (*most == 0 || !units_.primaries->empty() || units_.pages->free_frames() == 0) {
+    return std::nullopt;
+  }
+  return nodes::NodeId{static_cast<std::uint32_t>(most - rays_told_.begin())};
+}
+
+void Movement::ask() {
+  const nodes::NodeId partner = *this->partner();
+  hand_over_.ask();
+  ++counters_.asks;
+  rays_told_[nodes::index_of(partner)] = 0;  // until it tells it anew: a node that refuses is not asked again before others
+  send_control(*node_, partner, Kind::unit_ask,
+               UnitAsk{.free_frames = units_.pages->free_frames(),
+                       .free_runs = static_cast<std::uint32_t>(units_.primaries->free_runs())});
+}
+
+/// The one with most primary rays, if that is no more than the node would keep.
+std::optional<std::uint32_t> Movement::unit_to_give() const {
+  const UnitPrimaries& primaries = *units_.primaries;
+  if (!hand_over_.may_give() || primaries.empty()) {
+    return std::nullopt;
+  }
+  const std::uint32_t unit = primaries.largest_unit();
+  core::expect(answers_for(unit), "a node has primary rays of its own units alone");
+  return primaries.left_of(unit) <= primaries.left() / 2 ? std::optional(unit) : std::nullopt;
+}
+
+/// A walk through its records, once for many questions.
+void Movement::mark(std::uint32_t unit) {
+  if (marked_ != unit) {
+    const UnitPages::Marked marked = units_.pages->mark(*units_.header, units_.regions->region_at(unit));
+    counters_.records_walked += marked.records;
+    pages_of_[unit] = marked.pages;
+    marked_ = unit;
+  }
+}
+
+/// It has as many primary rays as pages, and the asker room for both.
+bool Movement::is_worth_giving(std::uint32_t unit, const UnitAsk& ask) {
+  if (pages_of_[unit] == 0) {
+    mark(unit);
+  }
+  const std::uint32_t pages = pages_of_[unit];
+  return pages > 0 && pages <= ask.free_frames && pages <= units_.primaries->left_of(unit) &&
+         units_.primaries->runs_of(unit) <= ask.free_runs;
+}
+
+void Movement::take_ask(nodes::NodeId asker, const UnitAsk& ask) {
+  const std::optional<std::uint32_t> unit = unit_to_give();
+  if (!unit || !is_worth_giving(*unit, ask)) {
+    return send_control(*node_, asker, Kind::unit_refusal, UnitRefusal{});
+  }
+  mark(*unit);
+  hand_over_.give();
+  taker_ = asker;
+  unit_ = *unit;
+  pages_left_ = pages_of_[*unit];
+  next_frame_ = 0;
+  are_primaries_left_ = true;
+  send_page();
+}
+
+void Movement::send_page() {
+  const std::uint32_t frame = units_.pages->next_marked(next_frame_);
+  next_frame_ = frame + 1;
+  --pages_left_;
+  ++counters_.pages_sent;
+  const UnitPageHeader header{
+      .unit = unit_, .version = version_[unit_] + 1, .page = units_.pages->page_at(frame), .is_last = pages_left_ == 0 ? 1U : 0U};
+  const std::span<const std::byte> page = units_.pages->bytes_at(frame);
+  std::memcpy(packet_.data(), &header, sizeof(header));
+  std::memcpy(packet_.data() + sizeof(header), page.data(), page.size());
+  node_->grant(taker_, unit_channel);
+  node_->send_reserved(taker_, unit_channel, number_of(Kind::unit_page), std::span<const std::byte>(packet_));
+}
+
+/// Those that have not started meanwhile, if there are any.
+void Movement::send_primaries() {
+  UnitPrimaryRays rays{.unit = unit_};
+  const std::uint64_t left = units_.primaries->left_of(unit_);
+  rays.dealt = units_.primaries->give(unit_);
+  are_primaries_left_ = units_.primaries->runs_of(unit_) > 0;
+  rays.is_last = are_primaries_left_ ? 0 : 1;
+  counters_.primaries_given += left - units_.primaries->left_of(unit_);
+  node_->grant(taker_, unit_channel);
+  node_->send_reserved(taker_, unit_channel, number_of(Kind::unit_primaries), rays);
+}
+
+void Movement::acknowledge(nodes::NodeId giver) {
+  send_control(*node_, giver, Kind::unit_acknowledgement, UnitAcknowledgement{});
+}
+
+void Movement::take_refusal() {
+  hand_over_.refused();
+  ++counters_.refusals;
+}
+
+void Movement::take_page(const nodes::Packet& packet) {
+  core::expect(packet.payload.size() == packet_.size(), "a page comes with its header");
+  core::expect(!hand_over_.is_settled(), "a page comes to a node that has asked");
+  UnitPageHeader header;
+  std::memcpy(&header, packet.payload.data(), sizeof(header));
+  const bool is_new = units_.pages->add(header.page, packet.payload.subspan(sizeof(header)));
+  counters_.pages_installed += is_new ? 1 : 0;
+  if (header.is_last != 0) {
+    core::expect(is_news(version_[header.unit], header.version), "a unit is taken once from each that gives it");
+    units_.regions->give_to(header.unit, node_->id());
+    version_[header.unit] = header.version;
+  }
+  acknowledge(packet.source);
+}
+
+void Movement::take_primaries(nodes::NodeId giver, const UnitPrimaryRays& rays) {
+  core::expect(answers_for(rays.unit), "primary rays come behind the pages of their unit");
+  const std::uint64_t before = units_.primaries->left();
+  units_.primaries->put(rays.unit, rays.dealt);
+  counters_.primaries_taken += units_.primaries->left() - before;
+  acknowledge(giver);
+  if (rays.is_last != 0) {
+    hand_over_.taken();
+    hand_over_.rays_came();
+  }
+}
+
+/// The taker answers for the unit with its last page; primary rays follow.
+bool Movement::take_acknowledgement() {
+  if (pages_left_ > 0) {
+    send_page();
+    return true;
+  }
+  if (answers_for(unit_)) {
+    units_.regions->give_to(unit_, taker_);
+    ++version_[unit_];
+  }
+  if (are_primaries_left_) {
+    send_primaries();
+    return true;
+  }
+  hand_over_.given();
+  return false;
+}
+
+void Movement::take_news(const UnitMoved& moved) {
+  // A node may hear who has a unit that it is giving before the last acknowledgement comes, which tells the same.
+  if (!answers_for(moved.unit) && is_news(version_[moved.unit], moved.version)) {
+    core::expect(nodes::NodeId{moved.owner} != node_->id(), "a unit's owner knows all news of it");
+    units_.regions->give_to(moved.unit, nodes::NodeId{moved.owner});
+    version_[moved.unit] = moved.version;
+  }
+}
+
+MovementCounters Movement::counters() const {
+  MovementCounters counters = counters_;
+  counters.units_given = hand_over_.given_count();
+  counters.units_taken = hand_over_.taken_count();
+  for (std::uint32_t unit = 0; unit < version_.size(); ++unit) {
+    counters.units += answers_for(unit) ? 1 : 0;
+  }
+  return counters;
+}
+
+}  // namespace dmpc::dataflow

@@ -1,0 +1,53 @@
+// What is gathered when a run is over: what its nodes tell, and its ranks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nodes/flat_bytes.h"
+#include "nodes/ranks/rank_figures.h"
+#include "nodes/runner.h"
+#include "nodes/watch/watching.h"
+
+namespace dmpc::nodes {
+
+/// To be called on all ranks alike. tell(index, flat) writes what the program of a node that is here has to say; take(index,
+/// flat) reads it, in the same order: of all nodes, by number, where the host is; elsewhere of those that are there.
+template <class Tell, class Take>
+void gather_nodes(Runner& runner, std::uint32_t node_count, const Tell& tell, const Take& take) {
+  const std::vector<std::string> told = runner.gather([&](std::size_t index) {
+    FlatWriter flat;
+    if (index < node_count) {
+      tell(index, flat);
+    }
+    return flat.take();
+  });
+  for (std::uint32_t index = 0; index < node_count; ++index) {
+    if (!told[index].empty()) {
+      FlatReader flat(told[index]);
+      take(index, flat);
+    }
+  }
+}
+
+/// Likewise, after gather_nodes(): what is known of each rank; nothing without ranks. `planned`: what peers_of() takes. seen(),
+/// if there is one, says what was seen here; where the host is, add(seen, clock) takes what was on each other rank.
+template <class Planned>
+std::vector<RankFigures> gather_rank_figures(Runner& runner, const Planned& planned, const RankLinks* links, const AddSeen& add,
+                                             const std::function<std::string()>& seen = {}) {
+  if (links == nullptr) {
+    return {};
+  }
+  const std::vector<RankReport> told = runner.gather_ranks(seen ? seen() : std::string());
+  for (std::size_t rank = 1; add && rank < told.size(); ++rank) {
+    add(told[rank].told, told[rank].clock);
+  }
+  return rank_figures(peers_of(planned), *links, told);
+}
+
+}  // namespace dmpc::nodes

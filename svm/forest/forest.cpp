@@ -1,0 +1,211 @@
+#include "svm/forest/forest.h"
+
+#include <algorithm>
+
+#include "core/base/expect.h"
+#include "core/picture/memory_use.h"
+
+namespace dmpc::svm {
+namespace {
+
+using nodes::Category;
+
+constexpr std::size_t question_bytes(QuestionKind kind) {
+  return sizeof(QuestionHeader) + (kind == QuestionKind::below ? sizeof(core::Below) : sizeof(core::Address));
+}
+
+core::ShadingRecord record_kind(QuestionKind kind) {
+  core::expect(kind != QuestionKind::below, "a question is about a record");
+  return kind == QuestionKind::block     ? core::ShadingRecord::block
+         : kind == QuestionKind::normals ? core::ShadingRecord::normals
+                                         : core::ShadingRecord::tile;
+}
+
+QuestionKind question_about(core::ShadingRecord kind) {
+  return kind == core::ShadingRecord::block     ? QuestionKind::block
+         : kind == core::ShadingRecord::normals ? QuestionKind::normals
+                                                : QuestionKind::tile;
+}
+
+std::size_t answer_bytes_max(QuestionKind kind) {
+  return sizeof(AnswerHeader) + (kind == QuestionKind::below ? sizeof(core::Hit) : core::bytes_max(record_kind(kind)));
+}
+
+/// Appends to what a packet has; `end` is where that ends.
+class PacketWriter {
+ public:
+  explicit PacketWriter(std::span<std::byte> room) : room_(room) {}
+
+  void add(const void* from, std::size_t bytes) {
+    core::expect(end_ + bytes <= room_.size(), "a packet of questions or answers has room for them");
+    std::memcpy(room_.data() + end_, from, bytes);
+    end_ += bytes;
+  }
+  template <class T>
+  void add(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    add(&value, sizeof(value));
+  }
+  std::span<const std::byte> bytes() const { return room_.first(end_); }
+  std::size_t left() const { return room_.size() - end_; }
+
+ private:
+  std::span<std::byte> room_;
+  std::size_t end_ = 0;
+};
+
+constexpr std::size_t lent_bytes = core::record_bytes_max + core::overread_bytes;
+
+}  // namespace
+
+std::size_t question_packet_bytes(std::uint32_t questions) {
+  return std::max(questions * question_bytes(QuestionKind::below), answer_bytes_max(QuestionKind::block));
+}
+
+nodes::Layout<Forest::Question, Forest::Queue, std::byte, std::byte> Forest::own_layout(const PageCapacity& capacity) {
+  return {{Category::queues, capacity.in_flight},
+          {Category::queues, capacity.node_count},
+          {Category::queues, capacity.question_bytes},
+          {Category::queues, lent_bytes}};
+}
+
+nodes::MemoryPlan Forest::layout(const PageCapacity& capacity, std::uint32_t index) {
+  return nodes::LastingPieces::layout(core::MemoryUse::home_pages, capacity.forest_bytes() + core::overread_bytes) +
+         HomePages::layout(capacity, index) + own_layout(capacity);
+}
+
+Forest::Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
+    : geometry_(capacity.page_size_bytes()),
+      forest_(nodes::kept(node.memory(), core::MemoryUse::home_pages, database, capacity.forest_bytes(), core::overread_bytes)),
+      homes_(node, capacity, database),
+      self_(nodes::index_of(node.id())),
+      node_(&node) {
+  std::tie(asked_, queues_, packet_, lent_) = own_layout(capacity).in(node.memory());
+  grant_requests(node, capacity);
+}
+
+const std::byte* Forest::find_below(core::Address address) {
+  if (const std::byte* const page = homes_.find(geometry_.page_of(address))) {
+    ++counters_.home_hits;
+    return page + geometry_.offset_of(address);
+  }
+  if (address == lent_address_) {
+    return lent_.data();  // was counted as a miss when it was asked for
+  }
+  ++counters_.misses;
+  return nullptr;
+}
+
+void Forest::ask(std::uint32_t slot, const core::Below& below) {
+  asked_[slot].below = below;
+  asked_[slot].kind = QuestionKind::below;
+  ++questions_counted_.rays_asked;
+  add(slot, below.child.address());
+}
+
+void Forest::ask(std::uint32_t slot, core::ShadingRecord kind, core::Address address) {
+  asked_[slot].record = address;
+  asked_[slot].kind = question_about(kind);
+  ++questions_counted_.records_asked;
+  add(slot, address);
+}
+
+void Forest::add(std::uint32_t slot, core::Address address) {
+  const std::uint32_t owner = homes_.home_of(geometry_.page_of(address));
+  core::expect(owner != self_, "what is at home is never asked for");
+  Queue& queue = queues_[owner];
+  asked_[slot].next = no_slot;
+  (queue.first == no_slot ? queue.first : asked_[queue.last].next) = slot;
+  queue.last = slot;
+  ++waiting_;
+  if (++queue.count >= packet_questions_max) {
+    send(owner);
+  }
+}
+
+void Forest::flush() {
+  for (std::uint32_t i = 1; waiting_ > 0 && i < queues_.size(); ++i) {
+    const auto owner = static_cast<std::uint32_t>((self_ + i) % queues_.size());  // not all nodes the same one first
+    while (queues_[owner].count > 0 && send(owner)) {
+    }
+  }
+}
+
+/// Sends the oldest questions, as many as they and their answers fit a packet. Returns whether a credit was left.
+bool Forest::send(std::uint32_t owner) {
+  if (node_->credits(nodes::NodeId{owner}, request_channel) == 0) {
+    return false;
+  }
+  Queue& queue = queues_[owner];
+  PacketWriter writer(packet_);
+  std::size_t answers_left = packet_.size();
+  while (queue.count > 0) {
+    const Question& question = asked_[queue.first];
+    if (question_bytes(question.kind) > writer.left() || answer_bytes_max(question.kind) > answers_left) {
+      break;
+    }
+    answers_left -= answer_bytes_max(question.kind);
+    writer.add(QuestionHeader{.slot = static_cast<std::uint16_t>(queue.first), .kind = question.kind});
+    if (question.kind == QuestionKind::below) {
+      writer.add(question.below);
+    } else {
+      writer.add(question.record);
+    }
+    queue.first = question.next;
+    --queue.count;
+    --waiting_;
+    ++under_way_;
+  }
+  node_->send_reserved(nodes::NodeId{owner}, request_channel, number_of(Kind::questions), writer.bytes());
+  return true;
+}
+
+void Forest::answer(const nodes::Packet& questions, core::Operations& operations) {
+  PacketWriter writer(packet_);
+  for (std::span<const std::byte> rest = questions.payload; !rest.empty();) {
+    const auto header = core::read<QuestionHeader>(rest.data());
+    const std::byte* const content = rest.data() + sizeof(header);
+    rest = rest.subspan(question_bytes(header.kind));
+    if (header.kind == QuestionKind::below) {
+      const core::Hit hit = core::trace_below(core::read<core::Below>(content), *this, operations);
+      writer.add(AnswerHeader{header.slot, hit.found() ? std::uint16_t{sizeof(hit)} : std::uint16_t{0}});
+      if (hit.found()) {
+        writer.add(hit);
+      }
+      ++questions_counted_.rays_answered;
+    } else {
+      const std::byte* const record = find(core::read<core::Address>(content));
+      core::expect(record != nullptr, "a question about a record reaches its owner");
+      const std::size_t bytes = core::bytes_of(record_kind(header.kind), record);
+      writer.add(AnswerHeader{header.slot, static_cast<std::uint16_t>(bytes)});
+      writer.add(record, bytes);
+      ++questions_counted_.records_answered;
+    }
+  }
+  node_->grant(questions.source, bulk_channel);
+  node_->send_reserved(questions.source, bulk_channel, number_of(Kind::answers), writer.bytes());
+}
+
+/// The packet's credit may be needed by what has waited for it.
+std::span<const std::byte> Forest::begin_taking(const nodes::Packet& answers) {
+  node_->grant(answers.source, request_channel);
+  const std::uint32_t owner = nodes::index_of(answers.source);
+  if (queues_[owner].count >= packet_questions_max) {
+    send(owner);
+  }
+  return answers.payload;
+}
+
+void Forest::lend(core::Address address, std::span<const std::byte> bytes) {
+  core::expect(bytes.size() <= core::record_bytes_max, "a record has room where it is lent");
+  std::copy(bytes.begin(), bytes.end(), lent_.begin());
+  lent_address_ = address;
+}
+
+PageCounters Forest::counters() const {
+  PageCounters counters = counters_;
+  counters.references = counters.home_hits + counters.misses;
+  return counters;
+}
+
+}  // namespace dmpc::svm

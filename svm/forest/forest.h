@@ -1,0 +1,132 @@
+// What a node has of the scene with strategy forest: the tree's upper part, as every node, and whole subtrees, of which it alone
+// answers questions (J. Goldsmith, J. Salmon, "A Ray Tracing System for the Hypercube", Caltech 1985; J. Salmon, J. Goldsmith, "A
+// Hypercube Ray-tracer", 1988).
+//
+// Invariants: (1) what lies in a page behind the forest holds all that is below it in the tree, so its home answers from its own
+// memory at once, and waits for nothing; (2) a pixel waits for one answer at most, so there are never more questions than slots;
+// (3) packets of questions are answered one by one, so that an answer's place is reserved by its questions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "core/record/records.h"
+#include "core/record/shading_record.h"
+#include "core/trace/below.h"
+#include "core/trace/operations.h"
+#include "nodes/lasting_pieces.h"
+#include "nodes/layout.h"
+#include "nodes/node.h"
+#include "svm/packets.h"
+#include "svm/pages/faults.h"
+#include "svm/pages/home_pages.h"
+#include "svm/pages/node_program.h"
+#include "svm/pages/page.h"
+#include "svm/pages/page_capacity.h"
+
+namespace dmpc::svm {
+
+/// The room that a full packet of up to `questions` takes, as that of its answers.
+std::size_t question_packet_bytes(std::uint32_t questions);
+/// Questions that a packet holds, at most.
+inline constexpr std::uint32_t packet_questions_max = 16;
+
+/// A core::Records whose find() answers nullptr for a record that is neither in the forest nor at home, unless its owner has just
+/// sent it. What a pixel waits for is asked of the owner, in packets that leave when they are full or there is nothing else to
+/// do. Thread safety: none.
+class Forest {
+ public:
+  static constexpr bool pages_travel = false;
+
+  /// Puts the forest and the node's home pages, from `database`, into its local memory (nodes/lasting_pieces.h), and takes the
+  /// credits for its questions.
+  Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
+  /// What the constructor takes at node `index`.
+  static nodes::MemoryPlan layout(const PageCapacity& capacity, std::uint32_t index);
+
+  /// The pointer is valid until the next packet of answers is taken.
+  const std::byte* find(core::Address address) {
+    const std::uint64_t offset = core::byte_offset(address);
+    if (offset < forest_.size()) {
+      ++counters_.home_hits;
+      return forest_.data() + offset;
+    }
+    return find_below(address);
+  }
+
+  /// `slot` goes on when it is known what its ray meets below a child, which find() has just said is absent.
+  void ask(std::uint32_t slot, const core::Below& below);
+  /// `slot` goes on when the record, of which find() has just said the same, has come.
+  void ask(std::uint32_t slot, core::ShadingRecord kind, core::Address address);
+  /// Sends what is asked, in full packets or not, as far as credits go.
+  void flush();
+
+  /// Answers a packet of questions at once. What it takes to trace them is added to `operations`.
+  void answer(const nodes::Packet& questions, core::Operations& operations);
+  /// Takes a packet of answers: calls go_on(slot, hit) for each; `hit` is what trace_below() has found, or nullptr if a record
+  /// has come, which find() then finds until go_on() returns.
+  template <class GoOn>
+  void take(const nodes::Packet& answers, const GoOn& go_on) {
+    std::span<const std::byte> rest = begin_taking(answers);
+    while (!rest.empty()) {
+      const auto header = core::read<AnswerHeader>(rest.data());
+      const std::span<const std::byte> bytes = rest.subspan(sizeof(header), header.bytes);
+      rest = rest.subspan(sizeof(header) + header.bytes);
+      ++questions_counted_.answers;
+      --under_way_;
+      if (asked_[header.slot].kind == QuestionKind::below) {
+        const core::Hit hit = bytes.empty() ? core::Hit{} : core::read<core::Hit>(bytes.data());
+        go_on(std::uint32_t{header.slot}, &hit);
+      } else {
+        lend(asked_[header.slot].record, bytes);
+        go_on(std::uint32_t{header.slot}, static_cast<const core::Hit*>(nullptr));
+        lent_address_ = core::no_address;
+      }
+    }
+  }
+
+  /// Questions without an answer, sent or not.
+  std::uint32_t pending() const { return waiting_ + under_way_; }
+  /// References are look-ups; misses those that were asked of an owner.
+  PageCounters counters() const;
+  const QuestionCounters& questions() const { return questions_counted_; }
+
+ private:
+  struct Question {
+    core::Below below;
+    core::Address record = core::no_address;
+    QuestionKind kind{};
+    std::uint32_t next = no_slot;  ///< that waits for the same owner
+  };
+  /// Questions that wait to be sent to one owner, by slot, in the order in which they came.
+  struct Queue {
+    std::uint32_t first = no_slot, last = no_slot;
+    std::uint32_t count = 0;
+  };
+
+  static nodes::Layout<Question, Queue, std::byte, std::byte> own_layout(const PageCapacity& capacity);
+  const std::byte* find_below(core::Address address);
+  void add(std::uint32_t slot, core::Address address);
+  bool send(std::uint32_t owner);
+  std::span<const std::byte> begin_taking(const nodes::Packet& answers);
+  void lend(core::Address address, std::span<const std::byte> bytes);
+
+  PageGeometry geometry_;
+  std::span<const std::byte> forest_;
+  HomePages homes_;
+  std::uint32_t self_;
+  PageCounters counters_;
+  QuestionCounters questions_counted_;
+  nodes::Node* node_;
+  std::span<Question> asked_;  ///< by slot
+  std::span<Queue> queues_;    ///< by owner
+  std::span<std::byte> packet_;
+  std::span<std::byte> lent_;
+  core::Address lent_address_ = core::no_address;
+  std::uint32_t waiting_ = 0, under_way_ = 0;
+};
+static_assert(core::Records<Forest>);
+
+}  // namespace dmpc::svm

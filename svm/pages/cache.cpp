@@ -1,0 +1,69 @@
+#include "svm/pages/cache.h"
+
+#include "core/base/expect.h"
+#include "core/picture/memory_use.h"
+#include "core/record/records.h"
+
+namespace dmpc::svm {
+namespace {
+
+std::size_t frame_bytes(const CacheShape& shape) {
+  return shape.frame_count == 0 ? 0 : shape.frame_count * shape.page_size_bytes + core::overread_bytes;
+}
+
+/// Beside frames, table and policy.
+nodes::Layout<std::uint64_t, PageId> own_layout(const CacheShape& shape) {
+  return {{core::MemoryUse::page_table, shape.frame_count}, {core::MemoryUse::page_table, shape.frame_count}};
+}
+
+}  // namespace
+
+nodes::MemoryPlan Cache::layout(const CacheShape& shape) {
+  return nodes::LastingPieces::layout(core::MemoryUse::cache_frames, frame_bytes(shape)) + PageTable::layout(shape.frame_count) +
+         own_layout(shape) + kind_of(shape.replacement).layout(shape.frame_count);
+}
+
+Cache::Cache(nodes::LocalMemory& memory, const CacheShape& shape, std::uint32_t seed)
+    : hears_hits_(kind_of(shape.replacement).hears_hits),
+      frames_(memory, core::MemoryUse::cache_frames, frame_bytes(shape), shape.page_size_bytes),
+      table_(memory, shape.frame_count) {
+  std::tie(stamps_, pages_) = own_layout(shape).in(memory);
+  policy_ = kind_of(shape.replacement).make({memory, stamps_, pages_, seed});
+}
+
+PageId Cache::install(PageId page, std::span<const std::byte> bytes) {
+  return install_by(page, [&](std::uint32_t frame) { frames_.put(frame, bytes); });
+}
+
+PageId Cache::install(PageId page, const nodes::ByteSource& source, std::size_t offset_bytes) {
+  return install_by(page, [&](std::uint32_t frame) { frames_.put(frame, source, offset_bytes); });
+}
+
+template <class Put>
+PageId Cache::install_by(PageId page, const Put& put) {
+  core::expect(!stamps_.empty(), "a page is installed only where there is a frame");
+  core::expect(frame_of(page) == no_frame, "a page is in at most one frame");
+  const bool is_full = filled_count_ == frame_count();
+  const std::uint32_t frame = is_full ? policy_->victim(page) : filled_count_++;
+  core::expect(frame < frame_count(), "a page leaves a frame that there is");
+  const PageId evicted = is_full ? pages_[frame] : no_page;
+  if (is_full) {
+    table_.erase(evicted);
+  }
+  put(frame);
+  pages_[frame] = page;
+  stamps_[frame] = ++clock_;
+  table_.insert(page, frame);
+  policy_->insert(page, frame);
+  last_frame_ = frame;
+  return evicted;
+}
+
+void Cache::tell_of_hit(std::uint32_t frame) {
+  if (frame != last_frame_) {
+    last_frame_ = frame;
+    policy_->hit(pages_[frame], frame);
+  }
+}
+
+}  // namespace dmpc::svm

@@ -1,0 +1,86 @@
+// What nodes tell each other about pages: values, without pointers.
+//
+//   kind                   from -> to          channel   size   its place in the target's mailbox is reserved by
+//   page_request           node -> home        request   small  the sender's request credits for that home, a node or the host
+//   passed_request         node -> parent      request   small  the asker's request, which has places all the way up
+//   page_reply             home -> node        bulk      bulk   the request
+//
+// Where nodes ask the host by way of a tree (svm/pages/request_tree.h) page requests go to the parent, and the reply comes from
+// whoever above has the page.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "nodes/node.h"
+#include "nodes/packet.h"
+#include "svm/pages/page.h"
+
+namespace dmpc::svm {
+
+/// All that travels in this family, pixels' packets (svm/packets.h) too, so that a number has one name in every trace.
+enum class Kind : nodes::PacketKind {
+  page_request,
+  page_reply,
+  work_request,
+  work_reply,
+  film_sums,
+  film_acknowledgement,
+  done,
+  stop,
+  mask_part,
+  mask_acknowledgement,
+  begin_pass,
+  questions,
+  answers,
+  passed_request
+};
+constexpr nodes::PacketKind number_of(Kind kind) { return static_cast<nodes::PacketKind>(kind); }
+static_assert(number_of(Kind::passed_request) < nodes::packet_kind_count);
+inline constexpr std::array<const char*, 14> kind_names = {
+    "page_request", "page_reply",           "work_request", "work_reply", "film_sums", "film_acknowledgement", "done", "stop",
+    "mask_part",    "mask_acknowledgement", "begin_pass",   "questions",  "answers",   "passed_request"};
+/// The packet's name, for reports.
+constexpr const char* name_of(Kind kind) { return kind_names[number_of(kind)]; }
+
+inline constexpr nodes::Channel request_channel = 0;
+inline constexpr nodes::Channel bulk_channel = 1;
+inline constexpr nodes::Channel ring_channel = 2;
+inline constexpr nodes::Channel control_channel = 3;
+static_assert(control_channel < nodes::channel_count);
+
+template <class T>
+inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;
+
+struct PageRequest {
+  PageId page = no_page;
+};
+static_assert(is_small_packet<PageRequest>);
+
+/// A page request that its receiver does not have the page for, on its way up the tree.
+struct PassedRequest {
+  PageId page = no_page;
+  std::uint32_t asker = 0;
+};
+static_assert(is_small_packet<PassedRequest>);
+
+/// What a page request, passed on or not, asks for, and for whom.
+inline PassedRequest request_in(const nodes::Packet& packet) {
+  return Kind{packet.kind} == Kind::passed_request ? packet.as<PassedRequest>()
+                                                   : PassedRequest{packet.as<PageRequest>().page, nodes::index_of(packet.source)};
+}
+
+/// Stands before the page's bytes.
+struct PageReplyHeader {
+  PageId page = no_page;
+  std::uint32_t padding = 0;
+};
+static_assert(sizeof(PageReplyHeader) == 8 && std::is_trivially_copyable_v<PageReplyHeader>);
+static_assert(sizeof(PageReplyHeader) + page_size_min_bytes > nodes::small_payload_bytes, "every page reply is bulk");
+
+/// A page of this size on its way.
+constexpr std::size_t page_reply_bytes(std::size_t page_size_bytes) { return sizeof(PageReplyHeader) + page_size_bytes; }
+
+}  // namespace dmpc::svm

@@ -1,0 +1,49 @@
+// How many pages there are, and for how many of them and of pixels a node has room.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "svm/pages/cache.h"
+#include "svm/pages/home.h"
+#include "svm/pages/request_tree.h"
+
+namespace dmpc::svm {
+
+/// The most pixels, or other tasks, under way on a node.
+inline constexpr std::uint32_t in_flight_max = 4096;
+
+/// What a node's part of the database is made for; alike on all nodes.
+struct PageCapacity {
+  std::uint32_t page_count = 0;  ///< of the database
+  std::uint32_t node_count = 1;
+  PageHomes where = PageHomes::spread;    ///< they are at home
+  std::uint32_t tree_arity = 1;           ///< children of a parent, where = tree
+  std::uint32_t resident_count = 0;       ///< pages that every node keeps for good, wherever they are at home
+  std::span<const PageId> resident = {};  ///< which; once they are known as many, and they outlive the making of programs
+  CacheShape cache;                       ///< whose pages are as large as all
+  std::uint32_t in_flight = 1;            ///< pixels under way
+  std::uint32_t faults_max = 0;           ///< under way at a time
+  std::uint32_t request_credits = 0;      ///< page requests, or packets of questions, that may be under way to one home
+  std::uint32_t forest_pages = 0;         ///< the first ones, if every node holds them and asks the owners of the others
+  std::size_t question_bytes = 0;         ///< of a full packet of questions, or of answers
+
+  std::size_t page_size_bytes() const { return cache.page_size_bytes; }
+  std::size_t database_bytes() const { return page_count * page_size_bytes(); }
+  std::size_t forest_bytes() const { return forest_pages * page_size_bytes(); }
+  Homes homes() const { return homes_of(where, node_count); }
+  /// Who asks whom, if all pages are at home at the host.
+  std::optional<RequestTree> tree() const { return request_tree_of(where, node_count, tree_arity); }
+  /// Whether requests come to node `index`, or the host.
+  bool is_asked(std::uint32_t index) const {
+    return pages_at(index) > 0 || (index < node_count && tree() && tree()->count_below(index) > 0);
+  }
+  /// The shape of the frames of resident pages, all alike.
+  CacheShape resident_shape() const { return {resident_count, page_size_bytes()}; }
+  /// Pages at home at node `index`, or the host, beside those that all nodes hold.
+  std::uint32_t pages_at(std::uint32_t index) const { return homes().count_at(index, page_count - forest_pages); }
+};
+
+}  // namespace dmpc::svm

@@ -1,0 +1,146 @@
+#include "svm/pages/pager.h"
+
+#include <cstring>
+
+#include "core/base/expect.h"
+#include "svm/pages/packets.h"
+
+namespace dmpc::svm {
+
+nodes::MemoryPlan Pager::layout(const PageCapacity& capacity, std::uint32_t index) {
+  return own_layout() + HomePages::layout(capacity, index) + Cache::layout(capacity.resident_shape()) +
+         Cache::layout(capacity.cache) + Faults::layout(capacity.in_flight, capacity.faults_max) +
+         PageServer::layout(capacity, index);
+}
+
+Pager::Pager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
+    : geometry_(capacity.page_size_bytes()),
+      translations_(own_layout().in(node.memory())),
+      homes_(node, capacity, database),
+      resident_(node.memory(), capacity.resident_shape(), 0),
+      cache_(node.memory(), capacity.cache, nodes::index_of(node.id())),
+      faults_(node.memory(), capacity.in_flight, capacity.faults_max),
+      server_(node, capacity),
+      tree_(capacity.tree()),
+      node_(&node) {
+  core::expect(capacity.resident.size() == capacity.resident_count, "it is known which pages are resident");
+  for (const PageId page : capacity.resident) {
+    resident_.install(page, database, index_of(page) * capacity.page_size_bytes());
+  }
+  grant_requests(node, capacity);
+}
+
+const std::byte* Pager::find_other(PageId page, std::size_t offset) {
+  Translation& translation = translation_of(page);
+  if (translation.page != page && !translate(page, translation)) {
+    ++counters_.misses;
+    return nullptr;
+  }
+  const bool is_kept = translation.frame == Cache::no_frame;
+  if (!is_kept) {
+    cache_.touch(translation.frame);
+  }
+  last_hits_ = is_kept ? &counters_.home_hits : &counters_.cache_hits;
+  ++*last_hits_;
+  last_page_ = page;
+  last_bytes_ = translation.bytes;
+  return last_bytes_ + offset;
+}
+
+/// Returns whether the page is here; if not, `translation` stays as it was.
+bool Pager::translate(PageId page, Translation& translation) const {
+  if (const std::byte* const at_home = homes_.find(page)) {
+    translation = {page, Cache::no_frame, at_home};
+    return true;
+  }
+  if (const std::uint32_t kept = resident_.frame_of(page); kept != Cache::no_frame) {
+    translation = {page, Cache::no_frame, resident_.bytes_of(kept)};
+    return true;
+  }
+  const std::uint32_t frame = cache_.frame_of(page);
+  if (frame == Cache::no_frame) {
+    return false;
+  }
+  translation = {page, frame, cache_.bytes_of(frame)};
+  return true;
+}
+
+void Pager::park(std::uint32_t slot, core::Address address) {
+  const PageId page = geometry_.page_of(address);
+  if (Faults::Fault* fault = faults_.park(slot, page, asked_for(page))) {
+    ++counters_.faults;
+    request(*fault);
+  }
+}
+
+/// Its home, or the parent in the tree.
+std::uint32_t Pager::asked_for(PageId page) const {
+  return tree_ ? tree_->parent_of(nodes::index_of(node_->id())) : homes_.home_of(page);
+}
+
+/// The page for another node, or nullptr. What others use stays as if it were used here.
+const std::byte* Pager::served_bytes(PageId page) {
+  Translation found;
+  if (!translate(page, found)) {
+    return nullptr;
+  }
+  if (found.frame != Cache::no_frame) {
+    cache_.touch(found.frame);
+  }
+  return found.bytes;
+}
+
+void Pager::serve(const nodes::Packet& packet) {
+  const PassedRequest request = request_in(packet);
+  if (const std::byte* const bytes = tree_ ? served_bytes(request.page) : homes_.find(request.page)) {
+    return server_.reply(request, bytes);
+  }
+  core::expect(tree_.has_value(), "a request reaches its page's home");
+  const nodes::NodeId parent{asked_for(request.page)};
+  node_->grant(parent, request_channel);  // the place that the asker's request has reserved all the way up
+  node_->send_reserved(parent, request_channel, number_of(Kind::passed_request), request);
+}
+
+/// Refused for want of credit, the fault stays in the list and is requested when a reply for its home or parent brings the credit
+/// back.
+void Pager::request(Faults::Fault& fault) {
+  fault.requested =
+      node_->try_send(nodes::NodeId{fault.home}, request_channel, number_of(Kind::page_request), PageRequest{fault.page});
+}
+
+std::uint32_t Pager::install(const nodes::Packet& reply) {
+  core::expect(reply.payload_bytes() == page_reply_bytes(geometry_.size_bytes()), "a page reply carries one page");
+  PageReplyHeader header;
+  std::memcpy(&header, reply.payload.data(), sizeof(header));
+  const std::uint32_t source = nodes::index_of(reply.source), asked = asked_for(header.page);
+  core::expect(tree_ ? tree_->is_above(source, nodes::index_of(node_->id())) : source == asked,
+               "a page comes from its home, or from above in the tree");
+  node_->grant(nodes::NodeId{asked}, request_channel);
+  const std::uint32_t first = faults_.arrived(header.page);
+  if (Faults::Fault* refused = faults_.oldest_refused(asked)) {
+    request(*refused);
+  }
+  forget(cache_.install(header.page, reply.behind(sizeof(header))));
+  return first;
+}
+
+void Pager::forget(PageId evicted) {
+  last_page_ = no_page;
+  if (evicted == no_page) {
+    return;
+  }
+  ++counters_.evictions;
+  if (translation_of(evicted).page == evicted) {
+    translation_of(evicted) = {};
+  }
+}
+
+PageCounters Pager::counters() const {
+  PageCounters counters = counters_;
+  counters.served = server_.served();
+  counters.cache_hits -= retries_;
+  counters.references = counters.home_hits + counters.cache_hits + counters.misses;
+  return counters;
+}
+
+}  // namespace dmpc::svm

@@ -1,0 +1,107 @@
+// Turns page misses into faults and requests, replies into installed pages, and serves other nodes' requests.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/picture/memory_use.h"
+#include "core/record/records.h"
+#include "nodes/node.h"
+#include "svm/pages/cache.h"
+#include "svm/pages/faults.h"
+#include "svm/pages/home_pages.h"
+#include "svm/pages/node_program.h"
+#include "svm/pages/page.h"
+#include "svm/pages/page_capacity.h"
+#include "svm/pages/page_server.h"
+#include "svm/pages/request_tree.h"
+
+namespace dmpc::svm {
+
+/// A node's part of the shared virtual memory: its home pages, those resident at every node, its cache, its faults. A
+/// core::Records whose find() answers nullptr for a page that is none of these. The victim of a page is chosen when the page
+/// arrives. Thread safety: none.
+class Pager {
+ public:
+  /// Programs with this kind of records exchange page requests and replies.
+  static constexpr bool pages_travel = true;
+
+  /// Puts the node's home pages, from `database`, into its local memory (nodes::LastingPieces) and takes the credits for its
+  /// requests.
+  Pager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
+  /// What the constructor takes at node `index`.
+  static nodes::MemoryPlan layout(const PageCapacity& capacity, std::uint32_t index);
+
+  /// One reference. The pointer is valid until the next call of install(). Repeated references of one page, the usual case,
+  /// do not change the order of use, so they cost a comparison.
+  const std::byte* find(core::Address address) {
+    const PageId page = geometry_.page_of(address);
+    const std::size_t offset = geometry_.offset_of(address);
+    if (page == last_page_) [[likely]] {
+      ++*last_hits_;
+      return last_bytes_ + offset;
+    }
+    return find_other(page, offset);
+  }
+
+  /// `slot` goes on when the page of `address`, which find() has just said is absent, arrives. Requests the page if nobody has.
+  void park(std::uint32_t slot, core::Address address);
+  /// Takes a page reply: installs the page and returns the first slot that waited for it. Whoever runs those slots calls
+  /// retried() before each and runs them all before the next install().
+  std::uint32_t install(const nodes::Packet& reply);
+  /// The slot that waits for the same page behind `slot`, or no_slot. Read it before the slot runs.
+  std::uint32_t next_waiting(std::uint32_t slot) const { return faults_.next(slot); }
+  /// The next reference is the repetition of one that was counted as a page miss.
+  void retried() { ++retries_; }
+  /// Takes a page request and replies at once; in a tree, if the page is not here, asks the parent for whoever asks. Installs
+  /// nothing, so a computing node may be interrupted for it.
+  void serve(const nodes::Packet& request);
+  /// The page is here for good, at home or resident.
+  bool keeps(PageId page) const { return homes_.find(page) != nullptr || resident_.frame_of(page) != Cache::no_frame; }
+
+  /// Faults that have not ended.
+  std::uint32_t faults() const { return faults_.count(); }
+  /// Pages in the cache.
+  std::uint32_t cached_pages() const { return cache_.filled_count(); }
+  PageCounters counters() const;
+
+ private:
+  /// Where a page was found last: in front of the arithmetic and the cache's table, small enough to stay in the processor's
+  /// own cache.
+  struct Translation {
+    PageId page = no_page;
+    std::uint32_t frame = Cache::no_frame;  ///< no_frame: the page is here for good
+    const std::byte* bytes = nullptr;
+  };
+  static constexpr std::size_t translation_count = 256;
+  static nodes::Room<Translation> own_layout() { return {core::MemoryUse::page_table, translation_count}; }
+
+  Translation& translation_of(PageId page) { return translations_[index_of(page) % translation_count]; }
+  bool translate(PageId page, Translation& translation) const;
+  const std::byte* find_other(PageId page, std::size_t offset);
+  std::uint32_t asked_for(PageId page) const;
+  const std::byte* served_bytes(PageId page);
+  void request(Faults::Fault& fault);
+  void forget(PageId evicted);
+
+  // What a reference reads comes first.
+  PageGeometry geometry_;
+  PageId last_page_ = no_page;
+  const std::byte* last_bytes_ = nullptr;
+  std::uint64_t* last_hits_ = nullptr;
+  std::span<Translation> translations_;
+  HomePages homes_;
+  Cache resident_;  ///< of pages that never leave it
+  PageCounters counters_;
+  std::uint64_t retries_ = 0;
+  Cache cache_;
+  Faults faults_;
+  PageServer server_;
+  std::optional<RequestTree> tree_;
+  nodes::Node* node_;
+};
+static_assert(core::Records<Pager>);
+
+}  // namespace dmpc::svm

@@ -1,0 +1,150 @@
+// The node program of tasks that read pages and are no pixels: graphs, tables, whatever does not fit one memory.
+//
+// As with pixels (svm/program.h): requests are served in receive(), whatever a node's own state, and a page that arrives runs
+// every task that waited for it before the next packet is looked at. So a task that reads one record after another goes on with a
+// cache of one page, and the last node always moves.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/base/expect.h"
+#include "core/picture/memory_use.h"
+#include "core/trace/charge.h"
+#include "core/trace/task_state.h"
+#include "nodes/node.h"
+#include "svm/pages/node_program.h"
+#include "svm/pages/packets.h"
+#include "svm/pages/task_heat.h"
+#include "svm/pages/task_kind.h"
+#include "svm/pages/task_plan.h"
+
+namespace dmpc::svm {
+
+/// What a task's program tells, whatever the task.
+class AnyTaskProgram : public NodeProgram {
+ public:
+  /// In bytes; of each task of the node, in order.
+  virtual std::span<const std::byte> results() const = 0;
+};
+
+/// `Records` is Pager or RecordingPager.
+template <class Records>
+class TaskProgram final : public AnyTaskProgram {
+ public:
+  /// `kind`, which outlives this, is the plan's.
+  TaskProgram(nodes::Node& node, const TaskPlan& plan, const nodes::ByteSource& database, const TaskKind<Records>& kind)
+      : records_(node, plan.pages(), database),
+        kind_(kind),
+        next_(plan.first_task(nodes::index_of(node.id()))),
+        first_(next_),
+        count_(plan.tasks_at(nodes::index_of(node.id()))) {
+    std::tie(tasks_, numbers_, runnable_, free_, results_) = plan.program_layout(nodes::index_of(node.id())).in(node.memory());
+    for (std::uint32_t place = 0; place < free_.size(); ++place) {
+      free_[free_count_++] = static_cast<std::uint32_t>(free_.size()) - 1 - place;
+    }
+  }
+
+  Records& records() { return records_; }
+  /// What each task takes is noted from now on. To be called before the start, if at all.
+  void note_heat(TaskMeter meter) { meter_ = meter; }
+
+  void receive(const nodes::Packet& packet) override {
+    if (packet.kind == number_of(Kind::page_request)) {
+      return records_.serve(packet);
+    }
+    core::expect(packet.kind == number_of(Kind::page_reply), "a node is asked for pages, and gets those that it asked for");
+    for (std::uint32_t place = records_.install(packet); place != no_slot;) {
+      const std::uint32_t next = records_.next_waiting(place);
+      records_.retried();
+      run(place);
+      place = next;
+    }
+  }
+
+  bool work() override {
+    if (runnable_count_ == 0 && can_start()) {
+      start();
+    }
+    if (runnable_count_ > 0) {
+      run(runnable_[--runnable_count_]);
+    }
+    return runnable_count_ > 0 || can_start();
+  }
+
+  bool finished() const override { return done_ == count_; }
+
+  nodes::Charges charges() const override {
+    nodes::Charges charges = charges_;
+    const PageCounters pages = records_.counters();
+    charges[core::Charge::home_lookup] += pages.home_hits;
+    charges[core::Charge::cached_lookup] += pages.references - pages.home_hits;
+    charges[core::Charge::page_install] += pages.faults - records_.faults();
+    return charges;
+  }
+
+  nodes::Levels levels() const override {
+    return {{"pages in cache", records_.cached_pages()}, {"pages awaited", records_.faults()}, {"tasks done", done_}};
+  }
+
+  std::string describe() const override {
+    return std::to_string(done_) + " of " + std::to_string(count_) + " tasks done, " + std::to_string(records_.faults()) +
+           " pages awaited";
+  }
+
+  ProgramReport report() const override { return {.operations = {}, .pages = records_.counters(), .work = {}}; }
+  std::span<const std::byte> results() const override { return results_; }
+
+ private:
+  bool can_start() const { return free_count_ > 0 && next_ - first_ < count_; }
+
+  void start() {
+    const std::uint32_t place = free_[--free_count_];
+    numbers_[place] = next_++;
+    kind_.start(task_at(place), numbers_[place]);
+    runnable_[runnable_count_++] = place;
+  }
+
+  /// A step of the task there, and what it took.
+  void run(std::uint32_t place) {
+    step(place);
+    if (meter_) {
+      meter_->stepped(numbers_[place], records_.counters(), charges());
+    }
+  }
+
+  void step(std::uint32_t place) {
+    core::Address absent = core::no_address;
+    switch (kind_.run(task_at(place), records_, charges_, absent)) {
+      case core::TaskState::more:
+        runnable_[runnable_count_++] = place;
+        return;
+      case core::TaskState::absent:
+        return records_.park(place, absent);
+      case core::TaskState::finished:
+        kind_.put_result(task_at(place), &results_[(numbers_[place] - first_) * kind_.sizes.result_bytes]);
+        free_[free_count_++] = place;
+        ++done_;
+        return;
+    }
+  }
+
+  std::byte* task_at(std::uint32_t place) const { return &tasks_[place * kind_.sizes.task_bytes]; }
+
+  Records records_;
+  const TaskKind<Records>& kind_;
+  std::uint32_t next_, first_, count_;  ///< tasks of this node: the next to start, the first of all, and how many there are
+  std::uint32_t done_ = 0;
+  std::span<std::byte> tasks_;        ///< those under way
+  std::span<std::uint32_t> numbers_;  ///< by place: of the task there
+  std::span<std::uint32_t> runnable_, free_;
+  std::uint32_t runnable_count_ = 0, free_count_ = 0;
+  std::span<std::byte> results_;
+  nodes::Charges charges_;
+  std::optional<TaskMeter> meter_;
+};
+
+}  // namespace dmpc::svm

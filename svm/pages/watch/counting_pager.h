@@ -1,0 +1,64 @@
+// A pager that also counts the different pages that each pixel references. A type of its own, so that normal runs pay nothing
+// for it.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/units.h"
+#include "svm/pages/pager.h"
+
+namespace dmpc::svm {
+
+/// Keeps one bit a page for each pixel in flight. Whoever runs a slot calls select() before, and forget() when a pixel starts
+/// in it. Thread safety: none.
+class CountingPager : public Pager {
+ public:
+  CountingPager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
+      : Pager(node, capacity, database),
+        geometry_(capacity.page_size_bytes()),
+        words_per_slot_(words_for(capacity.page_count)),
+        seen_(own_layout(capacity).in(node.memory())) {}
+  /// What the constructor takes beside Pager's.
+  static nodes::Room<std::uint64_t> own_layout(const PageCapacity& capacity) {
+    return {nodes::Category::queues, capacity.in_flight * words_for(capacity.page_count)};
+  }
+
+  /// Hides Pager's: counts the page, then looks it up.
+  const std::byte* find(core::Address address) {
+    note(index_of(geometry_.page_of(address)));
+    return Pager::find(address);
+  }
+
+  /// References from now on are those of the pixel in `slot`.
+  void select(std::uint32_t slot) { selected_ = seen_.subspan(slot * words_per_slot_, words_per_slot_); }
+  /// The selected slot starts another pixel.
+  void forget() { std::fill(selected_.begin(), selected_.end(), 0); }
+
+  PageCounters counters() const {
+    PageCounters counters = Pager::counters();
+    counters.distinct_pages = distinct_pages_;
+    return counters;
+  }
+
+ private:
+  static std::size_t words_for(std::uint32_t page_count) { return core::ceil_divide<std::size_t>(page_count, 64); }
+
+  void note(std::uint32_t page) {
+    std::uint64_t& word = selected_[page / 64];
+    const std::uint64_t bit = std::uint64_t{1} << (page % 64);
+    distinct_pages_ += (word & bit) == 0 ? 1 : 0;
+    word |= bit;
+  }
+
+  PageGeometry geometry_;
+  std::size_t words_per_slot_;
+  std::span<std::uint64_t> seen_;
+  std::span<std::uint64_t> selected_;
+  std::uint64_t distinct_pages_ = 0;
+};
+static_assert(core::Records<CountingPager>);
+
+}  // namespace dmpc::svm

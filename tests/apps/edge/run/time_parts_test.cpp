@@ -1,0 +1,78 @@
+#include "apps/edge/run/time_parts.h"
+
+#include <doctest/doctest.h>
+
+#include <numeric>
+
+namespace dmpc::apps::time_parts_test {
+
+namespace {
+
+constexpr WaitKinds waits = {.data = "page", .data_kinds = 0b1, .work_kinds = 0b110, .end_kinds = 0b1000};
+
+std::uint64_t at(const TimeParts& parts, TimePart part) { return parts.ns[static_cast<std::size_t>(part)]; }
+
+/// Every field another power of two.
+nodes::VirtualTimes powers() {
+  return {.computing_ns = 1,
+          .sending_ns = 2,
+          .receiving_ns = 4,
+          .stolen_ns = 8,
+          .lent_ns = 16,
+          .waiting_ns = {32, 64, 128, 256, 512},
+          .end_ns = 1024};
+}
+
+/// A time of two parts.
+TimeParts computing_and_lent(std::uint64_t computing_ns, std::uint64_t lent_ns) {
+  return parts_of(nodes::VirtualTimes{.computing_ns = computing_ns, .lent_ns = lent_ns}, waits);
+}
+
+double sum(const std::array<double, time_part_count>& percent) { return std::accumulate(percent.begin(), percent.end(), 0.0); }
+
+}  // namespace
+
+TEST_CASE("every nanosecond belongs to one part") {
+  const TimeParts parts = parts_of(powers(), waits);
+  CHECK(at(parts, TimePart::computing) == 1);
+  CHECK(at(parts, TimePart::messages) == 2 + 4);
+  CHECK(at(parts, TimePart::stolen) == 8);
+  CHECK(at(parts, TimePart::lent) == 16);
+  CHECK(at(parts, TimePart::data_wait) == 32);
+  CHECK(at(parts, TimePart::work_wait) == 64 + 128);
+  CHECK(at(parts, TimePart::idle_at_end) == 256 + 1024);
+  CHECK(at(parts, TimePart::other_wait) == 512);
+  CHECK(parts.total_ns() == powers().total_ns());
+}
+
+TEST_CASE("the parts add up to a hundred percent, even of nothing") {
+  CHECK(sum(parts_of(powers(), waits).percent()) == doctest::Approx(100));
+  CHECK(computing_and_lent(3, 1).percent()[0] == 75);
+  CHECK(sum(TimeParts().percent()) == 100);
+}
+
+TEST_CASE("a sum over the nodes is without the host, which is the last") {
+  const nodes::VirtualReport report = {.links = {}, .nodes = {powers(), powers(), powers()}};
+  const nodes::VirtualTimes sum = sum_of_nodes(report);
+  CHECK(sum.total_ns() == 2 * powers().total_ns());
+  CHECK(sum.computing_ns == 2);
+  CHECK(sum.waiting_ns[4] == 1024);
+  CHECK(sum.end_ns == 2048);
+}
+
+TEST_CASE("parts are told as people read them, without those that are nothing") {
+  CHECK(parts_text(computing_and_lent(3, 1), waits) == "computing 75.0 %, lent 25.0 %");
+  CHECK(parts_text(computing_and_lent(7, 0), waits) == "computing 100.0 %");
+  CHECK(parts_text(TimeParts(), waits) == "computing 100.0 %");
+  CHECK(parts_text(parts_of(powers(), waits), waits) ==
+        "computing 0.0 %, page wait 1.6 %, work wait 9.4 %, other waits 25.0 %, stolen 0.4 %, lent 0.8 %, messages 0.3 %, "
+        "idle at the end 62.5 %");
+}
+
+TEST_CASE("the figures of a line add up although they are rounded") {
+  // 33.33 % three times: 99.9 % if each were rounded alone
+  const TimeParts thirds = parts_of(nodes::VirtualTimes{.computing_ns = 1, .stolen_ns = 1, .lent_ns = 1}, waits);
+  CHECK(parts_text(thirds, waits) == "computing 33.3 %, stolen 33.4 %, lent 33.3 %");
+}
+
+}  // namespace dmpc::apps::time_parts_test

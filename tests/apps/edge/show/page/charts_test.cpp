@@ -1,0 +1,59 @@
+#include "apps/edge/show/page/charts.h"
+
+#include <doctest/doctest.h>
+
+#include <sstream>
+
+#include "tests/support/text.h"
+
+namespace dmpc::apps::html::charts_test {
+
+using tests::contains;
+
+namespace {
+
+Table numbers() {
+  Table table("Numbers", {{"x"}, {"y"}});
+  table.add_row({std::uint64_t{1}, 2.0});
+  table.add_row({std::uint64_t{2}, 3.0});
+  return table;
+}
+
+Plot line(const std::string& column = "y") {
+  return curves("numbers", "Numbers", "x", {.label = "x"}, {.label = "y"}, {{"y", column}});
+}
+
+}  // namespace
+
+TEST_CASE("a plot becomes an address with its own bytes") {
+  std::ostringstream complaints;
+  const Chart chart = Charts(complaints).draw(line(), numbers());
+  CHECK(chart.url.starts_with("data:image/svg+xml;base64,"));
+  CHECK(chart.url_to_save.starts_with("data:image/svg+xml;base64,"));
+  CHECK(chart.url_to_save.size() < chart.url.size());  // without the style for the dark
+  CHECK(complaints.str().empty());
+}
+
+TEST_CASE("without the program there is no plot, and one complaint") {
+  std::ostringstream complaints;
+  Charts charts(complaints, "asker", "/none/gnuplot");
+  CHECK(charts.draw(line(), numbers()).url.empty());
+  CHECK(charts.draw(line(), numbers()).url.empty());
+  CHECK(complaints.str().starts_with("asker: the page has no plots: /none/gnuplot cannot be started"));
+  CHECK(complaints.str().find('\n') == complaints.str().size() - 1);
+}
+
+TEST_CASE("a plot without a number is left out without complaint") {
+  std::ostringstream complaints;
+  CHECK(Charts(complaints).draw(line(), Table("Numbers", {{"x"}, {"y"}})).url.empty());
+  CHECK(complaints.str().empty());
+}
+
+TEST_CASE("what is black is light where the page is dark") {
+  const std::string svg = themed("<svg>\n<g id=\"gnuplot_canvas\"></g></svg>");
+  CHECK(contains(svg, "<svg>\n<style>"));
+  CHECK(contains(svg, "prefers-color-scheme:dark"));
+  CHECK(themed("nothing").find("style") == std::string::npos);
+}
+
+}  // namespace dmpc::apps::html::charts_test

@@ -1,0 +1,17 @@
+#include "apps/edge/show/page/data_url.h"
+
+#include <doctest/doctest.h>
+
+namespace dmpc::apps::html::data_url_test {
+
+TEST_CASE("bytes are written as RFC 4648 has them") {
+  const auto base64 = [](std::string_view bytes) { return data_url("", bytes).substr(std::string("data:;base64,").size()); };
+  CHECK(base64("").empty());
+  CHECK(base64("f") == "Zg==");
+  CHECK(base64("fo") == "Zm8=");
+  CHECK(base64("foo") == "Zm9v");
+  CHECK(base64("foobar") == "Zm9vYmFy");
+  CHECK(base64(std::string_view("\xFF\x00\xFB", 3)) == "/wD7");
+}
+
+}  // namespace dmpc::apps::html::data_url_test

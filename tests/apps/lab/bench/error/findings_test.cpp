@@ -1,0 +1,131 @@
+#include "apps/lab/bench/error/findings.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "apps/lab/bench/error/table.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests::findings_test {
+
+using apps::Knob;
+using apps::Measurement;
+using apps::SceneResult;
+
+namespace {
+
+Measurement measured(std::uint64_t rays, double error) {
+  Measurement one{.seconds = {static_cast<double>(rays)}, .rays = rays, .samples = rays};
+  one.error.root_mean_square = error;
+  return one;
+}
+
+void add(SceneResult& result, Knob knob, const std::string& text, const Measurement& one) {
+  apps::Setting setting;
+  setting.samples = knob == Knob::samples ? std::stoi(text) : 2;
+  result.measurement_of.push_back(result.measurements.size());
+  result.points.push_back({knob, text, setting});
+  result.measurements.push_back(one);
+}
+
+/// Uniform sampling whose error falls with rays^-1/2, and refinement that takes `share` of its rays.
+SceneResult scene_result(double share, double own_error = 0) {
+  SceneResult result{.scene = "tetra-2", .width = 2, .height = 2};
+  result.reference.own_error = own_error;
+  for (const int samples : {1, 16, 64}) {
+    add(result, Knob::samples, std::to_string(samples), measured(100U * static_cast<unsigned>(samples), 1 / std::sqrt(samples)));
+  }
+  for (const int samples : {1, 4, 20, 100}) {
+    add(result, Knob::adaptive, std::to_string(samples),
+        measured(static_cast<std::uint64_t>(share * 100 * samples), 1 / std::sqrt(samples)));
+  }
+  return result;
+}
+
+/// Deterministic errors of cutoffs: less error, more rays.
+void add_cutoffs(SceneResult& result) {
+  for (const auto& [text, rays, error] : {std::tuple{"1/64", 60U, 1.0 / 1000}, {"1/255", 80U, 1.0 / 2000}, {"0", 100U, 0.0}}) {
+    Measurement one = measured(rays, 0.1);
+    one.deterministic.emplace().root_mean_square = error;
+    one.setting = error == 0 ? result.base : one.setting;
+    add(result, Knob::cutoff, text, one);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("adaptive sampling is held against uniform sampling at the same error") {
+  const auto ratios = apps::adaptive_ratios(scene_result(0.25));
+  REQUIRE(ratios.size() == 3);
+  CHECK(*ratios[0].rays == doctest::Approx(0.25));
+  CHECK(*ratios[2].seconds == doctest::Approx(0.25));
+  CHECK_FALSE(ratios[1].rays);
+  CHECK(ratios[0].is_claimed);
+}
+
+TEST_CASE("what adaptive sampling is worth in time stands first, at an error of one 8-bit step") {
+  SceneResult result = scene_result(0.25);
+  CHECK_FALSE(apps::adaptive_gain(result).seconds);  // no error is so small
+  for (Measurement& one : result.measurements) {
+    one.error.root_mean_square /= 50;
+  }
+  REQUIRE(apps::adaptive_gain(result).rays);
+  CHECK(*apps::adaptive_gain(result).rays == doctest::Approx(4));
+  CHECK(contains(apps::findings_of(result).front(), "for an RMSE of 1/255 uniform samples take "));
+  CHECK(contains(apps::findings_of_all(std::vector{result, result}).front(), "(of 2 scenes) times the time of adaptive ones"));
+}
+
+TEST_CASE("an error below the reference is not claimed and one that is hidden by it gives no ratio") {
+  const auto ratios = apps::adaptive_ratios(scene_result(0.5, 0.1));
+  CHECK(*ratios[0].rays == doctest::Approx(0.5).epsilon(0.1));
+  CHECK_FALSE(ratios[0].is_claimed);
+  CHECK_FALSE(ratios[2].rays);
+}
+
+TEST_CASE("the reference's own error is taken off in squares") {
+  SceneResult result;
+  result.reference.own_error = 3;
+  CHECK_FALSE(apps::error_without_reference(result, measured(1, 6)));
+  result.reference.own_error = 5;
+  CHECK(*apps::error_without_reference(result, measured(1, 13)) == doctest::Approx(12));
+  CHECK_FALSE(apps::is_claimed(result, measured(1, 49.9)));
+  CHECK(apps::is_claimed(result, measured(1, 50)));
+}
+
+TEST_CASE("the cheapest cutoff has a deterministic error below a quarter of an 8-bit step") {
+  SceneResult result = scene_result(0.5);
+  CHECK_FALSE(apps::cheapest_point(result, Knob::cutoff));
+  add_cutoffs(result);
+  const auto cheapest = apps::cheapest_point(result, Knob::cutoff);
+  REQUIRE(cheapest);
+  CHECK(result.points[*cheapest].text == "1/255");
+  CHECK(contains(apps::findings_of(result).back(), "cutoff 1/255 (0.128/255, 0.800 times the rays)"));
+}
+
+TEST_CASE("several scenes are summed up by geometric means of those that have a figure") {
+  const std::vector<SceneResult> results = {scene_result(0.1), scene_result(0.4), SceneResult()};
+  const auto sentences = apps::findings_of_all(results);
+  REQUIRE(sentences.size() == 2);
+  CHECK(contains(sentences[0], "RMSE of 16 uniform samples adaptive sampling takes 0.200 (of 2 scenes) times the seconds"));
+  CHECK(apps::findings_of_all(std::vector{scene_result(0.1)}).empty());
+}
+
+TEST_CASE("a table of errors has the rows that are measured and marks fronts and what is not claimed") {
+  SceneResult result = scene_result(0.25, 0.03);
+  add(result, Knob::adaptive, "late", {});
+  const apps::Table table = apps::table_of(std::vector{result}, "errors");
+  REQUIRE(table.rows().size() == 7);
+  const auto cell = [&](std::size_t row, std::size_t column) { return std::get<std::string>(table.rows()[row][column]); };
+  const std::size_t remark = 15, front = 16;
+  CHECK(cell(0, remark).empty());
+  CHECK(cell(0, front).empty());
+  CHECK(cell(2, remark) == "below the reference");
+  CHECK(cell(3, front) == "yes");
+  CHECK(cell(5, front).empty());
+  CHECK(apps::plotted_table(result).rows().size() == 3);
+}
+
+}  // namespace dmpc::tests::findings_test

@@ -1,0 +1,105 @@
+#include "apps/lab/bench/error/sweep.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "apps/scene/picture_options.h"
+#include "core/base/expect.h"
+
+namespace dmpc::tests::sweep_test {
+
+using apps::Knob;
+using apps::Point;
+using apps::Setting;
+using apps::sweep;
+using apps::tessellations_of;
+
+namespace {
+
+std::vector<std::string> texts(const std::vector<Point>& points) {
+  std::vector<std::string> result;
+  for (const Point& point : points) {
+    result.push_back(point.text);
+  }
+  return result;
+}
+
+using Texts = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("a sweep turns one knob at a time and ends at the base point") {
+  CHECK(texts(sweep({.samples = 8}, {.knobs = {Knob::samples}})) == Texts{"1", "4", "8", "16", "32", "64", "256"});
+  CHECK(texts(sweep({.depth = 3}, {.knobs = {Knob::depth}})) == Texts{"1", "2", "3"});
+  CHECK(texts(sweep({.depth = 1}, {.knobs = {Knob::depth}})) == Texts{"1"});
+  for (const Knob knob : {Knob::cutoff, Knob::depth, Knob::tessellation, Knob::arithmetic}) {
+    const std::vector<Point> points = sweep({}, {.knobs = {knob}, .tessellations = {1, 2}});
+    CHECK(points.back().setting == Setting());
+    CHECK(std::count_if(points.begin(), points.end(), [](const Point& one) { return one.setting == Setting(); }) == 1);
+  }
+  CHECK(sweep({}, {}).empty());
+}
+
+TEST_CASE("two knobs together leave out what one of them alone has") {
+  const auto pairs = sweep({.depth = 4}, {.knobs = {Knob::adaptive_and_depth, Knob::adaptive_and_cutoff}});
+  for (const Point& point : pairs) {
+    CHECK(point.setting.is_refined());
+    CHECK((point.setting.depth < 4) != (point.setting.cutoff > 0));
+  }
+  CHECK_FALSE(pairs.empty());
+  CHECK(sweep({.depth = 3}, {.knobs = {Knob::adaptive_and_depth}}).empty());
+}
+
+TEST_CASE("the qualities are what the command line's are") {
+  const auto points = sweep({}, {.knobs = {Knob::quality}});
+  CHECK(texts(points) == Texts{"draft", "default"});
+  CHECK(points[0].setting.error == apps::choice_of(apps::Quality::draft).error);
+  CHECK(points[1].setting.cutoff == apps::choice_of(apps::Quality::standard).cutoff);
+  CHECK(points[1].setting.is_refined());
+}
+
+TEST_CASE("a quick sweep has fewer points and keeps the base point") {
+  const std::set<Knob> knobs = apps::all_knobs();
+  const auto quick = sweep({}, {.knobs = knobs, .is_quick = true}), whole = sweep({}, {.knobs = knobs});
+  CHECK(quick.size() < whole.size());
+  CHECK(texts(sweep({}, {.knobs = {Knob::cutoff}, .is_quick = true})).back() == "0");
+  CHECK(texts(sweep({}, {.knobs = {Knob::adaptive}, .is_quick = true})) == Texts{"8/255", "4/255", "2/255", "1/255", "1/510"});
+}
+
+TEST_CASE("a sweep asks for no smaller error than can be seen") {
+  const auto points = sweep({}, {.knobs = {Knob::adaptive}, .error_least = 4.0 / 255});
+  CHECK(texts(points) == Texts{"16/255", "8/255", "4/255"});
+  CHECK(sweep({}, {.knobs = {Knob::adaptive}, .error_least = 1}).empty());
+}
+
+TEST_CASE("a sweep about a point that is not exact is refused") {
+  CHECK_THROWS_AS(sweep({.cutoff = 0.1}, {}), core::InternalError);
+  CHECK_THROWS_AS(sweep({.error = 0.1}, {}), core::InternalError);
+}
+
+TEST_CASE("scenes with spheres or cones are tessellated as far as a million triangles go") {
+  CHECK(tessellations_of("balls-2", false) == std::vector{1, 2, 4, 8, 16});
+  CHECK(tessellations_of("balls-4", false) == std::vector{1, 2});
+  CHECK(tessellations_of("jacks-1", false) == std::vector{1});
+  CHECK(tessellations_of("balls-2", true) == std::vector{1, 2});
+  for (const char* scene : {"tetra-2", "teapot-3", "rings-2-t1", "./rings-2", "file.nff"}) {
+    CAPTURE(std::string(scene));
+    CHECK(tessellations_of(scene, false).empty());
+  }
+}
+
+TEST_CASE("knobs are listed by name and bring those that are turned together") {
+  CHECK(apps::parse_knobs("samples") == std::set{Knob::samples});
+  CHECK(apps::parse_knobs("cutoff,adaptive") == std::set{Knob::cutoff, Knob::adaptive, Knob::adaptive_and_cutoff});
+  CHECK(apps::all_knobs().size() == 9);
+  for (const char* text : {"", ",", "samples,", "sample", "adaptive and cutoff", "samples adaptive"}) {
+    CAPTURE(std::string(text));
+    CHECK_THROWS_AS(apps::parse_knobs(text), core::UsageError);
+  }
+}
+
+}  // namespace dmpc::tests::sweep_test

@@ -1,0 +1,47 @@
+#include "apps/lab/bench/speed/comparison.h"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "core/base/expect.h"
+
+namespace dmpc::tests::comparison_test {
+
+using apps::Comparison;
+using apps::ratio_of;
+
+TEST_CASE("a ratio is the middle one of the rounds and not that of middle figures") {
+  const Comparison comparison{.subject_figures = {1, 8, 9}, .rival_figures = {2, 2, 18}};
+  CHECK(ratio_of(comparison).median == 0.5);
+  CHECK(ratio_of(comparison).least == 0.5);
+  CHECK(ratio_of(comparison).most == 4);
+}
+
+TEST_CASE("a round that only one of two has ended does not count") {
+  const Comparison comparison{.subject_figures = {6, 100}, .rival_figures = {3}};
+  CHECK(comparison.rounds() == 1);
+  CHECK(ratio_of(comparison).median == 2);
+  CHECK(ratio_of(comparison).most == 2);
+}
+
+TEST_CASE("nothing is compared before a round has ended or with a rival that took nothing") {
+  CHECK(Comparison{}.rounds() == 0);
+  CHECK_THROWS_AS(ratio_of(Comparison{.subject_figures = {1}}), core::InternalError);
+  CHECK_THROWS_AS(ratio_of(Comparison{.subject_figures = {1}, .rival_figures = {0}}), core::InternalError);
+}
+
+TEST_CASE("what is timed is compared by the wall clock and by processor time") {
+  std::vector<Comparison> results(1);
+  apps::add_timed({.scene = "tetra-2"}, results);
+  REQUIRE(results.size() == 3);
+  note({.wall_seconds = 6, .processor_seconds = 8}, false, &results[1]);
+  note({.wall_seconds = 3, .processor_seconds = 2}, true, &results[1]);
+  CHECK(results[1].is_by_wall_clock());
+  CHECK_FALSE(results[2].is_by_wall_clock());
+  CHECK(ratio_of(results[1]).median == 2);
+  CHECK(ratio_of(results[2]).median == 4);
+  CHECK(results[0].rounds() == 0);
+}
+
+}  // namespace dmpc::tests::comparison_test

@@ -1,0 +1,138 @@
+// The plain renderer of `bench speed`, and how all else is held against it.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "apps/lab/bench/speed/parts.h"
+#include "apps/lab/bench/speed/plain_renderer.h"
+#include "apps/lab/bench/speed/plain_table.h"
+#include "core/base/expect.h"
+#include "core/picture/render.h"
+#include "tests/support/small_subject.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests::plain_test {
+
+using apps::Comparison;
+using apps::PlainPicture;
+using apps::PlainRenderer;
+using apps::SpeedPart;
+
+namespace {
+
+struct Ours {
+  core::Operations operations;
+  core::Film film;
+
+  explicit Ours(const apps::Subject& subject) : film(rendered(subject, operations)) {}
+
+  static core::Film rendered(const apps::Subject& subject, core::Operations& operations) {
+    core::LocalRecords records(subject.database.bytes());
+    core::GridTracer<core::LocalRecords> tracer(records, subject.settings.header, subject.settings.skips);
+    return core::render(tracer, subject.settings, operations);
+  }
+};
+
+/// A part plain of two scenes and two renderers, in two rounds.
+std::vector<Comparison> measured() {
+  std::vector<Comparison> results;
+  for (const auto& [scene, scale] : {std::pair{"a", 1.0}, std::pair{"b", 4.0}}) {
+    for (const char* subject : {"plain on 2 threads", "svm on 2 nodes"}) {
+      const double ratio = std::string(subject) == "svm on 2 nodes" ? 2 * scale : 1;
+      for (const char* clock : {"wall clock", "processor time"}) {
+        const double seconds = std::string(clock) == "wall clock" ? 1e-3 : 2e-3;
+        results.push_back({SpeedPart::plain,
+                           scene,
+                           "render",
+                           clock,
+                           2,
+                           subject,
+                           "plain on 2 threads",
+                           "s",
+                           {ratio * seconds, ratio * seconds},
+                           {seconds, seconds}});
+      }
+    }
+    results.push_back({SpeedPart::plain, scene, "rays", "", 0, "ours", "plain", "rays", {1000}, {1000}});
+    results.push_back({SpeedPart::plain, scene, "distance", "", 0, "plain to ours", "1/255", "", {0.002}, {0.004}});
+    results.push_back({SpeedPart::plain, scene, "build", "", 0, "database", "Embree", "s", {3}, {1}});
+  }
+  return results;
+}
+
+}  // namespace
+
+TEST_CASE("the plain renderer shoots our rays, to rounding, and its picture is ours") {
+  // Flat and smooth triangles, mirrors, glass, spheres, cones.
+  for (const char* scene : {"tetra-3", "teapot-3", "mount-4", "balls-2", "balls-2-t2", "rings-2", "tree-3", "gears-1"}) {
+    CAPTURE(std::string(scene));
+    const apps::Subject subject = small_subject(scene, {48, 40});
+    const Ours ours(subject);
+    const PlainPicture picture = PlainRenderer(subject).render(1);
+    CHECK(static_cast<double>(picture.rays) == doctest::Approx(static_cast<double>(ours.operations.ray_count())).epsilon(0.005));
+    CHECK(apps::distance_to_ours(picture, ours.film, scene) <= apps::plain_error_max);
+  }
+}
+
+TEST_CASE("the plain renderer's picture is the same on any number of threads") {
+  const apps::Subject subject = small_subject("teapot-3", {48, 40});
+  const PlainRenderer renderer(subject);
+  const PlainPicture one = renderer.render(1), three = renderer.render(3);
+  CHECK(std::ranges::equal(one.pixels.span(), three.pixels.span()));
+  CHECK(one.rays == three.rays);
+  CHECK(renderer.build_times().wall_seconds > 0);
+}
+
+TEST_CASE("a plain picture that is not ours is an error") {
+  const apps::Subject subject = small_subject("tetra-2", {48, 40});
+  const Ours ours(subject);
+  PlainPicture picture = PlainRenderer(subject).render(1);
+  CHECK_NOTHROW(apps::distance_to_ours(picture, ours.film, "tetra-2"));
+  picture.pixels[7].y += 1;
+  CHECK_THROWS_WITH_AS(apps::distance_to_ours(picture, ours.film, "tetra-2"),
+                       doctest::Contains("picture of tetra-2 is 3.36/255 from ours"), core::InternalError);
+}
+
+TEST_CASE("every renderer is held against the plain one in every round, which is held against itself") {
+  apps::SpeedSettings settings;
+  settings.scenes = {"tetra-2"};
+  settings.resolution = {16, 16};
+  settings.rounds = 2;
+  apps::Interrupt interrupt;
+  std::vector<Comparison> results;
+  apps::measure_plain(settings, interrupt, results);
+  REQUIRE(results.size() == 2 * 10 + 2 + 2);
+  for (std::size_t i = 0; i < 20; ++i) {
+    CAPTURE(results[i].subject);
+    CHECK(results[i].subject_figures.size() == 2);
+    CHECK(results[i].rival_figures == results[i % 2].subject_figures);
+    CHECK(results[i].rival == "plain on 2 threads");
+  }
+  CHECK(results[0].subject == "plain on 2 threads");
+  CHECK(results[22].subject_figures == results[22].rival_figures);  // rays
+}
+
+TEST_CASE("the table of part plain has a row for each renderer, means over scenes and its times for a ray") {
+  const apps::Table table = apps::plain_table(measured(), "title");
+  REQUIRE(table.rows().size() == 2);
+  const auto& row = table.rows()[1];
+  CHECK(std::get<std::string>(row[0]) == "svm on 2 nodes");
+  const std::vector<double> expected = {4, 4000, 4, 2, 8, 8, 8000, 4};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    CHECK(std::get<double>(row[i + 1]) == doctest::Approx(expected[i]));
+  }
+  REQUIRE(apps::plain_notes(measured()).size() == 1);
+  CHECK(contains(apps::plain_notes(measured())[0], "our rays over the plain renderer's 1.000 (1.000 to 1.000)"));
+  CHECK(contains(apps::plain_notes(measured())[0], "3.000 (3.000 to 3.000)"));
+}
+
+TEST_CASE("without part plain its table is empty, and nothing is said of it") {
+  const std::vector<Comparison> others = {{SpeedPart::kernel, "a", "render", "wall clock", 1, "x", "y", "s", {1}, {1}}};
+  CHECK(apps::plain_table(others, "").rows().empty());
+  CHECK(apps::plain_notes(others).empty());
+}
+
+}  // namespace dmpc::tests::plain_test

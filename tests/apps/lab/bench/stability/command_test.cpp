@@ -1,0 +1,72 @@
+#include "apps/lab/bench/stability/command.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "apps/main/commands.h"
+#include "core/base/expect.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests::stability_command_test {
+
+using apps::StabilityOptions;
+
+namespace {
+
+StabilityOptions stability_options(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"bench", "stability"});
+  return apps::parse_command_line(arguments).options<StabilityOptions>();
+}
+
+std::string output_of(const StabilityOptions& options) {
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK(apps::bench_stability_command(options, interrupt, output) == 0);
+  return output.str();
+}
+
+}  // namespace
+
+TEST_CASE("bench stability prints a row for each kernel, and where the other tests are") {
+  const std::string table = unfolded(output_of(stability_options({"--tests=R5,R6", "--rays=20"})));
+  CHECK(contains(table, "| R5 sequence of cells"));
+  CHECK(contains(table, "| R6 points listed, no pad"));
+  CHECK(contains(table, "Our grid: no failure."));
+  CHECK(contains(table, "tests/chaos"));
+  CHECK_FALSE(contains(table, "R1 "));
+}
+
+TEST_CASE("bench stability writes its table and its state, and goes on from the state") {
+  const TemporaryFolder folder;
+  StabilityOptions options = stability_options({"--tests=R5", "--rays=2000", "--resume=" + (folder / "state").string()});
+  const std::string first = output_of(options);
+  CHECK(std::filesystem::exists(folder / "state"));
+  options.table.file = folder / "table.md";
+  CHECK(output_of(options).empty());
+  CHECK(std::filesystem::file_size(folder / "table.md") == first.size());
+  options.seed = 2;
+  apps::Interrupt interrupt;
+  std::ostringstream unused;
+  CHECK_THROWS_AS(apps::bench_stability_command(options, interrupt, unused), core::InputError);
+}
+
+TEST_CASE("the amounts of rays of bench stability exclude each other") {
+  CHECK(stability_options({}).rays == StabilityOptions::standard_rays);
+  CHECK(stability_options({"--quick"}).rays == StabilityOptions::quick_rays);
+  CHECK(stability_options({"--long"}).rays == 0);
+  CHECK(stability_options({"--rays=7"}).rays == 7);
+  CHECK_THROWS_AS(stability_options({"--quick", "--long"}), core::UsageError);
+  CHECK_THROWS_AS(stability_options({"--quick", "--rays=7"}), core::UsageError);
+  CHECK_THROWS_AS(stability_options({"--rays=0"}), core::UsageError);
+}
+
+TEST_CASE("bench stability refuses a test that is none") {
+  CHECK(stability_options({"--tests=R1,quadrics"}).tests == std::vector<std::string>{"R1", "quadrics"});
+  CHECK_THROWS_AS(stability_options({"--tests=R13"}), core::UsageError);
+  CHECK_THROWS_WITH_AS(stability_options({"--tests=R1,"}), doctest::Contains("--tests=R1,: a word is missing"), core::UsageError);
+}
+
+}  // namespace dmpc::tests::stability_command_test

@@ -1,0 +1,107 @@
+#include "apps/lab/bench/stability/run.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "core/base/expect.h"
+
+namespace dmpc::tests::stability_run_test {
+
+using apps::index_of;
+using apps::KernelCounts;
+using apps::Random;
+using apps::StabilityCases;
+using apps::StabilityKernel;
+using apps::StabilityRun;
+using apps::StabilityState;
+
+namespace {
+
+/// Thrown to stop a run.
+struct Stop {};
+
+/// Leaks one ray in seven, by what it draws.
+KernelCounts leaky(Random& random, std::uint64_t, std::uint64_t count) {
+  KernelCounts counts{};
+  counts[index_of(StabilityKernel::grid)].tried = count;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    counts[index_of(StabilityKernel::grid)].leaks += random.below(7) == 0 ? 1 : 0;
+    counts[index_of(StabilityKernel::embree_fast)].leaks += 1;
+  }
+  return counts;
+}
+
+StabilityCases three_cases() {
+  const auto prepare = [] { return apps::ShootRays(leaky); };
+  return {{"R1 one", "a", 5000, prepare}, {"R1 one", "b", 1, prepare}, {"R2 two", "c", 3000, prepare}};
+}
+
+StabilityState finished(const StabilityRun& run) {
+  StabilityState state = run.start();
+  run.go_on(state, [] {});
+  return state;
+}
+
+bool same_rows(const StabilityState& a, const StabilityState& b) {
+  bool same = a.rows.size() == b.rows.size();
+  for (std::size_t i = 0; same && i < a.rows.size(); ++i) {
+    same = a.rows[i].name == b.rows[i].name && a.rows[i].counts == b.rows[i].counts;
+  }
+  return same;
+}
+
+}  // namespace
+
+TEST_CASE("a stability run tries the rays of every case once and sums them up by row") {
+  const StabilityRun run(three_cases(), 1);
+  const StabilityState state = finished(run);
+  REQUIRE(state.rows.size() == 2);
+  CHECK(state.rows[0].counts[index_of(StabilityKernel::grid)].tried == 5001);
+  CHECK(state.rows[1].counts[index_of(StabilityKernel::grid)].tried == 3000);
+  CHECK(run.rays_done(state) == run.total_rays());
+}
+
+TEST_CASE("a stability run that is stopped after any batch and gone on with counts what one without a stop does") {
+  const StabilityRun run(three_cases(), 1);
+  const StabilityState whole = finished(run);
+  for (int batches = 1; batches < 9; ++batches) {
+    StabilityState state = run.start();
+    int left = batches;
+    CHECK_THROWS_AS(run.go_on(state, [&] { left-- > 1 ? void() : throw Stop(); }), Stop);
+    CHECK(run.rays_done(state) > 0);
+    run.go_on(state, [] {});
+    CHECK(same_rows(state, whole));
+  }
+}
+
+TEST_CASE("another seed draws other rays") {
+  CHECK_FALSE(same_rows(finished(StabilityRun(three_cases(), 1)), finished(StabilityRun(three_cases(), 2))));
+  CHECK(same_rows(finished(StabilityRun(three_cases(), 1)), finished(StabilityRun(three_cases(), 1))));
+}
+
+TEST_CASE("what our kernels fail counts and what Embree fails does not") {
+  const StabilityState state = finished(StabilityRun(three_cases(), 1));
+  CHECK(state.own_failures() == state.rows[0].counts[index_of(StabilityKernel::grid)].leaks +
+                                    state.rows[1].counts[index_of(StabilityKernel::grid)].leaks);
+}
+
+TEST_CASE("the long run has a billion rays from inside, and every test can be asked for alone") {
+  for (const std::string test :
+       {"R1", "R2", "R3", "R4", "R5", "R6", "R7", "R8", "R9", "R10", "R11", "R12", "R14", "R16", "quadrics"}) {
+    CAPTURE(test);
+    const StabilityCases cases = apps::stability_cases({100}, {test});
+    CHECK_FALSE(cases.empty());
+    for (const auto& one : cases) {
+      CHECK(one.test() == test);
+    }
+  }
+  CHECK(apps::stability_cases({}, {"R2"}).front().rays == 1'000'000'000);
+}
+
+TEST_CASE("a stability test that is none is refused with those that there are") {
+  CHECK_THROWS_WITH_AS(apps::stability_cases({100}, {"R99"}), doctest::Contains("R16, quadrics"), core::UsageError);
+  CHECK_THROWS_AS(apps::stability_cases({100}, {""}), core::UsageError);
+}
+
+}  // namespace dmpc::tests::stability_run_test

@@ -1,0 +1,45 @@
+#include "apps/lab/oracle/accurate/camera.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/base/expect.h"
+#include "core/picture/camera.h"
+
+namespace dmpc::tests::accurate_camera_test {
+namespace {
+
+using core::Vec3d;
+
+const core::View view{.from = {3, -4, 2}, .at = {0, 0.5, 0.1}, .up = {0, 0.1, 1}, .angle_degrees = 40};
+
+TEST_CASE("the ray through the middle looks where the view looks") {
+  const apps::AccurateRay ray = apps::AccurateCamera(view, 5, 3).ray_through(2, 1);
+  CHECK(ray.origin == view.from);
+  CHECK(length(ray.direction - normalize(view.at - view.from)) < 1e-15);
+}
+
+TEST_CASE("the angle spans the centres of the first and the last row") {
+  const apps::AccurateCamera camera(view, 8, 5);
+  const double cosine = dot(camera.ray_through(3.5, 0).direction, camera.ray_through(3.5, 4).direction);
+  CHECK(std::acos(cosine) * 180 / std::acos(-1.0) == doctest::Approx(40).epsilon(1e-12));
+}
+
+TEST_CASE("rays are those of the product but for its rounding") {
+  const apps::AccurateCamera camera(view, 12, 7);
+  const core::GridFrame frame{.origin = {-2, -2, -2}, .scale = 0.25};
+  const core::Camera product(view, frame, 12, 7, 1);
+  for (std::uint32_t pixel = 0; pixel < 84; ++pixel) {
+    const Vec3d expected(product.primary_ray(pixel, 0).direction);
+    CHECK(length(camera.ray_through(pixel % 12, pixel / 12).direction - expected) < 1e-7);
+  }
+}
+
+TEST_CASE("a picture of one pixel looks straight ahead and one of none is refused") {
+  CHECK(length(apps::AccurateCamera(view, 1, 1).ray_through(0, 0).direction - normalize(view.at - view.from)) < 1e-15);
+  CHECK_THROWS_AS(apps::AccurateCamera(view, 0, 1), core::InternalError);
+}
+
+}  // namespace
+}  // namespace dmpc::tests::accurate_camera_test

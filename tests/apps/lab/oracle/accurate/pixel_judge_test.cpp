@@ -1,0 +1,100 @@
+#include "apps/lab/oracle/accurate/pixel_judge.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "tests/apps/lab/oracle/accurate/workbench.h"
+#include "tests/support/checked_floor.h"
+#include "tests/support/small_scenes.h"
+
+namespace dmpc::tests::pixel_judge_test {
+namespace {
+
+using apps::PixelCause;
+
+/// How many pixels have which cause, whether their bytes differ or not.
+struct Causes : std::array<std::uint32_t, apps::pixel_cause_count> {
+  explicit Causes(const Workbench& bench) : array{} {
+    const apps::PixelJudge judge(bench.database, bench.settings, bench.accurate, bench.finder, bench.camera);
+    for (std::uint32_t pixel = 0; pixel < bench.pixel_count(); ++pixel) {
+      const apps::Judgement judgement = judge.judge(pixel);
+      ++at(static_cast<std::size_t>(judgement.cause));
+      CHECK(judgement.error.empty() == (judgement.cause != PixelCause::unexplained));
+    }
+  }
+  std::uint32_t of(PixelCause cause) const { return at(static_cast<std::size_t>(cause)); }
+};
+
+TEST_CASE("where both renderers meet the same surfaces the cause is rounding") {
+  const Workbench bench(built_in("tetra-3"), 24);
+  CHECK(Causes(bench).of(PixelCause::rounding) == bench.pixel_count());
+}
+
+TEST_CASE("mirrors that multiply rounding part the renderers at silhouettes and terminators, all of them explained") {
+  Workbench bench(built_in("balls-3"), 64);
+  bench.settings.shade.depth_max = 12;
+  const Causes causes(bench);
+  CHECK(causes.of(PixelCause::silhouette) > 0);
+  CHECK(causes.of(PixelCause::shadow_silhouette) + causes.of(PixelCause::terminator) > 0);
+  CHECK(causes.of(PixelCause::unexplained) == 0);
+}
+
+TEST_CASE("two polygons all but in one place are a tie") {
+  core::Scene scene;
+  scene.view = {.from = {0.1, 0.2, 5}, .at = {0, 0, 0}, .up = {0, 1, 0}, .angle_degrees = 20};
+  core::SceneBuilder builder(scene);
+  builder.polygon({{-1, -1, 0.1}, {1, -1, 0.3}, {0.2, 1.3, -0.2}});
+  // Nearly the same plane, by the middles of the sides: too far off to share it, too near for floats to tell.
+  constexpr double off = 6e-7;
+  builder.polygon({{-0.4, 0.15, -0.05 + off}, {0, -1, 0.2 + off}, {0.6, 0.15, 0.05 + off}});
+  const Causes causes(Workbench(scene, 24));
+  CHECK(causes.of(PixelCause::tie) > 0);
+  CHECK(causes.of(PixelCause::unexplained) == 0);
+}
+
+TEST_CASE("another surface than the scene's is unexplained") {
+  const core::Scene scene = mirrors_and_glass();
+  core::Scene other = scene;
+  other.spheres[1].radius *= 1.001;
+  CHECK(Causes(Workbench(scene, other, 24)).of(PixelCause::unexplained) > 10);
+}
+
+TEST_CASE("another light than the scene's is unexplained") {
+  const core::Scene scene = mirrors_and_glass();
+  core::Scene other = scene;
+  other.lights[2].color.x += 0.01;
+  CHECK(Causes(Workbench(scene, other, 24)).of(PixelCause::unexplained) > 10);
+}
+
+TEST_CASE("textures part the renderers by rounding alone") {
+  for (const core::Scene& scene : {CheckedFloor::painted(), everything()}) {
+    CHECK(Causes(Workbench(scene, 24)).of(PixelCause::unexplained) == 0);
+  }
+}
+
+TEST_CASE("another place on a texture and another texture are unexplained") {
+  const core::Scene scene = CheckedFloor::painted();
+  core::Scene exchanged = scene, darker = scene;
+  for (core::TexturedCorner& corner : exchanged.corners) {
+    std::swap(corner.place[0], corner.place[1]);
+  }
+  for (core::TextureLevel& level : darker.textures[0].levels) {
+    for (std::uint32_t& texel : level.texels) {
+      texel &= 0xfefefeU;
+    }
+  }
+  CHECK(Causes(Workbench(scene, exchanged, 24)).of(PixelCause::unexplained) > 100);
+  CHECK(Causes(Workbench(scene, darker, 24)).of(PixelCause::unexplained) > 100);
+}
+
+TEST_CASE("every cause has a name of its own") {
+  for (std::size_t cause = 1; cause < apps::pixel_cause_count; ++cause) {
+    CHECK(name_of(static_cast<PixelCause>(cause)) != name_of(static_cast<PixelCause>(cause - 1)));
+  }
+}
+
+}  // namespace
+}  // namespace dmpc::tests::pixel_judge_test

@@ -1,0 +1,54 @@
+#include "apps/lab/oracle/accurate/scene.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/database/database.h"
+#include "tests/support/small_scenes.h"
+
+namespace dmpc::tests::accurate_scene_test {
+namespace {
+
+TEST_CASE("bodies stand in the order of the product's primitives") {
+  for (const char* name : {"balls-2", "gears-1", "jacks-2", "mount-3", "rings-1-t1", "teapot-3", "tetra-3", "tree-4"}) {
+    CAPTURE(std::string(name));
+    const core::Scene scene = built_in(name);
+    const core::Database database = core::build_database(scene, {});
+    const apps::AccurateScene accurate = apps::accurate_scene(scene);
+    REQUIRE(accurate.bodies.size() == database.primitives().size());
+    for (std::size_t id = 0; id < accurate.bodies.size(); ++id) {
+      REQUIRE(accurate.bodies[id].object == database.sources()[id].object);
+      REQUIRE(accurate.bodies[id].kind == database.primitives()[id].kind);
+    }
+  }
+}
+
+TEST_CASE("bodies have the file's own numbers") {
+  const core::Scene scene = mirrors_and_glass();
+  const apps::AccurateScene accurate = apps::accurate_scene(scene);
+  const apps::AccurateBody& patch = accurate.bodies.back();
+  CHECK(patch.place[0] == core::Vec3d{-0.4, 1.2, 0.2});
+  REQUIRE(patch.is_smooth());
+  CHECK(length(accurate.normals[patch.first_normal]) == doctest::Approx(1).epsilon(1e-15));
+  CHECK(accurate.materials[patch.material].specular == 0.7);
+}
+
+TEST_CASE("lights without a colour share one and others keep theirs") {
+  const apps::AccurateScene accurate = apps::accurate_scene(mirrors_and_glass());
+  REQUIRE(accurate.lights.size() == 3);
+  CHECK(accurate.lights[0].intensity.x == doctest::Approx(1 / std::sqrt(3.0)).epsilon(1e-15));
+  CHECK(accurate.lights[2].intensity == core::Vec3d{0.9, 0.5, 0.2});
+}
+
+TEST_CASE("what cannot be hit is left out") {
+  core::Scene scene;
+  core::SceneBuilder builder(scene);
+  builder.polygon({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  builder.sphere({0, 0, 0}, 0);
+  CHECK(apps::accurate_scene(scene).bodies.empty());
+  CHECK(apps::accurate_scene(scene).size > 0);
+}
+
+}  // namespace
+}  // namespace dmpc::tests::accurate_scene_test

@@ -1,0 +1,140 @@
+#include "apps/lab/oracle/accurate/step_audit.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/apps/lab/oracle/accurate/workbench.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests::step_audit_test {
+namespace {
+
+using apps::Audit;
+using apps::ProductLog;
+using core::RayKind;
+
+struct Audited : Workbench {
+  Audited(const core::Scene& given, int side) : Audited(given, given, side) {}
+  Audited(const core::Scene& given, const core::Scene& for_accurate, int side)
+      : Workbench(given, for_accurate, side), audit(database, settings.shade, accurate, finder) {}
+
+  Audit of(std::uint32_t pixel) const { return audit.of(logger.log_of(pixel), primary(pixel)); }
+  /// What is wrong with a log that `change` falsified.
+  template <class Change>
+  std::string error_of(std::uint32_t pixel, const Change& change) const {
+    ProductLog log = logger.log_of(pixel);
+    change(log);
+    return audit.of(log, primary(pixel)).error;
+  }
+  /// A pixel whose first hit is mirrored, with a ray of this kind.
+  std::uint32_t pixel_with(RayKind kind) const {
+    for (std::uint32_t pixel = 0; pixel < pixel_count(); ++pixel) {
+      for (const apps::LoggedRay& ray : logger.log_of(pixel).rays) {
+        if (ray.kind == kind) {
+          return pixel;
+        }
+      }
+    }
+    return 0;
+  }
+
+  apps::StepAudit audit;
+};
+
+/// The first ray of a kind.
+std::size_t index_of(const ProductLog& log, RayKind kind) {
+  std::size_t index = 0;
+  while (log.rays[index].kind != kind) {
+    ++index;
+  }
+  return index;
+}
+
+TEST_CASE("every step of the product is right but for rounding") {
+  for (const char* name : {"balls-3", "gears-1", "jacks-2", "lattice-3", "mount-3", "rings-2", "shells-3", "sombrero-1",
+                           "teapot-4", "tetra-3", "tree-5"}) {
+    CAPTURE(std::string(name));
+    const Audited bench(built_in(name), 24);
+    for (std::uint32_t pixel = 0; pixel < bench.pixel_count(); ++pixel) {
+      const Audit audit = bench.of(pixel);
+      REQUIRE(audit.error == "");
+      REQUIRE(audit.doubts.size() == bench.logger.log_of(pixel).rays.size());
+    }
+  }
+}
+
+TEST_CASE("every step in glass is right, too") {
+  const Audited bench(mirrors_and_glass(), 32);
+  for (std::uint32_t pixel = 0; pixel < bench.pixel_count(); ++pixel) {
+    REQUIRE(bench.of(pixel).error == "");
+  }
+}
+
+TEST_CASE("a ray with another direction, start, weight or end is found") {
+  const Audited bench(mirrors_and_glass(), 24);
+  for (const RayKind kind : {RayKind::primary, RayKind::reflected, RayKind::refracted, RayKind::shadow}) {
+    const std::uint32_t pixel = bench.pixel_with(kind);
+    const auto falsified = [&](const auto& change) {
+      return bench.error_of(pixel, [&](ProductLog& log) { change(log.shots[index_of(log, kind)].world); });
+    };
+    CHECK(contains(falsified([](apps::AccurateRay& ray) {
+                     ray.direction = normalize(ray.direction + core::Vec3d{1e-4, 0, 0});
+                   }),
+                   "off by"));
+    CHECK(contains(falsified([](apps::AccurateRay& ray) { ray.origin.y += 1e-3; }), "off by"));
+    CHECK(contains(falsified([](apps::AccurateRay& ray) { ray.weight = ray.weight + core::Vec3d{0, 1e-3, 0}; }), "off by"));
+  }
+  CHECK(contains(bench.error_of(bench.pixel_with(RayKind::shadow),
+                                [](ProductLog& log) { log.shots[index_of(log, RayKind::shadow)].world.t_max *= 0.9; }),
+                 "another end"));
+}
+
+TEST_CASE("a ray too many and a ray too few are found") {
+  const Audited bench(mirrors_and_glass(), 24);
+  const std::uint32_t pixel = bench.pixel_with(RayKind::reflected);
+  const auto forget = [](ProductLog& log) {
+    const auto at = static_cast<std::ptrdiff_t>(index_of(log, RayKind::shadow));
+    log.rays.erase(log.rays.begin() + at);
+    log.shots.erase(log.shots.begin() + at);
+  };
+  CHECK(contains(bench.error_of(pixel, forget), "is missing"));
+  const auto mistake = [](ProductLog& log) { log.shots[index_of(log, RayKind::reflected)].world.kind = RayKind::refracted; };
+  CHECK(contains(bench.error_of(pixel, mistake), "should not be there"));
+}
+
+TEST_CASE("a wrong answer is found by the referee") {
+  const Audited bench(mirrors_and_glass(), 24);
+  const auto miss = [](ProductLog& log) {
+    log.rays.front().hit = false;
+    log.shots.front().answer = {};
+  };
+  CHECK(contains(bench.error_of(bench.pixel_with(RayKind::reflected), miss), "referee does not allow"));
+}
+
+TEST_CASE("shading by another material is found") {
+  const core::Scene scene = mirrors_and_glass();
+  core::Scene shinier = scene;
+  for (core::Material& material : shinier.materials) {
+    material.shine += 1;
+  }
+  const Audited bench(scene, shinier, 24);
+  std::uint32_t found = 0;
+  for (std::uint32_t pixel = 0; pixel < bench.pixel_count(); ++pixel) {
+    found += contains(bench.of(pixel).error, "a shadow ray") ? 1 : 0;
+  }
+  CHECK(found > 20);
+}
+
+TEST_CASE("a ray that misses everything is right") {
+  core::Scene scene;
+  core::SceneBuilder builder(scene);
+  builder.sphere({50, 0, 0}, 1);
+  const Audit audit = Audited(scene, 1).of(0);
+  CHECK(audit.error == "");
+  CHECK(audit.doubts.size() == 1);
+}
+
+}  // namespace
+}  // namespace dmpc::tests::step_audit_test

@@ -1,0 +1,92 @@
+#include "apps/lab/oracle/accurate/texture.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <random>
+
+#include "core/picture/hit_geometry.h"
+#include "core/picture/texture_footprint.h"
+#include "tests/support/noise_texture.h"
+#include "tests/support/shown_texture.h"
+
+namespace dmpc::tests::accurate_texture_test {
+namespace {
+
+using core::TextureWrap;
+using core::Vec3d;
+
+TEST_CASE("a look-up in double is the one by the records but for rounding, for every format and way to go on beyond an edge") {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> place(-2.5, 3.5), step(-0.1, 0.1), detail(-1, 6), strides(1, core::probes_max);
+  for (const core::TexelFormat format : {core::TexelFormat::srgb, core::TexelFormat::shared_exponent}) {
+    for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirror, TextureWrap::clamp}) {
+      ShownTexture shown(noise_texture(37, 20, wrap, wrap, format));
+      for (int i = 0; i < 200; ++i) {
+        const core::TextureFootprint line{
+            {place(random), place(random)}, {step(random), step(random)}, std::exp2(detail(random)), strides(random)};
+        const Vec3d light = apps::texture_color(
+            shown.texture(), {{line.middle.s, line.middle.t}, {line.stride.s, line.stride.t}, line.width, line.strides});
+        REQUIRE(length(Vec3d(shown.look_up(line)) - light) <= 1e-4 * (1 + shown.texture().brightest));
+      }
+    }
+  }
+}
+
+/// A triangle's record, with the same numbers in double.
+struct TwoTriangles {
+  apps::AccuratePaint paint;
+  core::TexturedNormals textured{.texture = {.width = 40, .height = 70}};
+  std::array<float, 9> rows{};
+
+  explicit TwoTriangles(std::mt19937& random) {
+    std::uniform_real_distribution<float> place(-1, 1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      textured.place[k] = {place(random), place(random)};
+      paint.place[k] = {textured.place[k][0], textured.place[k][1]};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        rows[3 * k + axis] = place(random);
+        paint.corner[k][axis] = rows[3 * k + axis];
+      }
+    }
+  }
+  std::array<std::byte, core::block_bytes(core::PrimitiveKind::triangle, 1)> block() const {
+    std::array<std::byte, core::block_bytes(core::PrimitiveKind::triangle, 1)> bytes{};
+    const core::BlockHeader header{.kind = core::PrimitiveKind::triangle, .count = 1};
+    std::memcpy(bytes.data(), &header, sizeof(header));
+    std::memcpy(bytes.data() + sizeof(header), rows.data(), sizeof(rows));
+    return bytes;
+  }
+};
+
+TEST_CASE("a cone covers in double what it covers by the records but for rounding") {
+  std::mt19937 random(18);
+  std::uniform_real_distribution<double> share(0, 1), exponent(-12, 2);
+  const core::Texture texture = noise_texture(40, 70);
+  for (int i = 0; i < 2000; ++i) {
+    const TwoTriangles triangle(random);
+    const double u = share(random), v = share(random) * (1 - u), cone = std::exp2(exponent(random));
+    const Vec3d hit = triangle.paint.corner[0] * (1 - u - v) + triangle.paint.corner[1] * u + triangle.paint.corner[2] * v;
+    core::Ray ray;
+    ray.origin = core::Vec3f(hit + Vec3d{share(random) - 0.5, share(random) - 0.5, share(random) - 0.5});
+    ray.direction = core::Vec3f(normalize(hit - Vec3d(ray.origin)));
+    core::HitState state = core::begin_shading(ray, {.t = 1, .primitive = 0, .lane = 0});
+    const auto block = triangle.block();
+    core::read_geometry(state, block.data());
+    const core::TextureFootprint ours =
+        core::footprint_of(triangle.textured, state.u, state.v, core::cut_ellipse(state, block.data()), cone);
+    const apps::AccurateFootprint theirs = apps::footprint_of(triangle.paint, texture, {1 - state.u - state.v, state.u, state.v},
+                                                              normalize(Vec3d(ray.direction)), cone);
+    CAPTURE(i);
+    REQUIRE(ours.width == doctest::Approx(theirs.width).epsilon(1e-3));
+    REQUIRE(ours.strides == doctest::Approx(theirs.strides).epsilon(1e-3));
+    REQUIRE(std::fabs(ours.middle.s - theirs.middle[0]) < 1e-3);
+    REQUIRE(std::fabs(ours.middle.t - theirs.middle[1]) < 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace dmpc::tests::accurate_texture_test

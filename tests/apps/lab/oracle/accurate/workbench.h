@@ -1,0 +1,53 @@
+// A scene with both renderers ready to be compared on it.
+#pragma once
+
+#include <utility>
+
+#include "apps/lab/oracle/accurate/camera.h"
+#include "apps/lab/oracle/accurate/finder.h"
+#include "apps/lab/oracle/accurate/ray_log.h"
+#include "apps/lab/oracle/accurate/scene.h"
+#include "core/database/database.h"
+#include "core/picture/pixel_task.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::tests {
+
+/// `side` x `side` pixels. What the accurate renderer is given may be changed on the way: then its errors should show.
+struct Workbench {
+  Workbench(core::Scene given, int side) : Workbench(given, given, side) {}
+  Workbench(core::Scene given, const core::Scene& for_accurate, int side)
+      : scene(std::move(given)),
+        database(core::build_database(scene, {})),
+        settings(settings_of(scene, database, side)),
+        accurate(apps::accurate_scene(for_accurate)),
+        finder(accurate, scene.view.from),
+        camera(scene.view, side, side),
+        logger(database, settings, accurate) {}
+  Workbench(const Workbench&) = delete;
+  Workbench& operator=(const Workbench&) = delete;
+
+  std::uint32_t pixel_count() const { return settings.camera.pixel_count(); }
+  apps::AccurateRay primary(std::uint32_t pixel) const {
+    const auto width = static_cast<std::uint32_t>(camera.width());
+    return camera.ray_through(pixel % width, pixel / width);
+  }
+  apps::RayLog accurate_log(std::uint32_t pixel) const {
+    return apps::accurate_log(accurate, finder, settings.shade, primary(pixel));
+  }
+
+  static core::RenderSettings settings_of(const core::Scene& scene, const core::Database& database, int side) {
+    const core::Camera camera(scene.view, database.header().frame, side, side, 1);
+    return {database.header(), camera, {.pixel_angle = scene.textures.empty() ? 0 : camera.pixel_size()}};
+  }
+
+  core::Scene scene;
+  core::Database database;
+  core::RenderSettings settings;
+  apps::AccurateScene accurate;
+  apps::AccurateFinder finder;
+  apps::AccurateCamera camera;
+  apps::ProductLogger logger;
+};
+
+}  // namespace dmpc::tests

@@ -1,0 +1,231 @@
+#include "apps/lab/study/command.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <csignal>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/base/expect.h"
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests::study_command_test {
+
+namespace {
+
+using apps::StudyOptions;
+
+StudyOptions small_study(const std::string& scene = "balls-1") {
+  return {.study = apps::TrafficStudy{.node_counts = {1, 2}},
+          .picture = {.scene = scene, .resolution = apps::Resolution{16, 16}}};
+}
+
+/// What the command writes to the standard output.
+std::string output_of(const StudyOptions& options, int status = 0) {
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK(apps::study_command(options, interrupt, output) == status);
+  return output.str().starts_with("**") ? unfolded(output.str()) : output.str();
+}
+
+/// A list of ever the same number, so long that no study ends by itself.
+std::string endless(const std::string& option, const std::string& number) {
+  std::string list = option + "=" + number;
+  for (int more = 0; more < 20000; ++more) {
+    list += "," + number;
+  }
+  return list;
+}
+
+/// `dmpc study traffic` with so many rows that it does not end by itself.
+std::vector<std::string> endless_study(const std::string& resolution, const std::string& samples = "--samples=1") {
+  return {DMPC_PROGRAM,           "study", "traffic", "balls-1", "--format=csv", "--resolution=" + resolution, samples,
+          endless("--nodes", "1")};
+}
+
+constexpr const char* rows_are_kept = "interrupted, the table has the rows finished before";
+
+struct Ended {
+  int status = 0;
+  std::string output, errors;
+};
+
+/// What becomes of a study that a signal ends when some rows are finished: after ever longer, however slow the computer is.
+Ended ended_by(int signal, const std::vector<std::string>& arguments) {
+  using namespace std::chrono_literals;
+  for (auto wait = 500ms;; wait *= 2) {
+    ChildProcess process(arguments);
+    REQUIRE(process.blocks(signal));
+    std::this_thread::sleep_for(wait);
+    process.send(signal);
+    const int status = process.status();
+    const Ended ended{status, process.output(), process.errors()};
+    if (contains(ended.errors, rows_are_kept) || wait > 60s) {
+      return ended;
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a study says what it studied, its rows, and the film of all runs") {
+  const std::string text = output_of(small_study());
+  CHECK(
+      contains(text, "Study traffic of balls-1: 16x16 pixels, 1 sample a pixel, depth 5, convention haines, grid axes world, "));
+  CHECK(count(text, "\n|") == 4 * count(text, "\n| nodes |"));  // each piece of the table has its heading, a rule and two rows
+  CHECK(contains(text, "Film of every run, 6 in all: "));
+  CHECK_FALSE(contains(text, "Interrupted"));
+}
+
+TEST_CASE("a study along the screen's axes says so and gives another film") {
+  StudyOptions options = small_study();
+  const std::string world = output_of(options);
+  options.database.axes = apps::AxesChoice::screen;
+  const std::string screen = output_of(options);
+  CHECK(contains(screen, "grid axes screen, "));
+  CHECK(world.substr(world.find("Film of")) != screen.substr(screen.find("Film of")));
+}
+
+TEST_CASE("a table goes to the file asked for and nothing to the standard output") {
+  const TemporaryFolder folder;
+  StudyOptions options = small_study();
+  options.table.format = apps::TableFormat::csv;
+  options.table.file = folder / "a.csv";
+  CHECK(output_of(options).empty());
+  CHECK(count(file_text(folder / "a.csv"), "\n") == 3);
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("an output that cannot be written or is the scene is refused before any run") {
+  const TemporaryFolder folder;
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  StudyOptions options = small_study((folder / "scene.nff").string());
+  options.table.file = folder / "scene.nff";
+  write_text(folder / "scene.nff", "nonsense");
+  CHECK_THROWS_AS(apps::study_command(options, interrupt, output), core::UsageError);
+  options.table.file = folder / "no" / "a.md";
+  CHECK_THROWS_AS(apps::study_command(options, interrupt, output), core::InputError);
+  CHECK(file_text(folder / "scene.nff") == "nonsense");
+}
+
+TEST_CASE("pictures of a study go to a folder that is made for them, beside the table that they are drawn from") {
+  const TemporaryFolder folder;
+  StudyOptions options = small_study();
+  options.table.plots = folder / "new" / "plots";
+  options.table.format = apps::TableFormat::csv;
+  const std::string table = output_of(options);
+  CHECK(file_text(*options.table.plots / "traffic.csv") == table);
+  for (const char* name : {"traffic_bytes.gnuplot", "traffic_memory.gnuplot"}) {
+    CHECK(contains(file_text(*options.table.plots / name), "traffic.csv"));
+  }
+  options.table.plots = folder / "new" / "plots" / "traffic.csv";
+  CHECK_THROWS_AS(output_of(options), core::InputError);
+}
+
+TEST_CASE("a page of a study has its table and pictures, and no place where another output goes") {
+  const TemporaryFolder folder;
+  StudyOptions options = small_study();
+  options.table.report = folder / "page.html";
+  output_of(options);
+  const std::string page = file_text(folder / "page.html");
+  CHECK(contains(page, "Study traffic of balls-1"));
+  CHECK(contains(page, "alt=\"Plot: Bytes that travel\""));
+  CHECK(contains(page, "<li>Film of every run, 6 in all"));
+  options.table.file = options.table.report;
+  CHECK_THROWS_AS(output_of(options), core::UsageError);
+}
+
+TEST_CASE("a table may lie in the folder of its pictures, but not in place of one of their files or of the folder") {
+  const TemporaryFolder folder;
+  StudyOptions options = small_study();
+  options.table.plots = folder / "plots";
+  options.table.file = folder / "plots" / "table.md";
+  CHECK(output_of(options).empty());
+  CHECK(contains(file_text(*options.table.file), "Film of every run"));
+  options.table.file = folder / "plots" / "traffic.csv";
+  CHECK_THROWS_AS(output_of(options), core::UsageError);
+  options.table.plots = options.table.file = folder / "other";
+  CHECK_THROWS_AS(output_of(options), core::InputError);
+}
+
+TEST_CASE("every study's pictures show columns that its table has, under names of their own") {
+  const apps::CacheStudy timed{.machine = nodes::Machine()};
+  const std::vector<apps::Study> studies = {apps::BalanceStudy(), apps::TrafficStudy(), timed, apps::SpeedupStudy(),
+                                            apps::SystemsStudy()};
+  std::set<std::string> names;
+  for (const apps::Study& study : studies) {
+    const auto [columns, plots] = std::visit([](const auto& one) { return std::pair(one.columns(), one.plots()); }, study);
+    apps::Table table("", columns);
+    table.add_row(std::vector<apps::Cell>(columns.size(), std::uint64_t{1}));
+    for (const apps::Plot& plot : plots) {
+      CHECK(names.insert(plot.name).second);
+      CHECK_NOTHROW(apps::script_of(plot, table, "t.csv"));
+    }
+    CHECK_FALSE(plots.empty());
+  }
+}
+
+TEST_CASE("a scene that does not exist is bad input") { CHECK_THROWS_AS(output_of(small_study("nonsense-3")), core::InputError); }
+
+TEST_CASE("Ctrl-C ends a study with status 130 and the rows finished before") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Ended study = ended_by(signal, endless_study("8x8"));
+    CHECK(study.status == 130);
+    CHECK(contains(study.errors, rows_are_kept));
+    CHECK(contains(study.output, "nodes,"));
+    CHECK(contains(study.output, "\n1,"));
+    CHECK(study.output.back() == '\n');
+  }
+}
+
+TEST_CASE("Ctrl-C leaves the finished rows of runs side by side in the file, whatever its format") {
+  const TemporaryFolder folder;
+  const std::string file = folder / "table";
+  for (const auto& [study, rows] :
+       {std::pair{"speedup", endless("--nodes", "2")}, std::pair{"cache", endless("--cache-pages", "1")}}) {
+    for (const auto& [format, beginning, row] : {std::tuple{"csv", "", "\n"}, std::tuple{"markdown", "**Study ", "\n|"},
+                                                 std::tuple{"json", "{", "\"virtual_time\": "}}) {
+      CAPTURE(study);
+      CAPTURE(format);
+      const Ended ended = ended_by(SIGINT, {DMPC_PROGRAM, "study", study, "balls-1", "--machine=ipsc2", "--resolution=8x8", rows,
+                                            std::string("--format=") + format, "-o", file});
+      CHECK(ended.status == 130);
+      CHECK(contains(ended.errors, rows_are_kept));
+      CHECK(file_text(file).find(beginning) == 0);
+      CHECK(count(file_text(file), row) > 0);
+      CHECK(folder.entry_count() == 1);
+    }
+  }
+}
+
+TEST_CASE("a table that would replace the machine's file is refused") {
+  const TemporaryFolder folder;
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  StudyOptions options = small_study();
+  options.table.file = options.machine_name = (folder / "mine.json").string();
+  write_text(folder / "mine.json", "mine");
+  CHECK_THROWS_AS(apps::study_command(options, interrupt, output), core::UsageError);
+  CHECK(file_text(folder / "mine.json") == "mine");
+}
+
+TEST_CASE("Ctrl-C before the first row is finished ends a study with status 130 and no table") {
+  ChildProcess process(endless_study("1024x1024", "--samples=8"));
+  REQUIRE(process.blocks(SIGINT));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  process.send(SIGINT);
+  CHECK(process.status() == 130);
+  CHECK(contains(process.errors(), "interrupted, nothing was written"));
+  CHECK(process.output().empty());
+}
+
+}  // namespace dmpc::tests::study_command_test

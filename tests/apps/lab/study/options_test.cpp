@@ -1,0 +1,193 @@
+#include "apps/lab/study/options.h"
+
+#include <doctest/doctest.h>
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "apps/edge/line/command_line.h"
+#include "apps/main/commands.h"
+#include "core/base/expect.h"
+#include "tests/support/usage.h"
+
+namespace dmpc::apps::study_options_test {
+
+using tests::usage_complaint;
+
+namespace {
+
+using Counts = std::vector<std::uint32_t>;
+
+/// `study NAME teapot-12` and more.
+StudyOptions study(const std::string& name, std::initializer_list<std::string> more = {}) {
+  std::vector<std::string> arguments = {"study", name, "teapot-12"};
+  arguments.insert(arguments.end(), more);
+  return parse_command_line(arguments).options<StudyOptions>();
+}
+
+BalanceStudy balance(std::initializer_list<std::string> more = {}) {
+  return std::get<BalanceStudy>(study("balance", more).study);
+}
+
+SpeedupStudy speedup(std::initializer_list<std::string> more = {}) {
+  return std::get<SpeedupStudy>(study("speedup", more).study);
+}
+
+}  // namespace
+
+TEST_CASE("a study and a scene are all that study needs") {
+  const StudyOptions options = study("balance");
+  CHECK(options.picture.scene == "teapot-12");
+  CHECK(options.table.format == TableFormat::markdown);
+  CHECK_FALSE(options.table.file);
+  CHECK(balance().node_counts == Counts{4, 8, 16, 32, 64});
+  CHECK(balance().regions.subsample == 8);
+  CHECK(balance().regions.columns_per_side == 256);
+  CHECK(balance().topology == nodes::TopologyKind::hypercube);
+  CHECK_FALSE(balance().per_node);
+  CHECK(std::get<TrafficStudy>(study("traffic").study).node_counts == Counts{1, 2, 4, 8, 16, 32, 64});
+}
+
+TEST_CASE("options of a study are taken") {
+  const StudyOptions options =
+      study("traffic", {"--nodes=3", "--depth=2", "--grid-axes=screen", "--format=json", "-o", "a.json"});
+  CHECK(std::get<TrafficStudy>(options.study).node_counts == Counts{3});
+  CHECK(options.picture.depth == 2);
+  CHECK(options.database.axes == AxesChoice::screen);
+  CHECK(options.table.format == TableFormat::json);
+  CHECK(options.table.file == "a.json");
+  const BalanceStudy taken = balance({"--subsample=4", "--balance-grid=16", "--topology=fat-tree", "--per-node"});
+  CHECK(taken.regions.subsample == 4);
+  CHECK(taken.regions.columns_per_side == 16);
+  CHECK(taken.topology == nodes::TopologyKind::fat_tree);
+  CHECK(taken.per_node);
+}
+
+TEST_CASE("node counts are taken in the order given, equal ones too") {
+  CHECK(balance({"--nodes=64,1,64,1024"}).node_counts == Counts{64, 1, 64, 1024});
+}
+
+TEST_CASE("anything but node counts in range with commas between them is refused") {
+  for (const std::string text : {",", "4,", ",4", "4,,8", "0", "4097", "-1", "+4", "4;8", "4 8", "4.5", "x", "99999999999"}) {
+    CAPTURE(text);
+    CHECK(usage_complaint({"study", "balance", "teapot-12", "--nodes=" + text}).find("with commas between") != std::string::npos);
+  }
+}
+
+TEST_CASE("the options of the study of caches are taken") {
+  const auto cache = [](std::initializer_list<std::string> more) { return std::get<CacheStudy>(study("cache", more).study); };
+  CHECK(cache({}).node_count == 32);
+  CHECK(cache({}).cache_pages.empty());
+  CHECK_FALSE(cache({}).machine);
+  const CacheStudy taken = cache({"--nodes=5", "--cache-pages=204,1", "--machine=ipsc2"});
+  CHECK(taken.node_count == 5);
+  CHECK(taken.cache_pages == Counts{204, 1});
+  CHECK(taken.machine->name == "ipsc2");
+}
+
+TEST_CASE("caches of no page, a lone node and an unknown machine are refused") {
+  CHECK(usage_complaint({"study", "cache", "teapot-12", "--cache-pages=4,0"}).find("--cache-pages=4,0: expected") !=
+        std::string::npos);
+  CHECK(usage_complaint({"study", "cache", "teapot-12", "--nodes=1"}).find("--nodes") != std::string::npos);
+  CHECK_THROWS_AS(study("cache", {"--machine=abacus"}), core::InputError);
+}
+
+TEST_CASE("the study of speedup runs svm on the ipsc2 with one pixel in flight, unless told otherwise") {
+  const SpeedupStudy standard = speedup();
+  CHECK(standard.node_counts == Counts{1, 2, 4, 8, 16, 32, 64});
+  CHECK(standard.run.strategy == Strategy::svm);
+  CHECK(standard.run.computer.machine.value().name == "ipsc2");
+  CHECK_FALSE(standard.run.computer.node_memory_bytes);
+  CHECK_FALSE(standard.run.pages.in_flight);
+}
+
+TEST_CASE("the options of the study of speedup are those of a run") {
+  const SpeedupStudy pages =
+      speedup({"--nodes=1,4096", "--strategy=svm", "--node-memory=4MiB", "--cache-pages=9", "--replacement=fifo", "--in-flight=3",
+               "--work-item=0", "--machine=paragon", "--memory-port"});
+  CHECK(pages.node_counts == Counts{1, 4096});
+  CHECK(pages.run.computer.node_memory_bytes == std::size_t{4} << 20U);
+  CHECK(pages.run.pages.cache_pages == 9);
+  CHECK(pages.run.pages.replacement == svm::Replacement::fifo);
+  CHECK(pages.run.pages.in_flight == 3);
+  CHECK(pages.run.pages.work_item_side == 0);
+  CHECK(pages.run.computer.machine.value().name == "paragon");
+  CHECK(pages.run.computer.machine.value().has_memory_port);
+  const SpeedupStudy rays = speedup({"--strategy=dataflow", "--nodes=1024", "--no-contention", "--balance=equal-size",
+                                     "--ray-batch=3", "--ray-credits=2", "--ray-queue=7", "--machine=hdr"});
+  CHECK(rays.run.strategy == Strategy::dataflow);
+  CHECK_FALSE(rays.run.computer.machine.value().has_contention);
+  CHECK(rays.run.rays.balance.balance == dataflow::Balance::equal_size);
+  CHECK(rays.run.rays.ray_batch == 3);
+  CHECK(rays.run.rays.ray_credits == 2);
+  CHECK(rays.run.rays.queue_packets == 7);
+  CHECK(rays.run.rays.topology == nodes::TopologyKind::fat_tree);
+  CHECK(speedup({"--strategy=dataflow", "--subsample=4", "--balance-grid=16"}).run.rays.balance.subsample == 4);
+  CHECK(speedup({"--strategy=replicated", "--in-flight=2"}).run.strategy == Strategy::replicated);
+}
+
+TEST_CASE("the help of the study of speedup tells its own defaults") {
+  const std::string text = parse_command_line(std::vector<std::string>{"study", "speedup", "--help"}).options<HelpText>().text;
+  CHECK(text.find("--in-flight 1..4096 [1]") != std::string::npos);
+  CHECK(text.find("[a quarter of the database") != std::string::npos);
+  CHECK(text.find("replicated 1") == std::string::npos);
+}
+
+TEST_CASE("options of a study of speedup that do not go together are refused with the reason") {
+  const auto says = [](std::initializer_list<std::string> more, const std::string& part) {
+    std::vector<std::string> arguments = {"study", "speedup", "teapot-12"};
+    arguments.insert(arguments.end(), more);
+    return usage_complaint(arguments).find(part) != std::string::npos;
+  };
+  CHECK(says({"--strategy=dataflow", "--cache-pages=5"}, "--cache-pages goes with --strategy=svm: "));
+  CHECK(says({"--strategy=replicated", "--replacement=lru"}, "--replacement goes with --strategy=svm: "));
+  CHECK(says({"--strategy=dataflow", "--in-flight=5"},
+             "--in-flight goes with --strategy=svm or --strategy=replicated or --strategy=forest: "));
+  CHECK(says({"--ray-batch=5"}, "--ray-batch goes with --strategy=dataflow: "));
+  CHECK(says({"--strategy=dataflow", "--balance=equal-size", "--subsample=5"},
+             "--subsample goes with --balance=subsampled or moving: "));
+  CHECK(says({"--no-contention", "--memory-port"}, "--memory-port does not go with --no-contention: "));
+  CHECK(says({"--nodes=4097"}, "--nodes=4097: expected numbers from 1 to 4096"));
+  CHECK(says({"--topology=mesh"}, "--topology"));
+  CHECK(says({"--runner=virtual"}, "--runner"));
+  CHECK_THROWS_AS(speedup({"--machine=abacus"}), core::InputError);
+}
+
+TEST_CASE("node counts that are left out are refused") {
+  CHECK(usage_complaint({"study", "balance", "teapot-12", "--nodes="}).find("--nodes") != std::string::npos);
+}
+
+TEST_CASE("a study that is missing or does not exist is answered with those there are") {
+  CHECK(usage_complaint({"study"}).find("Try: dmpc study --help") != std::string::npos);
+  CHECK(usage_complaint({"study", "weather", "teapot-12"})
+            .find("expected balance, traffic, cache, speedup, systems, paper, references, scale or sweep") != std::string::npos);
+}
+
+TEST_CASE("a study has its own options alone") {
+  CHECK(usage_complaint({"study", "traffic", "teapot-12", "--per-node"}).find("dmpc study traffic --help") != std::string::npos);
+  CHECK(usage_complaint({"study", "balance", "teapot-12", "--format=xml"}).find("--format") != std::string::npos);
+  CHECK(usage_complaint({"study", "balance"}).find("SCENE") != std::string::npos);
+}
+
+TEST_CASE("systems and rules of memory are chosen by name, and each system has its own structure") {
+  const auto chosen = [](std::initializer_list<std::string> more) {
+    return std::get<SystemsStudy>(study("systems", more).study);
+  };
+  const SystemsStudy standard = chosen({});
+  CHECK(standard.chosen.size() == systems().size());
+  CHECK(standard.memories.size() == 4);
+  CHECK(standard.machine.computer.machine->name == "ipsc2");
+  const SystemsStudy taken =
+      chosen({"--systems=forest,svm,forest", "--node-memory=auto,2%,1MiB", "--nodes=8,64", "--machine=hdr"});
+  REQUIRE(taken.chosen.size() == 2);
+  CHECK(taken.chosen[0] == System::forest);
+  CHECK(taken.memories.size() == 3);
+  CHECK(taken.node_counts.size() == 2);
+  CHECK(taken.machine.computer.machine->name == "hdr");
+  CHECK_THROWS_WITH_AS(chosen({"--systems=svm,"}), doctest::Contains("there is no system \"\""), core::UsageError);
+  CHECK_THROWS_WITH_AS(chosen({"--node-memory=200%"}), doctest::Contains("at most 100%"), core::UsageError);
+  CHECK_THROWS_WITH_AS(chosen({"--structure=extents"}), doctest::Contains("each system has its own"), core::UsageError);
+}
+
+}  // namespace dmpc::apps::study_options_test

@@ -1,0 +1,303 @@
+#include "apps/lab/study/paper/tables.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <variant>
+
+#include "tests/support/paper_results.h"
+
+namespace dmpc::tests::claims_test {
+
+using namespace apps;
+
+namespace {
+
+constexpr std::size_t claim_count = 15;
+
+using ByNodeCount = std::array<double, paper_node_counts.size()>;
+
+void set_efficiencies(PaperResults& results, const Catalogue::ByNodeCount& runs, const ByNodeCount& percent) {
+  for (std::size_t column = 0; column < runs.size(); ++column) {
+    results[runs[column]] = result_of_efficiency(percent[column], paper_node_counts[column]);
+  }
+}
+
+/// Rings4: at 1 page by chance, and from 811 pages on for good; the network is fullest at 204.
+constexpr CacheFigures rings_caches = {{51, 2, 5, 10, 20, 30, 40, 55, 70, 90},
+                                       {2e5, 3e5, 4e5, 5e5, 6e5, 6.3e5, 5e5, 4e5, 3e5, 2e5}};
+/// Tetra9: from 16 pages on.
+constexpr CacheFigures tetra_caches = {{20, 40, 55, 60, 65, 70, 75, 80, 85, 90}, {}};
+
+/// As if every claim were true.
+struct Claimed {
+  Catalogue catalogue = catalogue_of(paper_resolution);
+  PaperResults results = as_printed(catalogue);
+
+  Claimed() {
+    for (std::size_t scene = 0; scene < rings.size(); ++scene) {
+      set_efficiencies(results, catalogue.rings_by_pages[scene], {100, 98, 97, 96, 95, 94, 93});
+      set_efficiencies(results, catalogue.rings_by_rays[scene], {99, 90, 80, 70, 60, 50, 40});
+    }
+    set_caches(results, catalogue, 0, rings_caches);
+    set_caches(results, catalogue, 1, tetra_caches);
+    results[catalogue.faster_machine] = time_of_rings(1.0 / 7);
+    results[catalogue.rings_by_rays[0].back()]->average_load = 0.825;
+    results[catalogue.by_way(0, RayWay::equal_size)] = PaperResult{.average_load = 0.15};
+    results[catalogue.by_way(0, RayWay::alternating)] =
+        PaperResult{.total_ns = results[catalogue.rings_by_rays[0].back()]->total_ns * 2, .average_load = 0.825};
+    set_overflow(0, 0.005);
+    results[catalogue.lit_by_rays] = PaperResult{.flood = 6.8};
+    results[catalogue.lit_by_pages] = PaperResult{.flood = 1.15};
+    results[catalogue.rings_by_rays[1].front()]->tests = 100;
+    results[catalogue.rings_by_rays[1].back()]->tests = 130;
+    set_items({1.16, 1.08, 1.01, 1, 1.003, 1.04, 1.09});
+    set_dealt(110'000, 120'000);
+    results[catalogue.copies] = result_of_seconds(198);
+  }
+
+  void set_dealt(std::uint64_t seconds, std::uint64_t seconds_of_pixels) {
+    results[catalogue.items_dealt[article_item]] = result_of_seconds(seconds);
+    results[catalogue.items_dealt[1]] = result_of_seconds(seconds_of_pixels);
+  }
+  void set_overflow(double of_rings_3, double of_rings_4) {
+    results[catalogue.by_way(0, RayWay::unchecked_long)] = PaperResult{.overflowed = of_rings_3};
+    results[catalogue.by_way(1, RayWay::unchecked_long)] = PaperResult{.overflowed = of_rings_4};
+  }
+  /// By size, times what the article's takes.
+  void set_items(const std::array<double, item_sides.size()>& factors) {
+    const auto of_article = static_cast<double>(results[catalogue.items[article_item]]->total_ns);
+    for (std::size_t size = 0; size < factors.size(); ++size) {
+      results[catalogue.items[size]] = PaperResult{.total_ns = static_cast<std::uint64_t>(factors[size] * of_article)};
+    }
+  }
+
+  /// What Rings4 takes on 32 nodes, times a factor.
+  PaperResult time_of_rings(double factor) const {
+    const auto& slow = results[catalogue.timed[rings_row][faster_column]];
+    return {.total_ns = static_cast<std::uint64_t>(factor * static_cast<double>(slow->total_ns))};
+  }
+  void set_caches_of_rings(const CacheFigures& figures) { set_caches(results, catalogue, 0, figures); }
+
+  /// The verdict and what was found, of the claim that has these words.
+  std::string verdict(const std::string& words) const { return found(words, 1); }
+  std::string found(const std::string& words, std::size_t column = 2) const {
+    const Table table = claims(catalogue, results);
+    const auto row = std::find_if(table.rows().begin(), table.rows().end(),
+                                  [&](const auto& at) { return std::get<std::string>(at[0]).find(words) != std::string::npos; });
+    return row == table.rows().end() ? "missing" : std::get<std::string>((*row)[column]);
+  }
+};
+
+std::size_t count_of(const Table& table, const std::string& verdict) {
+  return static_cast<std::size_t>(std::count_if(table.rows().begin(), table.rows().end(),
+                                                [&](const auto& row) { return std::get<std::string>(row[1]) == verdict; }));
+}
+
+}  // namespace
+
+TEST_CASE("results as the article has them hold all its claims") {
+  const Claimed claimed;
+  const Table table = claims(claimed.catalogue, claimed.results);
+  CHECK(table.rows().size() == claim_count);
+  CHECK(count_of(table, "held") == claim_count);
+}
+
+TEST_CASE("pictures of another size than the article's have figures and no verdicts") {
+  Claimed claimed;
+  claimed.catalogue = catalogue_of(256);
+  const Table table = claims(claimed.catalogue, claimed.results);
+  CHECK(table.rows().size() == claim_count);
+  CHECK(count_of(table, "not judged") == claim_count);
+  CHECK(claimed.found("iPSC/860").starts_with("7.00 times"));
+}
+
+TEST_CASE("claims whose runs are missing are left out, each on its own") {
+  Claimed claimed;
+  claimed.results[claimed.catalogue.faster_machine].reset();
+  CHECK(claims(claimed.catalogue, claimed.results).rows().size() == claim_count - 1);
+  claimed.results[claimed.catalogue.rings_by_rays[0][3]].reset();
+  CHECK(claims(claimed.catalogue, claimed.results).rows().size() == claim_count - 2);
+  claimed.results[claimed.catalogue.cache_base[1]].reset();
+  CHECK(claims(claimed.catalogue, claimed.results).rows().size() == claim_count - 5);
+  CHECK(claims(claimed.catalogue, PaperResults(claimed.results.size())).rows().empty());
+}
+
+TEST_CASE("one cell of Table 3 below 78 % is too little") {
+  Claimed claimed;
+  const std::size_t cell = claimed.catalogue.timed[0][6];
+  CHECK(claimed.verdict("above 78 %") == "held");
+  claimed.results[cell] = result_of_seconds(11'522 * 100 / (64 * 77));
+  CHECK(claimed.verdict("above 78 %") == "not held");
+  CHECK(claimed.found("above 78 %").starts_with("the least is 77."));
+}
+
+TEST_CASE("efficiencies against one worker beside nodes that lend their memories count, too") {
+  Claimed claimed;
+  claimed.results[claimed.catalogue.one_worker[4]] = result_of_seconds(226 * 64 * 9 / 10);
+  CHECK(claimed.verdict("above 78 %") == "held");
+  claimed.results[claimed.catalogue.one_worker[4]] = result_of_seconds(226 * 64 * 3 / 4);
+  CHECK(claimed.verdict("above 78 %") == "not held");
+  CHECK(claimed.found("above 78 %") == "the least is 75.0 %");
+}
+
+TEST_CASE("travelling rays that gain with one step of the nodes do not fall, and every count is shown") {
+  Claimed claimed;
+  CHECK(claimed.found("rays falls with the nodes, and is below travelling pages', rings-3-t1") ==
+        "99.0, 90.0, 80.0, 70.0, 60.0, 50.0, 40.0 % on 1 to 64 nodes; pages 93.0 % on 64");
+  set_efficiencies(claimed.results, claimed.catalogue.rings_by_rays[0], {99, 90, 80, 70, 50, 60, 40});
+  CHECK(claimed.verdict("rings-3-t1") == "not held");
+  CHECK(claimed.verdict("pages', rings-4-t1") == "held");
+  set_efficiencies(claimed.results, claimed.catalogue.rings_by_rays[0], {99, 90, 80, 70, 60, 60, 40});
+  CHECK(claimed.verdict("rings-3-t1") == "not held");
+}
+
+TEST_CASE("travelling rays that fall and stay above travelling pages do not hold the claim") {
+  Claimed claimed;
+  set_efficiencies(claimed.results, claimed.catalogue.rings_by_rays[1], {99, 98.5, 98, 97.5, 97, 96, 95});
+  CHECK(claimed.verdict("pages', rings-4-t1") == "not held");
+  CHECK(claimed.verdict("rings-3-t1") == "held");
+}
+
+TEST_CASE("a cache stays above 50 % when all larger ones do, too") {
+  Claimed claimed;
+  CHECK(claimed.found("to stay above 50 %") ==
+        "Rings4 from 17.51 % of the database on (811 pages of the article's), Tetra9 from 0.04 % of the database on (16 pages of "
+        "the article's)");
+  CacheFigures dip = tetra_caches;
+  dip.efficiency[8] = 50;
+  set_caches(claimed.results, claimed.catalogue, 1, dip);
+  CHECK(claimed.found("to stay above 50 %").find("Tetra9 from 8.00 %") != std::string::npos);
+  CHECK(claimed.verdict("to stay above 50 %") == "held");
+}
+
+TEST_CASE("Rings4 with any cache above 50 % needs none larger than Tetra9, and with no such cache a larger one than all") {
+  Claimed claimed;
+  CacheFigures figures = rings_caches;
+  figures.efficiency.fill(60);
+  claimed.set_caches_of_rings(figures);
+  CHECK(claimed.verdict("to stay above 50 %") == "not held");
+  figures.efficiency.fill(40);
+  claimed.set_caches_of_rings(figures);
+  CHECK(claimed.verdict("to stay above 50 %") == "held");
+  CHECK(claimed.found("to stay above 50 %").starts_with("Rings4 with none"));
+  set_caches(claimed.results, claimed.catalogue, 1, figures);
+  CHECK(claimed.verdict("to stay above 50 %") == "not held");
+}
+
+TEST_CASE("a communication rate that is highest at the smallest cache or at the largest has no peak") {
+  Claimed claimed;
+  CHECK(claimed.found("communication rate") == "the peak is at 204 pages");
+  for (const std::size_t size : {std::size_t{0}, cache_size_count - 1}) {
+    CacheFigures figures = rings_caches;
+    figures.page_rate[size] = 7e5;
+    claimed.set_caches_of_rings(figures);
+    CHECK(claimed.verdict("communication rate") == "not held");
+  }
+}
+
+TEST_CASE("about 70 % of the network is more than 60 % and less than 80 %") {
+  Claimed claimed;
+  CHECK(claimed.found("about 70 %") == "a node receives 70 %, and sends as much");
+  for (const double rate : {0.59 * 0.9e6, 0.81 * 0.9e6}) {
+    CacheFigures figures = rings_caches;
+    figures.page_rate.fill(1);
+    figures.page_rate[5] = rate;
+    claimed.set_caches_of_rings(figures);
+    CHECK(claimed.verdict("about 70 %") == "not held");
+  }
+}
+
+TEST_CASE("about 7 times faster is more than 6 times and less than 8") {
+  Claimed claimed;
+  for (const double times : {5.9, 8.1}) {
+    claimed.results[claimed.catalogue.faster_machine] = claimed.time_of_rings(1 / times);
+    CHECK(claimed.verdict("iPSC/860") == "not held");
+  }
+}
+
+TEST_CASE("loads of regions hold the claim near 82.5 % beside less than 20") {
+  Claimed claimed;
+  const auto verdict_of = [&](double subsampled, double equal) {
+    claimed.results[claimed.catalogue.rings_by_rays[0].back()]->average_load = subsampled;
+    claimed.results[claimed.catalogue.by_way(0, RayWay::equal_size)]->average_load = equal;
+    return claimed.verdict("Subsampled regions");
+  };
+  CHECK(verdict_of(0.809, 0.103) == "held");
+  CHECK(claimed.found("Subsampled regions") == "80.9 and 10.3 % on 64 nodes; the article does not say on how many");
+  CHECK(verdict_of(0.7, 0.103) == "not held");
+  CHECK(verdict_of(0.95, 0.103) == "not held");
+  CHECK(verdict_of(0.825, 0.2) == "not held");
+}
+
+TEST_CASE("cuts in alternating directions are judged by their own load") {
+  Claimed claimed;
+  CHECK(claimed.found("alternating") == "82.5 %, and the picture takes 2.00 times as long as by cuts across the longer side");
+  claimed.results[claimed.catalogue.by_way(0, RayWay::alternating)]->average_load = 0.7;
+  CHECK(claimed.verdict("alternating") == "not held");
+  CHECK(claimed.verdict("Subsampled regions") == "held");
+}
+
+TEST_CASE("one picture of which about 0.5 % goes by way of the host holds the claim") {
+  Claimed claimed;
+  CHECK(claimed.found("of the host").starts_with("rings-3-t1 0.00 %, rings-4-t1 0.50 %, "));
+  claimed.set_overflow(0.009, 0.2);
+  CHECK(claimed.verdict("of the host") == "held");
+  claimed.set_overflow(0.011, 0.002);
+  CHECK(claimed.verdict("of the host") == "not held");
+  claimed.results[claimed.catalogue.by_way(1, RayWay::unchecked_long)].reset();
+  CHECK(claimed.verdict("of the host") == "missing");
+}
+
+TEST_CASE("a light whose region receives little more than others, or whose pages come from one node, does not hold the claim") {
+  Claimed claimed;
+  CHECK(claimed.found("A light inside") ==
+        "its region gets 6.8 times the mean of shadow rays; no node sends over 1.15 times the mean of pages; 64 nodes");
+  claimed.results[claimed.catalogue.lit_by_rays]->flood = 1.9;
+  CHECK(claimed.verdict("A light inside") == "not held");
+  claimed.results[claimed.catalogue.lit_by_rays]->flood = 6.8;
+  claimed.results[claimed.catalogue.lit_by_pages]->flood = 1.3;
+  CHECK(claimed.verdict("A light inside") == "not held");
+}
+
+TEST_CASE("objects that no region tests again do not hold the claim") {
+  Claimed claimed;
+  CHECK(claimed.found("intersected again") == "1.30 times the tests on 64 nodes as on one");
+  claimed.results[claimed.catalogue.rings_by_rays[1].back()]->tests = 100;
+  CHECK(claimed.verdict("intersected again") == "not held");
+}
+
+TEST_CASE("items of 3x3 pixels hold the claim while none is more than 1 % better") {
+  Claimed claimed;
+  CHECK(claimed.found("3x3") == "seconds: static 124731, 1x1 116129, 2x2 108602, 3x3 107527, 4x4 107849, 6x6 111828, 8x8 117204");
+  claimed.set_items({1.16, 1.08, 1.01, 1, 0.992, 1.04, 1.09});
+  CHECK(claimed.verdict("3x3") == "held");
+  claimed.set_items({1.16, 1.08, 1.01, 1, 0.98, 1.04, 1.09});
+  CHECK(claimed.verdict("3x3") == "not held");
+  claimed.results[claimed.catalogue.items.back()].reset();
+  CHECK(claimed.verdict("3x3") == "missing");
+}
+
+TEST_CASE("submaps with items on request hold the claim while neither alone is better") {
+  Claimed claimed;
+  claimed.results[claimed.catalogue.items[article_item]] = result_of_seconds(604);
+  claimed.results[claimed.catalogue.items[0]] = result_of_seconds(700);
+  claimed.set_dealt(700, 800);
+  CHECK(claimed.verdict("either alone") == "held");
+  CHECK(claimed.found("either alone") == "seconds: both 604, submaps 700, items asked of the host 700, pixels 800");
+  claimed.set_dealt(600, 800);
+  CHECK(claimed.verdict("either alone") == "not held");
+  claimed.set_dealt(700, 600);
+  CHECK(claimed.verdict("either alone") == "not held");
+}
+
+TEST_CASE("pages of a small scene that cost a twentieth of the time are not negligible") {
+  Claimed claimed;
+  CHECK(claimed.found("small scene") == "pages take 1.01 times as long as copies made beforehand");
+  claimed.results[claimed.catalogue.copies] = result_of_seconds(190);
+  CHECK(claimed.verdict("small scene") == "not held");
+}
+
+}  // namespace dmpc::tests::claims_test

@@ -1,0 +1,62 @@
+#include "apps/lab/study/references/command.h"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/base/expect.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests::references_command_test {
+
+namespace {
+
+/// What the command writes of a file with these lines.
+std::string output_of(const std::string& lines, const std::vector<std::uint32_t>& cache_pages) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "trace.csv").string();
+  std::ofstream(path) << lines;
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  const apps::ReferencesOptions options{
+      .file = path, .cache_pages = cache_pages, .table = {.format = apps::TableFormat::csv}, .quiet = true};
+  CHECK(apps::study_references_command(options, interrupt, output) == 0);
+  return output.str();
+}
+
+}  // namespace
+
+TEST_CASE("the faults of a trace that was worked out on paper: fifo's anomaly") {
+  // Belady, Nelson and Shedler (1969): fifo faults 9 times with 3 frames and 10 times with 4, lru 10 and 8 times; the least are 7
+  // and 6.
+  const std::string output = output_of("page\n1\n2\n3\n4\n1\n2\n5\n1\n2\n3\n4\n5\n", {3, 4});
+  CHECK(output.find("cache pages,share of pages (%),misses lru (%),faults lru,faults clock,faults fifo") != std::string::npos);
+  CHECK(output.find("\n3,60,83.33333333333333,10,9,9,") != std::string::npos);
+  CHECK(output.find("\n4,80,66.66666666666667,8,10,10,") != std::string::npos);
+  CHECK(output.find(",7\n") != std::string::npos);
+  CHECK(output.find(",6\n") != std::string::npos);
+}
+
+TEST_CASE("each node has a cache of its own, and faults are those of all") {
+  const std::string output = output_of("node,page\n0,1\n1,2\n0,1\n1,2\n0,3\n0,1\n", {1});
+  CHECK(output.find("\n1,33.333333333333336,66.66666666666667,4,4,4,4,4,4,4,4\n") != std::string::npos);
+}
+
+TEST_CASE("a cache larger than all memory costs none for pages that there are not, and takes each page in once") {
+  const std::string output = output_of("node,page\n0,1\n0,2\n0,1\n2,7\n", {2'147'483'647});
+  CHECK(output.find(",75,3,3,3,3,3,3,3,3\n") != std::string::npos);
+}
+
+TEST_CASE("without sizes there are those from one page to all") {
+  const std::string output = output_of("page\n1\n2\n3\n1\n", {});
+  CHECK(output.find("\n1,") != std::string::npos);
+  CHECK(output.find("\n3,100,75,3,") != std::string::npos);
+}
+
+TEST_CASE("a file that cannot be read leaves no table") { CHECK_THROWS_AS(output_of("x\n", {}), core::InputError); }
+
+}  // namespace dmpc::tests::references_command_test

@@ -1,0 +1,84 @@
+#include "apps/lab/study/scale/figures.h"
+
+#include <doctest/doctest.h>
+
+#include <optional>
+#include <string>
+
+#include "core/base/expect.h"
+
+namespace dmpc::tests::figures_test {
+
+using apps::ScaleFigure;
+using apps::ScaleFigures;
+
+namespace {
+
+/// What `render --stats` writes of a run of 100 rays on two nodes, as far as it is read.
+const std::string statistics = R"({"film_hash": "0123456789abcdef",
+  "rays": {"total": 100}, "packets": {"sent": 50}, "pages": {"faults": 20, "distinct_per_pixel": 2.5},
+  "travel": null, "database": {"bytes": 3000000, "primitives": 77},
+  "seconds": {"load": 1.0, "build": 2.0, "prepare": 4.0, "render": 8.0, "write": 16.0, "user": 99.0, "system": 99.0,
+              "render_user": 0.5, "render_system": 0.25},
+  "nodes": [{"memory": {"planned": {"total": 1000000}}}, {"memory": {"planned": {"total": 1500000}}}]})";
+
+ScaleFigures round_of(double seconds, const std::string& film = "a") {
+  ScaleFigures figures;
+  figures[ScaleFigure::render] = seconds;
+  figures.film_hash = film;
+  return figures;
+}
+
+}  // namespace
+
+TEST_CASE("figures of a run are read from its statistics") {
+  const ScaleFigures figures = apps::scale_figures_of(statistics, 7'000'000);
+  CHECK(figures[ScaleFigure::build] == 2);
+  CHECK(figures[ScaleFigure::total] == 31);
+  CHECK(figures[ScaleFigure::processor] == 0.75);
+  CHECK(figures[ScaleFigure::database] == 3);
+  CHECK(figures[ScaleFigure::memory] == 7);
+  CHECK(figures[ScaleFigure::local_memory] == 2.5);
+  CHECK(figures[ScaleFigure::faults] == 0.2);
+  CHECK(figures[ScaleFigure::packets] == 0.5);
+  CHECK(figures[ScaleFigure::pages] == 2.5);
+  CHECK_FALSE(figures[ScaleFigure::moves]);
+  CHECK(figures.primitives == 77);
+  CHECK(figures.film_hash == "0123456789abcdef");
+}
+
+TEST_CASE("memory that was not seen is no figure") {
+  CHECK_FALSE(apps::scale_figures_of(statistics, std::nullopt)[ScaleFigure::memory]);
+}
+
+TEST_CASE("moves are rays that dataflow sent to another node, not links that they passed") {
+  const std::string travel = "\"travel\": {\"messages_per_ray\": 0.75}";
+  std::string of_dataflow = statistics;
+  of_dataflow.replace(of_dataflow.find("\"travel\": null"), 14, travel);
+  CHECK(apps::scale_figures_of(of_dataflow, 0)[ScaleFigure::moves] == 0.75);
+  CHECK(column_of(ScaleFigure::moves).name == "moves a ray");
+}
+
+TEST_CASE("statistics that cannot be read are a fault of our own") {
+  for (const char* text : {"", "{}", "nonsense", "{\"rays\": 3}"}) {
+    CHECK_THROWS_AS(apps::scale_figures_of(text, 0), core::InternalError);
+  }
+}
+
+TEST_CASE("every figure has a column of its own") {
+  CHECK(apps::all_scale_figures().size() == apps::scale_figure_count);
+  CHECK(column_of(ScaleFigure::load).name == "load");
+  CHECK(column_of(ScaleFigure::processor).name == "processor");
+  CHECK(column_of(ScaleFigure::local_memory).unit == "MB");
+  CHECK(column_of(ScaleFigure::pages).name == "pages a pixel");
+}
+
+TEST_CASE("of several rounds the middle counts, and they give one film") {
+  const ScaleFigures middle = apps::median_figures({round_of(3), round_of(90), round_of(1)});
+  CHECK(middle[ScaleFigure::render] == 3);
+  CHECK_FALSE(middle[ScaleFigure::faults]);
+  CHECK(apps::median_figures({round_of(5)})[ScaleFigure::render] == 5);
+  CHECK_THROWS_AS(apps::median_figures({round_of(3), round_of(3, "b")}), core::InternalError);
+}
+
+}  // namespace dmpc::tests::figures_test

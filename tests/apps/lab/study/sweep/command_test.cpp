@@ -1,0 +1,162 @@
+#include "apps/lab/study/sweep/command.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/lab/study/sweep/kept_runs.h"
+#include "apps/main/commands.h"
+#include "core/base/expect.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests::sweep_command_test {
+
+using apps::StudySweepOptions;
+using Words = std::vector<std::string>;
+
+namespace {
+
+StudySweepOptions sweep_options(Words words) {
+  words.insert(words.begin(), {"study", "sweep"});
+  StudySweepOptions options = apps::parse_command_line(words).options<StudySweepOptions>();
+  options.settings.program = DMPC_PROGRAM;
+  return options;
+}
+
+StudySweepOptions tiny_sweep(const Words& more) {
+  Words words = {"balls-1", "--resolution=8x8", "--runner=virtual", "--format=csv"};
+  words.insert(words.end(), more.begin(), more.end());
+  return sweep_options(words);
+}
+
+std::string swept(const StudySweepOptions& options) {
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK(apps::study_sweep_command(options, interrupt, output) == 0);
+  return output.str();
+}
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+/// A program that notes that it is called, and does what dmpc does.
+std::filesystem::path counting_program(const TemporaryFolder& folder) {
+  const std::filesystem::path path = folder / "counting";
+  write_text(path, "#!/bin/sh\necho called >> '" + (folder / "calls").string() + "'\nexec " DMPC_PROGRAM " \"$@\"\n");
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  return path;
+}
+
+std::string sweep_complaint(const Words& words) {
+  try {
+    swept(tiny_sweep(words));
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a sweep renders every combination and tells the figures asked for, alike when it is repeated") {
+  const StudySweepOptions options =
+      tiny_sweep({"--vary=nodes:1,3", "--vary=page-size:1KiB,4KiB", "--columns=faults,virtual_seconds"});
+  const std::string table = swept(options);
+  CHECK(table.starts_with("nodes,page-size (bytes),pages.faults,virtual_seconds.total (s)\n1,1024,0,"));
+  CHECK(count(table, "\n") == 5);
+  CHECK(swept(options) == table);
+}
+
+TEST_CASE("rows come as JSON lines, each an object of its own") {
+  StudySweepOptions options = tiny_sweep({"--vary=nodes:1,3", "--columns=faults"});
+  options.table.format = apps::TableFormat::json_lines;
+  const std::string lines = swept(options);
+  CHECK(lines.starts_with("{\"nodes\":1,\"pages.faults\":0}\n{\"nodes\":3,\"pages.faults\":"));
+  CHECK(count(lines, "\n") == 2);
+}
+
+TEST_CASE("runs that are kept are not run again, and a larger sweep adds its own") {
+  const TemporaryFolder folder;
+  const std::string runs = "--runs=" + (folder / "runs").string();
+  StudySweepOptions options = tiny_sweep({"--vary=nodes:1,3", runs});
+  options.settings.program = counting_program(folder);
+  const std::string table = swept(options);
+  CHECK(count(file_text(folder / "calls"), "called") == 2);
+  CHECK(swept(options) == table);
+  CHECK(count(file_text(folder / "calls"), "called") == 2);
+  StudySweepOptions larger = tiny_sweep({"--vary=nodes:1,2,3", runs});
+  larger.settings.program = options.settings.program;
+  swept(larger);
+  CHECK(count(file_text(folder / "calls"), "called") == 3);
+  CHECK(files_in(folder / "runs") == 3);
+}
+
+TEST_CASE("counters that are kept are another run's where the program, an option or a file it reads is another") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.nff",
+             "v\nfrom 0 0 9\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 8 8\nl 1 2 9\nf 1 0 0 1 0 0 0 0\n"
+             "s 0 0 0 1\n");
+  const std::string scene = folder / "a.nff";
+  const auto key = [&](const Words& fixed, const std::filesystem::path& program) {
+    apps::SweepSettings settings{
+        .scene = scene, .fixed = fixed, .variations = {apps::parse_variation("nodes:2")}, .program = program};
+    const auto runs = apps::sweep_runs(settings);
+    return apps::KeptRuns(folder / "runs", program, apps::scene_files(settings, runs.front())).file_of(runs.front());
+  };
+  const auto plain = key({"--depth=2", "--samples=1"}, "/bin/true");
+  CHECK(key({"--samples=1", "--depth=2"}, "/bin/true") == plain);
+  CHECK(key({"--depth=3", "--samples=1"}, "/bin/true") != plain);
+  CHECK(key({"--depth=2", "--samples=1"}, "/bin/false") != plain);
+  write_text(folder / "a.nff", file_text(folder / "a.nff") + "s 1 0 0 1\n");
+  CHECK(key({"--depth=2", "--samples=1"}, "/bin/true") != plain);
+}
+
+TEST_CASE("a damaged file among those that are kept is run again") {
+  const TemporaryFolder folder;
+  const StudySweepOptions options = tiny_sweep({"--vary=nodes:2", "--runs=" + (folder / "runs").string()});
+  const std::string table = swept(options);
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "runs")) {
+    write_text(entry.path(), "{\"format\": 1, ");
+  }
+  CHECK(swept(options) == table);
+}
+
+TEST_CASE("a combination without room has an empty row, and where none has room that is the error") {
+  const std::string table = swept(tiny_sweep({"--vary=node-memory:1KiB,4MiB", "--nodes=2", "--columns=faults"}));
+  CHECK(contains(table, "\n1024,\n4194304,"));
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK_THROWS_AS(apps::study_sweep_command(tiny_sweep({"--vary=node-memory:1KiB,2KiB", "--nodes=2"}), interrupt, output),
+                  core::RoomError);
+}
+
+TEST_CASE("what goes wrong is told before anything runs, with what was meant") {
+  CHECK(contains(sweep_complaint({}), "there is nothing to vary"));
+  CHECK(contains(sweep_complaint({"--vary=node:2"}), "Did you mean nodes?"));
+  CHECK(contains(sweep_complaint({"--vary=nodes:2", "--columns=fautls"}), "Did you mean faults?"));
+  CHECK(contains(sweep_complaint({"--vary=nodes:2", "--columns=faults,pages.faults"}), "there twice"));
+  CHECK(contains(sweep_complaint({"--vary=runner:virtual", "--columns=runner"}), "has a column of its own"));
+  CHECK(contains(sweep_complaint({"--vary=nodes:x"}), "with --nodes=x dmpc render would say: --nodes=x: expected"));
+  CHECK(contains(sweep_complaint({"--vary=nodes:2", "--nodes=2"}), "given, and varied"));
+}
+
+TEST_CASE("a run that fails ends the sweep with the combination, and the rows before it are written") {
+  const TemporaryFolder folder;
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  StudySweepOptions options = tiny_sweep({"--vary=nodes:1,2"});
+  options.settings.program = folder / "failing";
+  write_text(options.settings.program,
+             "#!/bin/sh\ncase $* in *--nodes=2*) echo dmpc: too odd >&2; exit 1;; esac\nexec " DMPC_PROGRAM " \"$@\"\n");
+  std::filesystem::permissions(options.settings.program, std::filesystem::perms::owner_all);
+  CHECK_THROWS_WITH_AS(apps::study_sweep_command(options, interrupt, output), "the run with --nodes=2 failed: too odd",
+                       core::InputError);
+  CHECK(count(output.str(), "\n") == 2);
+}
+
+}  // namespace dmpc::tests::sweep_command_test

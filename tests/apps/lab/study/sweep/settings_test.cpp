@@ -1,0 +1,98 @@
+#include "apps/lab/study/sweep/settings.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/base/expect.h"
+
+namespace dmpc::tests::sweep_settings_test {
+
+using apps::parse_variation;
+using apps::SweepRun;
+using apps::SweepSettings;
+using apps::VariedOption;
+
+namespace {
+
+SweepSettings varying(const std::vector<std::string>& variations, std::vector<std::string> fixed = {}) {
+  SweepSettings settings{.scene = "balls-1", .fixed = std::move(fixed)};
+  for (const std::string& variation : variations) {
+    settings.variations.push_back(parse_variation(variation));
+  }
+  return settings;
+}
+
+std::vector<std::string> combinations(const SweepSettings& settings) {
+  std::vector<std::string> texts;
+  for (const SweepRun& run : apps::sweep_runs(settings)) {
+    texts.push_back(apps::text_of(settings.variations, run));
+  }
+  return texts;
+}
+
+bool is_sweepable(const std::string& name) {
+  const auto& all = apps::sweepable_options();
+  return std::any_of(all.begin(), all.end(), [&](const auto& option) { return apps::long_name_of(option) == name; });
+}
+
+}  // namespace
+
+TEST_CASE("a sweep has all combinations, and the last option changes fastest") {
+  CHECK(combinations(varying({"nodes:2,3", "page-size:1KiB,4KiB"})) ==
+        std::vector<std::string>{"--nodes=2 --page-size=1KiB", "--nodes=2 --page-size=4KiB", "--nodes=3 --page-size=1KiB",
+                                 "--nodes=3 --page-size=4KiB"});
+  CHECK(combinations(varying({"nodes:2"})).size() == 1);
+}
+
+TEST_CASE("a run is a line of render: its scene, what all have, what varies, and flags that are on") {
+  const auto runs = apps::sweep_runs(varying({"count-pages:off,on", "--nodes:2"}, {"--runner=virtual"}));
+  REQUIRE(runs.size() == 2);
+  CHECK(runs[0].words == std::vector<std::string>{"render", "balls-1", "--runner=virtual", "--nodes=2"});
+  CHECK(runs[1].words == std::vector<std::string>{"render", "balls-1", "--runner=virtual", "--count-pages", "--nodes=2"});
+  CHECK(runs[1].options.pages.count_pages);
+  CHECK(runs[1].options.computer.node_count == 2);
+}
+
+TEST_CASE("how something is rendered can vary, and what is written where cannot") {
+  for (const char* const name : {"--nodes", "--machine", "--samples", "--no-skip", "--count-pages", "--light", "--chaos"}) {
+    CHECK_MESSAGE(is_sweepable(name), name);
+  }
+  for (const char* const name : {"--output", "--stats", "--trace", "--quiet", "--checkpoint", "--help", "--preview"}) {
+    CHECK_MESSAGE(!is_sweepable(name), name);
+    CHECK_THROWS_AS(parse_variation(std::string(name) + ":x"), core::UsageError);
+  }
+}
+
+TEST_CASE("a variation that is none says what is expected") {
+  CHECK_THROWS_WITH_AS(parse_variation("page-sise:1KiB"), doctest::Contains("Did you mean page-size?"), core::UsageError);
+  CHECK_THROWS_WITH_AS(parse_variation("nodes"), doctest::Contains("expected nodes:VALUE,VALUE,..."), core::UsageError);
+  CHECK_THROWS_WITH_AS(parse_variation("nodes:"), doctest::Contains("--vary=nodes:: a value is missing"), core::UsageError);
+  CHECK_THROWS_WITH_AS(parse_variation("nodes:1,"), doctest::Contains("a value is missing"), core::UsageError);
+  CHECK_THROWS_WITH_AS(parse_variation(":1"), doctest::Contains("an option's name is missing"), core::UsageError);
+  CHECK_THROWS_WITH_AS(parse_variation("nodes:2,2"), doctest::Contains("2 is there twice"), core::UsageError);
+  CHECK_THROWS_WITH_AS(parse_variation("count-pages:yes"), doctest::Contains("expected on, off or on,off"), core::UsageError);
+}
+
+TEST_CASE("a combination that render would not take is refused before anything runs, in render's words") {
+  CHECK_THROWS_WITH_AS(combinations(varying({"nodes:2", "page-size:1KiB,3KiB"})),
+                       doctest::Contains("with --nodes=2 --page-size=3KiB dmpc render would say: --page-size=3KiB: expected"),
+                       core::UsageError);
+  CHECK_THROWS_WITH_AS(combinations(varying({"machine:ipsc2"})), doctest::Contains("threads model no machine"), core::UsageError);
+}
+
+TEST_CASE("an option that is given and varied, or varied twice, is refused, and so are too many runs") {
+  CHECK_THROWS_WITH_AS(combinations(varying({"nodes:2"}, {"--nodes=3"})), doctest::Contains("given, and varied"),
+                       core::UsageError);
+  CHECK_THROWS_WITH_AS(combinations(varying({"nodes:2", "nodes:3"})), doctest::Contains("given twice"), core::UsageError);
+  std::string many = "nodes:1";
+  for (int more = 2; more <= 200; ++more) {
+    many += "," + std::to_string(more);
+  }
+  CHECK_THROWS_WITH_AS(combinations(varying({many, "depth" + many.substr(5)})), doctest::Contains("more than 10,000 runs"),
+                       core::UsageError);
+}
+
+}  // namespace dmpc::tests::sweep_settings_test

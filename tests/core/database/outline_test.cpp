@@ -1,0 +1,103 @@
+#include "core/database/outline.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "apps/lab/bench/stability/cells.h"
+#include "apps/lab/bench/stability/random.h"
+#include "core/database/database.h"
+#include "core/trace/traversal.h"
+#include "tests/support/small_scenes.h"
+
+namespace outline_test {
+
+using namespace dmpc;
+
+namespace {
+
+constexpr float never = std::numeric_limits<float>::infinity();
+
+struct Hat {
+  core::Scene scene = tests::built_in("sombrero-1");
+  core::Database database = core::build_database(scene, apps::several_top_cells(scene));
+};
+
+float first_block(const core::DatabaseHeader& header, std::span<const std::byte> bytes, const core::Ray& ray,
+                  const core::Passage& start, core::Operations& operations) {
+  core::LocalRecords records(bytes);
+  const core::Walk walk(ray, header.frame, header.region);
+  core::Cursor cursor = core::arrive(start);
+  return core::RayWalk(ray, cursor, records, operations).first_block(walk, header, {});
+}
+
+core::Ray random_ray(apps::Random& random, const core::GridFrame& frame) {
+  core::Ray ray;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double extent = static_cast<double>(core::grid_size(frame)[axis]) * double{frame.finest_cell};
+    ray.origin[axis] = static_cast<float>(core::plane_at(frame, axis, 0) + extent * (1.6 * random.unit() - 0.3));
+    ray.direction[axis] = static_cast<float>(2 * random.unit() - 1);
+  }
+  return ray;
+}
+
+}  // namespace
+
+TEST_CASE("an outline takes no more room than it is given, and all bricks if they fit") {
+  const Hat hat;
+  std::size_t before = 0;
+  for (const std::size_t bytes_max : {3000U, 6000U, 12000U}) {
+    const core::DatabasePart outline = core::outline_of(hat.database, bytes_max);
+    CHECK(outline.header.directory != core::no_address);
+    CHECK(outline.record_bytes <= bytes_max);
+    CHECK(outline.record_bytes >= before);
+    CHECK(outline.bytes.size() == outline.record_bytes + core::overread_bytes);
+    before = outline.record_bytes;
+  }
+  CHECK(before > 6000);
+  CHECK(core::outline_of(hat.database, 1U << 20U).record_bytes == core::outline_of(hat.database, 1U << 30U).record_bytes);
+}
+
+TEST_CASE("an outline that has no room for the topmost bricks has none, nor a directory") {
+  const Hat hat;
+  for (const std::size_t bytes_max : {0U, 8U, 400U}) {
+    const core::DatabasePart outline = core::outline_of(hat.database, bytes_max);
+    CHECK(outline.header.directory == core::no_address);
+    CHECK(outline.header.frame.finest_cell == hat.database.header().frame.finest_cell);
+  }
+}
+
+TEST_CASE("no ray hits anything before the first block of any outline, and what it hits has one") {
+  const Hat hat;
+  const core::DatabaseHeader& whole = hat.database.header();
+  apps::Random random(20'263);
+  std::uint32_t hits = 0, misses_known = 0, misses_known_coarsely = 0;
+  const core::DatabasePart coarse = core::outline_of(hat.database, 3000), fine = core::outline_of(hat.database, 1U << 20U);
+  for (int i = 0; i < 4000; ++i) {
+    const core::Ray ray = random_ray(random, whole.frame);
+    const auto start = core::first_passage(ray, whole.frame);
+    if (!start) {
+      continue;
+    }
+    core::Operations operations;
+    const float of_coarse = first_block(coarse.header, coarse.bytes, ray, *start, operations);
+    const float of_fine = first_block(fine.header, fine.bytes, ray, *start, operations);
+    CHECK((of_coarse != never || of_fine == never));
+    CHECK(of_fine == first_block(whole, hat.database.bytes(), ray, *start, operations));
+    core::LocalRecords records(hat.database.bytes());
+    core::Cursor cursor = core::arrive(*start);
+    if (core::trace(ray, cursor, records, whole, {}, operations) == core::Traced::hit) {
+      CHECK(of_coarse <= cursor.best.t);
+      CHECK(of_fine <= cursor.best.t);
+      ++hits;
+    } else {
+      misses_known += of_fine == never ? 1 : 0;
+      misses_known_coarsely += of_coarse == never ? 1 : 0;
+    }
+  }
+  CHECK(hits > 50);
+  CHECK(misses_known > misses_known_coarsely);
+  CHECK(misses_known_coarsely > 100);
+}
+
+}  // namespace outline_test

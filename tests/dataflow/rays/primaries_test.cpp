@@ -1,0 +1,117 @@
+#include "dataflow/rays/primaries.h"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "core/database/database.h"
+#include "core/trace/traversal.h"
+#include "dataflow/regions/balance.h"
+#include "tests/support/small_scenes.h"
+
+namespace primaries_test {
+
+using namespace dmpc;
+using dataflow::Primaries;
+using dataflow::PrimaryRun;
+
+TEST_CASE("a node starts the rays of its runs, in order, once") {
+  const std::vector<PrimaryRun> runs = {{3, 2}, {10, 1}, {20, 3}};
+  nodes::LocalMemory memory(Primaries::layout(runs.size(), false));
+  Primaries primaries(memory, runs, {}, false);
+  CHECK(primaries.left() == 6);
+  for (const std::uint64_t number : {3U, 4U, 10U, 20U, 21U, 22U}) {
+    CHECK(primaries.take() == number);
+  }
+  CHECK(primaries.empty());
+  CHECK_THROWS_AS(primaries.take(), core::InternalError);
+}
+
+TEST_CASE("a node may have no primary ray") {
+  nodes::LocalMemory memory(Primaries::layout(0, false));
+  CHECK(Primaries(memory, {}, {}, false).empty());
+}
+
+TEST_CASE("rays of later passes come packet by packet, and each makes room for another when it is worked off") {
+  nodes::LocalMemory memory(Primaries::layout(1, true));
+  Primaries primaries(memory, std::vector<PrimaryRun>{{0, 1}}, {0, 2}, true);
+  CHECK(primaries.take() == 0);
+  CHECK(primaries.packets_worked_off() == 0);
+  dataflow::DealtPrimaries packet{.samples = {2, 2}, .count = static_cast<std::uint32_t>(packet.runs.size())};
+  for (std::uint32_t i = 0; i < packet.count; ++i) {
+    packet.runs[i] = {10 * i, 2};
+  }
+  primaries.put(packet);
+  primaries.put(packet);
+  CHECK_THROWS_AS(primaries.put(packet), core::InternalError);
+  CHECK(primaries.samples() == core::SampleRange{2, 2});
+  CHECK(primaries.left() == 4 * packet.count);
+  for (std::uint32_t i = 0; i < 2 * packet.count; ++i) {
+    CHECK(primaries.packets_worked_off() == 0);
+    CHECK(primaries.take() == i / 2 * 10 + i % 2);
+  }
+  CHECK(primaries.packets_worked_off() == 1);
+  CHECK(primaries.packets_worked_off() == 0);
+  primaries.put(packet);
+  for (std::uint32_t i = 0; i < 4 * packet.count; ++i) {
+    primaries.take();
+  }
+  CHECK(primaries.packets_worked_off() == 2);
+  CHECK(primaries.empty());
+}
+
+TEST_CASE("a ray's number tells its pixel and its sample") {
+  CHECK(dataflow::pixel_of(17, {8, 4}) == 4);
+  CHECK(dataflow::sample_of(17, {8, 4}) == 9);
+}
+
+TEST_CASE("every primary ray is dealt once, to the owner of the cell in which it enters, and the sky is spread") {
+  core::Scene scene = tests::mirrors_and_glass();
+  scene.view.at = {4, -3, 2};  // half of the picture is sky
+  const core::Database database = core::build_database(scene, {});
+  const core::GridFrame& frame = database.header().frame;
+  const core::Camera camera(scene.view, frame, 30, 20, 3);
+  const dataflow::Bsp bsp = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(camera), 5);
+  const core::RenderSettings settings{.header = database.header(), .camera = camera};
+  const auto runs = dataflow::deal_primaries(settings, bsp, settings.first_pass(), core::PixelMask(camera.pixel_count()));
+  std::vector<int> dealt(camera.pixel_count() * 3);
+  std::vector<int> sky(5);
+  for (std::uint32_t node = 0; node < 5; ++node) {
+    for (const PrimaryRun& run : runs[node]) {
+      for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
+        ++dealt[number];
+        const auto pixel = static_cast<std::uint32_t>(number / 3);
+        const auto passage = core::first_passage(camera.primary_ray(pixel, static_cast<std::uint32_t>(number % 3)), frame);
+        CHECK((!passage || bsp.owner_of(passage->cell) == nodes::NodeId{node}));
+        sky[node] += passage ? 0 : 1;
+      }
+    }
+  }
+  CHECK(dealt == std::vector<int>(dealt.size(), 1));
+  for (const int of_node : sky) {
+    CHECK(of_node > 0);
+    CHECK(of_node <= static_cast<int>(dealt.size()) / 5);
+  }
+}
+
+TEST_CASE("rays of pixels that show the background are shared out by pixel number, whatever they would enter") {
+  const core::Scene scene = tests::mirrors_and_glass();
+  const core::Database database = core::build_database(scene, {});
+  const core::GridFrame& frame = database.header().frame;
+  const core::Camera camera(scene.view, frame, 40, 30, 2);
+  core::BackgroundTiles::Bits bits;
+  bits.fill(~std::uint64_t{0});
+  core::RenderSettings settings{.header = database.header(), .camera = camera, .background = core::BackgroundTiles(camera, bits)};
+  const dataflow::Bsp bsp = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(camera), 3);
+  const core::PixelMask done(camera.pixel_count());
+  const auto runs = dataflow::deal_primaries(settings, bsp, settings.first_pass(), done);
+  for (std::uint32_t node = 0; node < 3; ++node) {
+    REQUIRE(runs[node].size() == 1);
+    CHECK(runs[node][0].first == node * 800);
+    CHECK(runs[node][0].count == 800);
+  }
+  settings.skips.background = false;
+  CHECK(dataflow::deal_primaries(settings, bsp, settings.first_pass(), done)[0].size() > 1);
+}
+
+}  // namespace primaries_test
