@@ -33,9 +33,7 @@ class Places {
   Places(nodes::LocalMemory& memory, const Capacity& capacity)
       : capacity_(capacity), asking_(layout(capacity).in(memory)), free_(capacity.shared) {}
   /// What the constructor takes.
-  static nodes::Room<std::uint16_t> layout(const Capacity& capacity) {
-    return {nodes::Category::queues, capacity.ring_size()};
-  }
+  static nodes::Room<std::uint16_t> layout(const Capacity& capacity) { return {nodes::Category::queues, capacity.ring_size()}; }
 
   std::uint32_t account_of(nodes::NodeId sender) const {
     const std::uint32_t index = nodes::index_of(sender);

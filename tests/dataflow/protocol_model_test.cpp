@@ -176,7 +176,7 @@ TEST_CASE("several credits returned together end in every order of events") {
   check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .return_batch = 2}, 5'000);
 }
 
-TEST_CASE("packets that wait in a queue leave in every order of events") {
+TEST_CASE("packets that wait in a queue leave in every order of events" * doctest::test_suite("slow")) {
   check_all_orders({.primaries = {2, 0, 0}, .children = children(3), .queue_packets = 1, .owners = 2}, 10'000);
   check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .queue_packets = 1}, 10'000);
   check_all_orders({.primaries = {1, 1, 0}, .children = children(4), .queue_packets = 2, .owners = 2}, 10'000);
@@ -193,7 +193,7 @@ TEST_CASE("primary rays that start whatever waits end in every order of events")
   check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .queue_packets = 1, .has_backpressure = false}, 10'000);
 }
 
-TEST_CASE("places that are shared and asked for become free again in every order of events") {
+TEST_CASE("places that are shared and asked for become free again in every order of events" * doctest::test_suite("slow")) {
   check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .shared_places = 1}, 10'000);
   check_all_orders({.primaries = {1, 0, 0}, .children = children(3), .shared_places = 1}, 10'000);
   check_all_orders({.primaries = {1, 1, 0}, .children = children(3), .shared_places = 2, .owners = 2}, 10'000);
@@ -202,7 +202,7 @@ TEST_CASE("places that are shared and asked for become free again in every order
                    10'000);
 }
 
-TEST_CASE("nodes that fill one packet at a time go on in every order of events") {
+TEST_CASE("nodes that fill one packet at a time go on in every order of events" * doctest::test_suite("slow")) {
   check_all_orders({.primaries = {1, 1, 0}, .children = children(2), .rays_a_packet = 2, .shared_places = 1, .open_packets = 1},
                    1'000);
   check_all_orders({.primaries = {1, 0, 0},

@@ -83,7 +83,6 @@ std::optional<core::Scene> read(Bytes input) {
     return apps::read_mesh(InputFiles::name, {.allows_missing = true}, files).scene;
   } catch (const core::InputError& error) {
     core::expect(!std::string_view(error.what()).empty(), "who refuses says why");
-  } catch (const core::RoomError&) {
   }
   return std::nullopt;
 }

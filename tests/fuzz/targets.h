@@ -1,6 +1,6 @@
-// What fuzzers try, a function a target: any bytes, which are refused or as promised (tests/README.md has the promises). A fuzzer is a
-// program that calls one of them (entry.cpp); the suite calls all with the inputs of their corpora (corpora_test.cpp). What is not as
-// promised ends the process, or throws core::expect's word of it.
+// What fuzzers try, a function a target: any bytes, which are refused or as promised (tests/README.md has the promises). A fuzzer
+// is a program that calls one of them (entry.cpp); the suite calls all with the inputs of their corpora (corpora_test.cpp). What
+// is not as promised ends the process, or throws core::expect's word of it.
 #pragma once
 
 #include <cstddef>

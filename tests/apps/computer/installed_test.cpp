@@ -33,7 +33,8 @@ std::string film_of_rings(const std::filesystem::path& folder) {
 
 }  // namespace
 
-TEST_CASE("the examples are built from an installed prefix with all warnings, and come to what they say") {
+TEST_CASE("the examples are built from an installed prefix with all warnings, and come to what they say" *
+          doctest::test_suite("slow")) {
   const TemporaryFolder folder;
   const std::string prefix = folder / "a prefix", build = folder / "build";
   REQUIRE(run({"cmake", "--install", DMPC_BUILD_DIR, "--component", "development", "--prefix", prefix}).status == 0);
@@ -100,7 +101,8 @@ TEST_CASE("the examples are built from an installed prefix with all warnings, an
   }
 }
 
-TEST_CASE("a program that is built from an installed prefix runs on ranks, by the module that is installed there") {
+TEST_CASE("a program that is built from an installed prefix runs on ranks, by the module that is installed there" *
+          doctest::test_suite("slow")) {
   if (!std::filesystem::exists(std::filesystem::path(DMPC_PROGRAM).parent_path() / "dmpc_mpi.so")) {
     MESSAGE("left out: there is no MPI");
     return;

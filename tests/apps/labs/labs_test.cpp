@@ -96,11 +96,11 @@ void check_page(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("the lab of the working set shows what comes of it") { check_page("working_set"); }
-TEST_CASE("the lab of granularity shows what comes of it") { check_page("granularity"); }
-TEST_CASE("the lab of speedup shows what comes of it") { check_page("speedup"); }
-TEST_CASE("the lab of balance shows what comes of it") { check_page("balance"); }
-TEST_CASE("the lab of deadlock shows what comes of it") { check_page("deadlock"); }
+TEST_CASE("the lab of the working set shows what comes of it" * doctest::test_suite("slow")) { check_page("working_set"); }
+TEST_CASE("the lab of granularity shows what comes of it" * doctest::test_suite("slow")) { check_page("granularity"); }
+TEST_CASE("the lab of speedup shows what comes of it" * doctest::test_suite("slow")) { check_page("speedup"); }
+TEST_CASE("the lab of balance shows what comes of it" * doctest::test_suite("slow")) { check_page("balance"); }
+TEST_CASE("the lab of deadlock shows what comes of it" * doctest::test_suite("slow")) { check_page("deadlock"); }
 
 TEST_CASE("every lab is in the list of them, and no other") {
   const fs::path folder = fs::path(DMPC_SOURCE_DIR) / "apps/labs";

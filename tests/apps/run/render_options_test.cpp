@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -21,13 +20,13 @@ using tests::contains;
 namespace {
 
 /// `render teapot-12 -o a.png` and more.
-RenderOptions render(std::initializer_list<std::string> more = {}) {
+RenderOptions render(const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
-  arguments.insert(arguments.end(), more);
+  arguments.insert(arguments.end(), more.begin(), more.end());
   return parse_command_line(arguments).options<RenderOptions>();
 }
 
-std::string render_complaint(std::initializer_list<std::string> more) {
+std::string render_complaint(const std::vector<std::string>& more) {
   try {
     render(more);
   } catch (const UsageError& error) {
@@ -83,7 +82,7 @@ TEST_CASE("every option of the computer reaches its field") {
 }
 
 TEST_CASE("skips are switched off by name, several at a time, or all") {
-  const auto skips = [](std::initializer_list<std::string> words) { return render(words).picture.skips; };
+  const auto skips = [](const std::vector<std::string>& words) { return render(words).picture.skips; };
   CHECK(skips({"--no-skip=unlit"}) == core::Skips{.unlit = false});
   const core::Skips two{.any_hit = false, .zero_terms = false};
   CHECK(skips({"--no-skip=any-hit,zero-terms"}) == two);

@@ -82,7 +82,8 @@ struct BelievingOldNews : HandOverRules {
 
 TEST_CASE("rays for a unit that nobody asks for end") { check_all_orders({.rays = {0, 1, 1}, .questions = 0}, 50); }
 
-TEST_CASE("a unit that moves loses no ray in any order of events, and the end is proved then and only then") {
+TEST_CASE("a unit that moves loses no ray in any order of events, and the end is proved then and only then" *
+          doctest::test_suite("slow")) {
   check_all_orders({.rays = {0, 0, 0}, .questions = 3}, 10'000);
   check_all_orders({.rays = {1, 0, 0}, .questions = 2}, 10'000);
   check_all_orders({.rays = {0, 1, 0}, .questions = 2}, 10'000);

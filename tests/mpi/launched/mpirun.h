@@ -11,8 +11,9 @@ namespace dmpc::tests {
 /// How frames travel: Open MPI's names.
 inline const std::string shared_memory = "vader,self", tcp = "tcp,self";
 
-/// `ranks` times a program with these arguments. Root may do so, and more than there are processors, none bound to one of them. Nobody
-/// looks for graphics cards behind the screens :0 to :9, by the name of this computer's loop, which takes seconds where no name resolves.
+/// `ranks` times a program with these arguments. Root may do so, and more than there are processors, none bound to one of them.
+/// Nobody looks for graphics cards behind the screens :0 to :9, by the name of this computer's loop, which takes seconds where no
+/// name resolves.
 inline std::vector<std::string> mpirun_of(int ranks, const std::string& program, const std::vector<std::string>& arguments,
                                           const std::string& way = shared_memory) {
   std::vector<std::string> command = {"/usr/bin/env",

@@ -235,7 +235,8 @@ TEST_CASE("a frame that is lost is found out, whichever it is") {
   }
 }
 
-TEST_CASE("a frame that is lost while ranks compare their clocks is found out, whichever it is and between whom") {
+TEST_CASE("a frame that is lost while ranks compare their clocks is found out, whichever it is and between whom" *
+          doctest::test_suite("slow")) {
   class Onlooker final : public Observer {
     void ended(const Span& /*span*/, const Program& /*program*/) override {}
     void sent(const Passing& /*passing*/) override {}

@@ -1,8 +1,8 @@
 // How many rays a render shoots, against an independent counter: double precision, its own intersections and its own accelerator,
 // run over the SPD's own files. Rays are counted when shot, hit or miss. The counter takes hits from t = 1e-6 on and ends shadow
 // rays 1e-6 before the light, so secondary counts may differ by about a thousandth; eye hits by the few rays that pass a
-// silhouette within rounding. Seconds each when optimised, far longer otherwise, so not built then; check/inspection_test.cpp has small
-// renders of the same families.
+// silhouette within rounding. Seconds each when optimised, far longer otherwise, so not built then; check/inspection_test.cpp has
+// small renders of the same families.
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
 
 #include <doctest/doctest.h>

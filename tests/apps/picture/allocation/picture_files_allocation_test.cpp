@@ -34,12 +34,14 @@ FailingAllocator allocator;
 }  // namespace dmpc::tests::picture_files_allocation_test
 
 extern "C" {
-void* malloc(std::size_t size) noexcept { return dmpc::tests::allocator.fails() ? nullptr : __libc_malloc(size); }
+void* malloc(std::size_t size) noexcept {
+  return dmpc::tests::picture_files_allocation_test::allocator.fails() ? nullptr : __libc_malloc(size);
+}
 void* calloc(std::size_t count, std::size_t size) noexcept {
-  return dmpc::tests::allocator.fails() ? nullptr : __libc_calloc(count, size);
+  return dmpc::tests::picture_files_allocation_test::allocator.fails() ? nullptr : __libc_calloc(count, size);
 }
 void* realloc(void* block, std::size_t size) noexcept {
-  return dmpc::tests::allocator.fails() ? nullptr : __libc_realloc(block, size);
+  return dmpc::tests::picture_files_allocation_test::allocator.fails() ? nullptr : __libc_realloc(block, size);
 }
 }
 

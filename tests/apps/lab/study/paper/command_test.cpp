@@ -61,7 +61,7 @@ TEST_CASE("a folder that cannot be made is refused before any run") {
   CHECK(output.str().empty());
 }
 
-TEST_CASE("a whole study writes its report, every table twice and every picture with its script") {
+TEST_CASE("a whole study writes its report, every table twice and every picture with its script" * doctest::test_suite("slow")) {
   const TemporaryFolder folder;
   ChildProcess process({DMPC_PROGRAM, "study", "paper", "--resolution=8", "-o", folder / "paper"});
   REQUIRE(process.status() == 0);
@@ -111,7 +111,8 @@ TEST_CASE("a file in the way in the folder loses nothing of the report") {
   CHECK_FALSE(contains(output.str(), "Unfinished"));
 }
 
-TEST_CASE("Ctrl-C ends the study of the article with status 130 and a folder of what was finished, which says so") {
+TEST_CASE("Ctrl-C ends the study of the article with status 130 and a folder of what was finished, which says so" *
+          doctest::test_suite("slow")) {
   const TemporaryFolder folder;
   std::optional<ChildProcess> started;
   const ChildProcess& process = interrupted_study(started, folder / "paper");
