@@ -76,6 +76,24 @@ void check_runner(const OptionSet& options, const ProgramOptions& program) {
   }
 }
 
+/// How many times as long as a core of today a machine takes for arithmetic, by the tests of a triangle: floating-point
+/// multiplications and additions for the most part.
+double slowdown_of(const nodes::Machine& machine) {
+  constexpr auto arithmetic = static_cast<std::size_t>(core::Charge::triangle_test);
+  return static_cast<double>(machine.cost_ps[arithmetic]) / static_cast<double>(operation_costs_ps(1)[arithmetic]);
+}
+
+/// With a renderer's prices.
+nodes::Machine asked_machine(const ProgramOptions& options) {
+  nodes::Machine machine = load_machine(options.machine_name).machine;
+  if (options.topology && *options.topology != machine.topology) {
+    machine.topology = *options.topology;
+    machine.uplinks = 1;
+    machine.name += " as " + std::string(name_of(machine.topology));
+  }
+  return machine;
+}
+
 }  // namespace
 
 void add_options(OptionSet options, ProgramOptions& program, const std::vector<NumberOption>& own) {
@@ -111,38 +129,18 @@ void add_closer_look(OptionSet options, ProgramOptions& program) {
   });
 }
 
-/// By the tests of a triangle: floating-point multiplications and additions for the most part.
-double slowdown_of(const nodes::Machine& machine) {
-  constexpr auto arithmetic = static_cast<std::size_t>(core::Charge::triangle_test);
-  return static_cast<double>(machine.cost_ps[arithmetic]) / static_cast<double>(operation_costs_ps(1)[arithmetic]);
-}
-
-std::uint64_t price_ps(const OperationNeed& operation, double slowdown) {
-  return static_cast<std::uint64_t>(std::llround(operation.nanoseconds * 1000 * slowdown));
-}
-
-std::optional<nodes::Machine> asked_machine(const ProgramOptions& options) {
+void choose_machine(ProgramOptions& options, const Vocabulary& vocabulary) {
   if (!options.is_modelled()) {
-    return std::nullopt;
+    return;
   }
-  nodes::Machine machine = load_machine(options.machine_name).machine;
-  if (options.topology && *options.topology != machine.topology) {
-    machine.topology = *options.topology;
-    machine.uplinks = 1;
-    machine.name += " as " + std::string(name_of(machine.topology));
+  nodes::Machine& machine = options.computer.machine.emplace(asked_machine(options));
+  const double slowdown = slowdown_of(machine);
+  const auto given_ps = std::exchange(machine.cost_ps, {});
+  for (const NamedOperation& operation : vocabulary.operations) {
+    machine.cost_ps.at(operation.charge) = static_cast<std::uint64_t>(std::llround(operation.nanoseconds * 1000 * slowdown));
   }
-  return machine;
-}
-
-void choose_machine(ProgramOptions& options, const std::vector<OperationNeed>& operations) {
-  options.computer.machine = asked_machine(options);
-  if (options.computer.machine) {
-    nodes::Machine& machine = *options.computer.machine;
-    const double slowdown = slowdown_of(machine);
-    machine.cost_ps = {};
-    for (Index i = 0; i < operations.size(); ++i) {
-      machine.cost_ps.at(i) = price_ps(operations[i], slowdown);
-    }
+  for (const NamedOperation& operation : vocabulary.of_pages) {
+    machine.cost_ps.at(operation.charge) = given_ps.at(operation.charge);
   }
 }
 

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "apps/computer/dmpc/computer.h"
+#include "apps/computer/vocabulary.h"
 #include "apps/edge/line/command_line.h"
 #include "apps/edge/run/runner_kind.h"
 #include "nodes/computer_request.h"
 #include "nodes/ranks/nap.h"
+#include "svm/pages/task_plan.h"
 
 namespace dmpc::apps {
 
@@ -29,6 +31,10 @@ struct ProgramOptions {
   std::optional<std::filesystem::path> trace;   ///< .json or .paje
   std::optional<std::filesystem::path> report;  ///< .html
   bool quiet = false;                           ///< no closing lines
+  // Of a program of tasks:
+  svm::TaskOptions tasks;                           ///< the computer is the program's
+  std::optional<std::filesystem::path> references;  ///< where those of the last run go, as CSV
+  std::optional<std::filesystem::path> heat;        ///< where what each task of the last run took goes, as CSV
 
   /// Somebody sees the run happen.
   bool is_observed() const { return trace || report; }
@@ -41,15 +47,8 @@ void add_options(OptionSet options, ProgramOptions& program, const std::vector<N
 void add_computer_options(OptionSet options, ProgramOptions& program, const std::vector<NumberOption>& own);
 void add_closer_look(OptionSet options, ProgramOptions& program);
 
-/// How many times as long as a core of today a machine takes for arithmetic.
-double slowdown_of(const nodes::Machine& machine);
-/// On a machine that is so much slower, in picoseconds.
-std::uint64_t price_ps(const OperationNeed& operation, double slowdown);
-
 /// Reads the machine that is to be modelled, if one is, and gives it the program's operations in place of a renderer's. Throws
 /// core::InputError as load_machine() does.
-void choose_machine(ProgramOptions& options, const std::vector<OperationNeed>& operations);
-/// The same without prices: nothing on threads.
-std::optional<nodes::Machine> asked_machine(const ProgramOptions& options);
+void choose_machine(ProgramOptions& options, const Vocabulary& vocabulary);
 
 }  // namespace dmpc::apps

@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "apps/edge/line/exit_status.h"
-#include "apps/edge/machine/machines.h"
 #include "apps/edge/ranks/launcher.h"
 #include "apps/edge/ranks/rank_group.h"
 #include "apps/edge/system/memory_room.h"
 #include "apps/edge/system/output_set.h"
-#include "apps/edge/system/scratch_folder.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -83,22 +81,6 @@ int run_main(int count, const char* const* words, const ProgramMain& program) {
   const int status = status_of({name, {words + (count > 0 ? 1 : 0), words + count}}, program);
   end_ranks(status);
   return status;
-}
-
-std::vector<NamedFile> inputs_of(const ProgramOptions& options) {
-  const bool reads_file = options.is_modelled() && find_machine_preset(options.machine_name) == nullptr;
-  return reads_file ? std::vector<NamedFile>{{"--machine", options.machine_name}} : std::vector<NamedFile>();
-}
-
-void check_page_room(const ProgramOptions& options) {
-  if (options.report) {
-    const ScratchFolder probe;
-  }
-}
-
-void print_result(const std::string& result, const std::string& summary, const ProgramOptions& options) {
-  std::cout << result << (result.empty() || result.ends_with('\n') ? "" : "\n") << (options.quiet ? "" : summary);
-  finish_output(std::cout, "what the program came to");
 }
 
 }  // namespace dmpc::apps

@@ -7,7 +7,6 @@
 
 #include "apps/computer/options.h"
 #include "apps/edge/line/command_line.h"
-#include "apps/edge/system/distinct_files.h"
 #include "apps/edge/system/interrupt.h"
 
 namespace dmpc::apps {
@@ -28,14 +27,5 @@ struct ProgramMain {
 
 /// Call it once, from main().
 int run_main(int count, const char* const* words, const ProgramMain& program);
-
-/// The files that a program reads.
-std::vector<NamedFile> inputs_of(const ProgramOptions& options);
-
-/// Throws core::InputError if a report is asked for and the plots of its page could not be drawn for want of a temporary folder.
-void check_page_room(const ProgramOptions& options);
-
-/// Prints what a program came to and, unless asked not to, its closing lines.
-void print_result(const std::string& result, const std::string& summary, const ProgramOptions& options);
 
 }  // namespace dmpc::apps

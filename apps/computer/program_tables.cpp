@@ -1,110 +1,114 @@
 #include "apps/computer/program_tables.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <utility>
 
 #include "apps/computer/own_name.h"
-#include "apps/edge/line/amount.h"
+#include "apps/computer/plan.h"
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/show/page/node_table.h"
 #include "apps/edge/show/page/shares.h"
+#include "svm/pages/packets.h"
 
 namespace dmpc::apps::html {
 namespace {
 
-std::uint32_t node_count_of(const ProgramRecord& record) { return record.plan.node_count(); }
-
-Losses virtual_losses_of(const ProgramRecord& record) {
-  const std::vector<PacketNeed>& packets = record.plan.needs().packets;
+/// By the packets that a node waits for.
+Losses packet_losses(const ProgramRecord& record) {
   Losses losses{.parts = {"computing"}, .is_virtual = true};
-  for (const PacketNeed& packet : packets) {
+  for (const NamedPacket& packet : record.vocabulary.packets) {
     losses.parts.push_back("waiting for " + packet.name);
   }
   losses.parts.insert(losses.parts.end(), {"messages", "idle at the end"});
-  for (std::uint32_t node = 0; node < node_count_of(record); ++node) {
-    const nodes::VirtualTimes& times = record.virtual_time->nodes[node];
-    std::vector<std::uint64_t> parts = {times.computing_ns};
-    parts.insert(parts.end(), times.waiting_ns.begin(), times.waiting_ns.begin() + static_cast<std::ptrdiff_t>(packets.size()));
-    parts.insert(parts.end(), {times.sending_ns + times.receiving_ns, times.end_ns});
-    losses.nodes.push_back(std::move(parts));
+  for (const ProgramNode& node : record.nodes) {
+    std::vector<std::uint64_t>& parts = losses.nodes.emplace_back(1, node.times.computing_ns);
+    for (const NamedPacket& packet : record.vocabulary.packets) {
+      parts.push_back(node.times.waiting_ns[packet.kind]);
+    }
+    parts.insert(parts.end(), {node.times.sending_ns + node.times.receiving_ns, node.times.end_ns});
   }
   return without_empty_parts(losses);
 }
 
 /// Of the program's own pieces of memory.
-std::size_t used_bytes(const ProgramRecord& record, std::uint32_t node) {
-  const std::vector<std::size_t>& used = record.nodes[node].used_bytes;
-  return std::accumulate(used.begin(), used.end(), std::size_t{0});
+std::size_t used_bytes(const ProgramNode& node) {
+  return std::accumulate(node.used_bytes.begin(), node.used_bytes.end(), std::size_t{0});
 }
 
-std::size_t fullest_node(const ProgramRecord& record) {
-  std::vector<double> totals;
-  for (std::uint32_t node = 0; node < node_count_of(record); ++node) {
-    totals.push_back(static_cast<double>(record.plan.memory(node).total()));
+NodeColumns operation_columns(const ProgramRecord& record) {
+  NodeColumns columns;
+  for (const NamedOperation& operation : record.vocabulary.operations) {
+    columns.push_back(count_column(own_name(operation.name),
+                                   [&](std::size_t node) { return record.nodes[node].charges.count[operation.charge]; }));
   }
-  return largest_at(totals);
+  return columns;
 }
 
 }  // namespace
 
 Losses losses_of(const ProgramRecord& record) {
-  if (record.virtual_time) {
-    return virtual_losses_of(record);
-  }
   std::vector<nodes::NodeCounters> counters;
+  std::vector<nodes::VirtualTimes> times;
   for (const ProgramNode& node : record.nodes) {
     counters.push_back(node.counters);
+    times.push_back(node.times);
   }
-  return wall_losses(counters);
+  if (record.options.computer.model() == nullptr) {
+    return wall_losses(counters);
+  }
+  constexpr WaitKinds waits = {.data = "page", .data_kinds = 1U << number_of(svm::Kind::page_reply)};
+  return record.vocabulary.has_pages() ? virtual_losses(times, waits) : packet_losses(record);
 }
 
 std::vector<PacketKindTraffic> packets_of(const ProgramRecord& record) {
+  const nodes::TrafficByKind sent = record.sum().counters.sent;
   std::vector<PacketKindTraffic> packets;
-  for (Index packet = 0; packet < record.plan.needs().packets.size(); ++packet) {
-    packets.push_back({record.plan.needs().packets[packet].name, sent(record, packet)});
+  for (const NamedPacket& packet : record.vocabulary.packets) {
+    packets.push_back({packet.name, sent[packet.kind]});
   }
   return packets;
 }
 
 std::vector<OperationCount> operations_of(const ProgramRecord& record) {
-  const std::vector<OperationNeed>& needs = record.plan.needs().operations;
   const nodes::Machine* const machine = record.options.computer.model();
+  const nodes::Charges charges = record.sum().charges;
   std::vector<OperationCount> operations;
-  for (Index i = 0; i < needs.size(); ++i) {
-    std::uint64_t count = 0;
-    for (const ProgramNode& node : record.nodes) {
-      count += node.charges.count[i];
+  const auto add = [&](const NamedOperation& operation, std::optional<double> today_ns) {
+    const std::uint64_t each_ps = machine == nullptr ? 0 : machine->cost_ps[operation.charge];
+    operations.push_back({operation.name, charges.count[operation.charge], today_ns, each_ps});
+  };
+  for (const NamedOperation& operation : record.vocabulary.operations) {
+    add(operation, operation.nanoseconds);
+  }
+  if (machine != nullptr) {
+    for (const NamedOperation& operation : record.vocabulary.of_pages) {
+      add(operation, std::nullopt);
     }
-    operations.push_back({needs[i].name, count, needs[i].nanoseconds, machine == nullptr ? 0 : machine->cost_ps[i]});
   }
   return operations;
 }
 
 Table node_table(const ProgramRecord& record) {
-  std::vector<Column> columns = {
-      {"node", "", 0},          {"packets sent", "", 0}, {"sent", "bytes", 0},    {"packets received", "", 0},
-      {"received", "bytes", 0}, {"refused", "", 0},      {"calls of work", "", 0}};
-  for (const OperationNeed& operation : record.plan.needs().operations) {
-    columns.push_back({own_name(operation.name), "", 0});
+  const auto counters = [&](std::size_t node) -> const nodes::NodeCounters& { return record.nodes[node].counters; };
+  const auto pages = [&](std::size_t node) -> const svm::PageCounters& { return record.nodes[node].pages; };
+  const bool has_pages = record.vocabulary.has_pages();
+  NodeColumns columns = has_pages ? counter_columns<svm::PageCounters>(pages) : traffic_columns(counters);
+  if (!has_pages) {
+    append(columns, counter_columns<nodes::NodeCounters>(counters));
   }
-  Table table("What each node did", std::move(columns));
-  for (std::uint32_t node = 0; node < node_count_of(record); ++node) {
-    const nodes::NodeCounters& counters = record.nodes[node].counters;
-    const nodes::Traffic out = total(counters.sent), in = total(counters.received);
-    std::vector<Cell> row = {std::uint64_t{node}, out.packets,    out.bytes, in.packets, in.bytes,
-                             counters.refused,    counters.quanta};
-    const nodes::Charges charges = record.nodes[node].charges;
-    for (Index i = 0; i < record.plan.needs().operations.size(); ++i) {
-      row.emplace_back(charges.count[i]);
-    }
-    table.add_row(std::move(row));
+  append(columns, operation_columns(record));
+  if (has_pages) {
+    columns.push_back(kibibyte_column("memory", [&](std::size_t node) { return record.nodes[node].memory.total(); }));
   }
-  return table;
+  return node_table("What each node did", record.nodes.size(), columns);
 }
 
-Plot packet_plot() {
+Plot node_plot(const ProgramRecord& record) {
+  if (record.vocabulary.has_pages()) {
+    return fault_plot();
+  }
   return bars_by_node(
       "node_packets", "Packets that each node sent and received", {.label = "", .least = 0},
       {{"packets sent", "packets sent"}, {.title = "packets received", .column = "packets received", .color = 1}});
@@ -120,25 +124,20 @@ std::string node_conclusion(const ProgramRecord& record) {
 }
 
 Table memory_table(const ProgramRecord& record) {
-  const std::vector<MemoryNeed>& needs = record.plan.needs().memory;
-  std::vector<Column> columns = {{"node", "", 0}, {"mailbox", "KiB", 1}, {"queues", "KiB", 1}, {"stack", "KiB", 1}};
-  for (const MemoryNeed& need : needs) {
-    columns.push_back({own_name(need.name), "KiB", 1});
+  const auto of_plan = [&](const std::string& name, nodes::Category category) {
+    return kibibyte_column(name, [&record, category](std::size_t node) { return record.nodes[node].memory[category]; });
+  };
+  NodeColumns columns = {of_plan("mailbox", nodes::Category::mailbox), of_plan("queues", nodes::Category::queues),
+                         of_plan("stack", nodes::Category::reserve)};
+  for (Index piece = 0; piece < record.vocabulary.memory.size(); ++piece) {
+    columns.push_back(kibibyte_column(own_name(record.vocabulary.memory[piece]),
+                                      [&record, piece](std::size_t node) { return record.nodes[node].used_bytes[piece]; }));
   }
-  columns.insert(columns.end(), {{"declared and not used", "KiB", 1}, {"planned", "KiB", 1}});
-  Table table("Memory of each node", std::move(columns));
-  for (std::uint32_t node = 0; node < node_count_of(record); ++node) {
-    const nodes::MemoryPlan plan = record.plan.memory(node);
-    std::vector<Cell> row = {std::uint64_t{node}, kibibytes(plan[nodes::Category::mailbox]),
-                             kibibytes(plan[nodes::Category::queues]), kibibytes(plan[nodes::Category::reserve])};
-    for (const std::size_t bytes : record.nodes[node].used_bytes) {
-      row.emplace_back(kibibytes(bytes));
-    }
-    const std::size_t unused = plan[ProgramMemory::declared] - used_bytes(record, node);
-    row.insert(row.end(), {kibibytes(unused), kibibytes(plan.total())});
-    table.add_row(std::move(row));
-  }
-  return table;
+  columns.push_back(kibibyte_column("declared and not used", [&](std::size_t node) {
+    return record.nodes[node].memory[ProgramMemory::declared] - used_bytes(record.nodes[node]);
+  }));
+  columns.push_back(kibibyte_column("planned", [&](std::size_t node) { return record.nodes[node].memory.total(); }));
+  return node_table("Memory of each node", record.nodes.size(), columns);
 }
 
 Plot memory_plot(const ProgramRecord& record) {
@@ -148,12 +147,15 @@ Plot memory_plot(const ProgramRecord& record) {
 }
 
 std::string memory_conclusion(const ProgramRecord& record) {
-  const std::size_t fullest = fullest_node(record);
-  const auto node = static_cast<std::uint32_t>(fullest);
-  const nodes::MemoryPlan plan = record.plan.memory(node);
-  return "The fullest node, node " + std::to_string(fullest) + ", takes " + bytes_text(plan.total()) + ", of which " +
-         bytes_text(plan[ProgramMemory::declared]) + " are what its program declares; it has allocated " +
-         bytes_text(used_bytes(record, node)) + " of them.";
+  std::vector<double> totals;
+  for (const ProgramNode& node : record.nodes) {
+    totals.push_back(static_cast<double>(node.memory.total()));
+  }
+  const std::size_t fullest = largest_at(totals);
+  const ProgramNode& node = record.nodes[fullest];
+  return "The fullest node, node " + std::to_string(fullest) + ", takes " + bytes_text(node.memory.total()) + ", of which " +
+         bytes_text(node.memory[ProgramMemory::declared]) + " are what its program declares; it has allocated " +
+         bytes_text(used_bytes(node)) + " of them.";
 }
 
 }  // namespace dmpc::apps::html

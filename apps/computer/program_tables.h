@@ -1,4 +1,4 @@
-// What a program with packets counted, as tables, and plots of them.
+// What a program counted, as tables, and plots of them; of one of tasks in all its runs together.
 #pragma once
 
 #include <string>
@@ -17,15 +17,18 @@ namespace dmpc::apps::html {
 /// In virtual time by what a node waits for, else by the wall clock.
 Losses losses_of(const ProgramRecord& record);
 
-/// Of all nodes together, as the program declares them.
+/// Of all nodes together, in the order of the vocabulary.
 std::vector<PacketKindTraffic> packets_of(const ProgramRecord& record);
 
-/// Of all nodes together, in the same order.
+/// The program's, in the same order, and on a modelled machine what pages take.
 std::vector<OperationCount> operations_of(const ProgramRecord& record);
 
-/// A row for each node: what passed through it, and the operations that it was charged.
+/// A row for each node: what passed through it, or its look-ups, what became of them and its memory; and the operations that it
+/// was charged.
 Table node_table(const ProgramRecord& record);
-Plot packet_plot();
+/// Of packets, or of pages that were asked for.
+Plot node_plot(const ProgramRecord& record);
+/// Of a program with packets.
 std::string node_conclusion(const ProgramRecord& record);
 
 /// A row for each node: what its program has allocated of what it declared, and what carries its packets.

@@ -4,37 +4,106 @@
 
 #include "apps/computer/program_work.h"
 #include "apps/computer/readable_nodes.h"
+#include "apps/edge/run/miss_estimate.h"
 #include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {
+namespace {
 
-ProgramWatch::ProgramWatch(const ProgramOptions& options, const ProgramPlan& plan)
-    : instruments_(options, plan.node_count(), packet_work(plan.needs().operations).work_of) {
-  if (options.report && plan.node_count() <= readable_nodes_max) {
-    instruments_.join(pairs_.emplace(plan.node_count()));
+template <class Watch>
+std::string bytes_of_watch(const std::optional<Watch>& watch) {
+  return watch ? watch->bytes() : std::string();
+}
+
+template <class Watch>
+void add_to(std::optional<Watch>& watch, std::string_view bytes, const auto&... clock) {
+  if (watch) {
+    watch->add(bytes, clock...);
   }
+}
+
+}  // namespace
+
+template <class Watch, class... Arguments>
+void ProgramWatch::look_on(std::optional<Watch>& watch, Arguments&&... arguments) {
+  members_.push_back(&watch.emplace(std::forward<Arguments>(arguments)...));
+}
+
+ProgramWatch::ProgramWatch(const ProgramOptions& options, const Vocabulary& vocabulary, const WatchedRun& run) {
+  const std::uint32_t peer_count = run.node_count + 1;  // and the host
+  if (options.trace) {
+    look_on(recorder_, peer_count, nodes::TraceChoice{});
+  }
+  if (options.report) {
+    look_on(profile_, peer_count, program_work(vocabulary).work_of);
+  }
+  if (vocabulary.has_pages()) {
+    watch_pages(options, run);
+  } else if (options.report && run.node_count <= readable_nodes_max) {
+    look_on(pairs_, run.node_count);
+  }
+}
+
+void ProgramWatch::watch_pages(const ProgramOptions& options, const WatchedRun& run) {
+  const bool has_report = options.report.has_value();
+  if (has_report) {
+    look_on(fetches_, run.node_count, run.page_count);
+  }
+  if (options.references) {
+    reference_logs_.resize(run.node_count);
+  } else if (has_report) {
+    reference_logs_.assign(run.node_count, svm::ReferenceLog(references_of_node(run.node_count)));
+  }
+  if (has_report || options.heat) {
+    heat_.resize(run.task_count);
+  }
+}
+
+svm::TaskWatching ProgramWatch::watching() {
+  return {.observer = observer(),
+          .reference_logs = reference_logs_.empty() ? nullptr : &reference_logs_,
+          .heat = heat_.empty() ? nullptr : &heat_,
+          .seen = [this] { return seen(); },
+          .add = [this](std::string_view told, const nodes::ClockDrift& clock) { add(told, clock); }};
 }
 
 std::string ProgramWatch::seen() const {
   nodes::FlatWriter flat;
-  flat.put_bytes(instruments_.seen());
-  flat.put_bytes(pairs_ ? pairs_->bytes() : std::string());
+  flat.put_bytes(bytes_of_watch(recorder_));
+  flat.put_bytes(bytes_of_watch(profile_));
+  flat.put_bytes(bytes_of_watch(pairs_));
+  flat.put_bytes(bytes_of_watch(fetches_));
+  svm::put_logs(flat, reference_logs_);
+  svm::put_heat(flat, heat_);
   return flat.take();
 }
 
 void ProgramWatch::add(std::string_view seen, const nodes::ClockDrift& clock) {
   nodes::FlatReader flat(seen);
-  instruments_.add(flat.take_bytes(), clock);
-  if (pairs_) {
-    pairs_->add(flat.take_bytes());
-  }
+  add_to(recorder_, flat.take_bytes(), clock);
+  add_to(profile_, flat.take_bytes());
+  add_to(pairs_, flat.take_bytes());
+  add_to(fetches_, flat.take_bytes(), clock);
+  svm::take_logs(flat, reference_logs_);
+  svm::add_heat(flat, heat_);
 }
 
 void ProgramWatch::take(ProgramRecord& record) {
-  record.trace = instruments_.trace();
-  if (auto steps = instruments_.steps()) {
-    record.view = {.steps = std::move(*steps), .pairs = pairs_ ? std::optional(pairs_->pairs()) : std::nullopt};
+  if (recorder_) {
+    record.trace = recorder_->take();
   }
+  if (profile_) {
+    RunView& view = record.view.emplace(RunView{.steps = profile_->take()});
+    if (fetches_) {
+      view.fetches = fetches_->take();
+      view.misses = estimate_misses(reference_logs_);
+    }
+  }
+  if (pairs_) {
+    record.pairs = pairs_->pairs();
+  }
+  record.tasks.references = std::move(reference_logs_);
+  record.tasks.heat = std::move(heat_);
 }
 
 }  // namespace dmpc::apps

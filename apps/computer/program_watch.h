@@ -1,34 +1,65 @@
-// Instruments beside a run of a program with packets.
+// Who looks on at a run of a program, as far as its options ask for it.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "apps/computer/instruments.h"
 #include "apps/computer/packet_pairs.h"
 #include "apps/computer/record.h"
+#include "nodes/ranks/clock_drift.h"
+#include "nodes/watch/activity_profile.h"
+#include "nodes/watch/observer_group.h"
+#include "nodes/watch/trace.h"
+#include "svm/pages/run_tasks.h"
+#include "svm/pages/task_heat.h"
+#include "svm/pages/watch/fetch_watch.h"
+#include "svm/pages/watch/reference_log.h"
 
 namespace dmpc::apps {
+
+/// What is looked on at: a run of tasks, if there are pages.
+struct WatchedRun {
+  std::uint32_t node_count = 1;
+  std::uint32_t page_count = 0, task_count = 0;
+};
 
 /// For one run. Thread safety: as an Observer.
 class ProgramWatch {
  public:
-  ProgramWatch(const ProgramOptions& options, const ProgramPlan& plan);
+  ProgramWatch(const ProgramOptions& options, const Vocabulary& vocabulary, const WatchedRun& run);
+  ProgramWatch(const ProgramWatch&) = delete;
+  ProgramWatch& operator=(const ProgramWatch&) = delete;
 
-  /// For the run; nullptr if nobody looks on.
-  nodes::Observer* observer() { return instruments_.observer(); }
+  /// For the run; nullptr if nobody looks on. Call it once.
+  nodes::Observer* observer() { return members_.empty() ? nullptr : &group_.emplace(members_); }
+  /// The same for a run of tasks, on every rank, where nobody has a pointer who wants to know nothing; what ranks saw is added
+  /// up.
+  svm::TaskWatching watching();
+
   /// What was seen of nodes that are here, for add() on rank 0.
   std::string seen() const;
   /// Takes over what was seen on another rank.
   void add(std::string_view seen, const nodes::ClockDrift& clock);
-  /// Puts what was seen into the record. Call it once, when the run is over.
+  /// Puts what was seen into the record, in place of what another run showed. Call it once, when the run is over.
   void take(ProgramRecord& record);
 
  private:
-  Instruments instruments_;
-  std::optional<PairWatch> pairs_;
+  /// Makes a watch that looks on.
+  template <class Watch, class... Arguments>
+  void look_on(std::optional<Watch>& watch, Arguments&&... arguments);
+  void watch_pages(const ProgramOptions& options, const WatchedRun& run);
+
+  std::optional<nodes::TraceRecorder> recorder_;
+  std::optional<nodes::ActivityProfile> profile_;
+  std::optional<PairWatch> pairs_;          ///< of a program with packets
+  std::optional<svm::FetchWatch> fetches_;  ///< of one of tasks, as what follows
+  std::vector<svm::ReferenceLog> reference_logs_;
+  svm::TaskHeat heat_;
+  std::vector<nodes::Observer*> members_;
+  std::optional<nodes::ObserverGroup> group_;
 };
 
 }  // namespace dmpc::apps

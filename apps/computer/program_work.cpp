@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "apps/computer/own_name.h"
-#include "apps/computer/paged_options.h"
 #include "core/trace/charge.h"
 
 namespace dmpc::apps {
@@ -13,12 +12,16 @@ namespace {
 
 constexpr auto install_bit = 1U << static_cast<std::uint32_t>(core::Charge::page_install);
 
-/// With operations that are charged by these bits.
-ProgramWork work_with(const std::vector<OperationNeed>& operations, std::vector<std::uint32_t> bits, bool has_pages) {
+}  // namespace
+
+ProgramWork program_work(const Vocabulary& vocabulary) {
+  const std::vector<NamedOperation>& operations = vocabulary.operations;
+  const bool has_pages = vocabulary.has_pages();
   const std::size_t shown = std::min(operations.size(), nodes::work_count - (has_pages ? 3 : 2));
-  bits.resize(shown);
   ProgramWork work;
+  std::vector<std::uint32_t> bits;
   for (std::size_t i = 0; i < shown; ++i) {
+    bits.push_back(1U << operations[i].charge);
     work.names.push_back(own_name(operations[i].name));
   }
   work.names.emplace_back(shown > 0 ? "other computing" : "computing");
@@ -37,24 +40,6 @@ ProgramWork work_with(const std::vector<OperationNeed>& operations, std::vector<
     return first == bits.end() && is_paging ? pages : static_cast<std::size_t>(first - bits.begin());
   };
   return work;
-}
-
-}  // namespace
-
-ProgramWork packet_work(const std::vector<OperationNeed>& operations) {
-  std::vector<std::uint32_t> bits;
-  for (Index i = 0; i < operations.size(); ++i) {
-    bits.push_back(1U << i);
-  }
-  return work_with(operations, std::move(bits), false);
-}
-
-ProgramWork task_work(const std::vector<OperationNeed>& operations) {
-  std::vector<std::uint32_t> bits;
-  for (Index i = 0; i < operations.size(); ++i) {
-    bits.push_back(1U << static_cast<std::uint32_t>(charge_of(i)));
-  }
-  return work_with(operations, std::move(bits), true);
 }
 
 }  // namespace dmpc::apps

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/computer/dmpc/computer.h"
+#include "apps/computer/vocabulary.h"
 #include "nodes/watch/activity_profile.h"
 
 namespace dmpc::apps {
@@ -16,9 +16,7 @@ struct ProgramWork {
 };
 
 /// Of a program with packets: its first four operations, each where a call was charged it and none before it, what else its calls
-/// do, and messages.
-ProgramWork packet_work(const std::vector<OperationNeed>& operations);
-/// Of one of tasks: its first three, the rest, pages that are installed and served, and messages.
-ProgramWork task_work(const std::vector<OperationNeed>& operations);
+/// do, and messages. Of one of tasks: its first three, the rest, pages that are installed and served, and messages.
+ProgramWork program_work(const Vocabulary& vocabulary);
 
 }  // namespace dmpc::apps

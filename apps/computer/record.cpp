@@ -1,53 +1,135 @@
 #include "apps/computer/record.h"
 
-#include <algorithm>
 #include <array>
 
 #include "apps/edge/line/amount.h"
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/run/time_parts.h"
 #include "apps/edge/show/trace/chrome.h"
 #include "apps/edge/show/trace/paje.h"
+#include "apps/edge/show/trace/view.h"
+#include "core/base/counts.h"
 #include "core/base/expect.h"
+#include "svm/pages/packets.h"
 
 namespace dmpc::apps {
 namespace {
 
-/// What a program does without an operation of its own.
-constexpr std::array<const char*, span_names.size()> activity_names = {
-    "compute", "compute", "compute", "compute", "compute", "compute", "serve", "send packets", "take packet"};
+using ActivityNames = std::array<const char*, span_names.size()>;
 
-std::size_t memory_max_bytes(const ProgramRecord& record) {
-  std::size_t most = 0;
-  for (std::uint32_t node = 0; node < record.plan.node_count(); ++node) {
-    most = std::max(most, record.plan.memory(node).total());
+/// What a program does without an operation of its own.
+constexpr ActivityNames activity_names = {"compute", "compute", "compute",      "compute",    "compute",
+                                          "compute", "serve",   "send packets", "take packet"};
+constexpr ActivityNames task_activity_names = {"compute", "compute",    "install page", "compute",    "compute",
+                                               "compute", "serve page", "send packets", "take packet"};
+
+/// Links count frames and their bytes from the beginning, runners the rest in each run.
+void add_ranks(std::vector<nodes::RankFigures>& sums, const std::vector<nodes::RankFigures>& more) {
+  for (std::size_t rank = 0; rank < more.size(); ++rank) {
+    const nodes::RankTraffic before = rank < sums.size() ? sums[rank].traffic : nodes::RankTraffic{};
+    sums.resize(more.size());
+    sums[rank] = more[rank];
+    sums[rank].traffic.packets_sent += before.packets_sent;
+    sums[rank].traffic.packets_received += before.packets_received;
+    sums[rank].traffic.waves += before.waves;
   }
-  return most;
 }
 
-std::uint64_t computing_ns(const nodes::VirtualReport& report, std::uint32_t node_count) {
-  std::uint64_t sum = 0;
-  for (std::uint32_t node = 0; node < node_count; ++node) {
-    sum += report.nodes[node].computing_ns;
+/// "; 1,200 packets between 3 ranks"; empty where there are none.
+std::string ranks_text(const std::vector<nodes::RankFigures>& ranks) {
+  std::uint64_t packets = 0;
+  for (const nodes::RankFigures& rank : ranks) {
+    packets += rank.traffic.packets_sent;
   }
-  return sum;
+  return ranks.empty() ? "" : "; " + counted(packets, "packet") + " between " + counted(ranks.size(), "rank");
+}
+
+/// "83.5 us of virtual time, 12.0 % of it computing", or by the wall clock.
+std::string time_text(const ProgramRecord& record, const ProgramNode& sum) {
+  if (!record.virtual_ns) {
+    return seconds_text(record.wall_seconds);
+  }
+  const auto total_ns = static_cast<double>(*record.virtual_ns);
+  const double share = percent_of(static_cast<double>(sum.times.computing_ns), total_ns * record.node_count());
+  return amount_text(total_ns, "ns") + " of virtual time, " + percent_text(share) + " of it computing";
+}
+
+std::string traffic_text(const ProgramRecord& record, const ProgramNode& sum) {
+  if (!record.vocabulary.has_pages()) {
+    const nodes::Traffic traffic = sent(record);
+    return counted(traffic.packets, "packet") + ", " + bytes_text(traffic.bytes);
+  }
+  const double missed = percent_of(static_cast<double>(sum.pages.faults), static_cast<double>(sum.pages.references));
+  return counted(sum.pages.references, "look-up") + ", " + percent_text(missed) + " of them faults; " +
+         counted(record.tasks.page_count, "page") + ", " + grouped(record.tasks.cache_pages) + " in a cache";
+}
+
+std::vector<const char*> kind_names_of(const Vocabulary& vocabulary) {
+  if (vocabulary.has_pages()) {
+    return {svm::kind_names.begin(), svm::kind_names.end()};
+  }
+  std::vector<const char*> names;
+  for (const NamedPacket& packet : vocabulary.packets) {
+    names.push_back(packet.name.c_str());
+  }
+  return names;
 }
 
 }  // namespace
 
-nodes::Traffic sent(const ProgramRecord& record, Index packet) {
-  nodes::Traffic sum;
-  for (const ProgramNode& node : record.nodes) {
-    sum += node.counters.sent[packet];
+ProgramNode& ProgramNode::operator+=(const ProgramNode& more) {
+  core::add_counts(counters, more.counters);
+  charges += more.charges;
+  add_times(times, more.times);
+  core::add_counts(pages, more.pages);
+  memory = more.memory.total() > memory.total() ? more.memory : memory;
+  return *this;
+}
+
+void ProgramRecord::add(const svm::TaskFigures& figures, const svm::TaskPlan& plan, std::uint32_t task_count) {
+  nodes.resize(plan.node_count());
+  for (std::uint32_t index = 0; index < plan.node_count(); ++index) {
+    nodes[index] += {.counters = figures.counters[index],
+                     .charges = figures.charges[index],
+                     .times = {},
+                     .pages = figures.pages[index],
+                     .memory = plan.node_memory(index),
+                     .used_bytes = {}};
+  }
+  if (figures.virtual_time) {
+    add(*figures.virtual_time);
+  }
+  add_ranks(ranks, figures.ranks);
+  ++tasks.run_count;
+  tasks.task_count += task_count;
+  tasks.page_count = plan.pages().page_count;
+  tasks.cache_pages = plan.pages().cache.frame_count;
+  tasks.last_pages = figures.all_pages();
+}
+
+void ProgramRecord::add(const nodes::VirtualReport& report) {
+  virtual_ns = virtual_ns.value_or(0) + report.total_ns;
+  run_hash = report.run_hash(run_hash.value_or(0));
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    add_times(nodes[node].times, report.nodes[node]);
+  }
+}
+
+ProgramNode ProgramRecord::sum() const {
+  ProgramNode sum;
+  for (const ProgramNode& node : nodes) {
+    sum += node;
   }
   return sum;
 }
 
 nodes::Traffic sent(const ProgramRecord& record) {
-  nodes::Traffic sum;
-  for (Index packet = 0; packet < record.plan.needs().packets.size(); ++packet) {
-    sum += sent(record, packet);
+  const nodes::TrafficByKind by_kind = record.sum().counters.sent;
+  nodes::Traffic all;
+  for (const NamedPacket& packet : record.vocabulary.packets) {
+    all += by_kind[packet.kind];
   }
-  return sum;
+  return all;
 }
 
 std::string computer_text(const ProgramOptions& options) {
@@ -58,52 +140,31 @@ std::string computer_text(const ProgramOptions& options) {
   return counted(options.computer.node_count, "node") + kind;
 }
 
-std::string ranks_text(const std::vector<nodes::RankFigures>& ranks) {
-  std::uint64_t packets = 0;
-  for (const nodes::RankFigures& rank : ranks) {
-    packets += rank.traffic.packets_sent;
-  }
-  return ranks.empty() ? "" : "; " + counted(packets, "packet") + " between " + counted(ranks.size(), "rank");
-}
-
-std::string virtual_time_text(std::uint64_t total_ns, std::uint64_t computing_ns, std::uint32_t node_count) {
-  const double share = percent_of(static_cast<double>(computing_ns), static_cast<double>(total_ns) * node_count);
-  return amount_text(static_cast<double>(total_ns), "ns") + " of virtual time, " + percent_text(share) + " of it computing";
-}
-
 std::string summary(const ProgramRecord& record) {
-  const std::uint32_t node_count = record.plan.node_count();
-  std::string text = computer_text(record.options) + ": ";
-  text += record.virtual_time
-              ? virtual_time_text(record.virtual_time->total_ns, computing_ns(*record.virtual_time, node_count), node_count)
-              : seconds_text(record.wall_seconds);
-  const nodes::Traffic traffic = sent(record);
-  return text + "; " + counted(traffic.packets, "packet") + ", " + bytes_text(traffic.bytes) + ranks_text(record.ranks) + "; " +
-         bytes_text(memory_max_bytes(record)) + " of memory a node\n";
+  const ProgramNode sum = record.sum();
+  return computer_text(record.options) + ": " + time_text(record, sum) + "; " + traffic_text(record, sum) +
+         ranks_text(record.ranks) + "; " + bytes_text(sum.memory.total()) + " of memory a node\n";
 }
 
 void write_trace(const ProgramRecord& record, std::ostream& output) {
   core::expect(record.trace.has_value(), "a trace that is written was recorded");
-  std::vector<const char*> kind_names;
-  for (const PacketNeed& packet : record.plan.needs().packets) {
-    kind_names.push_back(packet.name.c_str());
+  const Vocabulary& vocabulary = record.vocabulary;
+  const std::vector<const char*> kind_names = kind_names_of(vocabulary);
+  std::vector<const char*> operation_names(nodes::charge_count);
+  for (const NamedOperation& operation : vocabulary.operations) {
+    operation_names[operation.charge] = operation.name.c_str();
   }
-  std::vector<const char*> operation_names;
-  for (const OperationNeed& operation : record.plan.needs().operations) {
-    operation_names.push_back(operation.name.c_str());
-  }
-  write_view(
-      {.trace = *record.trace, .kind_names = kind_names, .activity_names = activity_names, .operation_names = operation_names},
-      record.name, record.options, output);
-}
-
-void write_view(TraceView view, const std::string& name, const ProgramOptions& options, std::ostream& output) {
-  view.clock = options.is_modelled() ? "virtual time" : "wall clock";
-  view.remarks = {
-      {"program", name},
-      {"computer", computer_text(options)},
-      {"lost", view.trace.events_lost == 0 ? "nothing" : counted(view.trace.events_lost, "event") + ": the trace is full"}};
-  options.trace->extension() == ".paje" ? write_paje(view, output) : write_chrome(view, output);
+  const std::uint64_t lost = record.trace->events_lost;
+  const TraceView view = {.trace = *record.trace,
+                          .kind_names = kind_names,
+                          .has_pages = vocabulary.has_pages(),
+                          .clock = record.options.is_modelled() ? "virtual time" : "wall clock",
+                          .remarks = {{"program", record.name},
+                                      {"computer", computer_text(record.options)},
+                                      {"lost", lost == 0 ? "nothing" : counted(lost, "event") + ": the trace is full"}},
+                          .activity_names = vocabulary.has_pages() ? task_activity_names : activity_names,
+                          .operation_names = operation_names};
+  record.options.trace->extension() == ".paje" ? write_paje(view, output) : write_chrome(view, output);
 }
 
 }  // namespace dmpc::apps

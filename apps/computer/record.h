@@ -1,19 +1,27 @@
-// What is known of a program's run once it is done.
+// What is known of a program once it is done: of its run or, where it has tasks over pages, of its runs together.
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "apps/computer/options.h"
 #include "apps/computer/packet_pairs.h"
-#include "apps/computer/plan.h"
-#include "apps/edge/show/trace/view.h"
+#include "apps/computer/vocabulary.h"
+#include "apps/edge/run/run_view.h"
+#include "nodes/counters.h"
+#include "nodes/local_memory.h"
 #include "nodes/ranks/rank_figures.h"
-#include "nodes/runner.h"
-#include "nodes/watch/activity_profile.h"
+#include "nodes/virtual/virtual_times.h"
 #include "nodes/watch/trace.h"
+#include "svm/pages/node_program.h"
+#include "svm/pages/run_tasks.h"
+#include "svm/pages/task_heat.h"
+#include "svm/pages/task_plan.h"
+#include "svm/pages/watch/reference_log.h"
 
 namespace dmpc::apps {
 
@@ -21,40 +29,56 @@ namespace dmpc::apps {
 struct ProgramNode {
   nodes::NodeCounters counters;
   nodes::Charges charges;
-  std::vector<std::size_t> used_bytes;  ///< of each piece of memory
+  nodes::VirtualTimes times;            ///< of a modelled machine
+  svm::PageCounters pages;              ///< of tasks
+  nodes::MemoryPlan memory;             ///< in the run that took most
+  std::vector<std::size_t> used_bytes;  ///< of each piece of memory that the program declares
+
+  /// What there is to add of another run.
+  ProgramNode& operator+=(const ProgramNode& more);
 };
 
-/// What a page shows of a run beyond its counters.
-struct ProgramView {
-  nodes::ActivitySteps steps;
-  std::optional<PacketPairs> pairs;  ///< of few enough nodes
+/// Of a program of tasks.
+struct TaskRuns {
+  std::uint32_t run_count = 0;
+  std::uint64_t task_count = 0;
+  // Of the last run:
+  std::uint32_t page_count = 0, cache_pages = 0;
+  svm::PageCounters last_pages;
+  std::vector<svm::ReferenceLog> references;  ///< by node, if they are asked for
+  svm::TaskHeat heat;                         ///< likewise, by task
 };
 
 /// A view, as far as it has references.
 struct ProgramRecord {
   std::string name;  ///< of the program
   const ProgramOptions& options;
-  const ProgramPlan& plan;
+  const Vocabulary& vocabulary;
   std::vector<ProgramNode> nodes;
-  std::vector<nodes::RankFigures> ranks;  ///< where there are any
+  std::vector<nodes::RankFigures> ranks;  ///< where there are any: traffic of all runs, the rest of the last one
   double wall_seconds = 0;
-  std::optional<nodes::VirtualReport> virtual_time;
-  std::string result;  ///< what it came to
-  std::optional<nodes::Trace> trace;
-  std::optional<ProgramView> view;  ///< for a report
+  std::optional<std::uint64_t> virtual_ns, run_hash;  ///< of a modelled machine
+  std::optional<nodes::VirtualReport> network;        ///< likewise, of a program with packets
+  std::string result;                                 ///< what it came to
+  TaskRuns tasks;
+  std::optional<nodes::Trace> trace;  ///< of the last run, as what follows
+  std::optional<RunView> view;        ///< for a report
+  std::optional<PacketPairs> pairs;   ///< likewise, of a program with packets and few enough nodes
+
+  std::uint32_t node_count() const { return static_cast<std::uint32_t>(nodes.size()); }
+  /// Adds a run of `task_count` tasks.
+  void add(const svm::TaskFigures& figures, const svm::TaskPlan& plan, std::uint32_t task_count);
+  /// Adds the time of a run on a modelled machine to that of nodes that are there.
+  void add(const nodes::VirtualReport& report);
+  /// Of all nodes; memory of the fullest.
+  ProgramNode sum() const;
 };
 
-/// Of all nodes together.
-nodes::Traffic sent(const ProgramRecord& record, Index packet);
+/// What nodes sent of the packets that the vocabulary names.
 nodes::Traffic sent(const ProgramRecord& record);
 
 /// "8 nodes" or "8 nodes of ipsc2".
 std::string computer_text(const ProgramOptions& options);
-/// "; 1,200 packets between 3 ranks"; empty where there are none.
-std::string ranks_text(const std::vector<nodes::RankFigures>& ranks);
-
-/// "83.5 us of virtual time, 12.0 % of it computing", of so many nodes together.
-std::string virtual_time_text(std::uint64_t total_ns, std::uint64_t computing_ns, std::uint32_t node_count);
 
 /// How long it took, what travelled and what a node takes, a line or two.
 std::string summary(const ProgramRecord& record);
@@ -64,7 +88,5 @@ std::string stats_json(const ProgramRecord& record);
 
 /// Writes the trace in the format that its file's ending says.
 void write_trace(const ProgramRecord& record, std::ostream& output);
-/// The same of any program's; what is said of the run is added to `view`.
-void write_view(TraceView view, const std::string& name, const ProgramOptions& options, std::ostream& output);
 
 }  // namespace dmpc::apps

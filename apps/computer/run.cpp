@@ -1,5 +1,4 @@
 // Runs a program that declares its packets: from its options to what came of it.
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,15 +12,14 @@
 #include "apps/computer/options.h"
 #include "apps/computer/plan.h"
 #include "apps/computer/program_main.h"
-#include "apps/computer/program_page.h"
+#include "apps/computer/program_outputs.h"
 #include "apps/computer/program_watch.h"
 #include "apps/computer/rank_rounds.h"
 #include "apps/computer/record.h"
+#include "apps/computer/vocabulary.h"
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/run/computer_room.h"
-#include "apps/edge/system/attempts.h"
 #include "apps/edge/system/interrupt.h"
-#include "apps/edge/system/output_set.h"
 #include "apps/edge/system/stopwatch.h"
 #include "nodes/gathering.h"
 #include "nodes/idle_program.h"
@@ -30,21 +28,6 @@
 
 namespace dmpc::apps {
 namespace {
-
-OutputSet<ProgramRecord> outputs_of(const ProgramOptions& options) {
-  OutputSet<ProgramRecord> outputs;
-  if (options.stats) {
-    outputs.add("--stats", *options.stats, check_output_path,
-                [](const ProgramRecord& record, std::ostream& stream) { stream << stats_json(record); });
-  }
-  if (options.trace) {
-    outputs.add("--trace", *options.trace, check_output_path, write_trace);
-  }
-  if (options.report) {
-    outputs.add("--report", *options.report, check_output_path, html::write_program_page);
-  }
-  return outputs;
-}
 
 std::vector<nodes::NodeSpecification> specifications(const ProgramPlan& plan, const AnyApplication& application) {
   std::vector<nodes::NodeSpecification> all;
@@ -108,10 +91,11 @@ bool run_to_end(nodes::Runner& runner, const ProgramPlan& plan, const Interrupt&
 }
 
 /// What the programs leave, on rank 0. To be called on all ranks.
-std::vector<std::string> gather_outcomes(ProgramRecord& record, nodes::Runner& runner, const AnyApplication& application) {
+std::vector<std::string> gather_outcomes(ProgramRecord& record, nodes::Runner& runner, const ProgramPlan& plan,
+                                         const AnyApplication& application) {
   std::vector<std::string> outcomes;
   nodes::gather_nodes(
-      runner, record.plan.node_count(),
+      runner, plan.node_count(),
       [&](std::size_t index, nodes::FlatWriter& told) {
         const HostedProgram& program = hosted(runner, index);
         told.put(runner.node(index).counters());
@@ -119,10 +103,11 @@ std::vector<std::string> gather_outcomes(ProgramRecord& record, nodes::Runner& r
         told.put_all(program.node().used_bytes());
         told.put_bytes(application.outcome(program.program()));
       },
-      [&](std::size_t, nodes::FlatReader& told) {
+      [&](std::uint32_t node, nodes::FlatReader& told) {
         ProgramNode& own = record.nodes.emplace_back();
         own.counters = told.take<nodes::NodeCounters>();
         own.charges = told.take<nodes::Charges>();
+        own.memory = plan.memory(node);
         own.used_bytes = told.take_all<std::size_t>();
         outcomes.emplace_back(told.take_bytes());
       });
@@ -130,11 +115,12 @@ std::vector<std::string> gather_outcomes(ProgramRecord& record, nodes::Runner& r
 }
 
 /// Each packet that has an answer was answered, by the end.
-void check_answers(const ProgramRecord& record) {
-  const std::vector<PacketNeed>& packets = record.plan.needs().packets;
+void check_answers(const ProgramRecord& record, const ProgramPlan& plan) {
+  const std::vector<PacketNeed>& packets = plan.needs().packets;
+  const nodes::TrafficByKind sent = record.sum().counters.sent;
   for (Index packet = 0; packet < packets.size(); ++packet) {
-    if (const auto answer = record.plan.answer_of(packet)) {
-      const std::uint64_t unanswered = sent(record, packet).packets - sent(record, *answer).packets;
+    if (const auto answer = plan.answer_of(packet)) {
+      const std::uint64_t unanswered = sent[packet].packets - sent[*answer].packets;
       if (unanswered != 0) {
         throw ProgramError(counted(unanswered, "packet") + " '" + packets[packet].name + "' had no answer '" +
                            packets[*answer].name + "' when all nodes had finished: answer each of them");
@@ -143,46 +129,40 @@ void check_answers(const ProgramRecord& record) {
   }
 }
 
-/// What the run came to; on other ranks than the first nothing.
-int end_run(ProgramRecord& record, const std::vector<std::string>& outcomes, const AnyApplication& application,
-            const OutputSet<ProgramRecord>& outputs) {
-  check_answers(record);
-  record.result = application.result(outcomes);
-  Attempts attempts(std::cerr, record.name);
-  outputs.write(record, attempts);
-  attempts.make([&] { print_result(record.result, summary(record), record.options); });
-  return attempts.status();
-}
-
 /// On ranks, this one's part.
 int run_plan(const ProgramCall& call, const ProgramOptions& options, const ProgramPlan& plan, const AnyApplication& application,
              const Interrupt& interrupt, RankRounds* rounds) {
-  const OutputSet<ProgramRecord> outputs = outputs_of(options);
+  const ProgramOutputs outputs = outputs_of(options);
   const bool is_first = rounds == nullptr || rounds->is_first();
   if (is_first) {
-    check_outputs(inputs_of(options), outputs.names());
-    check_page_room(options);
+    check_outputs(options, outputs);
   }
-  ProgramWatch watch(options, plan);
+  const Vocabulary vocabulary = vocabulary_of(plan.needs());
+  ProgramWatch watch(options, vocabulary, {.node_count = plan.node_count()});
   const std::vector<nodes::NodeSpecification> all = specifications(plan, application);
   const auto runner = made_runner(all, options, watch, rounds);
-  ProgramRecord record{.name = call.name, .options = options, .plan = plan};
+  ProgramRecord record{.name = call.name, .options = options, .vocabulary = vocabulary};
   Stopwatch stopwatch;
   if (!run_to_end(*runner, plan, interrupt, is_first)) {
     return 0;
   }
   record.wall_seconds = stopwatch.lap();
-  record.virtual_time = runner->virtual_report();
-  const std::vector<std::string> outcomes = gather_outcomes(record, *runner, application);
+  const std::vector<std::string> outcomes = gather_outcomes(record, *runner, plan, application);
   const auto add = [&watch](std::string_view seen, const nodes::ClockDrift& clock) { watch.add(seen, clock); };
   record.ranks = nodes::gather_rank_figures(*runner, all, options.computer.ranks, add, [&watch] { return watch.seen(); });
   nodes::expect_nothing_lost(record.ranks);
   if (!is_first) {
     return 0;
   }
+  record.network = runner->virtual_report();
   const auto end = [&] {
+    if (record.network) {
+      record.add(*record.network);
+    }
     watch.take(record);
-    return end_run(record, outcomes, application, outputs);
+    check_answers(record, plan);
+    record.result = application.result(outcomes);
+    return end_program(record, outputs);
   };
   return rounds == nullptr ? end() : rounds->apart(end);
 }
@@ -210,7 +190,7 @@ int run_program(const ProgramCall& call, ProgramOptions& options, const AnyAppli
     return run_program_on_ranks(call, options, application, interrupt);
   }
   const ProgramPlan plan = plan_of(application, options);
-  choose_machine(options, plan.needs().operations);
+  choose_machine(options, vocabulary_of(plan.needs()));
   return run_plan(call, options, plan, application, interrupt, nullptr);
 }
 

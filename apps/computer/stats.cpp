@@ -1,9 +1,10 @@
-// The counters of a program's run as JSON.
+// The counters of a program as JSON.
 #include <nlohmann/json.hpp>
 
 #include "apps/computer/record.h"
 #include "apps/edge/line/json_format.h"
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/show/stats/counters_json.h"
 #include "apps/edge/show/stats/ranks.h"
 
 namespace dmpc::apps {
@@ -11,51 +12,44 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json packets_json(const ProgramRecord& record) {
+Json traffic_json(const ProgramRecord& record, const nodes::TrafficByKind& sent) {
   Json all = Json::object();
-  const std::vector<PacketNeed>& packets = record.plan.needs().packets;
-  for (Index i = 0; i < packets.size(); ++i) {
-    const nodes::Traffic traffic = sent(record, i);
-    all[packets[i].name] = {{"packets", traffic.packets}, {"bytes", traffic.bytes}};
+  for (const NamedPacket& packet : record.vocabulary.packets) {
+    all[packet.key] = {{"packets", sent[packet.kind].packets}, {"bytes", sent[packet.kind].bytes}};
   }
   return all;
 }
 
 Json operations_json(const ProgramRecord& record, const nodes::Charges& charges) {
   Json all = Json::object();
-  const std::vector<OperationNeed>& operations = record.plan.needs().operations;
-  for (Index i = 0; i < operations.size(); ++i) {
-    all[operations[i].name] = charges.count[i];
+  for (const NamedOperation& operation : record.vocabulary.operations) {
+    all[operation.name] = charges.count[operation.charge];
   }
   return all;
 }
 
-nodes::Charges charges_of_all(const ProgramRecord& record) {
-  nodes::Charges sum;
-  for (const ProgramNode& node : record.nodes) {
-    sum += node.charges;
-  }
-  return sum;
+Json pages_json(const svm::PageCounters& pages) {
+  Json all = json_of(pages);
+  all.erase("hits");      // which follow
+  all.erase("distinct");  // which tasks do not count
+  return all;
 }
 
-Json memory_json(const ProgramRecord& record, std::uint32_t node) {
-  const nodes::MemoryPlan plan = record.plan.memory(node);
-  Json bytes = {{"mailbox", plan[nodes::Category::mailbox]},
-                {"queues", plan[nodes::Category::queues]},
-                {"stack", plan[nodes::Category::reserve]},
-                {"total", plan.total()}};
-  const std::vector<MemoryNeed>& memory = record.plan.needs().memory;
-  for (Index i = 0; i < memory.size(); ++i) {
-    bytes["of_program"][memory[i].name] = record.nodes[node].used_bytes[i];
+Json memory_json(const ProgramRecord& record, const ProgramNode& node) {
+  Json bytes = {{"mailbox", node.memory[nodes::Category::mailbox]},
+                {"queues", node.memory[nodes::Category::queues]},
+                {"stack", node.memory[nodes::Category::reserve]},
+                {"total", node.memory.total()}};
+  for (Index i = 0; i < record.vocabulary.memory.size(); ++i) {
+    bytes["of_program"][record.vocabulary.memory[i]] = node.used_bytes[i];
   }
   return bytes;
 }
 
 Json times_json(const ProgramRecord& record, const nodes::VirtualTimes& times) {
   Json waiting = Json::object();
-  const std::vector<PacketNeed>& packets = record.plan.needs().packets;
-  for (Index i = 0; i < packets.size(); ++i) {
-    waiting[packets[i].name] = times.waiting_ns[i];
+  for (const NamedPacket& packet : record.vocabulary.packets) {
+    waiting[packet.key] = times.waiting_ns[packet.kind];
   }
   return {{"computing_ns", times.computing_ns},
           {"sending_ns", times.sending_ns},
@@ -64,41 +58,69 @@ Json times_json(const ProgramRecord& record, const nodes::VirtualTimes& times) {
           {"end_ns", times.end_ns}};
 }
 
-Json node_json(const ProgramRecord& record, std::uint32_t node) {
-  const nodes::NodeCounters& counters = record.nodes[node].counters;
+/// Of a program of tasks, a node or all of them.
+Json task_node_json(const ProgramRecord& record, const ProgramNode& node) {
+  return {{"pages", pages_json(node.pages)},
+          {"packets", traffic_json(record, node.counters.sent)},
+          {"operations", operations_json(record, node.charges)},
+          {"memory_bytes", node.memory.total()},
+          {"computing_ns", record.virtual_ns ? Json(node.times.computing_ns) : Json()}};
+}
+
+Json node_json(const ProgramRecord& record, const ProgramNode& node) {
+  const nodes::NodeCounters& counters = node.counters;
   const nodes::Traffic out = total(counters.sent), in = total(counters.received);
-  return {{"packets_sent", out.packets},
-          {"bytes_sent", out.bytes},
-          {"packets_received", in.packets},
-          {"bytes_received", in.bytes},
-          {"refused", counters.refused},
-          {"quanta", counters.quanta},
-          {"operations", operations_json(record, record.nodes[node].charges)},
-          {"memory_bytes", memory_json(record, node)},
-          {"virtual_time", record.virtual_time ? times_json(record, record.virtual_time->nodes[node]) : Json()}};
+  Json all = {
+      {"packets_sent", out.packets}, {"bytes_sent", out.bytes}, {"packets_received", in.packets}, {"bytes_received", in.bytes}};
+  all.update(json_of(counters));
+  all["operations"] = operations_json(record, node.charges);
+  all["memory_bytes"] = memory_json(record, node);
+  all["virtual_time"] = record.virtual_ns ? times_json(record, node.times) : Json();
+  return all;
+}
+
+Json tasks_json(const ProgramRecord& record) {
+  const svm::TaskOptions& tasks = record.options.tasks;
+  return {{"page_size_bytes", tasks.page_size_bytes},
+          {"page_count", record.tasks.page_count},
+          {"cache_pages", record.tasks.cache_pages},
+          {"replacement", name_of(tasks.replacement)},
+          {"in_flight", tasks.in_flight},
+          {"runs", record.tasks.run_count},
+          {"tasks", record.tasks.task_count}};
 }
 
 }  // namespace
 
 std::string stats_json(const ProgramRecord& record) {
-  const nodes::Machine* const machine = record.options.computer.model();
-  Json json = {
-      {"format", json_format},
-      {"program", record.name},
-      {"result", record.result},
-      {"nodes", record.plan.node_count()},
-      {"runner", name_of(record.options.runner)},
-      {"machine", machine == nullptr ? Json() : Json(machine->name)},
-      {"chaos", record.options.chaos_seed ? Json(*record.options.chaos_seed) : Json()},
-      {"wall_seconds", record.wall_seconds},
-      {"virtual_seconds", record.virtual_time ? Json(1e-9 * static_cast<double>(record.virtual_time->total_ns)) : Json()},
-      {"run_hash", record.virtual_time ? Json(hash_text(record.virtual_time->run_hash(0))) : Json()},
-      {"packets", packets_json(record)},
-      {"operations", operations_json(record, charges_of_all(record))},
-      {"ranks", ranks_json(record.ranks, record.options.is_observed())},
-      {"per_node", Json::array()}};
-  for (std::uint32_t node = 0; node < record.plan.node_count(); ++node) {
-    json["per_node"].push_back(node_json(record, node));
+  const ProgramOptions& options = record.options;
+  const nodes::Machine* const machine = options.computer.model();
+  const bool has_pages = record.vocabulary.has_pages();
+  const ProgramNode sum = record.sum();
+  Json json = {{"format", json_format},
+               {"program", record.name},
+               {"result", record.result},
+               {"nodes", record.node_count()},
+               {"runner", name_of(options.runner)},
+               {"machine", machine == nullptr ? Json() : Json(machine->name)},
+               {"chaos", options.chaos_seed ? Json(*options.chaos_seed) : Json()}};
+  if (has_pages) {
+    json.update(tasks_json(record));
+  }
+  json["wall_seconds"] = record.wall_seconds;
+  json["virtual_seconds"] = record.virtual_ns ? Json(1e-9 * static_cast<double>(*record.virtual_ns)) : Json();
+  json["run_hash"] = record.run_hash ? Json(hash_text(*record.run_hash)) : Json();
+  if (!has_pages) {
+    json["packets"] = traffic_json(record, sum.counters.sent);
+    json["operations"] = operations_json(record, sum.charges);
+  }
+  json["ranks"] = ranks_json(record.ranks, options.is_observed());
+  if (has_pages) {
+    json.update(task_node_json(record, sum));
+  }
+  json["per_node"] = Json::array();
+  for (const ProgramNode& node : record.nodes) {
+    json["per_node"].push_back(has_pages ? task_node_json(record, node) : node_json(record, node));
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -2,7 +2,9 @@
 #include <numeric>
 #include <string>
 
+#include "apps/edge/show/stats/counters_json.h"
 #include "apps/run/ray_hops.h"
+#include "apps/show/counters.h"
 #include "apps/show/stats/strategy.h"
 #include "dataflow/packets.h"
 
@@ -39,18 +41,9 @@ Json movement_json(const dataflow::MovementCounters& movement, const TrafficByKi
   for (const dataflow::Kind kind : {dataflow::Kind::unit_page, dataflow::Kind::unit_primaries}) {
     bytes += sent[dataflow::number_of(kind)].bytes;
   }
-  return {{"units", movement.units},
-          {"units_given", movement.units_given},
-          {"units_taken", movement.units_taken},
-          {"asks", movement.asks},
-          {"refusals", movement.refusals},
-          {"pages_sent", movement.pages_sent},
-          {"pages_installed", movement.pages_installed},
-          {"records_walked", movement.records_walked},
-          {"primary_rays_given", movement.primaries_given},
-          {"primary_rays_taken", movement.primaries_taken},
-          {"rays_sent_on", movement.rays_sent_on},
-          {"bytes", bytes}};
+  Json all = json_of(movement);
+  all["bytes"] = bytes;
+  return all;
 }
 
 Json travel_json(const Travel& travel, const dataflow::Plan& plan) {

@@ -11,9 +11,11 @@
 #include "apps/edge/line/json_format.h"
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/machine/machine_file.h"
+#include "apps/edge/show/stats/counters_json.h"
 #include "apps/edge/show/stats/ranks.h"
 #include "apps/run/memory_categories.h"
 #include "apps/run/strategy_rows.h"
+#include "apps/show/counters.h"
 #include "apps/show/heat/field.h"
 #include "apps/show/stats/strategy.h"
 #include "apps/show/stats/virtual.h"
@@ -38,32 +40,6 @@ Json filled(std::initializer_list<const char*> keys, const Json& values) {
     result[key] = value;
   }
   return result;
-}
-
-std::uint64_t test_count(const core::Operations& operations, core::PrimitiveKind kind) {
-  return operations.primitive_tests[static_cast<std::size_t>(kind)];
-}
-
-Json hits_json(const core::Operations& operations) {
-  return {{"primary", operations.primary_hits},
-          {"secondary", operations.secondary_hits},
-          {"shadow_blocked", operations.shadow_blocked},
-          {"total_internal_reflections", operations.total_internal_reflections}};
-}
-
-Json operations_json(const core::Operations& operations) {
-  return {{"cell_steps", operations.cell_steps},
-          {"brick_reads", operations.brick_reads},
-          {"triangle_tests", test_count(operations, core::PrimitiveKind::triangle)},
-          {"sphere_tests", test_count(operations, core::PrimitiveKind::sphere)},
-          {"cone_tests", test_count(operations, core::PrimitiveKind::cone)},
-          {"shadings", operations.shadings},
-          {"normal_reads", operations.normal_reads},
-          {"texture_lookups", operations.texture_lookups},
-          {"tile_reads", operations.tile_reads},
-          {"bundles", operations.bundles},
-          {"rays_in_bundles", operations.rays_in_bundles},
-          {"deposits_saturated", operations.deposits_saturated}};
 }
 
 /// How samples were shared out.
@@ -177,8 +153,8 @@ Json node_seconds_json(const nodes::NodeCounters& counters) {
 /// `timed`: what a run in virtual time adds; a node of it has no time by the wall clock.
 Json node_json(const NodeAccount& node, const Json& special, const Json& timed) {
   Json result = {{"rays", rays_json(node.operations.rays)},
-                 {"hits", hits_json(node.operations)},
-                 {"operations", operations_json(node.operations)},
+                 {"hits", json_of(node.operations, hit_counters)},
+                 {"operations", json_of(node.operations)},
                  {"packets", packets_json(node.counters)}};
   result.update(filled({"pages", "work", "questions", "travel", "load", "region"}, special));
   result["memory"] = {{"planned", memory_json(node.memory_planned)}, {"used", memory_json(node.memory_used)}};
@@ -332,8 +308,8 @@ std::string stats_json(const RenderRecord& record) {
               {"film_hash", hash_text(account.film.hash())},
               {"sampling", sampling_json(record, account)},
               {"rays", rays_json(account.operations.rays)},
-              {"hits", hits_json(account.operations)},
-              {"operations", operations_json(account.operations)},
+              {"hits", json_of(account.operations, hit_counters)},
+              {"operations", json_of(account.operations)},
               {"seconds", seconds_json(record.seconds)}};
   all["operations"]["deposits_saturated"] = of_whole_picture(record, account.operations.deposits_saturated);
   all.update(filled({"run_hash", "machine_digest", "virtual_seconds", "time_percent", "events", "links"}, timed.all));

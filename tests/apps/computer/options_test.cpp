@@ -2,17 +2,25 @@
 
 #include <doctest/doctest.h>
 
+#include <vector>
+
 #include "apps/edge/machine/machines.h"
 #include "core/trace/charge.h"
 
 namespace dmpc::apps::computer_options_test {
+
+namespace {
+
+Vocabulary with_operations(const std::vector<OperationNeed>& operations) { return vocabulary_of({.operations = operations}); }
+
+}  // namespace
 
 TEST_CASE("a machine takes as many times as long for a program's operations as for its other arithmetic") {
   for (const MachineDescription& preset : machine_presets()) {
     ProgramOptions options;
     options.runner = RunnerKind::virtual_time;
     options.machine_name = preset.machine.name;
-    choose_machine(options, {{"cheap", 1}, {"dear", 40}, {"free", 0}});
+    choose_machine(options, with_operations({{"cheap", 1}, {"dear", 40}, {"free", 0}}));
     const auto tested = static_cast<std::size_t>(core::Charge::triangle_test);
     const double slowdown =
         static_cast<double>(preset.machine.cost_ps[tested]) / static_cast<double>(operation_costs_ps(1)[tested]);
@@ -39,7 +47,7 @@ TEST_CASE("a machine is wired otherwise where that is asked for, and says so") {
 
 TEST_CASE("threads have no machine") {
   ProgramOptions options;
-  choose_machine(options, {{"step", 1}});
+  choose_machine(options, with_operations({{"step", 1}}));
   CHECK(options.computer.model() == nullptr);
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/computer/paged_options.h"
 #include "core/trace/charge.h"
 
 namespace dmpc::apps::program_work_test {
@@ -16,6 +15,11 @@ using Names = std::vector<std::string>;
 
 const std::vector<OperationNeed> two = {{"addition", 1}, {"division", 9}};
 const std::vector<OperationNeed> five = {{"a", 1}, {"b", 1}, {"c", 1}, {"d", 1}, {"e", 1}};
+
+ProgramWork packet_work(const std::vector<OperationNeed>& operations) {
+  return program_work(vocabulary_of({.operations = operations}));
+}
+ProgramWork task_work(const std::vector<OperationNeed>& operations) { return program_work(vocabulary_of_tasks(operations)); }
 
 /// The name of what a call is that is charged these.
 std::string name_of_call(const ProgramWork& work, const nodes::Charges& charges,

@@ -94,10 +94,10 @@ TEST_CASE("heat is that of the last run") {
 }
 
 TEST_CASE("an operation's name is quoted where CSV has to quote it") {
-  const std::vector<OperationNeed> operations = {{"a,\"b\"", 1}};
-  const apps::PagedOptions options;
-  apps::PagedRecord record{.name = "adder", .options = options, .operations = operations};
-  record.heat = {{.node = 3, .steps = 2, .references = 5, .faults = 1}};
+  const apps::Vocabulary vocabulary = apps::vocabulary_of_tasks({{"a,\"b\"", 1}});
+  const apps::ProgramOptions options;
+  apps::ProgramRecord record{.name = "adder", .options = options, .vocabulary = vocabulary};
+  record.tasks.heat = {{.node = 3, .steps = 2, .references = 5, .faults = 1}};
   std::ostringstream text;
   apps::write_task_heat(record, text);
   CHECK(text.str() == "task,node,steps,pages.references,pages.faults,\"operations.a,\"\"b\"\"\",computing_ps\n0,3,2,5,1,0,\n");

@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "apps/run/systems.h"
+#include "apps/show/counters.h"
 #include "nodes/ranks/loopback.h"
 #include "nodes/ranks/rank_links.h"
 #include "tests/apps/show/rendered.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps::schema_test {
 
@@ -141,6 +143,28 @@ TEST_CASE("the counters of every kind of run are as the schema says, without any
   resumed.samples_found_done = 3;
   add(stats_json(resumed));
   CHECK(faults_by_schema(files) == "");
+}
+
+TEST_CASE("the schema has each counter that has a row, in their order, with what the row says of it") {
+  const nlohmann::ordered_json schema = nlohmann::ordered_json::parse(tests::file_text(schema_file))["$defs"];
+  const auto check = [&](const char* group, const auto& rows) {
+    const nlohmann::ordered_json& properties = schema[group]["properties"];
+    auto property = properties.begin();
+    for (const auto& row : rows) {
+      CAPTURE(std::string(row.key));
+      REQUIRE(property != properties.end());
+      CHECK(property.key() == row.key);
+      CHECK(property->value("description", "") == row.help);
+      ++property;
+    }
+    return property == properties.end();
+  };
+  CHECK(check("hits", hit_counters));
+  CHECK(check("operations", counters_of<core::Operations>));
+  CHECK(check("work", counters_of<svm::WorkCounters>));
+  CHECK(check("questions", counters_of<svm::QuestionCounters>));
+  CHECK_FALSE(check("pages", counters_of<svm::PageCounters>));              // and those of a pixel
+  CHECK_FALSE(check("movement", counters_of<dataflow::MovementCounters>));  // and bytes
 }
 
 TEST_CASE("a figure that the schema does not know, one that is missing and one of another kind are found, at any depth") {

@@ -1,7 +1,6 @@
 // Runs a program of tasks over pages: from its options to what came of it.
 #include <algorithm>
 #include <functional>
-#include <iostream>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -9,20 +8,17 @@
 
 #include "apps/computer/dmpc/pages.h"
 #include "apps/computer/on_ranks.h"
-#include "apps/computer/paged_options.h"
-#include "apps/computer/paged_page.h"
-#include "apps/computer/paged_record.h"
-#include "apps/computer/paged_watch.h"
 #include "apps/computer/program_main.h"
+#include "apps/computer/program_outputs.h"
+#include "apps/computer/program_watch.h"
 #include "apps/computer/rank_rounds.h"
-#include "apps/computer/task_heat_file.h"
+#include "apps/computer/record.h"
+#include "apps/computer/task_options.h"
+#include "apps/computer/vocabulary.h"
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/run/computer_room.h"
 #include "apps/edge/run/option_words.h"
-#include "apps/edge/show/references/reference_file.h"
-#include "apps/edge/system/attempts.h"
 #include "apps/edge/system/digest.h"
-#include "apps/edge/system/output_set.h"
 #include "apps/edge/system/stopwatch.h"
 #include "core/base/units.h"
 #include "svm/pages/packets.h"
@@ -113,10 +109,10 @@ std::string words_of_run(std::uint32_t number, std::uint32_t count, const svm::T
 class AskedComputer final : public PagedComputer {
  public:
   /// `rounds`: where there are ranks, this one's.
-  AskedComputer(const PagedOptions& options, PagedRecord& record, const Interrupt& interrupt, RankRounds* rounds)
+  AskedComputer(const ProgramOptions& options, ProgramRecord& record, const Interrupt& interrupt, RankRounds* rounds)
       : options_(options), record_(record), interrupt_(interrupt), rounds_(rounds) {}
 
-  std::uint32_t node_count() const override { return options_.tasks.computer.node_count; }
+  std::uint32_t node_count() const override { return options_.computer.node_count; }
   std::size_t page_bytes() const override { return options_.tasks.page_size_bytes; }
   /// Puts what was seen of the last run into the record. Call it once, in the end.
   void take_sights() {
@@ -129,13 +125,13 @@ class AskedComputer final : public PagedComputer {
   void run_any(std::span<const std::byte> data, bool has_unique_bytes, std::uint32_t count, const AnyTask& task,
                std::byte* results) override {
     const std::vector<std::byte> whole_pages = padded(data);
-    const PagesBounds bounds = {whole_pages.size(), record_.operations.size()};
+    const PagesBounds bounds = {whole_pages.size(), record_.vocabulary.operations.size()};
     const svm::TaskKinds kinds = {kind_of<svm::Pager>(task, bounds), kind_of<svm::RecordingPager>(task, bounds)};
     const std::span<std::byte> all_results(results, count * task.result_bytes);
     if (rounds_ == nullptr) {
       return run_kinds(kinds, whole_pages, count, all_results);
     }
-    const std::string next = words_of_run(record_.run_count + 1, count, kinds, whole_pages, has_unique_bytes);
+    const std::string next = words_of_run(record_.tasks.run_count + 1, count, kinds, whole_pages, has_unique_bytes);
     rounds_->here([&] { rounds_->agree(next); });
     run_kinds(kinds, whole_pages, count, all_results);
     rounds_->here([&] { rounds_->share(all_results); });
@@ -153,7 +149,8 @@ class AskedComputer final : public PagedComputer {
     const auto plan =
         with_options_named(computer_words, [&] { return svm::TaskPlan(options_.tasks, data.size(), count, kinds.plain.sizes); });
     check_room(plan);
-    last_watch_ = std::make_unique<PagedWatch>(options_, record_.operations, plan, count);
+    const WatchedRun watched = {plan.node_count(), plan.pages().page_count, count};
+    last_watch_ = std::make_unique<ProgramWatch>(options_, record_.vocabulary, watched);
     const auto take = [&](std::uint32_t first, std::string_view bytes) {
       std::copy_n(bytes.data(), bytes.size(), reinterpret_cast<char*>(&results[first * kinds.plain.sizes.result_bytes]));
     };
@@ -183,58 +180,30 @@ class AskedComputer final : public PagedComputer {
     apps::check_room(nodes::rank_memory(peers, links, links == nullptr ? 0 : links->rank()));
   }
 
-  const PagedOptions& options_;
-  PagedRecord& record_;
+  const ProgramOptions& options_;
+  ProgramRecord& record_;
   const Interrupt& interrupt_;
   RankRounds* rounds_;
-  std::unique_ptr<PagedWatch> last_watch_;
+  std::unique_ptr<ProgramWatch> last_watch_;
 };
 
-OutputSet<PagedRecord> outputs_of(const PagedOptions& options) {
-  OutputSet<PagedRecord> outputs;
-  if (options.program.stats) {
-    outputs.add("--stats", *options.program.stats, check_output_path,
-                [](const PagedRecord& record, std::ostream& stream) { stream << stats_json(record); });
-  }
-  if (options.references) {
-    outputs.add("--references", *options.references, check_output_path, [](const PagedRecord& record, std::ostream& stream) {
-      write_references(stream, record.references, record.options.tasks.page_size_bytes);
-    });
-  }
-  if (options.program.trace) {
-    outputs.add("--trace", *options.program.trace, check_output_path,
-                [](const PagedRecord& record, std::ostream& stream) { write_trace(record, stream); });
-  }
-  if (options.heat) {
-    outputs.add("--heat", *options.heat, check_output_path, write_task_heat);
-  }
-  if (options.program.report) {
-    outputs.add("--report", *options.program.report, check_output_path, html::write_paged_page);
-  }
-  return outputs;
-}
-
-int end_tasks(AskedComputer& computer, PagedRecord& record, const OutputSet<PagedRecord>& outputs) {
-  if (record.run_count == 0) {
+int end_tasks(AskedComputer& computer, ProgramRecord& record, const ProgramOutputs& outputs) {
+  if (record.tasks.run_count == 0) {
     throw ProgramError("no tasks were run");
   }
   computer.take_sights();
-  Attempts attempts(std::cerr, record.name);
-  outputs.write(record, attempts);
-  attempts.make([&] { print_result(record.result, summary(record), record.options.program); });
-  return attempts.status();
+  return end_program(record, outputs);
 }
 
 /// On ranks, this one's part.
-int act_on_pages(const ProgramCall& call, PagedOptions& options, const PagedApplication& application, const Interrupt& interrupt,
-                 RankRounds* rounds) {
-  const OutputSet<PagedRecord> outputs = outputs_of(options);
+int act_on_pages(const ProgramCall& call, ProgramOptions& options, const Vocabulary& vocabulary,
+                 const PagedApplication& application, const Interrupt& interrupt, RankRounds* rounds) {
+  const ProgramOutputs outputs = outputs_of(options);
   if (rounds == nullptr || rounds->is_first()) {
-    check_outputs(inputs_of(options.program), outputs.names());
-    check_page_room(options.program);
+    check_outputs(options, outputs);
   }
-  options.tasks.computer = options.program.computer;
-  PagedRecord record{.name = call.name, .options = options, .operations = application.operations};
+  options.tasks.computer = options.computer;
+  ProgramRecord record{.name = call.name, .options = options, .vocabulary = vocabulary};
   AskedComputer computer(options, record, interrupt, rounds);
   if (rounds == nullptr) {
     record.result = application.act(computer);
@@ -246,14 +215,16 @@ int act_on_pages(const ProgramCall& call, PagedOptions& options, const PagedAppl
   return rounds->is_first() ? rounds->apart([&] { return end_tasks(computer, record, outputs); }) : 0;
 }
 
-int run_paged(const ProgramCall& call, PagedOptions& options, const PagedApplication& application, const Interrupt& interrupt) {
-  choose_machine(options, application.operations);
-  if (options.program.runner != RunnerKind::mpi) {
-    return act_on_pages(call, options, application, interrupt, nullptr);
+int run_paged(const ProgramCall& call, ProgramOptions& options, const PagedApplication& application, const Interrupt& interrupt) {
+  const Vocabulary vocabulary = vocabulary_of_tasks(application.operations);
+  choose_machine(options, vocabulary);
+  if (options.runner != RunnerKind::mpi) {
+    return act_on_pages(call, options, vocabulary, application, interrupt, nullptr);
   }
   const auto needs = [&]() -> RankNeeds { return {.payload_bytes_max = svm::page_reply_bytes(options.tasks.page_size_bytes)}; };
-  return run_on_ranks(options.program, call, needs,
-                      [&](RankRounds& rounds) { return act_on_pages(call, options, application, interrupt, &rounds); });
+  return run_on_ranks(options, call, needs, [&](RankRounds& rounds) {
+    return act_on_pages(call, options, vocabulary, application, interrupt, &rounds);
+  });
 }
 
 }  // namespace
@@ -262,12 +233,12 @@ int run_paged(const ProgramCall& call, PagedOptions& options, const PagedApplica
 namespace dmpc {
 
 int run_tasks(int count, const char* const* words, const PagedApplication& application) {
-  apps::PagedOptions options;
+  apps::ProgramOptions options;
   return apps::run_main(
       count, words,
       {.description = application.description,
-       .declare = [&](apps::OptionSet set) { apps::add_options(set, options, application.options); },
-       .runner = options.program.runner,
+       .declare = [&](apps::OptionSet set) { apps::add_task_options(set, options, application.options); },
+       .runner = options.runner,
        .act = [&](const apps::ProgramCall& call,
                   apps::Interrupt& interrupt) { return apps::run_paged(call, options, application, interrupt); }});
 }

@@ -1,4 +1,4 @@
-#include "apps/computer/paged_tables.h"
+#include "apps/computer/task_tables.h"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,9 @@
 #include <variant>
 #include <vector>
 
-namespace dmpc::apps::html::paged_tables_test {
+#include "apps/computer/program_tables.h"
+
+namespace dmpc::apps::html::task_tables_test {
 
 namespace {
 
@@ -16,14 +18,15 @@ struct Heated {
     record.nodes.resize(node_count);
     for (std::size_t node = 0; node < node_count; ++node) {
       for (std::size_t task = faults.size() * node / node_count; task < faults.size() * (node + 1) / node_count; ++task) {
-        record.heat.push_back({.node = static_cast<std::uint32_t>(node), .steps = 1, .references = 8, .faults = faults[task]});
+        record.tasks.heat.push_back(
+            {.node = static_cast<std::uint32_t>(node), .steps = 1, .references = 8, .faults = faults[task]});
       }
     }
   }
 
-  PagedOptions options;
-  std::vector<OperationNeed> operations;
-  PagedRecord record{.name = "heated", .options = options, .operations = operations};
+  ProgramOptions options;
+  Vocabulary vocabulary = vocabulary_of_tasks({{"addition", 2}});
+  ProgramRecord record{.name = "heated", .options = options, .vocabulary = vocabulary};
 };
 
 }  // namespace
@@ -60,7 +63,7 @@ TEST_CASE("heat is concluded with the share of the hottest tasks") {
 
 TEST_CASE("the hottest tasks come first, of equal ones the first, and twenty at most") {
   Heated heated(1, std::vector<std::uint64_t>(30, 0));
-  heated.record.heat[7].references = 9;
+  heated.record.tasks.heat[7].references = 9;
   const Table table = hottest_tasks(heated.record);
   REQUIRE(table.rows().size() == 20);
   CHECK(std::get<std::uint64_t>(table.rows()[0][0]) == 7);
@@ -70,8 +73,7 @@ TEST_CASE("the hottest tasks come first, of equal ones the first, and twenty at 
 
 TEST_CASE("all operations together are the nodes' computing, those of pages included") {
   Heated heated(1, {1});
-  heated.operations = {{"addition", 2}};
-  nodes::Machine& machine = heated.options.program.computer.machine.emplace();
+  nodes::Machine& machine = heated.options.computer.machine.emplace();
   machine.cost_ps[static_cast<std::size_t>(charge_of(0))] = 4000;
   machine.cost_ps[static_cast<std::size_t>(core::Charge::page_install)] = 1000;
   heated.record.nodes[0].charges[charge_of(0)] = 10;
@@ -87,4 +89,4 @@ TEST_CASE("all operations together are the nodes' computing, those of pages incl
   CHECK(std::holds_alternative<std::monostate>(table.rows()[3][2]));
 }
 
-}  // namespace dmpc::apps::html::paged_tables_test
+}  // namespace dmpc::apps::html::task_tables_test

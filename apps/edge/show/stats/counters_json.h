@@ -1,0 +1,26 @@
+// Counters as JSON, by their rows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+
+#include "apps/edge/show/counters.h"
+
+namespace dmpc::apps {
+
+/// All of `rows` by key.
+template <class T, std::size_t count>
+nlohmann::ordered_json json_of(const T& counters, const std::array<Counter<T>, count>& rows) {
+  nlohmann::ordered_json all;
+  for (const Counter<T>& row : rows) {
+    all[row.key] = row.value(counters);
+  }
+  return all;
+}
+template <class T>
+nlohmann::ordered_json json_of(const T& counters) {
+  return json_of(counters, counters_of<T>);
+}
+
+}  // namespace dmpc::apps

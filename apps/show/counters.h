@@ -1,0 +1,76 @@
+// What renders count beside what any program does (apps/edge/show/counters.h), by name.
+#pragma once
+
+#include <array>
+
+#include "apps/edge/show/counters.h"
+#include "core/trace/operations.h"
+#include "dataflow/units/movement.h"
+#include "svm/pages/node_program.h"
+
+namespace dmpc::apps {
+
+// clang-format off
+template <>
+inline constexpr auto counters_of<svm::WorkCounters> = std::array{
+    counter<&svm::WorkCounters::pixels_rendered>({"pixels", "over all passes", "pixels"}),
+    counter<&svm::WorkCounters::items_asked>({"items_asked"}),
+    counter<&svm::WorkCounters::items_taken>({"items_taken"}),
+    counter<&svm::WorkCounters::items_given>({"items_given"}),
+};
+
+template <>
+inline constexpr auto counters_of<svm::QuestionCounters> = std::array{
+    counter<&svm::QuestionCounters::rays_asked>({"rays_asked", "what does a ray meet below a child", "rays asked about"}),
+    counter<&svm::QuestionCounters::records_asked>(
+        {"records_asked", "what is in a record, for shading", "records asked for"}),
+    counter<&svm::QuestionCounters::rays_answered>({"rays_answered", "", "rays answered"}),
+    counter<&svm::QuestionCounters::records_answered>({"records_answered", "", "records answered"}),
+    counter<&svm::QuestionCounters::answers>({"answers", "packets received", "answers"}),
+};
+
+template <>
+inline constexpr auto counters_of<dataflow::MovementCounters> = std::array{
+    counter<&dataflow::MovementCounters::units>({"units", "answered for in the end"}),
+    counter<&dataflow::MovementCounters::units_given>({"units_given"}),
+    counter<&dataflow::MovementCounters::units_taken>({"units_taken"}),
+    counter<&dataflow::MovementCounters::asks>({"asks", "for a unit"}),
+    counter<&dataflow::MovementCounters::refusals>({"refusals", "in answer to them"}),
+    counter<&dataflow::MovementCounters::pages_sent>({"pages_sent", "with units"}),
+    counter<&dataflow::MovementCounters::pages_installed>(
+        {"pages_installed", "of those that came, as they had not been there"}),
+    counter<&dataflow::MovementCounters::records_walked>(
+        {"records_walked", "to find the pages of units that were asked for"}),
+    counter<&dataflow::MovementCounters::primaries_given>({"primary_rays_given", "with units, before they started"}),
+    counter<&dataflow::MovementCounters::primaries_taken>({"primary_rays_taken"}),
+    counter<&dataflow::MovementCounters::rays_sent_on>(
+        {"rays_sent_on", "that came for a unit which was another's by then"}),
+};
+
+/// What rays met.
+inline constexpr std::array hit_counters = {
+    counter<&core::Operations::primary_hits>({"primary"}),
+    counter<&core::Operations::secondary_hits>({"secondary", "of reflected and refracted rays"}),
+    counter<&core::Operations::shadow_blocked>({"shadow_blocked", "shadow rays that met something"}),
+    counter<&core::Operations::total_internal_reflections>({"total_internal_reflections"}),
+};
+
+template <>
+inline constexpr auto counters_of<core::Operations> = std::array{
+    counter<&core::Operations::cell_steps>({"cell_steps"}),
+    counter<&core::Operations::brick_reads>({"brick_reads"}),
+    counter<&core::Operations::primitive_tests, 0>({"triangle_tests"}),
+    counter<&core::Operations::primitive_tests, 1>({"sphere_tests"}),
+    counter<&core::Operations::primitive_tests, 2>({"cone_tests"}),
+    counter<&core::Operations::shadings>({"shadings", "", "shadings"}),
+    counter<&core::Operations::normal_reads>({"normal_reads", "vertex normals of smooth triangles"}),
+    counter<&core::Operations::texture_lookups>({"texture_lookups", "hits on textured triangles"}),
+    counter<&core::Operations::tile_reads>({"tile_reads", "of their textures' tiles"}),
+    counter<&core::Operations::bundles>({"bundles", "of rays that walked together"}),
+    counter<&core::Operations::rays_in_bundles>({"rays_in_bundles"}),
+    counter<&core::Operations::deposits_saturated>(
+        {"deposits_saturated", "null where earlier samples came from a checkpoint"}),
+};
+// clang-format on
+
+}  // namespace dmpc::apps
