@@ -25,9 +25,13 @@ class Levels {
   Levels() = default;
   Levels(std::initializer_list<Level> levels) {
     for (const Level& level : levels) {
-      core::expect(count_ < count_max, "a program has few levels");
-      levels_[count_++] = level;
+      add(level);
     }
+  }
+
+  void add(const Level& level) {
+    core::expect(count_ < count_max, "a program has few levels");
+    levels_[count_++] = level;
   }
 
   const Level* begin() const { return levels_.data(); }

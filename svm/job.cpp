@@ -1,5 +1,6 @@
 #include "svm/job.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "core/base/expect.h"
@@ -33,7 +34,7 @@ PlanFigures figures_of(const Plan& plan) {
 }
 
 void put(nodes::FlatWriter& flat, const PlanRequest& request) {
-  flat.put(request.strategy);
+  flat.put_bytes(request.strategy->name());
   flat.put(request.page_count);
   flat.put(request.forest_page_count);
   flat.put(request.page_size_bytes);
@@ -49,9 +50,15 @@ void put(nodes::FlatWriter& flat, const PlanRequest& request) {
   flat.put(request.bundles);
 }
 
-PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks) {
+const Strategy* strategy_called(std::string_view name, const Strategies& strategies) {
+  const auto found = std::find_if(strategies.begin(), strategies.end(), [&](const Strategy* one) { return one->name() == name; });
+  core::expect(found != strategies.end(), "all ranks know the strategy of rank 0");
+  return *found;
+}
+
+PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks, const Strategies& strategies) {
   PlanRequest request;
-  request.strategy = flat.take<Strategy>();
+  request.strategy = strategy_called(flat.take_bytes(), strategies);
   request.page_count = flat.take<std::uint32_t>();
   request.forest_page_count = flat.take<std::uint32_t>();
   request.page_size_bytes = flat.take<std::size_t>();
@@ -101,9 +108,9 @@ std::string job_bytes(const Plan& plan, const core::RenderSettings& settings) {
   return flat.take();
 }
 
-std::unique_ptr<Job> job_from(std::string_view bytes, nodes::RankLinks& ranks) {
+std::unique_ptr<Job> job_from(std::string_view bytes, nodes::RankLinks& ranks, const Strategies& strategies) {
   nodes::FlatReader flat(bytes);
-  PlanRequest request = take_request(flat, ranks);
+  PlanRequest request = take_request(flat, ranks, strategies);
   const auto settings = flat.take<core::RenderSettings>();
   auto job = std::make_unique<Job>(Plan{}, settings);
   job->start = take_start(flat, request);

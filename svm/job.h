@@ -26,7 +26,7 @@ struct Job {
 
 /// As bytes.
 std::string job_bytes(const Plan& plan, const core::RenderSettings& settings);
-/// From these, on a rank, which makes the plan anew and expects it to be the same.
-std::unique_ptr<Job> job_from(std::string_view bytes, nodes::RankLinks& ranks);
+/// From these, on a rank that knows these strategies, which makes the plan anew and expects it to be the same.
+std::unique_ptr<Job> job_from(std::string_view bytes, nodes::RankLinks& ranks, const Strategies& strategies);
 
 }  // namespace dmpc::svm

@@ -11,15 +11,14 @@
 #include "nodes/node.h"
 #include "svm/pages/node_program.h"
 #include "svm/pages/page_capacity.h"
+#include "svm/pages/plain_records.h"
 
 namespace dmpc::svm {
 
 /// A core::Records that is never absent; on a modelled machine the copy is counted and one for all nodes. Thread safety: belongs
 /// to one node.
-class LocalCopy {
+class LocalCopy : public PlainRecords {
  public:
-  static constexpr bool pages_travel = false;
-
   /// Puts `database` into the node's local memory.
   LocalCopy(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
       : bytes_(nodes::kept(node.memory(), core::MemoryUse::home_pages, database, database.size_bytes(), core::overread_bytes)) {
@@ -33,6 +32,15 @@ class LocalCopy {
   const std::byte* find(core::Address address) const { return bytes_.data() + core::byte_offset(address); }
   /// The copy, without the bytes that are readable behind it.
   std::span<const std::byte> bytes() const { return bytes_; }
+  /// Nobody has anything to say about records that all have.
+  template <class Waiting>
+  bool receive(const nodes::Packet& /*packet*/, Waiting& /*waiting*/) {
+    return false;
+  }
+  template <class Waiting>
+  void lacks(std::uint32_t /*slot*/, Waiting& /*waiting*/) {
+    core::expect(false, "a whole copy of the database lacks no record");
+  }
   /// No pages, so all zero.
   PageCounters counters() const { return {}; }
 

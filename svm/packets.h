@@ -1,4 +1,4 @@
-// What the nodes of svm and replicated tell each other and the host about pixels, beside pages: values, without pointers.
+// What nodes tell each other and the host about pixels, whatever they have of the scene: values, without pointers.
 //
 //   kind                   from -> to          channel   size   its place in the target's mailbox is reserved by
 //   work_request           node -> next node   ring      small  its asker: one under way for each node
@@ -10,14 +10,10 @@
 //   mask_part              host -> node        bulk      bulk   the host's credit for that node
 //   mask_acknowledgement   node -> host        control   small  the part of the mask
 //   begin_pass             host -> node        control   small  once a pass, when all nodes are done with the one before
-//   questions              node -> owner       request   any    the sender's request credits for that owner
-//   answers                owner -> node       bulk      any    the questions
 //
-// Work requests go to the host where that deals the items. Questions and answers stand in place of page requests and replies
-// (svm/pages/packets.h) where the tree's forest is at every node (svm/forest/forest.h). They are small or bulk, as it comes:
-// their credits reserve places of both. Masks and passes exist only where the picture is refined: when all nodes are done with a
-// pass, each gets the mask of its share, which tells how many more samples each pixel has, part by part, and when all nodes have
-// theirs the pass begins.
+// Work requests go to the host where that deals the items. Masks and passes exist only where the picture is refined: when all
+// nodes are done with a pass, each gets the mask of its share, which tells how many more samples each pixel has, part by part,
+// and when all nodes have theirs the pass begins.
 #pragma once
 
 #include <array>
@@ -33,24 +29,6 @@
 #include "svm/work_items.h"
 
 namespace dmpc::svm {
-
-/// What a question asks for: what a ray meets below a child, or a record for shading.
-enum class QuestionKind : std::uint8_t { below, block, normals, tile };
-
-/// Stands before a core::Below or, of a record, its core::Address. A packet has as many questions as fill it.
-struct QuestionHeader {
-  std::uint16_t slot = 0;  ///< of the pixel that waits, for the answer
-  QuestionKind kind{};
-  std::uint8_t padding = 0;
-};
-static_assert(sizeof(QuestionHeader) == 4);
-
-/// Stands before as many bytes: a core::Hit, if there is something nearer, or the record. A packet answers a packet.
-struct AnswerHeader {
-  std::uint16_t slot = 0;
-  std::uint16_t bytes = 0;
-};
-static_assert(sizeof(AnswerHeader) == 4);
 
 /// The node `asker` has no pixels left. Hops from node to node along the ring until one answers or `visits_left` have been
 /// asked or passed over.

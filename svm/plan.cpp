@@ -10,11 +10,7 @@
 #include "nodes/runner.h"
 #include "nodes/size_text.h"
 #include "nodes/threads/held_packets.h"
-#include "svm/forest/forest.h"
-#include "svm/local_copy.h"
 #include "svm/packets.h"
-#include "svm/pages/pager.h"
-#include "svm/pages/watch/counting_pager.h"
 #include "svm/slots.h"
 #include "svm/work_items.h"
 
@@ -29,38 +25,12 @@ constexpr core::Field strategy_field = field_of<&PlanRequest::strategy>(),
                       nodes_field = field_of<&nodes::ComputerRequest::node_count>(),
                       memory_field = field_of<&nodes::ComputerRequest::node_memory_bytes>();
 
-/// A node whose task waits for a page has others to go on with.
-constexpr std::uint32_t default_tasks = 16, default_bundles = 4;
-/// Between ranks a page takes several times as long, by way of two threads that communicate.
-constexpr std::uint32_t default_bundles_on_ranks = 16;
 constexpr std::uint32_t auto_cache_pages_min = 64;
 /// Longer film packets would save nothing worth the memory of their mailbox slots.
 constexpr std::size_t film_packet_max_bytes = 4096;
-/// Small slots that a home keeps for page requests, about; 16 KiB of them.
-constexpr std::uint32_t request_slots_wanted = 256;
-/// More requests to one home than this wait no shorter: it serves them one after another.
-constexpr std::uint32_t request_credits_max = 4;
-/// Room for packets of questions that a node keeps, about.
-constexpr std::size_t question_room_wanted_bytes = std::size_t{64} << 10U;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
 bool is_host_home(const PlanRequest& request) { return are_at_host(request.pages.homes); }
-
-bool pages_travel(const PlanRequest& request) {
-  return request.strategy == Strategy::svm && (request.computer.node_count > 1 || is_host_home(request));
-}
-
-bool questions_travel(const PlanRequest& request) {
-  return request.strategy == Strategy::forest && request.computer.node_count > 1;
-}
-
-/// Pages that are not at home, at the node that has the fewest at home.
-std::uint32_t foreign_pages_max(const PlanRequest& request) {
-  if (!pages_travel(request)) {
-    return 0;
-  }
-  return request.page_count - (is_host_home(request) ? 0 : request.page_count / request.computer.node_count);
-}
 
 /// Bundles are whole ones: with fewer pixels in flight rays walk alone.
 std::uint32_t pixels_a_task(const PlanRequest& request, std::uint32_t in_flight) {
@@ -71,12 +41,6 @@ std::uint32_t pixels_a_task(const PlanRequest& request, std::uint32_t in_flight)
 std::uint32_t item_side_of(const PlanRequest& request) {
   const std::uint32_t side = work_item_side_of(request.pages, request.bundles);
   return request.is_masked() ? std::min(side, masked_side_max) : side;
-}
-
-/// Nodes from which page requests come to one node, at most: to the first of a tree.
-std::uint32_t askers_of(const PlanRequest& request) {
-  const auto tree = request_tree_of(request.pages.homes, request.computer.node_count, request.pages.tree_arity);
-  return tree ? tree->count_below(0) : request.computer.node_count - 1;
 }
 
 bool is_dealt(const PlanRequest& request) { return request.pages.work_giver == WorkGiver::host; }
@@ -100,25 +64,6 @@ std::uint64_t node_pixels_max(const PlanRequest& request) {
   return most;
 }
 
-/// At least one for each home, so that every fault can be requested in the end; no more than faults, nor than pages at a home,
-/// each of which has one fault at most.
-std::uint32_t request_credits_of(const PlanRequest& request, std::uint32_t faults_max) {
-  if (!pages_travel(request)) {
-    return 0;
-  }
-  const std::uint32_t askers = askers_of(request);  // the host's memory is large
-  const std::uint32_t each =
-      askers == 0 ? request_credits_max : std::clamp(request_slots_wanted / askers, 1U, request_credits_max);
-  const std::uint32_t homes = is_host_home(request) ? 1 : request.computer.node_count;
-  return std::min({faults_max, core::ceil_divide(request.page_count, homes), each});
-}
-
-/// Packets of questions: no more than tasks, each of which asks one at a time.
-std::uint32_t question_credits_of(const PlanRequest& request, std::uint32_t task_count, std::size_t packet_bytes) {
-  const auto wanted = static_cast<std::uint32_t>(question_room_wanted_bytes / (packet_bytes * (request.computer.node_count - 1)));
-  return std::min(task_count, std::clamp(wanted, 1U, request_credits_max));
-}
-
 std::uint32_t film_credits_of(const PlanRequest& request) {
   return nodes::patient_credits(request.computer.node_count, request.computer.machine.has_value());
 }
@@ -132,16 +77,11 @@ std::uint32_t film_entries_of(const PlanRequest& request) {
 /// received.
 nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const PlanRequest& request = plan.request;
-  const std::uint32_t request_credits = plan.request_credits, faults_max = plan.faults_max();
-  const std::uint32_t others = request.computer.node_count - 1;
   const bool ring = item_side_of(request) > 0;
   nodes::MailboxCapacity capacity;
-  // Page requests or questions: each other node's credits for this home, or, in a tree, those of all nodes below.
-  const std::uint32_t asked = askers_of(request) * request_credits;
   // Work requests: each other node has at most one on the ring, unless they go to the host.
-  const std::uint32_t passed_on = ring && !is_dealt(request) ? others : 0;
-  capacity.small_slots = asked                       // page requests or questions
-                         + passed_on                 // work requests
+  const std::uint32_t passed_on = ring && !is_dealt(request) ? request.computer.node_count - 1 : 0;
+  capacity.small_slots = passed_on                   // work requests
                          + (ring ? 1 : 0)            // the reply to this node's own work request
                          + film_credits_of(request)  // acknowledgements: one for each film packet of this node's
                          + 1;                        // Stop
@@ -150,16 +90,7 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
     capacity.bulk_slots = 1;    // a part of the mask: the next one follows its acknowledgement
     capacity.bulk_payload_bytes = sizeof(MaskPart);
   }
-  if (pages_travel(request)) {
-    capacity.bulk_slots += faults_max;  // page replies: one for each fault under way
-    capacity.bulk_payload_bytes = std::max(capacity.bulk_payload_bytes, page_reply_bytes(request.page_size_bytes));
-  }
-  if (questions_travel(request)) {
-    const std::uint32_t answers = std::min(plan.task_count(), others * request_credits);  // one for each packet of questions
-    capacity.small_slots += answers;
-    capacity.bulk_slots += answers + others * request_credits;  // questions: as page requests above, small or bulk
-    capacity.bulk_payload_bytes = std::max(capacity.bulk_payload_bytes, plan.question_bytes);
-  }
+  request.strategy->add_places(plan, capacity);
   return capacity;
 }
 
@@ -195,11 +126,7 @@ Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t i
   plan.pixels_a_task = pixels_a_task(request, in_flight);
   plan.worker_count = worker_count_of(request);
   plan.work_item_side = item_side_of(request);
-  plan.request_credits = request_credits_of(request, plan.faults_max());
-  if (questions_travel(request)) {
-    plan.question_bytes = question_packet_bytes(std::min(plan.task_count(), packet_questions_max));
-    plan.request_credits = question_credits_of(request, plan.task_count(), plan.question_bytes);
-  }
+  plan.request_credits = request.strategy->request_credits(plan);
   plan.film_credits = film_credits_of(request);
   plan.film_entries = film_entries_of(request);
   plan.node_mailbox = node_mailbox_of(plan);
@@ -231,7 +158,7 @@ constexpr FieldOfSvm fields_of_svm[] = {of_svm<&PageOptions::cache_pages>(), of_
 
 void check_fields_of_svm(const PlanRequest& request) {
   for (const FieldOfSvm& of_svm : fields_of_svm) {
-    check_use(goes_with(of_svm.field, request.strategy) || of_svm.is_usual(request.pages), of_svm.field, " goes with ",
+    check_use(goes_with(of_svm.field, *request.strategy) || of_svm.is_usual(request.pages), of_svm.field, " goes with ",
               strategy_field, "=svm");
   }
 }
@@ -239,7 +166,7 @@ void check_fields_of_svm(const PlanRequest& request) {
 /// Work that moves, or a pixel that goes on while another waits, would make the order of references depend on page misses.
 void check_recording(const PlanRequest& request) {
   if (request.pages.record_references) {
-    check_use(request.strategy == Strategy::svm, "page references are recorded with ", strategy_field, "=svm only");
+    check_use(request.strategy->fetches_pages(), "page references are recorded with ", strategy_field, "=svm only");
     check_use(request.pages.work_item_side == 0U,
               "page references are recorded only if no node gives work away: ", field_of<&PageOptions::work_item_side>(), "=0");
     check_use(request.pages.in_flight == 1U,
@@ -277,9 +204,7 @@ void check(const PlanRequest& request) {
             "distinct pages are counted where all pixels have the same samples, not with refinement");
   check_use(request.pages.cache_pages != 0U, field_of<&PageOptions::cache_pages>(),
             "=0: a node needs at least one frame for the pages of others");
-  check_use(request.strategy != Strategy::forest || request.forest_page_count > 0, strategy_field,
-            "=forest needs one tree of boxes whose subtrees lie in pages: ", field_of<&core::BuildOptions::structure>(),
-            "=extents and ", field_of<&core::BuildOptions::record_order>(), "=spatial");
+  request.strategy->check(request);
   check_recording(request);
   core::expect(request.page_count >= 1 && request.depth_max >= 1, "a database has a page, and a ray a depth");
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
@@ -287,36 +212,29 @@ void check(const PlanRequest& request) {
                "what is gone on with is of the same picture");
 }
 
-/// Our choice of tasks; where memory is bounded, frames are worth more than further ones.
-std::uint32_t chosen_tasks(const PlanRequest& request) {
-  if (request.strategy == Strategy::replicated) {
-    return 1;
-  }
-  const bool may_be_more = pages_travel(request) && request.computer.ranks != nullptr && !request.computer.node_memory_bytes;
-  return !request.bundles ? default_tasks : may_be_more ? default_bundles_on_ranks : default_bundles;
-}
-
 /// What the user asked for, or our choice, as far as there are pixels, before the memory is looked at.
 std::uint32_t wanted_in_flight(const PlanRequest& request) {
-  const std::uint32_t asked = request.pages.in_flight.value_or(chosen_tasks(request) * (request.bundles ? bundle_pixels : 1));
+  const std::uint32_t asked =
+      request.pages.in_flight.value_or(request.strategy->usual_tasks(request) * (request.bundles ? bundle_pixels : 1));
   const auto wanted = static_cast<std::uint32_t>(std::min<std::uint64_t>(asked, node_pixels_max(request)));
   return wanted - wanted % pixels_a_task(request, wanted);
 }
 
 /// The fewest frames that this request can do with.
 std::uint32_t frames_min(const PlanRequest& request) {
-  return std::min(request.pages.cache_pages.value_or(1), foreign_pages_max(request));
+  return std::min(request.pages.cache_pages.value_or(1), request.strategy->foreign_pages_max(request));
 }
 
 std::uint32_t auto_frames(const PlanRequest& request) {
   const std::uint32_t quarter = core::ceil_divide(request.page_count, 4U);
-  return std::min(request.pages.cache_pages.value_or(std::max(quarter, auto_cache_pages_min)), foreign_pages_max(request));
+  return std::min(request.pages.cache_pages.value_or(std::max(quarter, auto_cache_pages_min)),
+                  request.strategy->foreign_pages_max(request));
 }
 
 /// The most frames that fit, at least frames_min() of which are known to fit.
 std::uint32_t most_frames(const PlanRequest& request, std::uint32_t in_flight, std::size_t memory_bytes) {
   std::uint32_t fits = frames_min(request);
-  std::uint32_t too_many = (request.pages.cache_pages ? fits : foreign_pages_max(request)) + 1;
+  std::uint32_t too_many = (request.pages.cache_pages ? fits : request.strategy->foreign_pages_max(request)) + 1;
   while (too_many - fits > 1) {
     const std::uint32_t middle = fits + (too_many - fits) / 2;
     (bytes_with(request, middle, in_flight) <= memory_bytes ? fits : too_many) = middle;
@@ -329,7 +247,7 @@ std::uint32_t most_frames(const PlanRequest& request, std::uint32_t in_flight, s
 std::uint32_t most_in_flight(const PlanRequest& request, std::size_t memory_bytes) {
   std::uint32_t in_flight = wanted_in_flight(request);
   const auto frames_for = [&](std::uint32_t pixels) {
-    return request.pages.cache_pages ? frames_min(request) : std::min(pixels, foreign_pages_max(request));
+    return request.pages.cache_pages ? frames_min(request) : std::min(pixels, request.strategy->foreign_pages_max(request));
   };
   while (in_flight > 1 && bytes_with(request, frames_for(in_flight), in_flight) > memory_bytes) {
     const std::uint32_t less = pixels_a_task(request, in_flight);
@@ -354,10 +272,8 @@ std::optional<std::uint32_t> smallest_node_count(PlanRequest request) {
                           size_text(smallest_node_memory_bytes(request)));
   if (const auto nodes = smallest_node_count(request)) {
     sentence.add(", or with this memory ", nodes_field, "=", *nodes);
-  } else if (request.strategy == Strategy::replicated) {
-    sentence.add("; every node of ", strategy_field, "=replicated holds the whole database, ", strategy_field, "=svm spreads it");
   } else {
-    sentence.add("; no number of nodes up to ", nodes::node_count_max, " works with this memory");
+    sentence.add(request.strategy->advice());
   }
   throw core::Refusal<core::RoomError>(sentence);
 }
@@ -386,12 +302,16 @@ void note_reductions(Plan& plan) {
 
 }  // namespace
 
-bool goes_with(const core::Field& field, Strategy strategy) {
-  return strategy == Strategy::svm || std::none_of(std::begin(fields_of_svm), std::end(fields_of_svm),
-                                                   [&](const FieldOfSvm& of_svm) { return of_svm.field == field; });
+core::Sentence Strategy::advice() const {
+  return core::Sentence("; no number of nodes up to ", nodes::node_count_max, " works with this memory");
 }
 
-std::uint32_t Plan::faults_max() const { return std::min(task_count(), foreign_pages_max(request)); }
+bool goes_with(const core::Field& field, const Strategy& strategy) {
+  return strategy.fetches_pages() || std::none_of(std::begin(fields_of_svm), std::end(fields_of_svm),
+                                                  [&](const FieldOfSvm& of_svm) { return of_svm.field == field; });
+}
+
+std::uint32_t Plan::faults_max() const { return std::min(task_count(), request.strategy->foreign_pages_max(request)); }
 
 PageCapacity Plan::pages() const {
   return {.page_count = request.page_count,
@@ -404,8 +324,7 @@ PageCapacity Plan::pages() const {
           .in_flight = task_count(),
           .faults_max = faults_max(),
           .request_credits = request_credits,
-          .forest_pages = request.strategy == Strategy::forest ? request.forest_page_count : 0,
-          .question_bytes = question_bytes};
+          .leading_pages = request.strategy->leading_pages(request)};
 }
 
 FilmCapacity Plan::film() const {
@@ -450,17 +369,8 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
   nodes::MemoryPlan plan = nodes::memory_beside_program(node_mailbox, request.computer.node_count + 1, held_bytes,
                                                         request.computer.stack_reserve_bytes) +
                            nodes::LastingPieces::layout(core::MemoryUse::constants, sizeof(core::RenderSettings)) +
-                           FilmGather::layout(film()) + WorkSource::layout(work(), index);
-  if (request.strategy == Strategy::svm) {
-    plan += Pager::layout(pages(), index);
-  } else if (request.strategy == Strategy::forest) {
-    plan += Forest::layout(pages(), index);
-  } else {
-    plan += LocalCopy::layout(pages().database_bytes());
-  }
-  if (request.pages.count_pages) {
-    plan += CountingPager::own_layout(pages());
-  }
+                           FilmGather::layout(film()) + WorkSource::layout(work(), index) +
+                           request.strategy->layout(*this, index);
   const auto depth_max = static_cast<std::uint32_t>(request.depth_max);
   if (pixels_a_task > 1) {
     plan += Slots<core::BundleTask>::layout(task_count(), depth_max);

@@ -20,20 +20,17 @@
 #include "svm/page_options.h"
 #include "svm/pages/page.h"
 #include "svm/pages/page_capacity.h"
+#include "svm/strategy.h"
 #include "svm/work_source.h"
 
 namespace dmpc::svm {
 
-/// svm: pages travel. replicated: every node holds the whole database, nothing travels but work and film. forest: every node
-/// holds the upper part of the tree, and asks the owners of its subtrees what rays meet there.
-enum class Strategy : std::uint8_t { svm, replicated, forest };
-
-/// Whether the strategy has this field of PageOptions: only nodes of svm fetch pages.
-bool goes_with(const core::Field& field, Strategy strategy);
+/// Whether the strategy has this field of PageOptions: some are of nodes alone that fetch pages.
+bool goes_with(const core::Field& field, const Strategy& strategy);
 
 /// What a plan is made from. `optional` without a value means: choose.
 struct PlanRequest {
-  Strategy strategy = Strategy::svm;
+  const Strategy* strategy = svm_strategy();
   std::uint32_t page_count = 0;
   std::uint32_t forest_page_count = 0;  ///< of them, that lie before the first subtree (core::Database::forest_page_count())
   std::size_t page_size_bytes = 1024;
@@ -64,8 +61,7 @@ struct Plan {
   std::uint32_t pixels_a_task = 1;    ///< of them, at most: more than one where their rays walk in bundles
   std::uint32_t worker_count = 1;     ///< nodes that render
   std::uint32_t work_item_side = 0;   ///< pixels; 0: no node gives work to another
-  std::uint32_t request_credits = 0;  ///< page requests, or packets of questions, that one node may have under way to one home
-  std::size_t question_bytes = 0;     ///< of a full packet of questions
+  std::uint32_t request_credits = 0;  ///< packets that ask for something which one node may have under way to one other
   std::uint32_t film_credits = 0;     ///< film packets that one node may have under way to the host
   std::uint32_t film_entries = 0;     ///< pixels in a full film packet
   std::size_t held_bytes = 0;         ///< room at each node and the host for packets that chaos holds back

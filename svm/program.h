@@ -1,4 +1,5 @@
-// The node program of svm, replicated and forest: pixels under way, work items, and the packets that concern them.
+// The node program of all strategies by which pixels stay: pixels under way, work items, and the packets that concern them. What
+// it reads records from has packets of its own about them.
 //
 // A quantum runs one pixel, or some that share a task, until it has ended a ray or a bundle, finished, or needs an absent page.
 // Newest first: the pixel that ran last goes on, another one starts only when none can run. With one pixel in flight this is the
@@ -7,8 +8,7 @@
 // Why the last node always moves: requests are served in receive(), whatever the node's own state. A reply's place was
 // reserved when its request left. A page that arrives runs every pixel that waited for it before the next packet is looked
 // at, and one step reads one record, so even one frame serves any number of pixels. A full film starts no pixel and waits for
-// the host, which waits for nobody. Questions are answered in receive(), too, from memory that never changes: their asker goes on
-// with other pixels, or waits for nodes that wait for nobody.
+// the host, which waits for nobody.
 #pragma once
 
 #include <algorithm>
@@ -32,16 +32,15 @@
 #include "nodes/watch/meter.h"
 #include "svm/film_gather.h"
 #include "svm/packets.h"
-#include "svm/pages/faults.h"
 #include "svm/pages/node_program.h"
+#include "svm/pages/plain_records.h"
 #include "svm/plan.h"
 #include "svm/slots.h"
 #include "svm/work_source.h"
 
 namespace dmpc::svm {
 
-/// `Records` is Pager, CountingPager, LocalCopy or Forest; `Tracer` reads them; `Task` is core::PixelTask, core::BundleTask,
-/// or a test's.
+/// `Records` is what PlainRecords describes; `Tracer` reads them; `Task` is core::PixelTask, core::BundleTask, or a test's.
 template <class Records, class Tracer, class Task = core::PixelTask>
 class ControlProgram final : public NodeProgram {
  public:
@@ -63,17 +62,13 @@ class ControlProgram final : public NodeProgram {
     node.grant(host_, control_channel, 1);  // for Done
   }
 
+  /// Packets about records come first: most are. The first pixel that goes on with what a packet brings is charged for it.
   void receive(const nodes::Packet& packet) override {
+    begin_metering();
+    if (records_.receive(packet, *this)) {
+      return;
+    }
     switch (Kind{packet.kind}) {
-      case Kind::page_request:
-      case Kind::passed_request:
-        return serve(packet);
-      case Kind::page_reply:
-        return resume(packet);
-      case Kind::questions:
-        return answer(packet);
-      case Kind::answers:
-        return take_answers(packet);
       case Kind::work_request:
         return work_.answer(packet.as<WorkRequest>());
       case Kind::work_reply:
@@ -86,9 +81,7 @@ class ControlProgram final : public NodeProgram {
         return begin_pass();
       case Kind::stop:
         return stop();
-      case Kind::film_sums:
-      case Kind::done:
-      case Kind::mask_acknowledgement:
+      default:
         break;
     }
     core::expect(false, "a node receives only what is sent to nodes");
@@ -100,7 +93,7 @@ class ControlProgram final : public NodeProgram {
       start();
     }
     if (slots_.has_runnable()) {
-      run(slots_.take_runnable());
+      go_on(slots_.take_runnable());
     }
     const bool more = slots_.has_runnable() || can_start();
     if (!more) {
@@ -113,34 +106,20 @@ class ControlProgram final : public NodeProgram {
 
   nodes::Charges charges() const override {
     nodes::Charges charges{core::charges_of(operations_)};
-    const PageCounters pages = records_.counters();
-    charges[core::Charge::home_lookup] = pages.home_hits;
-    charges[core::Charge::cached_lookup] = pages.references - pages.home_hits;
-    charges[core::Charge::page_install] = pages.faults - pending_faults();
-    if constexpr (questions_travel) {
-      const QuestionCounters& questions = records_.questions();
-      charges[core::Charge::ray_setup] += questions.rays_answered;
-      charges[core::Charge::ray_packing] =
-          questions.rays_asked + questions.records_asked + questions.rays_answered + questions.records_answered;
-    }
+    records_.add_charges(charges);
     return charges;
   }
 
   nodes::Levels levels() const override {
-    if constexpr (Records::pages_travel) {
-      return {
-          {"pages in cache", records_.cached_pages()}, {"pages awaited", records_.faults()}, {"pixels done", pixels_rendered_}};
-    } else if constexpr (questions_travel) {
-      return {{"questions pending", records_.pending()}, {"pixels done", pixels_rendered_}};
-    } else {
-      return {{"pixels done", pixels_rendered_}};
-    }
+    nodes::Levels levels = records_.levels();
+    levels.add({"pixels done", pixels_rendered_});
+    return levels;
   }
 
   std::string describe() const override {
-    return std::to_string(pixels_in_flight_) + " pixels in flight, " + std::to_string(pending()) +
-           (questions_travel ? " answers awaited, " : " pages awaited, ") + std::to_string(film_.gathered()) +
-           " pixels gathered, " + std::to_string(film_.under_way()) + " film packets unacknowledged, " + work_.describe() +
+    return std::to_string(pixels_in_flight_) + " pixels in flight, " + std::to_string(records_.pending()) + " " +
+           Records::awaited + " awaited, " + std::to_string(film_.gathered()) + " pixels gathered, " +
+           std::to_string(film_.under_way()) + " film packets unacknowledged, " + work_.describe() +
            (stopped_ ? ", stopped"
             : done_  ? ", done"
                      : "");
@@ -151,10 +130,21 @@ class ControlProgram final : public NodeProgram {
     report.work.pixels_rendered = pixels_rendered_;
     report.rays_ended = rays_ended_;
     report.operations.skipped.idle_nodes = work_.nodes_passed_over();
-    if constexpr (questions_travel) {
-      report.questions = records_.questions();
-    }
+    report.questions = records_.questions();
     return report;
+  }
+
+  // What records, and they alone, call to go on with the pixels that they serve.
+
+  Task& task(std::uint32_t slot) { return slots_.task(slot); }
+  const core::RenderSettings& settings() const { return settings_; }
+  /// What the node does is counted there, for other nodes' pixels, too.
+  core::Operations& operations() { return operations_; }
+  /// Runs the pixel, or those of the task, until a ray or bundle has ended, all is finished, or something is absent.
+  void go_on(std::uint32_t slot) {
+    records_.select(slot);
+    run(slot);
+    end_metering(slots_.task(slot));
   }
 
  private:
@@ -163,9 +153,6 @@ class ControlProgram final : public NodeProgram {
     return *reinterpret_cast<const core::RenderSettings*>(
         nodes::kept(node.memory(), core::MemoryUse::constants, std::as_bytes(std::span(&settings, 1))).data());
   }
-
-  static constexpr bool questions_travel = requires(Records & records) { records.flush(); };
-  static constexpr bool counts_pages = requires(Records & records) { records.forget(); };
 
   bool can_start() const {
     return slots_.has_free() && work_.has_pixel() && film_.has_room_for(pixels_in_flight_ + Task::pixels_max);
@@ -183,22 +170,12 @@ class ControlProgram final : public NodeProgram {
     } while (count < most && work_.stays_in_tile() && work_.next_samples() == samples);
     slots_.task(slot).start(std::span<const std::uint32_t>(pixels).first(count), samples, settings_, operations_);
     pixels_in_flight_ += count;
-    if constexpr (counts_pages) {
-      records_.select(slot);
-      records_.forget();
-    }
+    records_.select(slot);
+    records_.forget();
     slots_.make_runnable(slot);
   }
 
   void run(std::uint32_t slot) {
-    if constexpr (counts_pages) {
-      records_.select(slot);
-    }
-    go_on(slot);
-    end_metering(slots_.task(slot));
-  }
-
-  void go_on(std::uint32_t slot) {
     switch (slots_.task(slot).run(tracer_, settings_, operations_)) {
       case core::TaskState::more:
         rays_ended_ += slots_.task(slot).rays_ended();
@@ -206,7 +183,7 @@ class ControlProgram final : public NodeProgram {
       case core::TaskState::finished:
         return finish(slot);
       case core::TaskState::absent:
-        return park(slot);
+        return records_.lacks(slot, *this);
     }
   }
 
@@ -245,74 +222,9 @@ class ControlProgram final : public NodeProgram {
     slots_.make_free(slot);
   }
 
-  void park(std::uint32_t slot) {
-    if constexpr (Records::pages_travel) {
-      records_.park(slot, slots_.task(slot).absent());
-    } else if constexpr (questions_travel) {
-      const Task& task = slots_.task(slot);
-      if (task.is_tracing()) {
-        records_.ask(slot, task.below(settings_.skips));
-      } else {
-        records_.ask(slot, task.absent_kind(), task.absent());
-      }
-    } else {
-      core::expect(false, "a whole copy of the database lacks no record");
-    }
-  }
-
-  void serve(const nodes::Packet& packet) {
-    if constexpr (Records::pages_travel) {
-      records_.serve(packet);
-    } else {
-      core::expect(false, "no page travels where every node has all");
-    }
-  }
-
-  /// Every pixel that waits for the page runs before anything else can evict it: until its ray ends or it needs another
-  /// absent page. The first of them, whose fault it was, is charged for the page.
-  void resume(const nodes::Packet& packet) {
-    if constexpr (Records::pages_travel) {
-      begin_metering();
-      std::uint32_t slot = records_.install(packet);
-      while (slot != no_slot) {
-        const std::uint32_t next = records_.next_waiting(slot);
-        records_.retried();
-        run(slot);
-        slot = next;
-      }
-    } else {
-      core::expect(false, "no page travels where every node has all");
-    }
-  }
-
-  void answer(const nodes::Packet& packet) {
-    if constexpr (questions_travel) {
-      records_.answer(packet, operations_);
-    } else {
-      core::expect(false, "nobody is asked about what every node has, or what travels");
-    }
-  }
-
-  /// Each pixel that has waited runs until its ray ends, or it has another question.
-  void take_answers(const nodes::Packet& packet) {
-    if constexpr (questions_travel) {
-      records_.take(packet, [this](std::uint32_t slot, const core::Hit* hit) {
-        begin_metering();
-        if (hit != nullptr) {
-          slots_.task(slot).take_below(*hit, settings_.skips, operations_);
-        }
-        run(slot);
-      });
-    } else {
-      core::expect(false, "nobody is asked about what every node has, or what travels");
-    }
-  }
-
   /// Nothing can run until a packet comes: send what is asked, ask for work, send what is gathered, or say that all is done.
   void fall_idle() {
-    if constexpr (questions_travel) {
-      records_.flush();
-    }
+    records_.flush();
     if (slots_.has_free() && !work_.has_pixel()) {
       work_.ask();
     }
@@ -320,7 +232,7 @@ class ControlProgram final : public NodeProgram {
       film_.flush();
     }
     if (!done_ && slots_.active() == 0 && work_.exhausted() && film_.settled()) {
-      core::expect(pending() == 0, "nothing is awaited when no pixel is in flight");
+      core::expect(records_.pending() == 0, "nothing is awaited when no pixel is in flight");
       node_->send_reserved(host_, control_channel, number_of(Kind::done), Done{pixels_rendered_ - pixels_announced_});
       pixels_announced_ = pixels_rendered_;
       done_ = true;
@@ -344,22 +256,6 @@ class ControlProgram final : public NodeProgram {
   void stop() {
     core::expect(done_ && !stopped_, "the host stops only nodes that are done, and once");
     stopped_ = true;
-  }
-
-  std::uint32_t pending_faults() const {
-    if constexpr (Records::pages_travel) {
-      return records_.faults();
-    }
-    return 0;
-  }
-
-  /// What pixels wait for: pages or answers.
-  std::uint32_t pending() const {
-    if constexpr (questions_travel) {
-      return records_.pending();
-    } else {
-      return pending_faults();
-    }
   }
 
   const core::RenderSettings& settings_;

@@ -11,7 +11,6 @@
 #include "nodes/ranks/streams_to_ranks.h"
 #include "svm/job.h"
 #include "svm/run.h"
-#include "svm/scene_pieces.h"
 
 namespace dmpc::svm {
 
@@ -26,7 +25,7 @@ void hand_out(const Plan& plan, const core::RenderSettings& settings, const core
   }
   for (std::uint32_t node = 0; node < node_count; ++node) {
     const std::uint32_t rank = nodes::rank_of(node, node_count, links.rank_count());
-    for_each_piece(plan, node, [&](std::size_t offset, std::size_t bytes) {
+    plan.request.strategy->for_each_piece(plan, node, [&](std::size_t offset, std::size_t bytes) {
       if (rank != 0) {
         streams.write_piece(rank, database.bytes(), offset, bytes);
       }
@@ -37,13 +36,13 @@ void hand_out(const Plan& plan, const core::RenderSettings& settings, const core
 
 nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const Following& following) {
   nodes::StreamFromHost stream(links);
-  const std::unique_ptr<Job> job = job_from(nodes::read_counted(stream), links);
+  const std::unique_ptr<Job> job = job_from(nodes::read_counted(stream), links, following.strategies);
   following.check_room(nodes::rank_memory(nodes::peers_of(job->plan), &links, links.rank()));
   const std::string order = nodes::read_counted(stream);
   const nodes::Watching watching = order.empty() ? nodes::Watching() : following.watch(order);
   const nodes::ByteSource pages(stream, job->plan.pages().database_bytes());
-  const MakeProgram make_program =
-      maker_of(job->plan, job->settings, pages, watching, order.empty() ? nullptr : following.reference_logs());
+  const MakeProgram make_program = job->plan.request.strategy->maker(job->plan, job->settings, pages, watching,
+                                                                     order.empty() ? nullptr : following.reference_logs());
   const auto runner =
       nodes::make_runner(specifications_without_host(job->plan, make_program), job->plan.request.computer, watching.observer);
   stream.say_ready();

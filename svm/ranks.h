@@ -13,6 +13,7 @@
 #include "nodes/ranks/rank_links.h"
 #include "svm/pages/watch/reference_log.h"
 #include "svm/plan.h"
+#include "svm/strategy.h"
 
 namespace dmpc::svm {
 
@@ -23,12 +24,14 @@ void hand_out(const Plan& plan, const core::RenderSettings& settings, const core
 
 /// What a rank brings to a run of these strategies.
 struct Following : nodes::Following {
+  /// Those that it may be a run of.
+  Strategies strategies = {svm_strategy(), replicated_strategy()};
   /// Called after watch(): where references are to be noted, by node; nothing if nobody wants to know.
   std::function<std::vector<ReferenceLog>*()> reference_logs = [] { return nullptr; };
 };
 
-/// What another rank does while rank 0 renders by run_svm(), run_replicated() or run_forest(). No more of the scene is in its
-/// memory than its nodes' pages. Throws nodes::Dismissed if rank 0 ends instead, and as run_svm() does.
+/// What another rank does while rank 0 renders by run_by(), with one of its strategies. No more of the scene is in its
+/// memory than its nodes' pages. Throws nodes::Dismissed if rank 0 ends instead, and as run_by() does.
 nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const Following& following = {});
 
 }  // namespace dmpc::svm

@@ -29,9 +29,9 @@ bool walks_in_bundles(const RunOptions& options) {
          !pages_of(options).count_pages && !options.pages.record_references && options.pages.reference_logs == nullptr;
 }
 
-PlanRequest request_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings,
+PlanRequest request_of(const Strategy& strategy, const core::Database& database, const core::RenderSettings& settings,
                        const RunOptions& options) {
-  return {.strategy = strategy,
+  return {.strategy = &strategy,
           .page_count = static_cast<std::uint32_t>(database.page_count()),
           .forest_page_count = static_cast<std::uint32_t>(database.forest_page_count()),
           .page_size_bytes = database.page_size(),
@@ -43,7 +43,7 @@ PlanRequest request_of(Strategy strategy, const core::Database& database, const 
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
           .start = options.continuation.start,
-          .bundles = settings.skips.bundles && strategy != Strategy::forest && walks_in_bundles(options)};
+          .bundles = settings.skips.bundles && strategy.takes_bundles() && walks_in_bundles(options)};
 }
 
 std::uint64_t packets_of(const nodes::TrafficByKind& traffic, Kind kind) { return traffic[number_of(kind)].packets; }
@@ -61,11 +61,6 @@ void check_conservation(const NodeReport& report) {
   core::expect(program.pages.faults == packets_of(counters.received, Kind::page_reply), "every page request was replied to");
   core::expect(program.pages.served + packets_of(counters.sent, Kind::passed_request) == requests_received(counters),
                "every page request was served, or passed on");
-  core::expect(program.questions.rays_asked + program.questions.records_asked == program.questions.answers,
-               "every question was answered, once");
-  core::expect(packets_of(counters.sent, Kind::questions) == packets_of(counters.received, Kind::answers) &&
-                   packets_of(counters.received, Kind::questions) == packets_of(counters.sent, Kind::answers),
-               "every packet of questions was answered by one");
   core::expect(program.work.items_asked == packets_of(counters.received, Kind::work_reply), "every work request was answered");
   core::expect(packets_of(counters.sent, Kind::film_sums) == packets_of(counters.received, Kind::film_acknowledgement),
                "every film packet was acknowledged");
@@ -75,9 +70,6 @@ void check_conservation(const Report& report) {
   for (const NodeReport& node : report.nodes) {
     check_conservation(node);
   }
-  const QuestionCounters questions = report.questions();
-  core::expect(questions.rays_asked == questions.rays_answered && questions.records_asked == questions.records_answered,
-               "every question was answered by somebody");
   const PageCounters pages = report.pages();
   core::expect(pages.references == pages.home_hits + pages.cache_hits + pages.misses && pages.misses >= pages.faults,
                "every reference was a page hit or a page miss");
@@ -88,6 +80,7 @@ void check_conservation(const Report& report) {
   core::expect(work.pixels_rendered == report.pixels_done, "every pixel was rendered once a pass");
   core::expect(packets_of(report.sent(), Kind::film_sums) == packets_of(report.host.received, Kind::film_sums),
                "every film packet sent was received");
+  report.plan.request.strategy->check_conservation(report);
   nodes::expect_nothing_lost(report.ranks);
 }
 
@@ -95,35 +88,25 @@ void check_conservation(const Report& report) {
 /// time. Which pages its cache has changes between quanta alone; serving one marks it as used, like any look-up.
 constexpr std::uint32_t interrupt_kinds = 1U << number_of(Kind::page_request) | 1U << number_of(Kind::passed_request);
 
-/// Where there are other ranks, they are handed out first what their nodes keep.
-Report run_with_grid(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
-                     const RunOptions& options, std::stop_token stop) {
-  if (options.computer.ranks != nullptr) {
-    hand_out(plan, settings, database, options.watching.elsewhere.order, *options.computer.ranks);
-  }
-  return run_programs(plan, maker_of(plan, settings, database.bytes(), options.watching, options.pages.reference_logs), options,
-                      std::move(stop));
-}
-
-/// The references of each node become a part of its report.
-Report run_recording(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
-                     const RunOptions& options, std::stop_token stop) {
-  std::vector<ReferenceLog> logs(plan.request.computer.node_count);
-  Report report =
-      run_programs(plan, maker_of(plan, settings, database.bytes(), options.watching, &logs), options, std::move(stop));
-  for (std::size_t i = 0; i < logs.size(); ++i) {
-    report.nodes[i].references = std::move(logs[i]);
+/// Notes what each node references where that is recorded: it becomes a part of the node's report.
+Report run_as_planned(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
+                      const RunOptions& options, std::stop_token stop) {
+  std::vector<ReferenceLog> recorded(options.pages.record_references ? plan.request.computer.node_count : 0);
+  std::vector<ReferenceLog>* const logs = recorded.empty() ? options.pages.reference_logs : &recorded;
+  const nodes::ByteSource bytes(database.bytes());  // what makers are given outlives them
+  const MakeProgram maker = plan.request.strategy->maker(plan, settings, bytes, options.watching, logs);
+  Report report = run_programs(plan, maker, options, std::move(stop));
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    report.nodes[i].references = std::move(recorded[i]);
   }
   return report;
 }
 
-/// Runs a strategy by which no page travels.
-Report run_without_pages(Strategy strategy, const core::Database& database, const core::RenderSettings& settings,
-                         const RunOptions& options, std::stop_token stop) {
-  Plan plan = plan_of(strategy, database, settings, options);
-  const core::FineDetail detail = settings.fine_detail(database);
-  plan.request.detail = &detail;
-  return run_with_grid(database, settings, plan, options, std::move(stop));
+/// Those that every node keeps for good.
+std::vector<PageId> resident_pages(const core::Database& database, const core::RenderSettings& settings, const Plan& plan,
+                                   nodes::RankLinks* ranks, const std::stop_token& stop) {
+  const auto find = [&] { return most_used_pages(database, settings, plan.resident_count, stop); };
+  return ranks == nullptr || plan.resident_count == 0 ? find() : nodes::with_life_signs(*ranks, find);
 }
 
 }  // namespace
@@ -133,7 +116,8 @@ nodes::TrafficByKind Report::sent() const {
   return core::add_counts(sum, host.sent);
 }
 
-Plan plan_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings, const RunOptions& options) {
+Plan plan_of(const Strategy& strategy, const core::Database& database, const core::RenderSettings& settings,
+             const RunOptions& options) {
   return make_plan(request_of(strategy, database, settings, options));
 }
 
@@ -213,29 +197,28 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   return report;
 }
 
-Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
-               std::stop_token stop) {
-  Plan plan = plan_of(Strategy::svm, database, settings, options);
+Report run_by(const Strategy& strategy, const core::Database& database, const core::RenderSettings& settings,
+              const RunOptions& options, std::stop_token stop) {
+  Plan plan = plan_of(strategy, database, settings, options);
   const core::FineDetail detail = settings.fine_detail(database);
   plan.request.detail = &detail;
   plan.request.database = database.bytes();
-  const auto find_resident = [&] { return most_used_pages(database, settings, plan.resident_count, stop); };
-  plan.resident =
-      options.computer.ranks == nullptr ? find_resident() : nodes::with_life_signs(*options.computer.ranks, find_resident);
-  if (options.pages.record_references) {
-    return run_recording(database, settings, plan, options, std::move(stop));
+  nodes::RankLinks* const ranks = options.computer.ranks;
+  plan.resident = resident_pages(database, settings, plan, ranks, stop);
+  if (ranks != nullptr) {
+    hand_out(plan, settings, database, options.watching.elsewhere.order, *ranks);
   }
-  return run_with_grid(database, settings, plan, options, std::move(stop));
+  return run_as_planned(database, settings, plan, options, std::move(stop));
+}
+
+Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+               std::stop_token stop) {
+  return run_by(*svm_strategy(), database, settings, options, std::move(stop));
 }
 
 Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                       std::stop_token stop) {
-  return run_without_pages(Strategy::replicated, database, settings, options, std::move(stop));
-}
-
-Report run_forest(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
-                  std::stop_token stop) {
-  return run_without_pages(Strategy::forest, database, settings, options, std::move(stop));
+  return run_by(*replicated_strategy(), database, settings, options, std::move(stop));
 }
 
 }  // namespace dmpc::svm

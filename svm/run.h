@@ -29,12 +29,12 @@
 #include "nodes/watch/watching.h"
 #include "svm/host.h"
 #include "svm/local_copy.h"
-#include "svm/make_programs.h"
 #include "svm/page_options.h"
 #include "svm/pages/node_program.h"
 #include "svm/pages/watch/reference_log.h"
 #include "svm/plan.h"
 #include "svm/program.h"
+#include "svm/strategy.h"
 
 namespace dmpc::svm {
 
@@ -81,13 +81,19 @@ struct Report {
 };
 
 /// The plan that a run with these options will follow, for messages before the run. Throws as make_plan() does.
-Plan plan_of(Strategy strategy, const core::Database& database, const core::RenderSettings& settings, const RunOptions& options);
+Plan plan_of(const Strategy& strategy, const core::Database& database, const core::RenderSettings& settings,
+             const RunOptions& options);
 
-/// Renders with strategy svm. On ranks rank 0 calls it, and the others follow() (svm/ranks.h). Throws as make_plan() does before
-/// anything is rendered; core::InternalError if a law of conservation is broken. One call at a time in a process needs no care;
-/// several are independent.
+/// Renders. On ranks rank 0 calls it, and the others follow() (svm/ranks.h). Throws as make_plan() does before anything is
+/// rendered; core::InternalError if a law of conservation is broken. One call at a time in a process needs no care; several are
+/// independent.
+Report run_by(const Strategy& strategy, const core::Database& database, const core::RenderSettings& settings,
+              const RunOptions& options, std::stop_token stop);
 Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
                std::stop_token stop);
+/// With our own grid.
+Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                      std::stop_token stop);
 
 /// What a runner needs for `plan`: the nodes in order, then the host, which writes `film`. All arguments but `continuation`
 /// outlive the runner.
@@ -112,7 +118,7 @@ Report run_replicated(const core::Database& database, const core::RenderSettings
                       std::stop_token stop, const MakeTracer& make_tracer) {
   core::expect(options.tracer_is_own, "a run with a tracer of one's own says so");
   using Tracer = std::invoke_result_t<const MakeTracer&, std::uint32_t, std::span<const std::byte>>;
-  Plan plan = plan_of(Strategy::replicated, database, settings, options);
+  Plan plan = plan_of(*replicated_strategy(), database, settings, options);
   const core::FineDetail detail = settings.fine_detail(database);
   plan.request.detail = &detail;
   const auto make_program = [&](std::uint32_t index, nodes::Node& node) -> std::unique_ptr<NodeProgram> {
@@ -122,13 +128,5 @@ Report run_replicated(const core::Database& database, const core::RenderSettings
   };
   return run_programs(plan, make_program, options, std::move(stop));
 }
-
-/// Renders with strategy forest, a database of one tree in spatial order (core::Database::forest_page_count()).
-Report run_forest(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
-                  std::stop_token stop);
-
-/// Renders with strategy replicated and our own grid.
-Report run_replicated(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
-                      std::stop_token stop);
 
 }  // namespace dmpc::svm

@@ -4,6 +4,7 @@
 #include "apps/run/strategy_options.h"
 #include "dataflow/regions/mapping.h"
 #include "dataflow/run.h"
+#include "svm/forest/strategy.h"
 #include "svm/run.h"
 
 namespace dmpc::apps {
@@ -32,10 +33,10 @@ class Forecaster {
 
   void add(std::uint32_t node_count) {
     computers_.push_back({.nodes = node_count,
-                          .svm = with_pages(svm::Strategy::svm, node_count),
-                          .replicated = with_pages(svm::Strategy::replicated, node_count)});
+                          .svm = with_pages(*svm::svm_strategy(), node_count),
+                          .replicated = with_pages(*svm::replicated_strategy(), node_count)});
     if (database_.forest_page_count() > 0) {
-      computers_.back().forest = with_pages(svm::Strategy::forest, node_count);
+      computers_.back().forest = with_pages(*svm::forest_strategy(), node_count);
     }
     if (can_share_out(node_count)) {
       stopwatch_.lap();
@@ -66,9 +67,9 @@ class Forecaster {
   }
 
  private:
-  MemoryForecast with_pages(svm::Strategy strategy, std::uint32_t node_count) const {
+  MemoryForecast with_pages(const svm::Strategy& strategy, std::uint32_t node_count) const {
     svm::RunOptions options{.computer = {.node_count = node_count}};
-    if (strategy == svm::Strategy::svm) {
+    if (strategy.fetches_pages()) {
       options.pages = pages_;
     }
     return forecast_of(svm::plan_of(strategy, database_, settings_, options), node_count);

@@ -13,6 +13,7 @@
 #include "dataflow/ranks.h"
 #include "nodes/ranks/following.h"
 #include "nodes/runner.h"
+#include "svm/forest/strategy.h"
 #include "svm/packets.h"
 #include "svm/ranks.h"
 
@@ -26,6 +27,7 @@ svm::Following following_for(std::optional<Onlookers>& onlookers) {
   following.check_room = [](const nodes::RankMemory& memory) { check_room(memory); };
   following.watch = [&onlookers](std::string_view order) { return onlookers.emplace(watch_order_from(order)).watching(); };
   following.seen = [&onlookers] { return onlookers->seen(); };
+  following.strategies.push_back(svm::forest_strategy());
   following.reference_logs = [&onlookers] { return onlookers->reference_logs(); };
   return following;
 }

@@ -3,6 +3,7 @@
 #include <initializer_list>
 
 #include "dataflow/packets.h"
+#include "svm/forest/strategy.h"
 #include "svm/packets.h"
 
 namespace dmpc::apps {
@@ -26,7 +27,7 @@ std::uint32_t bits_of(std::initializer_list<Kind> kinds) {
 
 WaitKinds waits_of(const svm::Report& report) {
   using svm::Kind;
-  const bool asks = report.plan.request.strategy == svm::Strategy::forest;
+  const bool asks = report.plan.request.strategy == svm::forest_strategy();
   return {.data = asks ? "answer" : "page",
           .data_kinds = asks ? bits_of({Kind::questions, Kind::answers}) : bits_of({Kind::page_reply}),
           .work_kinds = bits_of({Kind::work_request, Kind::work_reply, Kind::mask_part, Kind::begin_pass}),

@@ -62,35 +62,22 @@ std::vector<std::string> notes_of(const Plan& plan) {
   return notes;
 }
 
-svm::Report run_with_pages(svm::Strategy strategy, const core::Database& database, const core::RenderSettings& settings,
-                           const svm::RunOptions& run, std::stop_token stop) {
-  switch (strategy) {
-    case svm::Strategy::svm:
-      return svm::run_svm(database, settings, run, std::move(stop));
-    case svm::Strategy::forest:
-      return svm::run_forest(database, settings, run, std::move(stop));
-    case svm::Strategy::replicated:
-      break;
-  }
-  return svm::run_replicated(database, settings, run, std::move(stop));
-}
-
 /// svm, replicated and forest.
-ReadyRun ready_with_pages(svm::Strategy strategy, const StrategyOptions& options, const core::Database& database,
+ReadyRun ready_with_pages(const svm::Strategy& strategy, const StrategyOptions& options, const core::Database& database,
                           const core::RenderSettings& settings, const nodes::Watching& watching,
                           const core::Continuation& continuation) {
   const bool by_embree = options.tracer == TracerChoice::embree;
   svm::RunOptions run{.computer = options.computer, .pages = options.pages, .watching = watching, .continuation = continuation};
   run.pages.in_flight = in_flight(options);
   run.tracer_is_own = by_embree;
-  const auto start = [&database, &settings, run, strategy, by_embree](const nodes::Progress& progress,
-                                                                      std::stop_token stop) -> Report {
+  const auto start = [&database, &settings, &strategy, run, by_embree](const nodes::Progress& progress,
+                                                                       std::stop_token stop) -> Report {
     svm::RunOptions watched = run;
     watched.watching.progress = progress;
     if (by_embree) {
       return run_with_embree(database, settings, watched, std::move(stop));
     }
-    return run_with_pages(strategy, database, settings, watched, std::move(stop));
+    return svm::run_by(strategy, database, settings, watched, std::move(stop));
   };
   const svm::Plan plan = with_options_named(strategy_words(), [&] { return svm::plan_of(strategy, database, settings, run); });
   check_room_for(plan);
@@ -143,9 +130,9 @@ ReadyRun make_ready(const StrategyOptions& options, const core::Database& databa
                     const std::stop_token& stop, const nodes::Watching& watching, const core::Continuation& continuation) {
   core::expect(options.computer.machine.has_value() == (options.runner.kind == RunnerKind::virtual_time),
                "a modelled machine has been read");
-  const std::optional<svm::Strategy> with_pages = page_strategy(options.strategy);
-  return with_pages ? ready_with_pages(*with_pages, options, database, settings, watching, continuation)
-                    : ready_with_rays(options, database, settings, stop, watching, continuation);
+  const svm::Strategy* const with_pages = page_strategy(options.strategy);
+  return with_pages != nullptr ? ready_with_pages(*with_pages, options, database, settings, watching, continuation)
+                               : ready_with_rays(options, database, settings, stop, watching, continuation);
 }
 
 }  // namespace dmpc::apps

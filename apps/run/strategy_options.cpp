@@ -9,6 +9,7 @@
 #include "apps/run/region_options.h"
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
+#include "svm/forest/strategy.h"
 
 namespace dmpc::apps {
 
@@ -19,12 +20,13 @@ using core::UsageError;
 struct StrategyKind {
   Strategy strategy;
   const char* name;
-  std::optional<svm::Strategy> with_pages;
+  const svm::Strategy* (*with_pages)();  ///< what svm's library has for it
 };
-constexpr StrategyKind strategy_kinds[] = {{Strategy::svm, "svm", svm::Strategy::svm},
-                                           {Strategy::replicated, "replicated", svm::Strategy::replicated},
-                                           {Strategy::dataflow, "dataflow", std::nullopt},
-                                           {Strategy::forest, "forest", svm::Strategy::forest}};
+constexpr StrategyKind strategy_kinds[] = {
+    {Strategy::svm, "svm", svm::svm_strategy},
+    {Strategy::replicated, "replicated", svm::replicated_strategy},
+    {Strategy::dataflow, "dataflow", [] { return static_cast<const svm::Strategy*>(nullptr); }},
+    {Strategy::forest, "forest", svm::forest_strategy}};
 
 const StrategyKind& kind_of(Strategy strategy) {
   const auto* const kind = std::find_if(std::begin(strategy_kinds), std::end(strategy_kinds),
@@ -84,7 +86,7 @@ void check_strategy(const OptionSet& options, const StrategyOptions& run) {
 
 const char* name_of(Strategy strategy) { return kind_of(strategy).name; }
 
-std::optional<svm::Strategy> page_strategy(Strategy strategy) { return kind_of(strategy).with_pages; }
+const svm::Strategy* page_strategy(Strategy strategy) { return kind_of(strategy).with_pages(); }
 
 void add_strategy_option(OptionSet options, Strategy& strategy) {
   OptionSet::Choices<Strategy> choices;

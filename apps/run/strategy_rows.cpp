@@ -289,8 +289,8 @@ const TopologyRow& topology_row() {
 }
 
 bool has(Strategy strategy, const PageRow& row) {
-  const std::optional<svm::Strategy> with_pages = page_strategy(strategy);
-  return with_pages && svm::goes_with(row.takes.field, *with_pages);
+  const svm::Strategy* const with_pages = page_strategy(strategy);
+  return with_pages != nullptr && svm::goes_with(row.takes.field, *with_pages);
 }
 
 const std::vector<OptionWord>& strategy_words() {

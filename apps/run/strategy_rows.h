@@ -26,8 +26,8 @@ const std::vector<BalanceRow>& balance_rows();
 const std::vector<RayRow>& ray_rows();
 const TopologyRow& topology_row();
 
-/// What svm's library calls a strategy of its; nothing for dataflow.
-std::optional<svm::Strategy> page_strategy(Strategy strategy);
+/// The strategy by which pixels stay; nullptr for dataflow.
+const svm::Strategy* page_strategy(Strategy strategy);
 /// Whether a strategy has the row's field.
 bool has(Strategy strategy, const PageRow& row);
 template <class Options>

@@ -52,6 +52,7 @@ class Sentence {
   std::string text(const FieldNames& name_of = &Field::name) const;
 
  private:
+  void add_part(const Sentence& other) { parts_.insert(parts_.end(), other.parts_.begin(), other.parts_.end()); }
   void add_part(const Field& field) { parts_.emplace_back(field); }
   void add_part(std::string_view words) { parts_.emplace_back(std::string(words)); }
   void add_part(std::integral auto number) { parts_.emplace_back(std::to_string(number)); }

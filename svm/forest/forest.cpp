@@ -4,11 +4,15 @@
 
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
+#include "core/trace/charge.h"
 
 namespace dmpc::svm {
 namespace {
 
 using nodes::Category;
+
+/// Questions that a packet holds, at most.
+constexpr std::uint32_t packet_questions_max = 16;
 
 constexpr std::size_t question_bytes(QuestionKind kind) {
   return sizeof(QuestionHeader) + (kind == QuestionKind::below ? sizeof(core::Below) : sizeof(core::Address));
@@ -58,25 +62,29 @@ constexpr std::size_t lent_bytes = core::record_bytes_max + core::overread_bytes
 
 }  // namespace
 
-std::size_t question_packet_bytes(std::uint32_t questions) {
+std::size_t question_packet_bytes(const PageCapacity& capacity) {
+  if (capacity.node_count <= 1) {
+    return 0;
+  }
+  const std::uint32_t questions = std::min(capacity.in_flight, packet_questions_max);
   return std::max(questions * question_bytes(QuestionKind::below), answer_bytes_max(QuestionKind::block));
 }
 
 nodes::Layout<Forest::Question, Forest::Queue, std::byte, std::byte> Forest::own_layout(const PageCapacity& capacity) {
   return {{Category::queues, capacity.in_flight},
           {Category::queues, capacity.node_count},
-          {Category::queues, capacity.question_bytes},
+          {Category::queues, question_packet_bytes(capacity)},
           {Category::queues, lent_bytes}};
 }
 
 nodes::MemoryPlan Forest::layout(const PageCapacity& capacity, std::uint32_t index) {
-  return nodes::LastingPieces::layout(core::MemoryUse::home_pages, capacity.forest_bytes() + core::overread_bytes) +
+  return nodes::LastingPieces::layout(core::MemoryUse::home_pages, capacity.leading_bytes() + core::overread_bytes) +
          HomePages::layout(capacity, index) + own_layout(capacity);
 }
 
 Forest::Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
     : geometry_(capacity.page_size_bytes()),
-      forest_(nodes::kept(node.memory(), core::MemoryUse::home_pages, database, capacity.forest_bytes(), core::overread_bytes)),
+      forest_(nodes::kept(node.memory(), core::MemoryUse::home_pages, database, capacity.leading_bytes(), core::overread_bytes)),
       homes_(node, capacity, database),
       self_(nodes::index_of(node.id())),
       node_(&node) {
@@ -206,6 +214,15 @@ PageCounters Forest::counters() const {
   PageCounters counters = counters_;
   counters.references = counters.home_hits + counters.misses;
   return counters;
+}
+
+void Forest::add_charges(nodes::Charges& charges) const {
+  const QuestionCounters& questions = questions_counted_;
+  charges[core::Charge::ray_setup] += questions.rays_answered;
+  charges[core::Charge::home_lookup] += counters_.home_hits;
+  charges[core::Charge::cached_lookup] += counters_.misses;
+  charges[core::Charge::ray_packing] +=
+      questions.rays_asked + questions.records_asked + questions.rays_answered + questions.records_answered;
 }
 
 }  // namespace dmpc::svm

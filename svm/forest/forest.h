@@ -19,26 +19,26 @@
 #include "nodes/lasting_pieces.h"
 #include "nodes/layout.h"
 #include "nodes/node.h"
-#include "svm/packets.h"
+#include "svm/forest/packets.h"
 #include "svm/pages/faults.h"
 #include "svm/pages/home_pages.h"
 #include "svm/pages/node_program.h"
+#include "svm/pages/packets.h"
 #include "svm/pages/page.h"
 #include "svm/pages/page_capacity.h"
+#include "svm/pages/plain_records.h"
 
 namespace dmpc::svm {
 
-/// The room that a full packet of up to `questions` takes, as that of its answers.
-std::size_t question_packet_bytes(std::uint32_t questions);
-/// Questions that a packet holds, at most.
-inline constexpr std::uint32_t packet_questions_max = 16;
+/// The room that a full packet of questions takes, as that of its answers; none if there is nobody to ask.
+std::size_t question_packet_bytes(const PageCapacity& capacity);
 
 /// A core::Records whose find() answers nullptr for a record that is neither in the forest nor at home, unless its owner has just
 /// sent it. What a pixel waits for is asked of the owner, in packets that leave when they are full or there is nothing else to
 /// do. Thread safety: none.
-class Forest {
+class Forest : public PlainRecords {
  public:
-  static constexpr bool pages_travel = false;
+  static constexpr const char* awaited = "answers";
 
   /// Puts the forest and the node's home pages, from `database`, into its local memory (nodes/lasting_pieces.h), and takes the
   /// credits for its questions.
@@ -56,6 +56,36 @@ class Forest {
     return find_below(address);
   }
 
+  /// Answers questions, or takes answers and has all go on that wait for them. Returns false for any other packet. `waiting`,
+  /// here and below, is a node program of core::PixelTasks.
+  template <class Waiting>
+  bool receive(const nodes::Packet& packet, Waiting& waiting) {
+    switch (Kind{packet.kind}) {
+      case Kind::questions:
+        answer(packet, waiting.operations());
+        return true;
+      case Kind::answers:
+        take(packet, [&waiting](std::uint32_t slot, const core::Hit* hit) {
+          if (hit != nullptr) {
+            waiting.task(slot).take_below(*hit, waiting.settings().skips, waiting.operations());
+          }
+          waiting.go_on(slot);
+        });
+        return true;
+      default:
+        return false;
+    }
+  }
+  /// Asks for what the pixel in `slot` needs.
+  template <class Waiting>
+  void lacks(std::uint32_t slot, Waiting& waiting) {
+    const auto& task = waiting.task(slot);
+    if (task.is_tracing()) {
+      ask(slot, task.below(waiting.settings().skips));
+    } else {
+      ask(slot, task.absent_kind(), task.absent());
+    }
+  }
   /// `slot` goes on when it is known what its ray meets below a child, which find() has just said is absent.
   void ask(std::uint32_t slot, const core::Below& below);
   /// `slot` goes on when the record, of which find() has just said the same, has come.
@@ -92,6 +122,8 @@ class Forest {
   /// References are look-ups; misses those that were asked of an owner.
   PageCounters counters() const;
   const QuestionCounters& questions() const { return questions_counted_; }
+  void add_charges(nodes::Charges& charges) const;
+  nodes::Levels levels() const { return {{"questions pending", pending()}}; }
 
  private:
   struct Question {

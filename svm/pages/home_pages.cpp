@@ -17,7 +17,7 @@ std::size_t room_bytes(const PageCapacity& capacity, std::uint32_t index) {
 HomePages::HomePages(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
     : homes_(capacity.homes()),
       self_(nodes::index_of(node.id())),
-      first_page_(capacity.forest_pages),
+      first_page_(capacity.leading_pages),
       count_(capacity.pages_at(self_)),
       pages_(node.memory(), core::MemoryUse::home_pages, room_bytes(capacity, self_), capacity.page_size_bytes()) {
   core::expect(database.size_bytes() == capacity.database_bytes(), "the plan is the database's");

@@ -26,7 +26,7 @@ class HomePages {
   static void for_each_page(const PageCapacity& capacity, std::uint32_t index, const Visit& visit) {
     const Homes homes = capacity.homes();
     for (std::uint32_t slot = 0; slot < capacity.pages_at(index); ++slot) {
-      const std::size_t page = index_of(homes.page_at({index, slot})) + capacity.forest_pages;
+      const std::size_t page = index_of(homes.page_at({index, slot})) + capacity.leading_pages;
       visit(page * capacity.page_size_bytes());
     }
   }

@@ -20,7 +20,8 @@
 
 namespace dmpc::svm {
 
-/// All that travels in this family, pixels' packets (svm/packets.h) too, so that a number has one name in every trace.
+/// All that travels in this family, packets of pixels (svm/packets.h) and questions (svm/forest/packets.h) too, so that a number
+/// has one name in every trace.
 enum class Kind : nodes::PacketKind {
   page_request,
   page_reply,

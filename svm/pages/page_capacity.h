@@ -26,13 +26,12 @@ struct PageCapacity {
   CacheShape cache;                       ///< whose pages are as large as all
   std::uint32_t in_flight = 1;            ///< pixels under way
   std::uint32_t faults_max = 0;           ///< under way at a time
-  std::uint32_t request_credits = 0;      ///< page requests, or packets of questions, that may be under way to one home
-  std::uint32_t forest_pages = 0;         ///< the first ones, if every node holds them and asks the owners of the others
-  std::size_t question_bytes = 0;         ///< of a full packet of questions, or of answers
+  std::uint32_t request_credits = 0;      ///< page requests, or other packets that ask, that may be under way to one home
+  std::uint32_t leading_pages = 0;        ///< the first ones, if every node holds them: they have no home
 
   std::size_t page_size_bytes() const { return cache.page_size_bytes; }
   std::size_t database_bytes() const { return page_count * page_size_bytes(); }
-  std::size_t forest_bytes() const { return forest_pages * page_size_bytes(); }
+  std::size_t leading_bytes() const { return leading_pages * page_size_bytes(); }
   Homes homes() const { return homes_of(where, node_count); }
   /// Who asks whom, if all pages are at home at the host.
   std::optional<RequestTree> tree() const { return request_tree_of(where, node_count, tree_arity); }
@@ -43,7 +42,7 @@ struct PageCapacity {
   /// The shape of the frames of resident pages, all alike.
   CacheShape resident_shape() const { return {resident_count, page_size_bytes()}; }
   /// Pages at home at node `index`, or the host, beside those that all nodes hold.
-  std::uint32_t pages_at(std::uint32_t index) const { return homes().count_at(index, page_count - forest_pages); }
+  std::uint32_t pages_at(std::uint32_t index) const { return homes().count_at(index, page_count - leading_pages); }
 };
 
 }  // namespace dmpc::svm

@@ -120,11 +120,11 @@ std::uint32_t Pager::install(const nodes::Packet& reply) {
   if (Faults::Fault* refused = faults_.oldest_refused(asked)) {
     request(*refused);
   }
-  forget(cache_.install(header.page, reply.behind(sizeof(header))));
+  forget_page(cache_.install(header.page, reply.behind(sizeof(header))));
   return first;
 }
 
-void Pager::forget(PageId evicted) {
+void Pager::forget_page(PageId evicted) {
   last_page_ = no_page;
   if (evicted == no_page) {
     return;
@@ -141,6 +141,13 @@ PageCounters Pager::counters() const {
   counters.cache_hits -= retries_;
   counters.references = counters.home_hits + counters.cache_hits + counters.misses;
   return counters;
+}
+
+void Pager::add_charges(nodes::Charges& charges) const {
+  const PageCounters pages = counters();
+  charges[core::Charge::home_lookup] += pages.home_hits;
+  charges[core::Charge::cached_lookup] += pages.references - pages.home_hits;
+  charges[core::Charge::page_install] += pages.faults - faults();
 }
 
 }  // namespace dmpc::svm

@@ -8,14 +8,18 @@
 
 #include "core/picture/memory_use.h"
 #include "core/record/records.h"
+#include "core/trace/charge.h"
+#include "nodes/level.h"
 #include "nodes/node.h"
 #include "svm/pages/cache.h"
 #include "svm/pages/faults.h"
 #include "svm/pages/home_pages.h"
 #include "svm/pages/node_program.h"
+#include "svm/pages/packets.h"
 #include "svm/pages/page.h"
 #include "svm/pages/page_capacity.h"
 #include "svm/pages/page_server.h"
+#include "svm/pages/plain_records.h"
 #include "svm/pages/request_tree.h"
 
 namespace dmpc::svm {
@@ -23,11 +27,8 @@ namespace dmpc::svm {
 /// A node's part of the shared virtual memory: its home pages, those resident at every node, its cache, its faults. A
 /// core::Records whose find() answers nullptr for a page that is none of these. The victim of a page is chosen when the page
 /// arrives. Thread safety: none.
-class Pager {
+class Pager : public PlainRecords {
  public:
-  /// Programs with this kind of records exchange page requests and replies.
-  static constexpr bool pages_travel = true;
-
   /// Puts the node's home pages, from `database`, into its local memory (nodes::LastingPieces) and takes the credits for its
   /// requests.
   Pager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database);
@@ -46,6 +47,32 @@ class Pager {
     return find_other(page, offset);
   }
 
+  /// A packet about pages: replies to a request, or installs a page and has all go on that wait for it, before the next packet
+  /// can evict it: waiting.go_on(slot) runs a slot until it can do no more for now. Returns false for any other packet.
+  template <class Waiting>
+  bool receive(const nodes::Packet& packet, Waiting& waiting) {
+    switch (Kind{packet.kind}) {
+      case Kind::page_request:
+      case Kind::passed_request:
+        serve(packet);
+        return true;
+      case Kind::page_reply:
+        for (std::uint32_t slot = install(packet); slot != no_slot;) {
+          const std::uint32_t next = next_waiting(slot);
+          retried();
+          waiting.go_on(slot);
+          slot = next;
+        }
+        return true;
+      default:
+        return false;
+    }
+  }
+  /// The task in `slot` needs what find() has just said is absent.
+  template <class Waiting>
+  void lacks(std::uint32_t slot, Waiting& waiting) {
+    park(slot, waiting.task(slot).absent());
+  }
   /// `slot` goes on when the page of `address`, which find() has just said is absent, arrives. Requests the page if nobody has.
   void park(std::uint32_t slot, core::Address address);
   /// Takes a page reply: installs the page and returns the first slot that waited for it. Whoever runs those slots calls
@@ -65,7 +92,10 @@ class Pager {
   std::uint32_t faults() const { return faults_.count(); }
   /// Pages in the cache.
   std::uint32_t cached_pages() const { return cache_.filled_count(); }
+  std::uint32_t pending() const { return faults(); }
   PageCounters counters() const;
+  void add_charges(nodes::Charges& charges) const;
+  nodes::Levels levels() const { return {{"pages in cache", cached_pages()}, {"pages awaited", faults()}}; }
 
  private:
   /// Where a page was found last: in front of the arithmetic and the cache's table, small enough to stay in the processor's
@@ -84,7 +114,7 @@ class Pager {
   std::uint32_t asked_for(PageId page) const;
   const std::byte* served_bytes(PageId page);
   void request(Faults::Fault& fault);
-  void forget(PageId evicted);
+  void forget_page(PageId evicted);
 
   // What a reference reads comes first.
   PageGeometry geometry_;

@@ -13,11 +13,9 @@
 
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
-#include "core/trace/charge.h"
 #include "core/trace/task_state.h"
 #include "nodes/node.h"
 #include "svm/pages/node_program.h"
-#include "svm/pages/packets.h"
 #include "svm/pages/task_heat.h"
 #include "svm/pages/task_kind.h"
 #include "svm/pages/task_plan.h"
@@ -53,16 +51,8 @@ class TaskProgram final : public AnyTaskProgram {
   void note_heat(TaskMeter meter) { meter_ = meter; }
 
   void receive(const nodes::Packet& packet) override {
-    if (packet.kind == number_of(Kind::page_request)) {
-      return records_.serve(packet);
-    }
-    core::expect(packet.kind == number_of(Kind::page_reply), "a node is asked for pages, and gets those that it asked for");
-    for (std::uint32_t place = records_.install(packet); place != no_slot;) {
-      const std::uint32_t next = records_.next_waiting(place);
-      records_.retried();
-      run(place);
-      place = next;
-    }
+    const bool is_about_pages = records_.receive(packet, *this);
+    core::expect(is_about_pages, "a node is asked for pages, and gets those that it asked for");
   }
 
   bool work() override {
@@ -70,7 +60,7 @@ class TaskProgram final : public AnyTaskProgram {
       start();
     }
     if (runnable_count_ > 0) {
-      run(runnable_[--runnable_count_]);
+      go_on(runnable_[--runnable_count_]);
     }
     return runnable_count_ > 0 || can_start();
   }
@@ -79,15 +69,14 @@ class TaskProgram final : public AnyTaskProgram {
 
   nodes::Charges charges() const override {
     nodes::Charges charges = charges_;
-    const PageCounters pages = records_.counters();
-    charges[core::Charge::home_lookup] += pages.home_hits;
-    charges[core::Charge::cached_lookup] += pages.references - pages.home_hits;
-    charges[core::Charge::page_install] += pages.faults - records_.faults();
+    records_.add_charges(charges);
     return charges;
   }
 
   nodes::Levels levels() const override {
-    return {{"pages in cache", records_.cached_pages()}, {"pages awaited", records_.faults()}, {"tasks done", done_}};
+    nodes::Levels levels = records_.levels();
+    levels.add({"tasks done", done_});
+    return levels;
   }
 
   std::string describe() const override {
@@ -98,6 +87,14 @@ class TaskProgram final : public AnyTaskProgram {
   ProgramReport report() const override { return {.operations = {}, .pages = records_.counters(), .work = {}}; }
   std::span<const std::byte> results() const override { return results_; }
 
+  /// A step of the task there, and what it took. For records that have what the task has waited for.
+  void go_on(std::uint32_t place) {
+    step(place);
+    if (meter_) {
+      meter_->stepped(numbers_[place], records_.counters(), charges());
+    }
+  }
+
  private:
   bool can_start() const { return free_count_ > 0 && next_ - first_ < count_; }
 
@@ -106,14 +103,6 @@ class TaskProgram final : public AnyTaskProgram {
     numbers_[place] = next_++;
     kind_.start(task_at(place), numbers_[place]);
     runnable_[runnable_count_++] = place;
-  }
-
-  /// A step of the task there, and what it took.
-  void run(std::uint32_t place) {
-    step(place);
-    if (meter_) {
-      meter_->stepped(numbers_[place], records_.counters(), charges());
-    }
   }
 
   void step(std::uint32_t place) {

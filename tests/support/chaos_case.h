@@ -44,7 +44,7 @@ class ChaosCase {
   }
 
   /// Options of svm; replicated and forest have no cache. `round` tells the parts of one picture apart.
-  svm::RunOptions page_options(svm::Strategy strategy, std::uint32_t round = 0) {
+  svm::RunOptions page_options(const svm::Strategy* strategy, std::uint32_t round = 0) {
     svm::RunOptions options{.computer = {.node_count = nodes_}};
     options.pages.in_flight = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 5, 8, 64, 4096, std::nullopt});
     options.pages.work_item_side = one_of({0U, 1U, 2U, 3U, 3U, 7U, 100U});
@@ -54,7 +54,7 @@ class ChaosCase {
     if (options.pages.work_giver == svm::WorkGiver::ring && draws_.chance(30)) {
       options.pages.pixel_shares = svm::PixelShares::interleaved;
     }
-    if (strategy == svm::Strategy::svm) {
+    if (strategy == svm::svm_strategy()) {
       options.pages.cache_pages = one_of<std::optional<std::uint32_t>>({1, 1, 2, 3, 16, std::nullopt});
       options.pages.replacement = one_of({svm::Replacement::lru, svm::Replacement::lru, svm::Replacement::clock,
                                           svm::Replacement::fifo, svm::Replacement::random, svm::Replacement::two_queues,

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "dataflow/run.h"
+#include "svm/forest/run.h"
+#include "svm/forest/strategy.h"
 #include "svm/run.h"
 #include "tests/support/subject.h"
 

@@ -11,6 +11,7 @@
 #include "nodes/ranks/loopback.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/size_text.h"
+#include "svm/forest/strategy.h"
 
 namespace svm_plan_test {
 
@@ -50,7 +51,7 @@ TEST_CASE("in-flight is 16 for svm and 1 for replicated unless it is given") {
   CHECK(make_plan(request).in_flight == 16);
   request.pages.in_flight = 3;
   CHECK(make_plan(request).in_flight == 3);
-  request.strategy = svm::Strategy::replicated;
+  request.strategy = svm::replicated_strategy();
   CHECK(make_plan(request).in_flight == 3);
   request.pages.in_flight.reset();
   CHECK(make_plan(request).in_flight == 1);
@@ -78,7 +79,7 @@ TEST_CASE(
   request.pages.work_item_side = 7;
   check_plan(15, 1, 7);
   request.pages = {};
-  request.strategy = svm::Strategy::replicated;
+  request.strategy = svm::replicated_strategy();
   check_plan(16, 16, 4);
   request.bundles = false;
   check_plan(1, 1, 3);
@@ -97,7 +98,7 @@ TEST_CASE("over ranks 256 pixels are in flight where memory is not bounded, of s
   request.computer.node_memory_bytes = 100_MiB;
   CHECK(make_plan(request).in_flight == 64);
   request.computer.node_memory_bytes.reset();
-  request.strategy = svm::Strategy::replicated;
+  request.strategy = svm::replicated_strategy();
   CHECK(make_plan(request).in_flight == 16);
 }
 
@@ -138,7 +139,7 @@ TEST_CASE("the cache never takes more than all pages that are not at home") {
 }
 
 TEST_CASE("the smallest memory that is named works, and one byte less does not") {
-  for (const auto strategy : {svm::Strategy::svm, svm::Strategy::replicated}) {
+  for (const svm::Strategy* const strategy : {svm::svm_strategy(), svm::replicated_strategy()}) {
     for (const std::uint32_t nodes : {1U, 2U, 7U, 64U}) {
       PlanRequest request = request_with(nodes, 3000);
       request.strategy = strategy;
@@ -186,7 +187,7 @@ TEST_CASE("where no number of nodes helps, the message says so") {
   PlanRequest request = request_with(2, 10000);
   request.computer.node_memory_bytes = 100_KiB;
   CHECK(error_of(request).find("no number of nodes") != std::string::npos);
-  request.strategy = svm::Strategy::replicated;
+  request.strategy = svm::replicated_strategy();
   CHECK(error_of(request).find("strategy=svm") != std::string::npos);
 }
 
@@ -270,7 +271,7 @@ TEST_CASE("no node plans for more pixels in flight than it ever has") {
   CHECK(plan.notes[0] == "in-flight reduced from 4096 to 21 pixels: no node ever has more");
   request.pages.work_item_side = 0;
   CHECK(make_plan(request).in_flight == 6);
-  request.strategy = svm::Strategy::replicated;
+  request.strategy = svm::replicated_strategy();
   CHECK(make_plan(request).in_flight == 6);
   request.width = request.height = 1;
   CHECK(make_plan(request).in_flight == 1);
@@ -310,7 +311,7 @@ TEST_CASE("two pixels take room for two replies, however many were asked for") {
 
 TEST_CASE("a node of replicated keeps no room for pages of others") {
   PlanRequest request = request_with(5, 100);
-  request.strategy = svm::Strategy::replicated;
+  request.strategy = svm::replicated_strategy();
   const svm::Plan plan = make_plan(request);
   CHECK(plan.node_mailbox.bulk_slots == 0);
   CHECK(plan.frames == 0);
@@ -338,7 +339,7 @@ TEST_CASE("values out of range and wrong combinations are wrong use") {
   is_wrong([](PlanRequest& request) { request.pages.in_flight = svm::in_flight_max + 1; });
   is_wrong([](PlanRequest& request) { request.pages.cache_pages = 0; });
   is_wrong([](PlanRequest& request) {
-    request.strategy = svm::Strategy::replicated;
+    request.strategy = svm::replicated_strategy();
     request.pages.cache_pages = 3;
   });
 }
@@ -347,7 +348,7 @@ TEST_CASE("a replacement policy needs a cache") {
   PlanRequest request = request_with(4, 100);
   request.pages.replacement = svm::Replacement::clock;
   CHECK(make_plan(request).pages().cache.replacement == svm::Replacement::clock);
-  request.strategy = svm::Strategy::replicated;
+  request.strategy = svm::replicated_strategy();
   CHECK_THROWS_AS(make_plan(request), core::UsageError);
 }
 
@@ -369,7 +370,7 @@ TEST_CASE("page references are recorded only where they depend on neither cache 
   wrong[0].pages.work_item_side = 3;
   wrong[1].pages.in_flight = 2;
   wrong[2].pages.in_flight.reset();
-  wrong[3].strategy = svm::Strategy::replicated;
+  wrong[3].strategy = svm::replicated_strategy();
   wrong[4].pages.count_pages = true;
   for (const PlanRequest& request : wrong) {
     CHECK_THROWS_AS(make_plan(request), core::UsageError);
@@ -477,16 +478,16 @@ TEST_CASE("resident pages are a share of the frames, and one frame at least is l
   CHECK_THROWS_AS(make_plan(request), core::UsageError);
   request.pages.resident_percent = 50;
   request.pages.cache_pages.reset();
-  request.strategy = svm::Strategy::replicated;
+  request.strategy = svm::replicated_strategy();
   CHECK_THROWS_AS(make_plan(request), core::UsageError);
 }
 
 TEST_CASE("pages are at home at the host where they travel alone") {
   PlanRequest request = request_with(4, 40);
   request.pages.homes = svm::PageHomes::host;
-  request.strategy = svm::Strategy::replicated;
+  request.strategy = svm::replicated_strategy();
   CHECK_THROWS_AS(make_plan(request), core::UsageError);
-  request.strategy = svm::Strategy::forest;
+  request.strategy = svm::forest_strategy();
   CHECK_THROWS_AS(make_plan(request), core::UsageError);
 }
 

@@ -25,9 +25,9 @@ svm::PlanRequest request_with(std::uint32_t nodes, std::size_t page_size, std::u
 
 svm::MakeProgram maker(const svm::Plan& plan, const core::RenderSettings& settings, const FakePages& pages) {
   return [&](std::uint32_t, nodes::Node& node) {
-    return plan.request.strategy == svm::Strategy::replicated ? fake_program<svm::LocalCopy>(node, plan, settings, pages)
-           : plan.request.pages.count_pages                   ? fake_program<svm::CountingPager>(node, plan, settings, pages)
-                                                              : fake_program<svm::Pager>(node, plan, settings, pages);
+    return plan.request.strategy == svm::replicated_strategy() ? fake_program<svm::LocalCopy>(node, plan, settings, pages)
+           : plan.request.pages.count_pages                    ? fake_program<svm::CountingPager>(node, plan, settings, pages)
+                                                               : fake_program<svm::Pager>(node, plan, settings, pages);
   };
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("any legal order of packets and quanta gives the same film, and no mai
 TEST_CASE("replicated gives the same film without a page travelling") {
   for (const std::uint32_t nodes : {1U, 3U, 8U}) {
     svm::PlanRequest request = request_with(nodes, 1024, 20);
-    request.strategy = svm::Strategy::replicated;
+    request.strategy = svm::replicated_strategy();
     request.pages.in_flight = nodes == 3 ? 4 : 1;
     const svm::Report report = run_on_threads(request);
     CHECK(report.pages().references == 0);
@@ -158,11 +158,11 @@ TEST_CASE("distinct pages do not depend on cache or pixels in flight") {
 }
 
 TEST_CASE("a node uses exactly the memory of its plan, in every category") {
-  for (const auto strategy : {svm::Strategy::svm, svm::Strategy::replicated}) {
+  for (const svm::Strategy* const strategy : {svm::svm_strategy(), svm::replicated_strategy()}) {
     for (const bool count_pages : {false, true}) {
       svm::PlanRequest request = request_with(3, 1024, 25);
       request.strategy = strategy;
-      request.pages.count_pages = count_pages && strategy == svm::Strategy::svm;
+      request.pages.count_pages = count_pages && strategy == svm::svm_strategy();
       for (const svm::NodeReport& node : run_on_threads(request).nodes) {
         if (node.memory_used.bytes != node.memory_planned.bytes) {
           // A fake task is smaller than a real one, for which memory is planned.

@@ -207,7 +207,7 @@ TEST_CASE("the smallest memory that is named renders the picture") {
   svm::RunOptions options;
   options.computer.node_count = 5;
   core::Operations operations;
-  const svm::Plan plan = svm::plan_of(svm::Strategy::svm, small.database, small.settings, options);
+  const svm::Plan plan = svm::plan_of(*svm::svm_strategy(), small.database, small.settings, options);
   options.computer.node_memory_bytes = svm::smallest_node_memory_bytes(plan.request);
   const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
   CHECK(report.film.hash() == small.reference(operations).hash());
@@ -321,7 +321,7 @@ TEST_CASE("under every replacement policy the film is the same and no node misse
 TEST_CASE("the host may forget the database once it is distributed, and the film is the same") {
   core::Operations reference;
   const std::uint64_t hash = BuiltScene("rings-2", 512, 24).reference(reference).hash();
-  for (const svm::Strategy strategy : {svm::Strategy::svm, svm::Strategy::replicated}) {
+  for (const svm::Strategy* const strategy : {svm::svm_strategy(), svm::replicated_strategy()}) {
     BuiltScene small("rings-2", 512, 24);
     int times = 0;
     svm::RunOptions options;
@@ -330,8 +330,8 @@ TEST_CASE("the host may forget the database once it is distributed, and the film
       small.database.forget_records();
       small.database.forget_primitives();
     };
-    const svm::Report report = strategy == svm::Strategy::svm ? svm::run_svm(small.database, small.settings, options, {})
-                                                              : svm::run_replicated(small.database, small.settings, options, {});
+    const svm::Report report = strategy == svm::svm_strategy() ? svm::run_svm(small.database, small.settings, options, {})
+                                                               : svm::run_replicated(small.database, small.settings, options, {});
     CHECK(report.film.hash() == hash);
     CHECK(times == 1);
   }
@@ -342,12 +342,12 @@ TEST_CASE("the host may forget the database once it is distributed, and the film
 }
 
 TEST_CASE("nobody is told to forget the database where modelled nodes refer to it") {
-  for (const svm::Strategy strategy : {svm::Strategy::svm, svm::Strategy::replicated}) {
+  for (const svm::Strategy* const strategy : {svm::svm_strategy(), svm::replicated_strategy()}) {
     const BuiltScene small("rings-2", 512, 8);
     svm::RunOptions options{.computer = {.node_count = 3, .machine = nodes::Machine{}}};
     options.watching.distributed = [] { FAIL("the nodes have no copies"); };
-    const svm::Report report = strategy == svm::Strategy::svm ? svm::run_svm(small.database, small.settings, options, {})
-                                                              : svm::run_replicated(small.database, small.settings, options, {});
+    const svm::Report report = strategy == svm::svm_strategy() ? svm::run_svm(small.database, small.settings, options, {})
+                                                               : svm::run_replicated(small.database, small.settings, options, {});
     for (const svm::NodeReport& node : report.nodes) {
       CHECK(node.memory_used.bytes == node.memory_planned.bytes);
     }
@@ -388,7 +388,7 @@ TEST_CASE(
 TEST_CASE("heat maps, references, distinct pages and modelled machines have rays that walk alone") {
   const BuiltScene small("tetra-3", 1024, 16);
   const auto bundles = [&](const svm::RunOptions& options) {
-    const svm::Plan plan = svm::plan_of(svm::Strategy::svm, small.database, small.settings, options);
+    const svm::Plan plan = svm::plan_of(*svm::svm_strategy(), small.database, small.settings, options);
     return plan.pixels_a_task;
   };
   CHECK(bundles({.computer = {.node_count = 2}}) == 16);

@@ -19,6 +19,8 @@
 #include "dataflow/run.h"
 #include "nodes/chaos.h"
 #include "nodes/ranks/rank_links.h"
+#include "svm/forest/run.h"
+#include "svm/forest/strategy.h"
 #include "svm/ranks.h"
 #include "svm/run.h"
 #include "tests/support/chaos_case.h"
@@ -101,7 +103,11 @@ struct Damage {
 };
 
 /// What another rank does while rank 0 runs with such options.
-void follow(const svm::RunOptions& /*options*/, nodes::RankLinks& links) { svm::follow(links, {}); }
+void follow(const svm::RunOptions& /*options*/, nodes::RankLinks& links) {
+  svm::Following following;
+  following.strategies.push_back(svm::forest_strategy());
+  svm::follow(links, {}, following);
+}
 void follow(const dataflow::RunOptions& /*options*/, nodes::RankLinks& links) { dataflow::follow(links, {}); }
 
 /// On ranks, of which some seeds have several: late frames on the way, as well. A computer that is modelled has none.
@@ -184,16 +190,16 @@ void check_seeds(const MakeOptions& options_of, const Run& run, std::uint64_t wa
 }
 
 void check_svm(std::uint64_t seeds) {
-  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::svm, round); }, run_svm, seeds);
+  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::svm_strategy(), round); }, run_svm, seeds);
 }
 
 void check_replicated(std::uint64_t seeds) {
-  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::replicated, round); },
+  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::replicated_strategy(), round); },
               run_replicated, seeds);
 }
 
 void check_forest(std::uint64_t seeds) {
-  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::forest, round); }, run_forest,
+  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::forest_strategy(), round); }, run_forest,
               seeds, core::Structure::extents);
 }
 

@@ -69,7 +69,11 @@ auto on_ranks(std::uint32_t rank_count, std::uint32_t node_count, const Render& 
   return OnRanks<Report>{std::move(*results.front().value->report), std::move(bytes_received)};
 }
 
-constexpr auto follow_pages = [](nodes::RankLinks& links, std::stop_token stop) { return svm::follow(links, std::move(stop)); };
+constexpr auto follow_pages = [](nodes::RankLinks& links, std::stop_token stop) {
+  svm::Following following;
+  following.strategies.push_back(svm::forest_strategy());
+  return svm::follow(links, std::move(stop), following);
+};
 constexpr auto follow_rays = [](nodes::RankLinks& links, std::stop_token stop) {
   return dataflow::follow(links, std::move(stop));
 };

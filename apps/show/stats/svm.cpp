@@ -1,6 +1,7 @@
 #include "apps/edge/show/stats/counters_json.h"
 #include "apps/show/counters.h"
 #include "apps/show/stats/strategy.h"
+#include "svm/forest/strategy.h"
 
 namespace dmpc::apps {
 
@@ -20,7 +21,7 @@ Json pages_json(const svm::PageCounters& pages, std::uint64_t pixels, bool count
 Json shares_json(const svm::PageCounters& pages, const svm::WorkCounters& work, const svm::QuestionCounters& questions,
                  const svm::Plan& plan) {
   Json shares = {{"pages", pages_json(pages, work.pixels_rendered, plan.request.pages.count_pages)}, {"work", json_of(work)}};
-  if (plan.request.strategy == svm::Strategy::forest) {
+  if (plan.request.strategy == svm::forest_strategy()) {
     shares["questions"] = json_of(questions);
   }
   return shares;

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "svm/forest/strategy.h"
 #include "svm/plan.h"
 
 namespace dmpc::tests::strategy_rows_test {
@@ -17,7 +18,7 @@ TEST_CASE("a plan that is refused is refused in the words of the command line, a
   const svm::PlanRequest small{.page_count = 4, .computer = {.node_memory_bytes = 1}, .width = 1, .height = 1};
   CHECK_THROWS_WITH_AS(refused(small), doctest::Contains("--node-memory=1B is too small for --nodes=8"), core::RoomError);
   const svm::PlanRequest held{
-      .strategy = svm::Strategy::replicated, .page_count = 4, .pages = {.cache_pages = 5}, .width = 1, .height = 1};
+      .strategy = svm::replicated_strategy(), .page_count = 4, .pages = {.cache_pages = 5}, .width = 1, .height = 1};
   CHECK_THROWS_WITH_AS(refused(held), "--cache-pages goes with --strategy=svm", core::UsageError);
 }
 
@@ -26,7 +27,7 @@ TEST_CASE("what goes with svm alone is said alike by the plan and by the rows of
     CAPTURE(row.name);
     CHECK(apps::has(apps::Strategy::svm, row));
     CHECK_FALSE(apps::has(apps::Strategy::dataflow, row));
-    CHECK(apps::has(apps::Strategy::forest, row) == svm::goes_with(row.takes.field, svm::Strategy::forest));
+    CHECK(apps::has(apps::Strategy::forest, row) == svm::goes_with(row.takes.field, *svm::forest_strategy()));
   }
 }
 

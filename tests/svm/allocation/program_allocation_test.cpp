@@ -9,6 +9,7 @@
 #include "core/picture/bundle_task.h"
 #include "nodes/threads/threads_runner.h"
 #include "svm/forest/forest.h"
+#include "svm/forest/strategy.h"
 #include "svm/local_copy.h"
 #include "svm/pages/pager.h"
 #include "svm/pages/watch/counting_pager.h"
@@ -22,14 +23,14 @@ namespace {
 /// Renders a small scene with every node and the host (unless it chooses passes) under watch; returns what they allocated and
 /// freed.
 template <class Records, class Task = core::PixelTask>
-std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& options, double error = 0) {
+std::uint64_t allocated_by(const svm::Strategy* strategy, const svm::RunOptions& options, double error = 0) {
   const core::Scene scene = core::built_in_scene(core::parse_scene_name("balls-2"));
   const core::Database database = core::build_database(
       scene, {.page_size_bytes = 512,
-              .structure = strategy == svm::Strategy::forest ? core::Structure::extents : core::Structure::grid});
+              .structure = strategy == svm::forest_strategy() ? core::Structure::extents : core::Structure::grid});
   const core::RenderSettings settings{
       database.header(), core::Camera(scene.view, database.header().frame, 16, 16, 2), {}, {.error = error}};
-  svm::Plan plan = svm::plan_of(strategy, database, settings, options);
+  svm::Plan plan = svm::plan_of(*strategy, database, settings, options);
   plan.request.database = database.bytes();
   const svm::MakeProgram make_program = [&](std::uint32_t, nodes::Node& node) {
     const auto make_tracer = [&](Records& records) { return core::GridTracer<Records>(records, settings.header, {}); };
@@ -51,33 +52,33 @@ std::uint64_t allocated_by(svm::Strategy strategy, const svm::RunOptions& option
 
 TEST_CASE("a node of svm allocates nothing while it renders, pages, asks for work and serves") {
   svm::RunOptions options{.computer = {.node_count = 5}};
-  CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::Strategy::svm, options) == 0);
+  CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::svm_strategy(), options) == 0);
   options.pages.cache_pages = 1;
-  CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::Strategy::svm, options) == 0);
+  CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::svm_strategy(), options) == 0);
   options.pages.in_flight = 15;
-  CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
+  CHECK(allocated_by<svm::Pager>(svm::svm_strategy(), options) == 0);
   options.pages.homes = svm::PageHomes::tree;
   options.pages.tree_arity = 1;
-  CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
+  CHECK(allocated_by<svm::Pager>(svm::svm_strategy(), options) == 0);
   options.pages.homes = svm::PageHomes::host;
-  CHECK(allocated_by<svm::Pager>(svm::Strategy::svm, options) == 0);
+  CHECK(allocated_by<svm::Pager>(svm::svm_strategy(), options) == 0);
   options.pages.count_pages = true;
-  CHECK(allocated_by<svm::CountingPager>(svm::Strategy::svm, options) == 0);
+  CHECK(allocated_by<svm::CountingPager>(svm::svm_strategy(), options) == 0);
 }
 
 TEST_CASE("a node of svm allocates nothing in passes that refine samples") {
-  CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::Strategy::svm, {.computer = {.node_count = 5}}, 0.01) == 0);
+  CHECK(allocated_by<svm::Pager, core::BundleTask>(svm::svm_strategy(), {.computer = {.node_count = 5}}, 0.01) == 0);
 }
 
 TEST_CASE("a node of forest allocates nothing while it renders, asks and answers") {
   svm::RunOptions options{.computer = {.node_count = 5}};
-  CHECK(allocated_by<svm::Forest>(svm::Strategy::forest, options) == 0);
+  CHECK(allocated_by<svm::Forest>(svm::forest_strategy(), options) == 0);
   options.pages.in_flight = 1;
-  CHECK(allocated_by<svm::Forest>(svm::Strategy::forest, options, 0.01) == 0);
+  CHECK(allocated_by<svm::Forest>(svm::forest_strategy(), options, 0.01) == 0);
 }
 
 TEST_CASE("a node of replicated allocates nothing while it renders") {
-  CHECK(allocated_by<svm::LocalCopy, core::BundleTask>(svm::Strategy::replicated, {.computer = {.node_count = 5}}) == 0);
+  CHECK(allocated_by<svm::LocalCopy, core::BundleTask>(svm::replicated_strategy(), {.computer = {.node_count = 5}}) == 0);
 }
 
 }  // namespace

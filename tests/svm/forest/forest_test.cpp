@@ -12,6 +12,8 @@
 
 #include "core/base/expect.h"
 #include "nodes/size_text.h"
+#include "svm/forest/run.h"
+#include "svm/forest/strategy.h"
 #include "svm/run.h"
 #include "tests/support/small_machine.h"
 #include "tests/support/small_scenes.h"
@@ -38,7 +40,7 @@ svm::RunOptions computer_of(std::uint32_t nodes, std::optional<std::uint32_t> in
 }
 
 svm::Plan plan_of(const Subject& subject, const svm::RunOptions& options) {
-  return svm::plan_of(svm::Strategy::forest, subject.database(), subject.settings(), options);
+  return svm::plan_of(*svm::forest_strategy(), subject.database(), subject.settings(), options);
 }
 
 /// The address of the first record of a page behind the forest.

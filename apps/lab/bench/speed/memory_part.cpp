@@ -32,7 +32,7 @@ std::size_t peak_of(const std::string& scene, const SpeedSettings& settings, con
 std::size_t local_bytes(const std::string& scene, const SpeedSettings& settings) {
   const Subject subject = settings.subject_of(SpeedPart::memory, scene);
   const svm::Plan plan =
-      svm::plan_of(svm::Strategy::svm, subject.database, subject.settings, {.computer = {.node_count = memory_node_count}});
+      svm::plan_of(*svm::svm_strategy(), subject.database, subject.settings, {.computer = {.node_count = memory_node_count}});
   std::size_t sum = 0;
   for (std::uint32_t node = 0; node < memory_node_count; ++node) {
     sum += plan.node_memory(node).total();

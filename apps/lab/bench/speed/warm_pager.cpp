@@ -16,7 +16,7 @@ core::Address start_of(svm::PageId page, std::size_t page_size_bytes) {
 
 svm::Plan plan_for(const core::Database& database, const core::RenderSettings& settings, std::uint32_t node_count) {
   const auto page_count = static_cast<std::uint32_t>(database.page_count());
-  return svm::plan_of(svm::Strategy::svm, database, settings,
+  return svm::plan_of(*svm::svm_strategy(), database, settings,
                       {.computer = {.node_count = node_count}, .pages = {.cache_pages = std::max(page_count, 1U)}});
 }
 

@@ -1,0 +1,92 @@
+#include "svm/forest/strategy.h"
+
+#include <algorithm>
+
+#include "core/base/expect.h"
+#include "svm/forest/forest.h"
+#include "svm/program_maker.h"
+#include "svm/run.h"
+
+namespace dmpc::svm {
+namespace {
+
+/// A node whose pixel waits for an answer has others to go on with.
+constexpr std::uint32_t default_tasks = 16;
+/// Room for packets of questions that a node keeps, about.
+constexpr std::size_t question_room_wanted_bytes = std::size_t{64} << 10U;
+constexpr std::uint32_t question_credits_max = 4;
+
+void check_conservation_at(const NodeReport& node) {
+  const QuestionCounters& questions = node.program.questions;
+  const nodes::TrafficByKind &sent = node.counters.sent, &received = node.counters.received;
+  const auto packets_of = [](const nodes::TrafficByKind& traffic, Kind kind) { return traffic[number_of(kind)].packets; };
+  core::expect(questions.rays_asked + questions.records_asked == questions.answers, "every question was answered, once");
+  core::expect(packets_of(sent, Kind::questions) == packets_of(received, Kind::answers) &&
+                   packets_of(received, Kind::questions) == packets_of(sent, Kind::answers),
+               "every packet of questions was answered by one");
+}
+
+class ForestStrategy final : public Strategy {
+ public:
+  const char* name() const override { return "forest"; }
+  bool takes_bundles() const override { return false; }
+
+  void check(const PlanRequest& request) const override {
+    core::check_use(
+        request.forest_page_count > 0, core::field_of<&PlanRequest::strategy>(),
+        "=forest needs one tree of boxes whose subtrees lie in pages: ", core::field_of<&core::BuildOptions::structure>(),
+        "=extents and ", core::field_of<&core::BuildOptions::record_order>(), "=spatial");
+  }
+  std::uint32_t usual_tasks(const PlanRequest& /*request*/) const override { return default_tasks; }
+  std::uint32_t leading_pages(const PlanRequest& request) const override { return request.forest_page_count; }
+
+  /// Packets of questions: no more than tasks, each of which asks one at a time.
+  std::uint32_t request_credits(const Plan& plan) const override {
+    const std::uint32_t others = plan.request.computer.node_count - 1;
+    if (others == 0) {
+      return 0;
+    }
+    const std::size_t packet_bytes = question_packet_bytes(plan.pages());
+    const auto wanted = static_cast<std::uint32_t>(question_room_wanted_bytes / (packet_bytes * others));
+    return std::min(plan.task_count(), std::clamp(wanted, 1U, question_credits_max));
+  }
+
+  /// Packets are small or bulk, as it comes.
+  void add_places(const Plan& plan, nodes::MailboxCapacity& capacity) const override {
+    const std::uint32_t others = plan.request.computer.node_count - 1;
+    const std::uint32_t asked = others * plan.request_credits;         // questions: each other node's credits for this one
+    const std::uint32_t answers = std::min(plan.task_count(), asked);  // one for each packet of questions
+    capacity.small_slots += asked + answers;
+    capacity.bulk_slots += asked + answers;
+    capacity.bulk_payload_bytes = std::max(capacity.bulk_payload_bytes, question_packet_bytes(plan.pages()));
+  }
+
+  nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index) const override { return Forest::layout(plan.pages(), index); }
+
+  void for_each_piece(const Plan& plan, std::uint32_t index, const Visit& visit) const override {
+    const PageCapacity pages = plan.pages();
+    visit(0, pages.leading_bytes());
+    HomePages::for_each_page(pages, index, [&](std::size_t offset) { visit(offset, pages.page_size_bytes()); });
+  }
+
+  MakeProgram maker(const Plan& plan, const core::RenderSettings& settings, const nodes::ByteSource& database,
+                    const nodes::Watching& watching, std::vector<ReferenceLog>* reference_logs) const override {
+    return maker_over<Forest>(plan, settings, database, watching, reference_logs);
+  }
+
+  void check_conservation(const Report& report) const override {
+    std::for_each(report.nodes.begin(), report.nodes.end(), check_conservation_at);
+    const QuestionCounters questions = report.questions();
+    core::expect(questions.rays_asked == questions.rays_answered && questions.records_asked == questions.records_answered,
+                 "every question was answered by somebody");
+  }
+};
+
+}  // namespace
+
+const Strategy* forest_strategy() {
+  static const ForestStrategy strategy;
+  return &strategy;
+}
+
+}  // namespace dmpc::svm

@@ -1,0 +1,105 @@
+// Pages travel: how many requests, frames and places that takes.
+#include <algorithm>
+
+#include "core/base/units.h"
+#include "svm/pages/pager.h"
+#include "svm/pages/watch/counting_pager.h"
+#include "svm/pages/watch/recording_pager.h"
+#include "svm/program_maker.h"
+#include "svm/strategy.h"
+
+namespace dmpc::svm {
+namespace {
+
+/// A node whose task waits for a page has others to go on with.
+constexpr std::uint32_t default_tasks = 16, default_bundles = 4;
+/// Between ranks a page takes several times as long, by way of two threads that communicate.
+constexpr std::uint32_t default_bundles_on_ranks = 16;
+/// Small slots that a home keeps for page requests, about; 16 KiB of them.
+constexpr std::uint32_t request_slots_wanted = 256;
+/// More requests to one home than this wait no shorter: it serves them one after another.
+constexpr std::uint32_t request_credits_max = 4;
+
+bool do_pages_travel(const PlanRequest& request) { return request.computer.node_count > 1 || are_at_host(request.pages.homes); }
+
+/// Nodes from which page requests come to one node, at most: to the first of a tree.
+std::uint32_t askers_of(const PlanRequest& request) {
+  const auto tree = request_tree_of(request.pages.homes, request.computer.node_count, request.pages.tree_arity);
+  return tree ? tree->count_below(0) : request.computer.node_count - 1;
+}
+
+class SvmStrategy final : public Strategy {
+ public:
+  const char* name() const override { return "svm"; }
+  bool fetches_pages() const override { return true; }
+
+  /// Our choice; where memory is bounded, frames are worth more than further tasks.
+  std::uint32_t usual_tasks(const PlanRequest& request) const override {
+    const bool may_be_more = do_pages_travel(request) && request.computer.ranks != nullptr && !request.computer.node_memory_bytes;
+    return !request.bundles ? default_tasks : may_be_more ? default_bundles_on_ranks : default_bundles;
+  }
+
+  std::uint32_t foreign_pages_max(const PlanRequest& request) const override {
+    if (!do_pages_travel(request)) {
+      return 0;
+    }
+    return request.page_count - (are_at_host(request.pages.homes) ? 0 : request.page_count / request.computer.node_count);
+  }
+
+  /// At least one for each home, so that every fault can be requested in the end; no more than faults, nor than pages at a home,
+  /// each of which has one fault at most.
+  std::uint32_t request_credits(const Plan& plan) const override {
+    const PlanRequest& request = plan.request;
+    if (!do_pages_travel(request)) {
+      return 0;
+    }
+    const std::uint32_t askers = askers_of(request);  // the host's memory is large
+    const std::uint32_t each =
+        askers == 0 ? request_credits_max : std::clamp(request_slots_wanted / askers, 1U, request_credits_max);
+    const std::uint32_t homes = are_at_host(request.pages.homes) ? 1 : request.computer.node_count;
+    return std::min({plan.faults_max(), core::ceil_divide(request.page_count, homes), each});
+  }
+
+  void add_places(const Plan& plan, nodes::MailboxCapacity& capacity) const override {
+    // Page requests: each other node's credits for this home, or, in a tree, those of all nodes below.
+    capacity.small_slots += askers_of(plan.request) * plan.request_credits;
+    if (do_pages_travel(plan.request)) {
+      capacity.bulk_slots += plan.faults_max();  // page replies: one for each fault under way
+      capacity.bulk_payload_bytes = std::max(capacity.bulk_payload_bytes, page_reply_bytes(plan.request.page_size_bytes));
+    }
+  }
+
+  nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index) const override {
+    const PageCapacity pages = plan.pages();
+    nodes::MemoryPlan layout = Pager::layout(pages, index);
+    if (plan.request.pages.count_pages) {
+      layout += CountingPager::own_layout(pages);
+    }
+    return layout;
+  }
+
+  void for_each_piece(const Plan& plan, std::uint32_t index, const Visit& visit) const override {
+    const PageCapacity pages = plan.pages();
+    const std::size_t page_bytes = pages.page_size_bytes();
+    HomePages::for_each_page(pages, index, [&](std::size_t offset) { visit(offset, page_bytes); });
+    for (const PageId page : pages.resident) {
+      visit(index_of(page) * page_bytes, page_bytes);
+    }
+  }
+
+  MakeProgram maker(const Plan& plan, const core::RenderSettings& settings, const nodes::ByteSource& database,
+                    const nodes::Watching& watching, std::vector<ReferenceLog>* reference_logs) const override {
+    return plan.request.pages.count_pages ? maker_over<CountingPager>(plan, settings, database, watching, reference_logs)
+           : reference_logs != nullptr    ? maker_over<RecordingPager>(plan, settings, database, watching, reference_logs)
+                                          : maker_over<Pager, true>(plan, settings, database, watching, reference_logs);
+  }
+};
+
+}  // namespace
+
+const Strategy* svm_strategy() {
+  static const SvmStrategy strategy;
+  return &strategy;
+}
+
+}  // namespace dmpc::svm
