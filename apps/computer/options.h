@@ -31,7 +31,7 @@ struct ProgramOptions {
   std::optional<std::filesystem::path> trace;   ///< .json or .paje
   std::optional<std::filesystem::path> report;  ///< .html
   bool quiet = false;                           ///< no closing lines
-  // Of a program of tasks:
+  // A program of tasks has these, too:
   svm::TaskOptions tasks;                           ///< the computer is the program's
   std::optional<std::filesystem::path> references;  ///< where those of the last run go, as CSV
   std::optional<std::filesystem::path> heat;        ///< where what each task of the last run took goes, as CSV

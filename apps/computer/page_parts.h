@@ -28,7 +28,7 @@ void begin_page(Page& page, const Origin& origin, const Facts& facts, const std:
 /// Bars of each of so many nodes; nothing of more than readable_nodes_max.
 void add_node_plot(Page& page, std::size_t node_count, const Plot& plot, const Table& table);
 
-/// Of this process, which is the program `name`.
+/// This process is the program `name`.
 Origin program_origin(const std::string& name);
 
 /// The computer, runner and what disturbs it.

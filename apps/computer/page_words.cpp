@@ -25,7 +25,7 @@ constexpr std::array own_words = {
     GlossaryEntry{"step", "One call of a task; where its page is not there the task is called again when it has come."},
 };
 
-/// Of which dmpc says what any program would.
+/// What dmpc says of these, any program would.
 constexpr std::array<std::string_view, 14> common_words = {"asleep", "cache",  "eviction",        "fault",   "fetch",
                                                            "lru",    "node",   "idle at the end", "lent",    "link",
                                                            "p95",    "stolen", "stack distance",  "topology"};

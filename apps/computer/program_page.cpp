@@ -94,7 +94,7 @@ void add_memory(Page& page, const ProgramRecord& record) {
   page.add_table(table);
 }
 
-/// Of which run it is what was watched; nothing if there was only one.
+/// Says which run was watched; nothing if there was only one.
 std::string remark_on_runs(const ProgramRecord& record) {
   return record.tasks.run_count <= 1 ? "" : "Of the last of " + counted(record.tasks.run_count, "run") + ".";
 }

@@ -32,7 +32,7 @@ Losses packet_losses(const ProgramRecord& record) {
   return without_empty_parts(losses);
 }
 
-/// Of the program's own pieces of memory.
+/// What the program's own pieces of memory take.
 std::size_t used_bytes(const ProgramNode& node) {
   return std::accumulate(node.used_bytes.begin(), node.used_bytes.end(), std::size_t{0});
 }

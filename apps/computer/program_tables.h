@@ -17,7 +17,7 @@ namespace dmpc::apps::html {
 /// In virtual time by what a node waits for, else by the wall clock.
 Losses losses_of(const ProgramRecord& record);
 
-/// Of all nodes together, in the order of the vocabulary.
+/// What all nodes together sent, in the order of the vocabulary.
 std::vector<PacketKindTraffic> packets_of(const ProgramRecord& record);
 
 /// The program's, in the same order, and on a modelled machine what pages take.
@@ -26,9 +26,9 @@ std::vector<OperationCount> operations_of(const ProgramRecord& record);
 /// A row for each node: what passed through it, or its look-ups, what became of them and its memory; and the operations that it
 /// was charged.
 Table node_table(const ProgramRecord& record);
-/// Of packets, or of pages that were asked for.
+/// A bar for each node: packets, or pages that it asked for.
 Plot node_plot(const ProgramRecord& record);
-/// Of a program with packets.
+/// One sentence on a program with packets.
 std::string node_conclusion(const ProgramRecord& record);
 
 /// A row for each node: what its program has allocated of what it declared, and what carries its packets.

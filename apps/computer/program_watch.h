@@ -35,8 +35,8 @@ class ProgramWatch {
 
   /// For the run; nullptr if nobody looks on. Call it once.
   nodes::Observer* observer() { return members_.empty() ? nullptr : &group_.emplace(members_); }
-  /// The same for a run of tasks, on every rank, where nobody has a pointer who wants to know nothing; what ranks saw is added
-  /// up.
+  /// What a run of tasks tells the watchers, on every rank; whoever wants to know nothing has no pointer there. What ranks saw is
+  /// added up.
   svm::TaskWatching watching();
 
   /// What was seen of nodes that are here, for add() on rank 0.

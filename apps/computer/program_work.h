@@ -15,8 +15,8 @@ struct ProgramWork {
   nodes::WorkOf work_of;
 };
 
-/// Of a program with packets: its first four operations, each where a call was charged it and none before it, what else its calls
-/// do, and messages. Of one of tasks: its first three, the rest, pages that are installed and served, and messages.
+/// A program with packets has its first four operations, each where a call was charged it and none before it, what else its calls
+/// do, and messages. One of tasks has its first three, the rest, pages that are installed and served, and messages.
 ProgramWork program_work(const Vocabulary& vocabulary);
 
 }  // namespace dmpc::apps

@@ -38,11 +38,11 @@ struct ProgramNode {
   ProgramNode& operator+=(const ProgramNode& more);
 };
 
-/// Of a program of tasks.
+/// What a program of tasks has run.
 struct TaskRuns {
   std::uint32_t run_count = 0;
   std::uint64_t task_count = 0;
-  // Of the last run:
+  // The last run alone:
   std::uint32_t page_count = 0, cache_pages = 0;
   svm::PageCounters last_pages;
   std::vector<svm::ReferenceLog> references;  ///< by node, if they are asked for
@@ -70,7 +70,7 @@ struct ProgramRecord {
   void add(const svm::TaskFigures& figures, const svm::TaskPlan& plan, std::uint32_t task_count);
   /// Adds the time of a run on a modelled machine to that of nodes that are there.
   void add(const nodes::VirtualReport& report);
-  /// Of all nodes; memory of the fullest.
+  /// All nodes as one; memory is the fullest one's.
   ProgramNode sum() const;
 };
 

@@ -58,7 +58,7 @@ Json times_json(const ProgramRecord& record, const nodes::VirtualTimes& times) {
           {"end_ns", times.end_ns}};
 }
 
-/// Of a program of tasks, a node or all of them.
+/// What one node of a program of tasks did, or all of them.
 Json task_node_json(const ProgramRecord& record, const ProgramNode& node) {
   return {{"pages", pages_json(node.pages)},
           {"packets", traffic_json(record, node.counters.sent)},

@@ -13,7 +13,7 @@ namespace dmpc::apps::html {
 namespace {
 
 constexpr std::size_t tasks_listed = 20;
-/// Of a node's tasks, in a map.
+/// A map of heat has as many columns for a node's tasks, at most.
 constexpr std::size_t heat_columns_max = 128;
 
 const nodes::Machine* machine_of(const ProgramRecord& record) { return record.options.computer.model(); }
@@ -47,7 +47,7 @@ std::vector<double> heat_by_task(const ProgramRecord& record, TaskHeatKind kind)
   return heat;
 }
 
-/// Of so many tasks that one node has in a row, the mean of each of `columns` parts as equal as can be.
+/// Cuts the tasks that one node has in a row into `columns` parts as equal as can be, and appends the mean of each.
 void append_means(std::vector<double>& means, std::span<const double> tasks, std::size_t columns) {
   for (std::size_t column = 0; column < columns; ++column) {
     const std::size_t first = tasks.size() * column / columns, end = tasks.size() * (column + 1) / columns;

@@ -235,11 +235,11 @@ HWY_INLINE ShearedRays sheared_rays(const RayBundle& bundle, std::size_t axis, b
 }
 
 /// A vertex as those rays see it.
-struct Vertices {
+struct SeenVertices {
   Vector x, y, z;
 };
 
-HWY_INLINE Vertices shear(const ShearedRays& rays, const TriangleRows& triangles, std::size_t corner, std::size_t lane) {
+HWY_INLINE SeenVertices shear(const ShearedRays& rays, const TriangleRows& triangles, std::size_t corner, std::size_t lane) {
   const Floats tag;
   const auto coordinate = [&](std::size_t axis) {
     return hn::Set(tag, triangles.rows[(3 * corner + axis) * triangles.count + lane]);
@@ -249,14 +249,14 @@ HWY_INLINE Vertices shear(const ShearedRays& rays, const TriangleRows& triangles
           fused(hn::Neg(rays.shear_y), z, hn::Sub(coordinate(rays.y), rays.origin_y)), z};
 }
 
-HWY_INLINE Vector edge(const Vertices& a, const Vertices& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)); }
+HWY_INLINE Vector edge(const SeenVertices& a, const SeenVertices& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)); }
 
 /// Those of the rays `asked`, which pass the triangle, about which floats may be wrong, and some more: the scalar twin has the
 /// last word.
-HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const Vertices& a, const Vertices& b, const Vertices& c,
+HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const SeenVertices& a, const SeenVertices& b, const SeenVertices& c,
                                    const Vector& margin) {
   const Floats tag;
-  const auto across = [](const Vertices& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
+  const auto across = [](const SeenVertices& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
   const Vector widest = hn::Max(hn::Max(across(a), across(b)), across(c));
   const Vector deepest = hn::Max(hn::Max(hn::Abs(a.z), hn::Abs(b.z)), hn::Abs(c.z));
   const Vector rounding = hn::Mul(hn::Set(tag, edge_rounding), hn::Max(widest, deepest));
@@ -264,8 +264,8 @@ HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const Vertices& a,
 }
 
 /// Those of them for which doubles judge.
-HWY_INLINE RayMask doubtful(const RayBundle& bundle, RayMask asked, const Vertices& a, const Vertices& b, const Vertices& c,
-                            Vector least, Vector greatest) {
+HWY_INLINE RayMask doubtful(const RayBundle& bundle, RayMask asked, const SeenVertices& a, const SeenVertices& b,
+                            const SeenVertices& c, Vector least, Vector greatest) {
   const Floats tag;
   const auto limit = hn::Set(tag, near_edge);
   const auto is_near =
@@ -289,7 +289,8 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays& rays, std::si
                              const TriangleRows& triangles, Address block, std::size_t lane) {
   const Floats tag;
   const Unsigned ids;
-  const Vertices a = shear(rays, triangles, 0, lane), b = shear(rays, triangles, 1, lane), c = shear(rays, triangles, 2, lane);
+  const SeenVertices a = shear(rays, triangles, 0, lane), b = shear(rays, triangles, 1, lane),
+                     c = shear(rays, triangles, 2, lane);
   const Vector u = edge(c, b), v = edge(a, c), w = edge(b, a), zero = hn::Zero(tag);
   const Vector least = hn::Min(hn::Min(u, v), w), greatest = hn::Max(hn::Max(u, v), w);
   const RayMask outside = bits_of(tag, hn::And(hn::Lt(least, zero), hn::Gt(greatest, zero)));
