@@ -1,4 +1,4 @@
-// Writes the manual page and the completion scripts, when the program is built: dmpc_manual FOLDER.
+// Writes the manual page, the completion scripts and the schema of --stats, when the program is built: dmpc_manual FOLDER.
 
 #include <exception>
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include "apps/main/commands.h"
 #include "apps/manual/completion.h"
 #include "apps/manual/man_page.h"
+#include "apps/show/stats/schema.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -30,6 +31,7 @@ void write_manual(const std::filesystem::path& folder) {
   write(folder / "dmpc.bash", bash_completion(program));
   write(folder / "_dmpc", zsh_completion(program));
   write(folder / "dmpc.fish", fish_completion(program));
+  write(folder / "stats.schema.json", stats_schema());
 }
 
 }  // namespace

@@ -17,6 +17,9 @@ namespace dmpc::apps {
 /// What --stats tells of an option: a flag, a number or a word; or nothing.
 using OptionValue = std::variant<std::monostate, bool, std::uint64_t, std::string_view>;
 
+/// What it may be.
+enum class OptionKind : std::uint8_t { word, number, flag };
+
 /// The field that an option sets, and how it is declared; `shown_default`: what help says of the default of a number.
 template <class Options>
 struct OptionField {
@@ -24,6 +27,7 @@ struct OptionField {
       std::function<void(OptionSet set, const char* name, const char* help, Options& options, const std::string& shown_default)>;
   core::Field field;
   Declare declare;
+  OptionKind kind = OptionKind::word;
 };
 
 template <class Options, class Plan>
@@ -34,6 +38,7 @@ struct OptionRow {
   const char* why;  ///< why strategies have no such field that have none; nullptr: it is not their strategy that matters
   const char* key;  ///< in --stats
   OptionValue (*told)(const Plan& plan);  ///< what it became
+  const char* meaning = "";               ///< of what is told, where the key does not say it all
 
   void add_to(const OptionSet& set, Options& options, const std::string& shown_default = "") const {
     takes.declare(set, name, help, options, shown_default);
@@ -66,7 +71,8 @@ OptionField<StructOf<First>> number(std::int64_t least, std::int64_t most, const
           [=](OptionSet set, const char* name, const char* help, StructOf<First>& options, const std::string& shown_default) {
             set.add_number(name, ((options.*First).*....*Rest), least, most, shown_default.empty() ? standard : shown_default,
                            help);
-          }};
+          },
+          OptionKind::number};
 }
 
 /// One of some words, each with its meaning; the default is what the field is when the option is declared.
@@ -80,8 +86,11 @@ OptionField<StructOf<First>> word(const OptionSet::Choices<T>& choices) {
 
 template <auto First>
 OptionField<StructOf<First>> flag() {
-  return {core::field_of<First>(), [](OptionSet set, const char* name, const char* help, StructOf<First>& options,
-                                      const std::string&) { set.add_flag(name, options.*First, help); }};
+  return {core::field_of<First>(),
+          [](OptionSet set, const char* name, const char* help, StructOf<First>& options, const std::string&) {
+            set.add_flag(name, options.*First, help);
+          },
+          OptionKind::flag};
 }
 
 }  // namespace dmpc::apps

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "apps/run/region_options.h"
 #include "core/database/database.h"
@@ -62,7 +63,8 @@ std::vector<PageRow> make_page_rows() {
        .help = "Pages of other nodes that a node can keep (svm)",
        .why = "a node of the others needs no page of another node",
        .key = "cache_pages",
-       .told = [](const svm::Plan& plan) -> OptionValue { return plan.frames; }},
+       .told = [](const svm::Plan& plan) -> OptionValue { return plan.frames; },
+       .meaning = "of svm, as all up to count_pages; some of them of replicated and forest, too"},
       {.name = "--homes",
        .takes = word<&PageOptions::homes>(by_name({PageHomes::spread, PageHomes::host, PageHomes::tree})),
        .help =
@@ -99,13 +101,15 @@ std::vector<PageRow> make_page_rows() {
        .help = "Pixels that a node works on at once; on threads the rays of 16 walk together, of fewer alone",
        .why = "a node of dataflow traces one ray at a time",
        .key = "in_flight",
-       .told = [](const svm::Plan& plan) -> OptionValue { return plan.in_flight; }},
+       .told = [](const svm::Plan& plan) -> OptionValue { return plan.in_flight; },
+       .meaning = "pixels"},
       {.name = "--work-item",
        .takes = number<&PageOptions::work_item_side>(0, 1024, "4, or 3 if rays walk alone"),
        .help = "Side in pixels of what a node gives to an idle one; 0: nothing is given",
        .why = works_on_region,
        .key = "work_item",
-       .told = [](const svm::Plan& plan) -> OptionValue { return plan.work_item_side; }},
+       .told = [](const svm::Plan& plan) -> OptionValue { return plan.work_item_side; },
+       .meaning = "pixels a side; 0: a node keeps its pixels"},
       {.name = "--work-giver",
        .takes = word<&PageOptions::work_giver>(by_name({WorkGiver::ring, WorkGiver::host})),
        .help = "ring: nodes start with their parts of the picture and ask each other; host: for each item they ask the host",
@@ -119,7 +123,8 @@ std::vector<PageRow> make_page_rows() {
            "nodes",
        .why = works_on_region,
        .key = "pixels",
-       .told = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).pixel_shares); }},
+       .told = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).pixel_shares); },
+       .meaning = "how they are shared out"},
       {.name = "--workers",
        .takes = number<&PageOptions::worker_count>(1, nodes::node_count_max, "all nodes"),
        .help = "Nodes that render; the others lend their memories, and serve pages or answer",
@@ -146,7 +151,8 @@ std::vector<BalanceRow> make_balance_rows() {
            "node, neighbours on different nodes; or moving: subsampled, of several units that nodes hand over while rays travel",
        .why = share_out_pixels,
        .key = "balance",
-       .told = [](const dataflow::Plan& plan) -> OptionValue { return name_of(balance_of(plan).balance); }},
+       .told = [](const dataflow::Plan& plan) -> OptionValue { return name_of(balance_of(plan).balance); },
+       .meaning = "of dataflow, as all that follow"},
       {.name = "--cuts",
        .takes = word<&BalanceOptions::bsp, &dataflow::BspOptions::order>(by_name({CutOrder::longer_axis, CutOrder::alternating})),
        .help = "Which way space is cut next: across a box's longer side, or by turns as in 1994",
@@ -186,27 +192,31 @@ std::vector<RayRow> make_ray_rows() {
        .help = "Rays in a packet, at most",
        .why = rays_stay,
        .key = "ray_batch",
-       .told = [](const dataflow::Plan& plan) -> OptionValue { return plan.ray_batch; }},
+       .told = [](const dataflow::Plan& plan) -> OptionValue { return plan.ray_batch; },
+       .meaning = "rays of a packet, the most"},
       {.name = "--ray-credits",
        .takes =
            number<&RayOptions::ray_credits>(0, dataflow::ray_credits_max, "4; up to 64 of few nodes whose rays walk together"),
        .help = "Packets of rays that each node may have under way to each other; 0: all go by way of the host",
        .why = rays_stay,
        .key = "ray_credits",
-       .told = [](const dataflow::Plan& plan) { return plan.shares_places() ? OptionValue() : plan.ray_credits; }},
+       .told = [](const dataflow::Plan& plan) { return plan.shares_places() ? OptionValue() : plan.ray_credits; },
+       .meaning = "packets"},
       {.name = "--ray-places",
        .takes = number<&RayOptions::ray_places>(1, dataflow::ray_places_max, "64 of more than 128 nodes; else credits"),
        .help = "Packets of rays from all others that each node has room for, and that they ask for; not with --ray-credits",
        .why = rays_stay,
        .key = "ray_places",
-       .told = [](const dataflow::Plan& plan) { return plan.shares_places() ? plan.ray_places : OptionValue(); }},
+       .told = [](const dataflow::Plan& plan) { return plan.shares_places() ? plan.ray_places : OptionValue(); },
+       .meaning = "packets"},
       {.name = "--ray-queue",
        .takes = number<&RayOptions::queue_packets>(0, dataflow::queue_packets_max,
                                                    "256; 512 if rays walk alone; 128 with --ray-places"),
        .help = "Packets of rays that can wait on a node for credit before more go by way of the host",
        .why = rays_stay,
        .key = "ray_queue",
-       .told = [](const dataflow::Plan& plan) -> OptionValue { return plan.queue_packets; }},
+       .told = [](const dataflow::Plan& plan) -> OptionValue { return plan.queue_packets; },
+       .meaning = "packets"},
       {.name = "--tested-objects",
        .takes = number<&RayOptions::tested_objects>(0, dataflow::tested_objects_max, ""),
        .help = "Blocks that a ray remembers to have tested, so that other regions need not; rays then walk alone",
@@ -246,14 +256,19 @@ OptionValue told_of(const OptionRow<Options, Plan>& row, Strategy strategy, cons
   }
 }
 
+/// The keys are an interface, and their order has always been this.
+template <class Told>
+std::vector<Told> in_order(std::vector<Told> told) {
+  const auto policy = std::find_if(told.begin(), told.end(), [](const Told& each) { return each.key == "replacement"; });
+  std::rotate(told.begin() + 1, policy, policy + 1);
+  return told;
+}
+
 template <class Plan>
 std::vector<ToldOption> told_by(Strategy strategy, const Plan& plan) {
   std::vector<ToldOption> told;
-  for_each_row([&](const auto& row) { told.emplace_back(row.key, told_of(row, strategy, plan)); });
-  // The keys are an interface, and their order has always been this.
-  const auto policy = std::find_if(told.begin(), told.end(), [](const ToldOption& each) { return each.first == "replacement"; });
-  std::rotate(told.begin() + 1, policy, policy + 1);
-  return told;
+  for_each_row([&](const auto& row) { told.push_back({row.key, told_of(row, strategy, plan)}); });
+  return in_order(std::move(told));
 }
 
 std::vector<OptionWord> make_strategy_words() {
@@ -296,6 +311,12 @@ bool has(Strategy strategy, const PageRow& row) {
 const std::vector<OptionWord>& strategy_words() {
   static const std::vector<OptionWord> words = make_strategy_words();
   return words;
+}
+
+std::vector<ToldKey> told_keys() {
+  std::vector<ToldKey> keys;
+  for_each_row([&](const auto& row) { keys.push_back({row.key, row.takes.kind, row.meaning}); });
+  return in_order(std::move(keys));
 }
 
 std::vector<ToldOption> told_options(Strategy strategy, const svm::Plan& plan) { return told_by(strategy, plan); }

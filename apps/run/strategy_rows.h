@@ -2,9 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "apps/edge/run/option_words.h"
@@ -47,9 +45,21 @@ void for_each_row(const Visit& visit) {
 /// The words of all fields of plans, for with_options_named().
 const std::vector<OptionWord>& strategy_words();
 
+/// A key of --stats, and what the schema says of it.
+struct ToldKey {
+  std::string_view key;
+  OptionKind kind;
+  std::string_view meaning;
+};
+/// All keys, in the order of --stats.
+std::vector<ToldKey> told_keys();
+
 /// A key of --stats, and what it tells.
-using ToldOption = std::pair<std::string_view, OptionValue>;
-/// All keys in the order of --stats; null but for the options of the plan's strategy.
+struct ToldOption {
+  std::string_view key;
+  OptionValue value;
+};
+/// The same; null but for the options of the plan's strategy.
 std::vector<ToldOption> told_options(Strategy strategy, const svm::Plan& plan);
 std::vector<ToldOption> told_options(Strategy strategy, const dataflow::Plan& plan);
 

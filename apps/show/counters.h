@@ -5,6 +5,8 @@
 
 #include "apps/edge/show/counters.h"
 #include "core/trace/operations.h"
+#include "dataflow/program.h"
+#include "dataflow/rays/gather.h"
 #include "dataflow/units/movement.h"
 #include "svm/pages/node_program.h"
 
@@ -27,6 +29,39 @@ inline constexpr auto counters_of<svm::QuestionCounters> = std::array{
     counter<&svm::QuestionCounters::rays_answered>({"rays_answered", "", "rays answered"}),
     counter<&svm::QuestionCounters::records_answered>({"records_answered", "", "records answered"}),
     counter<&svm::QuestionCounters::answers>({"answers", "packets received", "answers"}),
+};
+
+/// What rays did on their way.
+template <>
+inline constexpr auto counters_of<dataflow::RayCounters> = std::array{
+    counter<&dataflow::RayCounters::hits_sent_back>({"hits_sent_back", "to the node that found them"}),
+    counter<&dataflow::RayCounters::tests_avoided>(
+        {"tests_avoided", "primitives that rays had tested elsewhere (option tested_objects)"}),
+};
+
+template <>
+inline constexpr auto counters_of<dataflow::Gather::Counters> = std::array{
+    counter<&dataflow::Gather::Counters::packets>({"packets", "of rays"}),
+    counter<&dataflow::Gather::Counters::packets_flushed>({"packets_flushed", "sent before they were full"}),
+    counter<&dataflow::Gather::Counters::packets_queued>({"packets_queued", "sent after a wait for credit"}),
+};
+
+/// Of the same, what went by way of the host.
+inline constexpr std::array overflow_counters = {
+    counter<&dataflow::Gather::Counters::rays_overflowed>({"rays"}),
+    counter<&dataflow::Gather::Counters::packets_overflowed>({"packets"}),
+};
+
+/// Of the same, what waited.
+inline constexpr std::array queue_counters = {
+    counter<&dataflow::Gather::Counters::queue_high_water>(
+        {"queue_max", "packets that waited to be sent on a node at once"}),
+};
+
+template <>
+inline constexpr auto counters_of<dataflow::ProgramCounts> = std::array{
+    counter<&dataflow::ProgramCounts::backlog_high_water>(
+        {"backlog_max", "rays that waited to be traced on a node at once", "most rays waiting"}),
 };
 
 template <>
@@ -69,7 +104,7 @@ inline constexpr auto counters_of<core::Operations> = std::array{
     counter<&core::Operations::bundles>({"bundles", "of rays that walked together"}),
     counter<&core::Operations::rays_in_bundles>({"rays_in_bundles"}),
     counter<&core::Operations::deposits_saturated>(
-        {"deposits_saturated", "null where earlier samples came from a checkpoint"}),
+        {"deposits_saturated", "null where earlier samples came from a checkpoint", "", true}),
 };
 // clang-format on
 

@@ -1,5 +1,5 @@
-// What programs on the computer count, by name: a row for each counter, from which --stats, its schema, closing lines and tables
-// of nodes follow.
+// What programs on the computer count, by name: a row for each counter, from which --stats, its schema, tables of nodes, and
+// names of figures in comparisons and sweeps follow.
 //
 // A new counter is a field where it is counted and a row here, or for those of renders in apps/show/counters.h. Sums follow from
 // the fields alone (core/base/counts.h), figures of comparisons and sweeps from what --stats writes.
@@ -17,9 +17,10 @@ namespace dmpc::apps {
 
 /// What there is to say of a counter.
 struct CounterText {
-  const char* key = "";     ///< in --stats
-  const char* help = "";    ///< what stats.schema.json says of it, where the key does not say it all
-  const char* column = "";  ///< of a table with a row for each node; empty: there it is not
+  const char* key = "";      ///< in --stats
+  const char* help = "";     ///< what stats.schema.json says of it, where the key does not say it all
+  const char* column = "";   ///< of a table with a row for each node; empty: there it is not
+  bool may_be_null = false;  ///< in --stats, as its help says
 };
 
 /// A figure of a T: a counter, or what follows from some.
@@ -66,7 +67,7 @@ inline constexpr auto counters_of<svm::PageCounters> = std::array{
     counter<&svm::PageCounters::evictions>({"evictions", "", "evictions"}),
     counter<&svm::PageCounters::served>({"served", "to other nodes", "pages served"}),
     counter<&svm::PageCounters::distinct_pages>(
-        {"distinct", "pages of each pixel, summed; null unless counted (option count_pages)"}),
+        {"distinct", "pages of each pixel, summed; null unless counted (option count_pages)", "", true}),
 };
 
 /// What of a node's counters is no traffic.

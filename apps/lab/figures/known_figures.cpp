@@ -4,12 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "apps/show/stats/schema.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 
 namespace dmpc::apps {
-
-extern const char* const stats_schema;  // of a source that CMake makes of the file
 
 namespace {
 
@@ -118,7 +117,7 @@ std::string question_about(const std::string& typed) {
 
 const std::vector<KnownFigure>& known_figures() {
   static const std::vector<KnownFigure> figures = [] {
-    const Json schema = Json::parse(stats_schema);
+    const Json schema = Json::parse(stats_schema());
     SchemaWalk walk(schema);
     walk.add(schema, "");
     return walk.figures();

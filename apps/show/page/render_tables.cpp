@@ -39,10 +39,13 @@ NodeColumns own_columns(const svm::Report& report, Strategy strategy) {
 NodeColumns own_columns(const dataflow::Report& report, Strategy) {
   const auto program = [&](std::size_t node) -> const dataflow::ProgramReport& { return report.nodes[node].program; };
   using Node = std::size_t;
-  return {count_column("primary rays", [&](Node node) { return report.nodes[node].primary_rays; }),
-          count_column("rays in", [=](Node node) { return sum_of(program(node).rays.in); }),
-          count_column("rays out", [=](Node node) { return sum_of(program(node).rays.out); }),
-          count_column("most rays waiting", [=](Node node) { return program(node).backlog_high_water; })};
+  NodeColumns columns = {count_column("primary rays", [&](Node node) { return report.nodes[node].primary_rays; }),
+                         count_column("rays in", [=](Node node) { return sum_of(program(node).rays.in); }),
+                         count_column("rays out", [=](Node node) { return sum_of(program(node).rays.out); })};
+  append(columns, counter_columns<dataflow::RayCounters>([=](Node node) -> const auto& { return program(node).rays; }));
+  append(columns, counter_columns<dataflow::Gather::Counters>([=](Node node) -> const auto& { return program(node).gather; }));
+  append(columns, counter_columns<dataflow::ProgramCounts>(program));
+  return columns;
 }
 
 /// Categories of which any node has some bytes.

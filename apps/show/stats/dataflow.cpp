@@ -16,12 +16,8 @@ using nodes::TrafficByKind;
 
 /// What the rays of one node, or of all, did on their way.
 struct Travel {
-  std::uint64_t rays_shot = 0;
-  dataflow::RayCounters rays;
-  dataflow::Gather::Counters gather;
-  dataflow::MovementCounters movement;
+  dataflow::ProgramCounts counts;
   TrafficByKind sent;
-  std::uint32_t backlog_max = 0;
 };
 
 std::uint64_t sum_of(const std::array<std::uint64_t, core::ray_kind_count>& by_kind) {
@@ -47,36 +43,29 @@ Json movement_json(const dataflow::MovementCounters& movement, const TrafficByKi
 }
 
 Json travel_json(const Travel& travel, const dataflow::Plan& plan) {
-  const dataflow::Gather::Counters& gather = travel.gather;
-  return {{"rays_in", rays_json(travel.rays.in)},
-          {"rays_out", rays_json(travel.rays.out)},
-          {"messages_per_ray", ratio(sum_of(travel.rays.out), travel.rays_shot)},
-          {"packets", gather.packets},
-          {"packets_flushed", gather.packets_flushed},
-          {"packets_queued", gather.packets_queued},
-          {"mean_fill", gather.mean_fill(plan.ray_batch)},
-          {"bytes", dataflow::ray_traffic(travel.sent).bytes},
-          {"overflow",
-           {{"rays", gather.rays_overflowed},
-            {"packets", gather.packets_overflowed},
-            {"share", ratio(gather.rays_overflowed, gather.rays)}}},
-          {"hits_sent_back", travel.rays.hits_sent_back},
-          {"tests_avoided", travel.rays.tests_avoided},
-          {"movement", movement_json(travel.movement, travel.sent, plan.is_moving())},
-          {"queue_max", gather.queue_high_water},
-          {"backlog_max", travel.backlog_max}};
-}
-
-Travel travel_of(const dataflow::NodeReport& node) {
-  const dataflow::ProgramReport& program = node.program;
-  return {sum_of(program.operations.rays), program.rays, program.gather, program.movement, node.counters.sent,
-          program.backlog_high_water};
+  const dataflow::ProgramCounts& counts = travel.counts;
+  const dataflow::Gather::Counters& gather = counts.gather;
+  Json all = {{"rays_in", rays_json(counts.rays.in)},
+              {"rays_out", rays_json(counts.rays.out)},
+              {"messages_per_ray", ratio(sum_of(counts.rays.out), sum_of(counts.operations.rays))}};
+  all.update(json_of(gather));
+  all["mean_fill"] = gather.mean_fill(plan.ray_batch);
+  all["bytes"] = dataflow::ray_traffic(travel.sent).bytes;
+  all["overflow"] = json_of(gather, overflow_counters);
+  all["overflow"]["share"] = ratio(gather.rays_overflowed, gather.rays);
+  all.update(json_of(counts.rays));
+  all["movement"] = movement_json(counts.movement, travel.sent, plan.is_moving());
+  all.update(json_of(gather, queue_counters));
+  all.update(json_of(counts));
+  return all;
 }
 
 Travel travel_of(const dataflow::Report& report) {
-  Travel all{sum_of(report.operations().rays), report.rays(), report.gathers(), report.movement(), report.sent(), 0};
+  Travel all{
+      {.operations = report.operations(), .rays = report.rays(), .gather = report.gathers(), .movement = report.movement()},
+      report.sent()};
   for (const dataflow::NodeReport& node : report.nodes) {
-    all.backlog_max = std::max(all.backlog_max, node.program.backlog_high_water);
+    all.counts.backlog_high_water = std::max(all.counts.backlog_high_water, node.program.backlog_high_water);
   }
   return all;
 }
@@ -154,7 +143,7 @@ StrategyStats strategy_stats(const RenderOptions& options, const dataflow::Repor
   for (std::size_t i = 0; i < report.nodes.size(); ++i) {
     const dataflow::NodeReport& node = report.nodes[i];
     stats.nodes.push_back(
-        {{"travel", travel_json(travel_of(node), plan)},
+        {{"travel", travel_json({node.program, node.counters.sent}, plan)},
          {"load", {{"work_ps", work[i]}, {"predicted_ps", report.predicted.empty() ? Json() : Json(report.predicted[i])}}},
          {"region", region_json(node)}});
   }

@@ -68,13 +68,6 @@ Json cutoff_json(const RenderRecord& record, const Account& account) {
       {"mean_error_bound", of_whole_picture(record, options.picture.cutoff * cut / static_cast<double>(account.film.samples()))}};
 }
 
-/// A name as keys have it.
-std::string key_of(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
-  return name;
-}
-
 /// What was left out.
 Json skips_json(const RenderRecord& record, const Account& account) {
   const RenderOptions& options = record.options;

@@ -1,13 +1,22 @@
 // Counters as JSON, by their rows.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "apps/edge/show/counters.h"
 
 namespace dmpc::apps {
+
+/// A name as keys have it.
+inline std::string key_of(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
+  return name;
+}
 
 /// All of `rows` by key.
 template <class T, std::size_t count>

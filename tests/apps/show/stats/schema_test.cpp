@@ -8,8 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "apps/run/strategy_rows.h"
 #include "apps/run/systems.h"
 #include "apps/show/counters.h"
+#include "apps/show/stats/schema.h"
 #include "nodes/ranks/loopback.h"
 #include "nodes/ranks/rank_links.h"
 #include "tests/apps/show/rendered.h"
@@ -24,8 +26,6 @@ namespace {
 
 using tests::TemporaryFolder;
 
-constexpr const char* schema_file = DMPC_SOURCE_DIR "/apps/show/stats/stats.schema.json";
-
 /// Says so where it is not there.
 bool has_validator() {
   const bool is_there = tests::run({"/usr/bin/python3", "-c", "import jsonschema"}).status == 0;
@@ -37,11 +37,13 @@ bool has_validator() {
 
 /// What is wrong with the counters in these files; empty if nothing is.
 std::string faults_by_schema(const std::vector<std::string>& files) {
+  const TemporaryFolder folder;
+  tests::write_text(folder / "stats.schema.json", stats_schema());
   std::vector<std::string> command = {"/usr/bin/python3", "-W", "ignore", "-m", "jsonschema"};
   for (const std::string& file : files) {
     command.insert(command.end(), {"-i", file});
   }
-  command.emplace_back(schema_file);
+  command.emplace_back(folder / "stats.schema.json");
   const tests::Said said = tests::run(command);
   return said.status == 0 ? "" : said.output + said.errors + "status " + std::to_string(said.status);
 }
@@ -146,7 +148,7 @@ TEST_CASE("the counters of every kind of run are as the schema says, without any
 }
 
 TEST_CASE("the schema has each counter that has a row, in their order, with what the row says of it") {
-  const nlohmann::ordered_json schema = nlohmann::ordered_json::parse(tests::file_text(schema_file))["$defs"];
+  const nlohmann::ordered_json schema = nlohmann::ordered_json::parse(stats_schema())["$defs"];
   const auto check = [&](const char* group, const auto& rows) {
     const nlohmann::ordered_json& properties = schema[group]["properties"];
     auto property = properties.begin();
@@ -165,6 +167,22 @@ TEST_CASE("the schema has each counter that has a row, in their order, with what
   CHECK(check("questions", counters_of<svm::QuestionCounters>));
   CHECK_FALSE(check("pages", counters_of<svm::PageCounters>));              // and those of a pixel
   CHECK_FALSE(check("movement", counters_of<dataflow::MovementCounters>));  // and bytes
+}
+
+TEST_CASE("the schema has each option of strategies in the order of --stats, and each object all its keys and no others") {
+  const nlohmann::ordered_json schema = nlohmann::ordered_json::parse(stats_schema());
+  const nlohmann::ordered_json& options = schema["properties"]["options"];
+  auto property = options["properties"].find("cache_pages");
+  for (const ToldKey& told : told_keys()) {
+    REQUIRE(property != options["properties"].end());
+    CHECK(property.key() == told.key);
+    ++property;
+  }
+  CHECK(property == options["properties"].end());
+  CHECK(schema["properties"]["options"]["required"].size() == options["properties"].size());
+  CHECK(schema["properties"]["skips"]["required"].back() == "cutoff");
+  CHECK(schema["$defs"]["travel"]["additionalProperties"] == false);
+  CHECK(stats_schema().find('*') == std::string::npos);
 }
 
 TEST_CASE("a figure that the schema does not know, one that is missing and one of another kind are found, at any depth") {

@@ -1,0 +1,152 @@
+#include "apps/show/stats/schema.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/edge/show/stats/counters_json.h"
+#include "apps/run/memory_categories.h"
+#include "apps/run/strategy_rows.h"
+#include "apps/show/counters.h"
+#include "core/base/expect.h"
+#include "core/trace/charge.h"
+#include "core/trace/skips.h"
+#include "dataflow/packets.h"
+#include "svm/packets.h"
+
+namespace dmpc::apps {
+
+extern const char* const stats_schema_form;  // of a source that CMake makes of the file
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json with_description(Json schema, std::string_view description) {
+  if (!description.empty()) {
+    schema["description"] = description;
+  }
+  return schema;
+}
+
+Json reference_to(const std::string& name) { return {{"$ref", "#/$defs/" + name}}; }
+Json count_or_null() { return {{"type", {"integer", "null"}}, {"minimum", 0}}; }
+
+template <class T, std::size_t count>
+Json counters(const std::array<Counter<T>, count>& rows) {
+  Json all;
+  for (const Counter<T>& row : rows) {
+    all[row.key] = with_description(row.may_be_null ? count_or_null() : reference_to("count"), row.help);
+  }
+  return all;
+}
+
+/// Figures called as those of a table are, each of them as `schema` says.
+template <class Table, class NameOf>
+Json named(const Table& table, const NameOf& name_of_each, const std::string& schema) {
+  Json all;
+  for (const auto& each : table) {
+    all[key_of(name_of_each(each))] = reference_to(schema);
+  }
+  return all;
+}
+
+Json strategy_options() {
+  const auto type_of = [](OptionKind kind) -> Json {
+    return kind == OptionKind::number ? count_or_null()
+                                      : Json{{"type", {kind == OptionKind::flag ? "boolean" : "string", "null"}}};
+  };
+  Json all;
+  for (const ToldKey& told : told_keys()) {
+    all[std::string(told.key)] = with_description(type_of(told.kind), told.meaning);
+  }
+  return all;
+}
+
+Json packet_kinds() {
+  std::vector<std::string> names(svm::kind_names.begin(), svm::kind_names.end());
+  std::copy_if(dataflow::kind_names.begin(), dataflow::kind_names.end(), std::back_inserter(names),
+               [&](const char* name) { return std::find(names.begin(), names.end(), name) == names.end(); });
+  return names;
+}
+
+/// What stands for "*name" in the form.
+const Json& rows_called(const std::string& name) {
+  static const std::map<std::string, Json> rows = {
+      {"options of strategies", strategy_options()},
+      {"hits", counters(hit_counters)},
+      {"operations", counters(counters_of<core::Operations>)},
+      {"pages", counters(counters_of<svm::PageCounters>)},
+      {"work", counters(counters_of<svm::WorkCounters>)},
+      {"questions", counters(counters_of<svm::QuestionCounters>)},
+      {"gather", counters(counters_of<dataflow::Gather::Counters>)},
+      {"overflow", counters(overflow_counters)},
+      {"travelling rays", counters(counters_of<dataflow::RayCounters>)},
+      {"queue", counters(queue_counters)},
+      {"backlog", counters(counters_of<dataflow::ProgramCounts>)},
+      {"movement", counters(counters_of<dataflow::MovementCounters>)},
+      {"prices", named(
+                     core::charge_names, [](std::string_view name) { return std::string(name); }, "count")},
+      {"skips", named(
+                    core::all_skips, [](const core::Skip& skip) { return skip.name; }, "skip")},
+      {"memory", named(
+                     memory_categories, [](const NamedCategory& category) { return category.name; }, "count")},
+      {"packet kinds", packet_kinds()}};
+  const auto found = rows.find(name);
+  core::expect(found != rows.end(), "the form of the schema names rows that are there");
+  return found->second;
+}
+
+bool is_name_of_rows(const std::string& word) { return word.rfind('*', 0) == 0; }
+
+Json filled(const Json& form);
+
+Json filled_properties(const Json& form) {
+  Json properties;
+  for (const auto& [key, value] : form.items()) {
+    if (is_name_of_rows(key)) {
+      properties.update(rows_called(key.substr(1)));
+    } else {
+      properties[key] = filled(value);
+    }
+  }
+  return properties;
+}
+
+/// An object with such properties.
+void close(Json& object, const Json& properties) {
+  object.emplace("type", "object");
+  object["additionalProperties"] = false;
+  for (const auto& [key, unused] : properties.items()) {
+    object["required"].push_back(key);
+  }
+  object["properties"] = properties;
+}
+
+Json filled(const Json& form) {
+  if (form.is_array() && form.size() == 1 && form[0].is_string() && is_name_of_rows(form[0])) {
+    return rows_called(form[0].get<std::string>().substr(1));
+  }
+  Json result = form;
+  for (const auto& [key, value] : result.items()) {
+    if (key != "properties" && value.is_structured()) {
+      value = filled(value);
+    }
+  }
+  if (form.is_object() && form.contains("properties")) {
+    const Json properties = filled_properties(form["properties"]);
+    result.erase("properties");
+    close(result, properties);
+  }
+  return result;
+}
+
+}  // namespace
+
+const std::string& stats_schema() {
+  static const std::string schema = filled(Json::parse(stats_schema_form)).dump(2) + "\n";
+  return schema;
+}
+
+}  // namespace dmpc::apps
