@@ -6,9 +6,9 @@
 #include <iostream>
 #include <string>
 
+#include "apps/edge/manual/completion.h"
+#include "apps/edge/manual/man_page.h"
 #include "apps/main/commands.h"
-#include "apps/manual/completion.h"
-#include "apps/manual/man_page.h"
 #include "apps/show/stats/schema.h"
 #include "core/base/expect.h"
 

@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "apps/render/tev_packet.h"
-#include "apps/render/viewer_connection.h"
+#include "apps/edge/viewer/connection.h"
+#include "apps/edge/viewer/tev_packet.h"
 #include "core/picture/film.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/refinement.h"

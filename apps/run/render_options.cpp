@@ -5,7 +5,7 @@
 
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/table/table_options.h"
-#include "apps/run/viewer_address.h"
+#include "apps/edge/viewer/address.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
 

@@ -98,7 +98,7 @@ Names definitions_in(const std::string& text) {
 
 /// Programs, each of which may call what it likes; and code for several instruction sets, which Highway puts into a namespace for
 /// each.
-bool is_aside(const std::string& file) { return file.starts_with("apps/examples/") || file.ends_with("main.cpp"); }
+bool is_aside(const std::string& file) { return file.starts_with("apps/computer/examples/") || file.ends_with("main.cpp"); }
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/picture/picture_error.h"
+#include "apps/lab/difference/picture_error.h"
 
 namespace dmpc::apps {
 

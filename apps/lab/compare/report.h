@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/lab/compare/differences.h"
-#include "apps/picture/picture_error.h"
+#include "apps/lab/difference/picture_error.h"
 
 namespace dmpc::apps {
 

@@ -1,12 +1,12 @@
-#include "apps/manual/completion.h"
+#include "apps/edge/manual/completion.h"
 
 #include <doctest/doctest.h>
 
 #include <set>
 #include <sstream>
 
+#include "apps/edge/manual/leaves.h"
 #include "apps/main/commands.h"
-#include "apps/manual/leaves.h"
 #include "tests/apps/manual/painter.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"

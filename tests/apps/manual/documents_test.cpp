@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/manual/leaves.h"
 #include "apps/main/commands.h"
-#include "apps/manual/leaves.h"
 #include "core/base/expect.h"
 #include "tests/support/documents.h"
 

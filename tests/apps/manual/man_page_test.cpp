@@ -1,10 +1,10 @@
-#include "apps/manual/man_page.h"
+#include "apps/edge/manual/man_page.h"
 
 #include <doctest/doctest.h>
 
+#include "apps/edge/manual/leaves.h"
+#include "apps/edge/manual/roff.h"
 #include "apps/main/commands.h"
-#include "apps/manual/leaves.h"
-#include "apps/manual/roff.h"
 #include "tests/apps/manual/painter.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"

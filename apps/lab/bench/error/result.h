@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "apps/lab/bench/error/sweep.h"
+#include "apps/lab/difference/picture_error.h"
 #include "apps/lab/oracle/accurate/reference.h"
-#include "apps/picture/picture_error.h"
 
 namespace dmpc::apps {
 

@@ -15,7 +15,7 @@ namespace {
 using core::Vec3d;
 using Clock = std::chrono::steady_clock;
 
-/// What is added to a reference's value where relative errors are divided by it; as in apps/picture/picture_error.h.
+/// What is added to a reference's value where relative errors are divided by it; as in apps/lab/difference/picture_error.h.
 constexpr double relative_floor = 0.01;
 
 Resolution resolution_of(const core::Scene& scene, const PictureOptions& picture) {

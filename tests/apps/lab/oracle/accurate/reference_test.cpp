@@ -8,8 +8,8 @@
 #include <string>
 
 #include "apps/edge/system/interrupt.h"
+#include "apps/lab/difference/picture_error.h"
 #include "apps/lab/oracle/accurate/reference_key.h"
-#include "apps/picture/picture_error.h"
 #include "core/base/expect.h"
 #include "tests/support/checked_floor.h"
 #include "tests/support/small_scenes.h"

@@ -1,5 +1,5 @@
-#include "apps/manual/completion.h"
-#include "apps/manual/shell_words.h"
+#include "apps/edge/manual/completion.h"
+#include "apps/edge/manual/shell_words.h"
 
 namespace dmpc::apps {
 

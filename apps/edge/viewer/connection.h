@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/run/viewer_address.h"
+#include "apps/edge/viewer/address.h"
 
 namespace dmpc::apps {
 

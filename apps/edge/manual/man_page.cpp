@@ -1,4 +1,4 @@
-#include "apps/manual/man_page.h"
+#include "apps/edge/manual/man_page.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,9 +6,9 @@
 
 #include "apps/edge/line/exit_status.h"
 #include "apps/edge/line/typed_line.h"
-#include "apps/manual/leaves.h"
-#include "apps/manual/lines.h"
-#include "apps/manual/roff.h"
+#include "apps/edge/manual/leaves.h"
+#include "apps/edge/manual/lines.h"
+#include "apps/edge/manual/roff.h"
 
 namespace dmpc::apps {
 
@@ -23,19 +23,19 @@ constexpr const char* description =
     "part of "
     "space through which they pass. Everything that travels is counted, and the picture is the same to the last bit.";
 
-struct Variable {
+struct EnvironmentVariable {
   const char* name;
   const char* text;
 };
 
-constexpr Variable variables[] = {
+constexpr EnvironmentVariable variables[] = {
     {"XDG_CACHE_HOME", "The folder in which bench error keeps the pictures that it measures against, in one called dmpc."},
     {"HOME", "Its folder .cache is taken if XDG_CACHE_HOME is not set."},
     {"TMPDIR", "Where files go that are not kept; /tmp if not set."},
     {"NO_COLOR", "Is obeyed whatever its value: dmpc never writes in colour. Progress is shown on terminals only."},
 };
 
-constexpr Variable files[] = {
+constexpr EnvironmentVariable files[] = {
     {"~/.cache/dmpc", "References of bench error (--references). May be deleted: they are made again when needed."},
 };
 
@@ -202,11 +202,11 @@ class Writer {
       page_.add_entry(std::to_string(status.status), "", status.meaning);
     }
     page_.begin_section("ENVIRONMENT");
-    for (const Variable& variable : variables) {
+    for (const EnvironmentVariable& variable : variables) {
       page_.add_entry(variable.name, "", variable.text);
     }
     page_.begin_section("FILES");
-    for (const Variable& file : files) {
+    for (const EnvironmentVariable& file : files) {
       page_.add_entry(file.name, "", file.text);
     }
     page_.begin_section("SEE ALSO");

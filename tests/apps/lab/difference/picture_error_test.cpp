@@ -1,4 +1,4 @@
-#include "apps/picture/picture_error.h"
+#include "apps/lab/difference/picture_error.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/run/viewer_address.h"
+#include "apps/edge/viewer/address.h"
 
 #include "core/base/expect.h"
 

@@ -1,4 +1,4 @@
-#include "apps/render/tev_packet.h"
+#include "apps/edge/viewer/tev_packet.h"
 
 #include <doctest/doctest.h>
 

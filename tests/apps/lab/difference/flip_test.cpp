@@ -1,4 +1,4 @@
-#include "apps/picture/flip.h"
+#include "apps/lab/difference/flip.h"
 
 #include <doctest/doctest.h>
 

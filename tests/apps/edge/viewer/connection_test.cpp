@@ -1,4 +1,4 @@
-#include "apps/render/viewer_connection.h"
+#include "apps/edge/viewer/connection.h"
 
 #include <doctest/doctest.h>
 

@@ -1,10 +1,10 @@
-#include "apps/manual/roff.h"
+#include "apps/edge/manual/roff.h"
 
 #include <cstddef>
 #include <sstream>
 #include <vector>
 
-#include "apps/manual/lines.h"
+#include "apps/edge/manual/lines.h"
 
 namespace dmpc::apps {
 

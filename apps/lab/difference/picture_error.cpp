@@ -1,4 +1,4 @@
-#include "apps/picture/picture_error.h"
+#include "apps/lab/difference/picture_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/picture/flip.h"
+#include "apps/lab/difference/flip.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

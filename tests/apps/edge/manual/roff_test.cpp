@@ -1,4 +1,4 @@
-#include "apps/manual/roff.h"
+#include "apps/edge/manual/roff.h"
 
 #include <doctest/doctest.h>
 
