@@ -4,6 +4,7 @@
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "core/database/database.h"
 #include "core/picture/bundle_task.h"
 #include "core/picture/memory_use.h"
 #include "nodes/lasting_pieces.h"
@@ -190,7 +191,7 @@ void check_work(const PlanRequest& request) {
 }
 
 void check(const PlanRequest& request) {
-  check_use(is_page_size(request.page_size_bytes), field_of<&PlanRequest::page_size_bytes>(), "=",
+  check_use(is_page_size(request.page_size_bytes), field_of<&core::BuildOptions::page_size_bytes>(), "=",
             size_text(request.page_size_bytes), ": a page is a power of two from 512B to 64KiB");
   check_use(request.computer.node_count >= 1 && request.computer.node_count <= nodes::node_count_max, nodes_field, "=",
             request.computer.node_count, ": from 1 to ", nodes::node_count_max, " nodes");

@@ -7,6 +7,7 @@
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/machine/machine_file.h"
 #include "apps/edge/machine/machines.h"
+#include "apps/edge/run/option_words.h"
 #include "apps/edge/table/table_options.h"
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
@@ -28,11 +29,13 @@ OptionSet::Choices<nodes::TopologyKind> topologies() {
 
 void add_computer_group(OptionSet& options, ProgramOptions& program) {
   options.begin_group("The computer");
-  options.add_number("--nodes", program.computer.node_count, 1, program_nodes_max, "8; of ranks as their processors",
+  options.add_number(nodes_word.option, program.computer.node_count, 1, program_nodes_max, "8; of ranks as their processors",
                      "Nodes, each with a memory of its own");
   options.add_text(
-      "--node-memory", "SIZE [what it takes]",
-      [&program](const std::string& text) { program.computer.node_memory_bytes = parse_size_bytes(text, "--node-memory"); },
+      node_memory_word.option, "SIZE [what it takes]",
+      [&program](const std::string& text) {
+        program.computer.node_memory_bytes = parse_size_bytes(text, node_memory_word.option);
+      },
       "The bound of each node's memory, such as 256KiB: refused if the program takes more");
   options.add_choice<RunnerKind>(
       "--runner", program.runner,

@@ -6,6 +6,7 @@
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/table/table_options.h"
 #include "apps/edge/viewer/address.h"
+#include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
 
@@ -18,8 +19,7 @@ using core::UsageError;
 void add_computer_options(OptionSet& options, RenderOptions& render) {
   nodes::ComputerRequest& computer = render.computer;
   options.begin_group("The computer");
-  options.add_number("--nodes", computer.node_count, 1, nodes::node_count_max,
-                     "8; with --runner=mpi the processors of all ranks, less one each", "Nodes, each with a memory of its own");
+  nodes_row().add_to(options, computer.node_count, "8; with --runner=mpi the processors of all ranks, less one each");
   add_strategy_option(options, render.strategy);
   add_system_option(options, render.system);
   add_memory_option(options, computer.node_memory_bytes);

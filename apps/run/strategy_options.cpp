@@ -4,7 +4,6 @@
 #include <iterator>
 #include <vector>
 
-#include "apps/edge/line/option_values.h"
 #include "apps/edge/machine/machines.h"
 #include "apps/run/region_options.h"
 #include "apps/run/strategy_rows.h"
@@ -61,17 +60,22 @@ std::string joined_by_or(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Names, of several that do not go with the strategy, the first one that fewest strategies have.
+/// Names, of several that do not go with the strategy, the first one that fewest strategies have; and what rays remember rather
+/// than where they wait.
 void check_strategy(const OptionSet& options, const StrategyOptions& run) {
+  constexpr core::Field waiting = core::field_of<&dataflow::RayOptions::queue_packets>(),
+                        remembered = core::field_of<&dataflow::RayOptions::tested_objects>();
   std::size_t fewest = std::size(strategy_kinds);
+  core::Field named("");
   std::string sentence;
   for_each_row([&](const auto& row) {
     if (row.why == nullptr || has(run.strategy, row) || !options.is_given(row.name)) {
       return;
     }
     const std::vector<std::string> strategies = strategies_with(row);
-    if (strategies.size() < fewest) {
+    if (strategies.size() < fewest || (named == waiting && row.takes.field == remembered)) {
       fewest = strategies.size();
+      named = row.takes.field;
       sentence = std::string(row.name) + " goes with " + joined_by_or(strategies) + ": " + row.why;
     }
   });
@@ -88,23 +92,10 @@ const char* name_of(Strategy strategy) { return kind_of(strategy).name; }
 
 const svm::Strategy* page_strategy(Strategy strategy) { return kind_of(strategy).with_pages(); }
 
-void add_strategy_option(OptionSet options, Strategy& strategy) {
-  OptionSet::Choices<Strategy> choices;
-  for (const StrategyKind& kind : strategy_kinds) {
-    choices.emplace_back(kind.name, kind.strategy);
-  }
-  options.add_choice<Strategy>(
-      "--strategy", strategy, choices,
-      "svm: the scene is spread over the nodes and its pages travel. replicated: every node holds it all. dataflow: every node "
-      "holds a region of space and rays travel. forest: every node holds the top of the tree of boxes, and subtrees about which "
-      "others ask (--structure=extents)");
-}
+void add_strategy_option(OptionSet options, Strategy& strategy) { strategy_row().add_to(options, strategy); }
 
 void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memory_bytes) {
-  const auto take = [&node_memory_bytes](const std::string& text) {
-    node_memory_bytes = text == "auto" ? std::nullopt : std::optional(parse_size_bytes(text, "--node-memory"));
-  };
-  options.add_text("--node-memory", "SIZE|auto [auto]", take, "Bound of each node's memory, such as 4MiB");
+  memory_row().add_to(options, node_memory_bytes);
 }
 
 void add_machine_options(OptionSet options, RunnerOptions& runner, const std::string& when) {

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "apps/edge/line/option_values.h"
 #include "apps/run/region_options.h"
 #include "core/database/database.h"
 #include "dataflow/packets.h"
@@ -245,6 +246,41 @@ TopologyRow make_topology_row() {
           .told = [](const dataflow::Plan& plan) -> OptionValue { return name_of(*plan.request.rays.topology); }};
 }
 
+NodesRow make_nodes_row() {
+  return {.name = nodes_word.option,
+          .takes = {nodes_word.field,
+                    [](OptionSet set, const char* name, const char* help, std::uint32_t& count, const std::string& standard) {
+                      set.add_number(name, count, 1, nodes::node_count_max, standard, help);
+                    },
+                    OptionKind::number},
+          .help = "Nodes, each with a memory of its own"};
+}
+
+StrategyRow make_strategy_row() {
+  return {.name = "--strategy",
+          .takes = {core::field_of<&svm::PlanRequest::strategy>(),
+                    [](OptionSet set, const char* name, const char* help, Strategy& strategy, const std::string&) {
+                      using enum Strategy;
+                      set.add_choice(name, strategy, by_name({svm, replicated, dataflow, forest}), help);
+                    }},
+          .help =
+              "svm: the scene is spread over the nodes and its pages travel. replicated: every node holds it all. dataflow: "
+              "every node holds a region of space and rays travel. forest: every node holds the top of the tree of boxes, and "
+              "subtrees about which others ask (--structure=extents)"};
+}
+
+MemoryRow make_memory_row() {
+  return {.name = node_memory_word.option,
+          .takes = {node_memory_word.field,
+                    [](OptionSet set, const char* name, const char* help, std::optional<std::size_t>& bytes, const std::string&) {
+                      const auto take = [&bytes, name](const std::string& text) {
+                        bytes = text == "auto" ? std::nullopt : std::optional(parse_size_bytes(text, name));
+                      };
+                      set.add_text(name, "SIZE|auto [auto]", take, help);
+                    }},
+          .help = "Bound of each node's memory, such as 4MiB"};
+}
+
 /// What a plan tells of a row; a flag that its strategy has not is off.
 template <class Options, class Plan, class OtherPlan>
 OptionValue told_of(const OptionRow<Options, Plan>& row, Strategy strategy, const OtherPlan& plan) {
@@ -272,12 +308,13 @@ std::vector<ToldOption> told_by(Strategy strategy, const Plan& plan) {
 }
 
 std::vector<OptionWord> make_strategy_words() {
-  std::vector<OptionWord> words = {{core::field_of<&svm::PlanRequest::strategy>(), "--strategy"},
-                                   {core::field_of<&svm::PlanRequest::page_size_bytes>(), "--page-size"},
-                                   {core::field_of<&core::BuildOptions::structure>(), "--structure"},
-                                   {core::field_of<&core::BuildOptions::record_order>(), "--record-order"}};
-  words.insert(words.end(), std::begin(computer_words), std::end(computer_words));
-  for_each_row([&](const auto& row) { words.push_back({row.takes.field, row.name}); });
+  std::vector<OptionWord> words;
+  const auto add = [&](const auto& row) { words.push_back({row.takes.field, row.name}); };
+  add(nodes_row());
+  add(strategy_row());
+  add(memory_row());
+  std::for_each(database_rows().begin(), database_rows().end(), add);
+  for_each_row(add);
   return words;
 }
 
@@ -300,6 +337,21 @@ const std::vector<RayRow>& ray_rows() {
 
 const TopologyRow& topology_row() {
   static const TopologyRow row = make_topology_row();
+  return row;
+}
+
+const NodesRow& nodes_row() {
+  static const NodesRow row = make_nodes_row();
+  return row;
+}
+
+const StrategyRow& strategy_row() {
+  static const StrategyRow row = make_strategy_row();
+  return row;
+}
+
+const MemoryRow& memory_row() {
+  static const MemoryRow row = make_memory_row();
   return row;
 }
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/edge/run/option_row.h"
 #include "apps/edge/run/option_words.h"
-#include "apps/run/option_row.h"
 #include "apps/run/strategy_options.h"
 #include "dataflow/plan.h"
 #include "svm/plan.h"
@@ -17,12 +17,19 @@ using PageRow = OptionRow<svm::PageOptions, svm::Plan>;
 using BalanceRow = OptionRow<dataflow::BalanceOptions, dataflow::Plan>;
 using RayRow = OptionRow<dataflow::RayOptions, dataflow::Plan>;
 using TopologyRow = OptionRow<nodes::TopologyKind, dataflow::Plan>;
+/// Options that all strategies have; of nodes it is said where they are declared how many there are else.
+using NodesRow = OptionRow<std::uint32_t, StrategyOptions>;
+using StrategyRow = OptionRow<Strategy, StrategyOptions>;
+using MemoryRow = OptionRow<std::optional<std::size_t>, StrategyOptions>;
 
 /// In the order in which help has them.
 const std::vector<PageRow>& page_rows();
 const std::vector<BalanceRow>& balance_rows();
 const std::vector<RayRow>& ray_rows();
 const TopologyRow& topology_row();
+const NodesRow& nodes_row();
+const StrategyRow& strategy_row();
+const MemoryRow& memory_row();
 
 /// The strategy by which pixels stay; nullptr for dataflow.
 const svm::Strategy* page_strategy(Strategy strategy);
@@ -33,7 +40,7 @@ bool has(Strategy strategy, const OptionRow<Options, dataflow::Plan>&) {
   return strategy == Strategy::dataflow;
 }
 
-/// Calls visit(row) for all.
+/// Calls visit(row) for all that some strategies have.
 template <class Visit>
 void for_each_row(const Visit& visit) {
   std::for_each(page_rows().begin(), page_rows().end(), visit);

@@ -13,22 +13,39 @@ const char* name_of(core::RecordOrder order) { return order == core::RecordOrder
 
 const char* name_of(core::Structure structure) { return structure == core::Structure::extents ? "extents" : "grid"; }
 
+const std::vector<DatabaseRow>& database_rows() {
+  using core::BuildOptions, core::RecordOrder, core::Structure;
+  static const std::vector<DatabaseRow> rows = {
+      {.name = "--page-size",
+       .takes = {core::field_of<&BuildOptions::page_size_bytes>(),
+                 [](OptionSet set, const char* name, const char* help, DatabaseOptions& database, const std::string&) {
+                   const auto take = [&database](const std::string& text) {
+                     database.build.page_size_bytes = parse_page_size(text);
+                   };
+                   set.add_text(name, "SIZE [1KiB, forest 4KiB]", take, help);
+                 }},
+       .help = "Size of a page, a power of two from 512B to 64KiB; no record crosses its border"},
+      {.name = "--record-order",
+       .takes = word<&DatabaseOptions::build, &BuildOptions::record_order>(
+           OptionSet::Choices<RecordOrder>{{"spatial", RecordOrder::spatial}, {"scattered", RecordOrder::scattered}}),
+       .help = "Which records share a page: neighbours in space, or any (another traffic, the same picture)"},
+      {.name = "--structure",
+       .takes = word<&DatabaseOptions::build, &BuildOptions::structure>(
+           OptionSet::Choices<Structure>{{"grid", Structure::grid}, {"extents", Structure::extents}}),
+       .help =
+           "How records are found: by a grid whose cells have trees of boxes, or by one tree of boxes over all (another traffic, "
+           "the same picture)"},
+      {.name = "--grid-axes",
+       .takes = word<&DatabaseOptions::axes>(
+           OptionSet::Choices<AxesChoice>{{"world", AxesChoice::world}, {"screen", AxesChoice::screen}}),
+       .help = "Directions of the grid, and so of dataflow's regions"}};
+  return rows;
+}
+
 void add_options(OptionSet options, DatabaseOptions& database) {
-  options.add_text(
-      "--page-size", "SIZE [1KiB, forest 4KiB]",
-      [&database](const std::string& text) { database.build.page_size_bytes = parse_page_size(text); },
-      "Size of a page, a power of two from 512B to 64KiB; no record crosses its border");
-  using core::RecordOrder;
-  options.add_choice<RecordOrder>("--record-order", database.build.record_order,
-                                  {{"spatial", RecordOrder::spatial}, {"scattered", RecordOrder::scattered}},
-                                  "Which records share a page: neighbours in space, or any (another traffic, the same picture)");
-  using core::Structure;
-  options.add_choice<Structure>("--structure", database.build.structure,
-                                {{"grid", Structure::grid}, {"extents", Structure::extents}},
-                                "How records are found: by a grid whose cells have trees of boxes, or by one tree of boxes over "
-                                "all (another traffic, the same picture)");
-  options.add_choice<AxesChoice>("--grid-axes", database.axes, {{"world", AxesChoice::world}, {"screen", AxesChoice::screen}},
-                                 "Directions of the grid, and so of dataflow's regions");
+  for (const DatabaseRow& row : database_rows()) {
+    row.add_to(options, database);
+  }
 }
 
 std::size_t parse_page_size(const std::string& text) {

@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "apps/edge/line/command_line.h"
+#include "apps/edge/run/option_row.h"
 #include "core/database/database.h"
 
 namespace dmpc::apps {
@@ -25,6 +27,9 @@ struct DatabaseOptions {
   AxesChoice axes = AxesChoice::world;  ///< which those are to be
 };
 
+using DatabaseRow = OptionRow<DatabaseOptions, DatabaseOptions>;
+/// In the order in which help has them.
+const std::vector<DatabaseRow>& database_rows();
 /// Declares them.
 void add_options(OptionSet options, DatabaseOptions& database);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/expect.h"
+#include "core/database/database.h"
 #include "svm/forest/forest.h"
 #include "svm/program_maker.h"
 #include "svm/run.h"

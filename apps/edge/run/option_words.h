@@ -16,8 +16,9 @@ struct OptionWord {
 };
 
 /// The words of every program on the computer.
-inline constexpr OptionWord computer_words[] = {{core::field_of<&nodes::ComputerRequest::node_count>(), "--nodes"},
-                                                {core::field_of<&nodes::ComputerRequest::node_memory_bytes>(), "--node-memory"}};
+inline constexpr OptionWord nodes_word{core::field_of<&nodes::ComputerRequest::node_count>(), "--nodes"};
+inline constexpr OptionWord node_memory_word{core::field_of<&nodes::ComputerRequest::node_memory_bytes>(), "--node-memory"};
+inline constexpr OptionWord computer_words[] = {nodes_word, node_memory_word};
 
 /// The sentence with options in place of the fields that they set; any other field by its own name.
 std::string in_options(const core::Sentence& sentence, std::span<const OptionWord> words);

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
 
 #include "apps/edge/show/stats/counters_json.h"
 #include "apps/run/memory_categories.h"
 #include "apps/run/strategy_rows.h"
 #include "apps/show/counters.h"
+#include "apps/show/stats/strategy.h"
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
 #include "core/trace/skips.h"
@@ -20,8 +23,6 @@ namespace dmpc::apps {
 extern const char* const stats_schema_form;  // of a source that CMake makes of the file
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json with_description(Json schema, std::string_view description) {
   if (!description.empty()) {
@@ -100,22 +101,22 @@ const Json& rows_called(const std::string& name) {
 
 bool is_name_of_rows(const std::string& word) { return word.rfind('*', 0) == 0; }
 
-Json filled(const Json& form);
+Json completed(const Json& form);
 
-Json filled_properties(const Json& form) {
+Json completed_properties(const Json& form) {
   Json properties;
   for (const auto& [key, value] : form.items()) {
     if (is_name_of_rows(key)) {
       properties.update(rows_called(key.substr(1)));
     } else {
-      properties[key] = filled(value);
+      properties[key] = completed(value);
     }
   }
   return properties;
 }
 
 /// An object with such properties.
-void close(Json& object, const Json& properties) {
+void close_object(Json& object, const Json& properties) {
   object.emplace("type", "object");
   object["additionalProperties"] = false;
   for (const auto& [key, unused] : properties.items()) {
@@ -124,20 +125,20 @@ void close(Json& object, const Json& properties) {
   object["properties"] = properties;
 }
 
-Json filled(const Json& form) {
-  if (form.is_array() && form.size() == 1 && form[0].is_string() && is_name_of_rows(form[0])) {
+Json completed(const Json& form) {
+  if (form.is_array() && form.size() == 1 && form[0].is_string() && is_name_of_rows(form[0].get<std::string>())) {
     return rows_called(form[0].get<std::string>().substr(1));
   }
   Json result = form;
   for (const auto& [key, value] : result.items()) {
     if (key != "properties" && value.is_structured()) {
-      value = filled(value);
+      value = completed(value);
     }
   }
   if (form.is_object() && form.contains("properties")) {
-    const Json properties = filled_properties(form["properties"]);
+    const Json properties = completed_properties(form["properties"]);
     result.erase("properties");
-    close(result, properties);
+    close_object(result, properties);
   }
   return result;
 }
@@ -145,7 +146,7 @@ Json filled(const Json& form) {
 }  // namespace
 
 const std::string& stats_schema() {
-  static const std::string schema = filled(Json::parse(stats_schema_form)).dump(2) + "\n";
+  static const std::string schema = completed(Json::parse(stats_schema_form)).dump(2) + "\n";
   return schema;
 }
 

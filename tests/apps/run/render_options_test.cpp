@@ -301,6 +301,13 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
   }
 }
 
+TEST_CASE("of several options that do not go with the strategy one that fewest have is named, and what rays remember first") {
+  CHECK(
+      contains(render_complaint({"--strategy=replicated", "--ray-queue=5", "--tested-objects=2"}), "--tested-objects goes with"));
+  CHECK(contains(render_complaint({"--ray-queue=5", "--no-backpressure"}), "--ray-queue goes with"));
+  CHECK(contains(render_complaint({"--strategy=dataflow", "--in-flight=2", "--cache-pages=3"}), "--cache-pages goes with"));
+}
+
 TEST_CASE("a system by name stands for its options") {
   const RenderOptions machine = render({"--system=pixel-machine"});
   CHECK(machine.strategy == Strategy::svm);

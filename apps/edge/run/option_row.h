@@ -1,4 +1,4 @@
-// One option of a strategy: all that is known of it, in one row.
+// One option: all that is known of it, in one row.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct OptionRow {
   OptionField<Options> takes;  ///< a field, and what it may be
   const char* help;
   const char* why;  ///< why strategies have no such field that have none; nullptr: it is not their strategy that matters
-  const char* key;  ///< in --stats
+  const char* key;  ///< in --stats; nullptr where what became of it is told by whoever knows
   OptionValue (*told)(const Plan& plan);  ///< what it became
   const char* meaning = "";               ///< of what is told, where the key does not say it all
 
