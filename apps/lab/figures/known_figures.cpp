@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
