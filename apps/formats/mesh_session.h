@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "apps/edge/system/progress.h"
 #include "apps/formats/mesh_file.h"

@@ -1,11 +1,7 @@
 #include "apps/formats/nff_writer.h"
 
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <fstream>
-#include <ostream>
 
 #include "apps/edge/system/output_file.h"
 #include "core/base/expect.h"

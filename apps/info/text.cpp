@@ -1,7 +1,6 @@
 #include "apps/info/text.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"

@@ -1,8 +1,5 @@
 #include "apps/render/onlookers.h"
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <utility>
 
 #include "apps/edge/run/work.h"

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <charconv>
-#include <cstddef>
 #include <span>
 
 #include "apps/edge/line/number_text.h"

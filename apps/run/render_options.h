@@ -1,7 +1,6 @@
 // The options of `render`: a scene, a computer, a strategy, and what to look at.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -69,4 +69,6 @@ Account account_of(const Report& report) {
   return std::visit([](const auto& of_strategy) { return account_of_strategy(of_strategy); }, report);
 }
 
+TimeParts parts_of(const Account& account) { return parts_of(sum_of_nodes(*account.virtual_time), account.waits); }
+
 }  // namespace dmpc::apps

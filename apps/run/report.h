@@ -1,7 +1,6 @@
 // What a run reports, whichever strategy it followed.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -50,5 +49,8 @@ struct Account {
 
 /// Thread-safe, as long as nobody changes the report.
 Account account_of(const Report& report);
+
+/// What became of the nodes' time, all of them together, on a modelled machine.
+TimeParts parts_of(const Account& account);
 
 }  // namespace dmpc::apps

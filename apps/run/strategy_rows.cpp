@@ -52,12 +52,23 @@ OptionSet::Choices<T> by_name(std::initializer_list<T> kinds) {
 
 const PageOptions& pages_of(const svm::Plan& plan) { return plan.request.pages; }
 const BalanceOptions& balance_of(const dataflow::Plan& plan) { return plan.request.rays.balance; }
+OptionValue cuts_told(const dataflow::Plan& plan) {
+  const BalanceOptions& balance = balance_of(plan);
+  return balance.balance == dataflow::Balance::scattered ? OptionValue() : name_of(balance.bsp.order);
+}
 OptionValue if_by_load(const dataflow::Plan& plan, int number) {
   return balance_of(plan).is_by_load() ? OptionValue(static_cast<std::uint64_t>(number)) : OptionValue();
 }
 
-std::vector<PageRow> make_page_rows() {
-  using svm::PageHomes, svm::PixelShares, svm::WorkGiver;
+template <class Row>
+std::vector<Row> joined(std::vector<Row> rows, const std::vector<Row>& more) {
+  rows.insert(rows.end(), more.begin(), more.end());
+  return rows;
+}
+
+/// Where pages are.
+std::vector<PageRow> rows_of_pages() {
+  using svm::PageHomes;
   return {
       {.name = "--cache-pages",
        .takes = number<&PageOptions::cache_pages>(1, 0x7fffffff, "a quarter of the database; with --node-memory what it holds"),
@@ -97,6 +108,13 @@ std::vector<PageRow> make_page_rows() {
        .why = "a node of the others keeps no page of another node",
        .key = "replacement",
        .told = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).replacement); }},
+  };
+}
+
+/// Who renders what.
+std::vector<PageRow> rows_of_pixels() {
+  using svm::PixelShares, svm::WorkGiver;
+  return {
       {.name = "--in-flight",
        .takes = number<&PageOptions::in_flight>(1, svm::in_flight_max, "64, replicated 16, runner virtual 1, mpi up to 256"),
        .help = "Pixels that a node works on at once; on threads the rays of 16 walk together, of fewer alone",
@@ -159,10 +177,7 @@ std::vector<BalanceRow> make_balance_rows() {
        .help = "Which way space is cut next: across a box's longer side, or by turns as in 1994",
        .why = share_out_pixels,
        .key = "cuts",
-       .told = [](const dataflow::Plan& plan) -> OptionValue {
-         const BalanceOptions& balance = balance_of(plan);
-         return balance.balance == Balance::scattered ? OptionValue() : name_of(balance.bsp.order);
-       }},
+       .told = cuts_told},
       {.name = "--regions",
        .takes = number<&BalanceOptions::regions_a_node>(1, dataflow::Scattered::regions_max, "1"),
        .help = "Regions a node (--balance=scattered), or units of a node's region (--balance=moving)",
@@ -185,7 +200,8 @@ std::vector<BalanceRow> make_balance_rows() {
   };
 }
 
-std::vector<RayRow> make_ray_rows() {
+/// Packets of rays, and room for them.
+std::vector<RayRow> rows_of_packets() {
   return {
       {.name = "--ray-batch",
        .takes = number<&RayOptions::ray_batch>(1, dataflow::ray_batch_max,
@@ -210,6 +226,12 @@ std::vector<RayRow> make_ray_rows() {
        .key = "ray_places",
        .told = [](const dataflow::Plan& plan) { return plan.shares_places() ? plan.ray_places : OptionValue(); },
        .meaning = "packets"},
+  };
+}
+
+/// What a node does with rays.
+std::vector<RayRow> rows_of_rays() {
+  return {
       {.name = "--ray-queue",
        .takes = number<&RayOptions::queue_packets>(0, dataflow::queue_packets_max,
                                                    "256; 512 if rays walk alone; 128 with --ray-places"),
@@ -321,7 +343,7 @@ std::vector<OptionWord> make_strategy_words() {
 }  // namespace
 
 const std::vector<PageRow>& page_rows() {
-  static const std::vector<PageRow> rows = make_page_rows();
+  static const std::vector<PageRow> rows = joined(rows_of_pages(), rows_of_pixels());
   return rows;
 }
 
@@ -331,7 +353,7 @@ const std::vector<BalanceRow>& balance_rows() {
 }
 
 const std::vector<RayRow>& ray_rows() {
-  static const std::vector<RayRow> rows = make_ray_rows();
+  static const std::vector<RayRow> rows = joined(rows_of_packets(), rows_of_rays());
   return rows;
 }
 

@@ -37,51 +37,67 @@ std::string text_of_value(const T& value) {
   return std::string(name_of(value));
 }
 
+/// What a system is made of. What it does not say is as `render` has it.
+struct SystemSettings {
+  Strategy strategy = Strategy::svm;
+  core::Structure structure = core::Structure::grid;
+  std::optional<std::uint32_t> work_item_side = {};
+  std::optional<svm::WorkGiver> work_giver = {};
+  std::optional<std::uint32_t> resident_percent = {};
+  std::optional<svm::PixelShares> pixel_shares = {};
+  std::optional<svm::PageHomes> homes = {};
+  std::optional<dataflow::Balance> balance = {};
+  std::optional<std::uint32_t> regions_a_node = {};
+};
+
+constexpr SystemSettings settings_of(System system) {
+  using core::Structure, dataflow::Balance, svm::PageHomes, svm::PixelShares;
+  switch (system) {
+    case System::replicated:
+      return {.strategy = Strategy::replicated};
+    case System::replicated_extents:
+      return {.strategy = Strategy::replicated, .structure = Structure::extents};
+    case System::svm:
+      return {.pixel_shares = PixelShares::submaps, .homes = PageHomes::spread};
+    case System::pixel_machine:
+      return {.structure = Structure::extents,
+              .work_item_side = 0,
+              .pixel_shares = PixelShares::interleaved,
+              .homes = PageHomes::host};
+    case System::green_paddon:
+      return {.work_giver = svm::WorkGiver::host, .resident_percent = 50, .homes = PageHomes::tree};
+    case System::forest:
+      return {.strategy = Strategy::forest, .structure = Structure::extents};
+    case System::equal_size:
+      return {.strategy = Strategy::dataflow, .balance = Balance::equal_size};
+    case System::scattered:
+      return {.strategy = Strategy::dataflow, .balance = Balance::scattered, .regions_a_node = 16};
+    case System::subsampled:
+      return {.strategy = Strategy::dataflow, .balance = Balance::subsampled};
+    case System::moving:
+      break;
+  }
+  return {.strategy = Strategy::dataflow, .balance = Balance::moving, .regions_a_node = 16};
+}
+
 /// Calls visit(option, field, value) for all that the system is made of.
 template <class Visit>
 void for_each_setting(System system, StrategyOptions& run, DatabaseOptions& database, const Visit& visit) {
-  const auto is = [&](Strategy strategy, core::Structure structure) {
-    visit("--strategy", run.strategy, strategy);
-    visit("--structure", database.build.structure, structure);
+  const SystemSettings settings = settings_of(system);
+  const auto visit_if_said = [&](const char* option, auto& field, const auto& value) {
+    if (value) {
+      visit(option, field, *value);
+    }
   };
-  const auto pages_are = [&](svm::PixelShares shares, svm::PageHomes homes) {
-    visit("--pixels", run.pages.pixel_shares, shares);
-    visit("--homes", run.pages.homes, homes);
-  };
-  switch (system) {
-    case System::replicated:
-      return is(Strategy::replicated, core::Structure::grid);
-    case System::replicated_extents:
-      return is(Strategy::replicated, core::Structure::extents);
-    case System::svm:
-      is(Strategy::svm, core::Structure::grid);
-      return pages_are(svm::PixelShares::submaps, svm::PageHomes::spread);
-    case System::pixel_machine:
-      is(Strategy::svm, core::Structure::extents);
-      visit("--work-item", run.pages.work_item_side, std::optional<std::uint32_t>(0));
-      return pages_are(svm::PixelShares::interleaved, svm::PageHomes::host);
-    case System::green_paddon:
-      is(Strategy::svm, core::Structure::grid);
-      visit("--work-giver", run.pages.work_giver, svm::WorkGiver::host);
-      visit("--resident", run.pages.resident_percent, std::uint32_t{50});
-      return visit("--homes", run.pages.homes, svm::PageHomes::tree);
-    case System::forest:
-      return is(Strategy::forest, core::Structure::extents);
-    case System::equal_size:
-      is(Strategy::dataflow, core::Structure::grid);
-      return visit("--balance", run.rays.balance.balance, dataflow::Balance::equal_size);
-    case System::scattered:
-      is(Strategy::dataflow, core::Structure::grid);
-      visit("--balance", run.rays.balance.balance, dataflow::Balance::scattered);
-      return visit("--regions", run.rays.balance.regions_a_node, std::uint32_t{16});
-    case System::subsampled:
-      is(Strategy::dataflow, core::Structure::grid);
-      return visit("--balance", run.rays.balance.balance, dataflow::Balance::subsampled);
-    case System::moving:
-      is(Strategy::dataflow, core::Structure::grid);
-      visit("--balance", run.rays.balance.balance, dataflow::Balance::moving);
-      return visit("--regions", run.rays.balance.regions_a_node, std::uint32_t{16});
-  }
+  visit("--strategy", run.strategy, settings.strategy);
+  visit("--structure", database.build.structure, settings.structure);
+  visit_if_said("--work-item", run.pages.work_item_side, settings.work_item_side);
+  visit_if_said("--work-giver", run.pages.work_giver, settings.work_giver);
+  visit_if_said("--resident", run.pages.resident_percent, settings.resident_percent);
+  visit_if_said("--pixels", run.pages.pixel_shares, settings.pixel_shares);
+  visit_if_said("--homes", run.pages.homes, settings.homes);
+  visit_if_said("--balance", run.rays.balance.balance, settings.balance);
+  visit_if_said("--regions", run.rays.balance.regions_a_node, settings.regions_a_node);
 }
 
 }  // namespace

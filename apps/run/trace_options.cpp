@@ -1,7 +1,6 @@
 #include "apps/run/trace_options.h"
 
 #include <charconv>
-#include <cmath>
 #include <string_view>
 
 #include "apps/edge/line/option_values.h"

@@ -5,9 +5,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
-#include <vector>
 
 #include "apps/edge/line/command_line.h"
 #include "core/base/refusal.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <set>
 
 #include "apps/edge/table/plot_axis.h"
 #include "core/base/expect.h"
@@ -46,7 +47,7 @@ std::string text_of_cell(const Cell& cell) {
   const std::uint64_t* const number = std::get_if<std::uint64_t>(&cell);
   core::expect(text != nullptr || number != nullptr, "a place in a plot has a name or a whole number");
   const std::string name = text != nullptr ? *text : std::to_string(*number);
-  core::expect(name.find_first_of(",\"\r\n") == std::string::npos, "a place in a plot has a name that CSV need not quote");
+  core::expect(name.find_first_of("\r\n") == std::string::npos, "a place in a plot has a name of one line");
   return name;
 }
 
@@ -76,7 +77,7 @@ class Script {
     }
     return head() +
            (has_places() ? axis_lines("x", plot_.x) : axis_lines("x", plot_.x, span_of_x(), unit_of(plot_.places.front()))) +
-           axis_lines("y", plot_.y, span_of_y(), unit_of(drawn_.front()->column)) + bars() + curves();
+           axis_lines("y", plot_.y, span_of_y(), unit_of(drawn_.front()->column)) + bars() + quoted_texts() + curves();
   }
 
  private:
@@ -229,6 +230,49 @@ class Script {
     return head.find('"') == std::string::npos ? gnuplot_text(head) : std::to_string(number + 1);
   }
 
+  /// gnuplot ends a text at its first comma or quote, whatever CSV makes of that: such columns stand in the script, row by row.
+  bool is_quoted(const std::string& name) const {
+    const std::size_t number = number_of_column(table_, name);
+    return std::any_of(table_.rows().begin(), table_.rows().end(), [&](const auto& row) {
+      const auto* const text = std::get_if<std::string>(&row[number]);
+      return text != nullptr && csv_text(*text) != *text;
+    });
+  }
+
+  std::string array_of(const std::string& name) const { return "texts" + std::to_string(number_of_column(table_, name) + 1); }
+
+  std::string quoted_texts() const {
+    std::set<std::string> names;
+    for (const PlotSeries* series : drawn_) {
+      for (const auto& [name, text] : series->where) {
+        names.insert(name);
+      }
+    }
+    if (has_places()) {
+      names.insert(plot_.places.begin(), plot_.places.end());
+    }
+    std::string arrays;
+    for (const std::string& name : names) {
+      arrays += is_quoted(name) ? "array " + array_of(name) + "[" + std::to_string(table_.rows().size()) + "] = [" +
+                                      texts_by_row(name) + "]\n"
+                                : "";
+    }
+    return arrays;
+  }
+
+  std::string texts_by_row(const std::string& name) const {
+    std::string texts;
+    for (const std::vector<Cell>& row : table_.rows()) {
+      const auto* const text = std::get_if<std::string>(&row[number_of_column(table_, name)]);
+      texts += (texts.empty() ? "" : ", ") + gnuplot_text(text == nullptr ? "" : *text);
+    }
+    return texts;
+  }
+
+  std::string text_in(const std::string& name) const {
+    return is_quoted(name) ? array_of(name) + "[int(column(0)) + 1]" : "stringcolumn(" + column(name) + ")";
+  }
+
   std::string x_of(std::size_t series) const {
     if (!has_places()) {
       const std::string x = "column(" + column(plot_.places.front()) + ")";
@@ -236,7 +280,7 @@ class Script {
     }
     std::string name;
     for (const std::string& place : plot_.places) {
-      name += (name.empty() ? "" : ".' '.") + ("stringcolumn(" + column(place) + ")");
+      name += (name.empty() ? "" : ".' '.") + text_in(place);
     }
     const double middle = (static_cast<double>(drawn_.size()) - 1) / 2;
     const double shift = plot_.is_stacked ? 0 : (static_cast<double>(series) - middle) * bar_width();
@@ -251,7 +295,7 @@ class Script {
     }
     std::string condition;
     for (const auto& [name, text] : drawn_[series]->where) {
-      condition += (condition.empty() ? "" : " && ") + ("stringcolumn(" + column(name) + ") eq " + gnuplot_text(text));
+      condition += (condition.empty() ? "" : " && ") + text_in(name) + " eq " + gnuplot_text(text);
     }
     return condition.empty() ? sum : condition + " ? " + sum + " : NaN";
   }

@@ -26,7 +26,7 @@ extern const std::array<const char*, 8> plot_colors;
 struct PlotSeries {
   std::string title;   ///< in the legend
   std::string column;  ///< by its name; of numbers
-  /// Only rows with each of these texts in the column named before it. gnuplot loses what CSV has to quote: no commas or quotes.
+  /// Only rows with each of these texts in the column named before it.
   std::vector<std::pair<std::string, std::string>> where = {};
   PlotMark mark = PlotMark::line;
   std::size_t color = 0;  ///< below plot_color_count; each has a shape of its points, too

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <functional>
-#include <string>
 #include <string_view>
 
 #include "apps/edge/viewer/address.h"

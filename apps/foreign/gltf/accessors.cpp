@@ -1,7 +1,6 @@
 #include "apps/foreign/gltf/accessors.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <limits>
 #include <map>

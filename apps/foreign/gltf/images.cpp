@@ -1,7 +1,6 @@
 #include "apps/foreign/gltf/images.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <limits>
 #include <string_view>

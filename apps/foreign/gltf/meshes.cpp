@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <optional>
-#include <span>
 
 #include "apps/edge/line/number_text.h"
 #include "core/base/expect.h"

@@ -3,9 +3,7 @@
 
 #include <assimp/scene.h>
 
-#include <cstddef>
 #include <cstdint>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "apps/foreign/gltf/nodes.h"
 
-#include <cmath>
 #include <map>
 #include <memory>
 #include <set>

@@ -3,7 +3,6 @@
 
 #include <assimp/material.h>
 
-#include <cstddef>
 #include <set>
 #include <string>
 

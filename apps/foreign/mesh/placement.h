@@ -4,7 +4,6 @@
 #include <assimp/scene.h>
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "apps/foreign/mesh/transform.h"

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <utility>
 
 #include "apps/formats/named_file.h"
 #include "apps/picture/texture_size.h"

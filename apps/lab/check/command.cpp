@@ -4,7 +4,6 @@
 #include <array>
 #include <iomanip>
 #include <iostream>
-#include <numeric>
 #include <ostream>
 #include <string>
 

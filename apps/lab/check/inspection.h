@@ -1,7 +1,6 @@
 // A render in which every ray is traced twice, by our grid and by the oracle; the referee settles what they disagree on.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>

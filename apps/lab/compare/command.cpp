@@ -1,6 +1,5 @@
 #include "apps/lab/compare/command.h"
 
-#include <algorithm>
 #include <iostream>
 #include <string>
 

@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <utility>
 
 #include "apps/edge/line/json_format.h"
 #include "apps/edge/line/number_text.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "apps/show/stats/schema.h"
 #include "core/base/expect.h"

@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/table/filled_columns.h"
 #include "apps/run/ray_hops.h"
 #include "core/families/scenes.h"
-#include "dataflow/regions/balance.h"
 #include "dataflow/regions/bsp.h"
-#include "dataflow/run.h"
 
 namespace dmpc::apps {
 namespace {
@@ -25,11 +24,10 @@ struct Cutting {
   CutOrder order = CutOrder::longer_axis;
   std::uint32_t regions_a_node = 1;
 };
-constexpr std::array<Cutting, BalanceStudy::ways> cuttings = {
-    {{"subsampled", Balance::subsampled},
-     {"subsampled, alternating", Balance::subsampled, CutOrder::alternating},
-     {"equal size", Balance::equal_size},
-     {"scattered, 16 a node", Balance::scattered, CutOrder::longer_axis, 16}}};
+constexpr std::array<Cutting, 4> cuttings = {{{"subsampled", Balance::subsampled},
+                                              {"subsampled, alternating", Balance::subsampled, CutOrder::alternating},
+                                              {"equal size", Balance::equal_size},
+                                              {"scattered, 16 a node", Balance::scattered, CutOrder::longer_axis, 16}}};
 
 dataflow::RunOptions options_for(const BalanceStudy& study, std::uint32_t node_count, const Cutting& cutting) {
   dataflow::RunOptions options{.computer = {.node_count = node_count},
@@ -40,24 +38,18 @@ dataflow::RunOptions options_for(const BalanceStudy& study, std::uint32_t node_c
   return options;
 }
 
+/// A run, or one of its nodes.
+struct BalanceRow {
+  const dataflow::Report& report;
+  const char* regions;
+  RayHops hops;
+  std::vector<double> work;
+  std::optional<std::uint32_t> node = {};  ///< nothing: all of them
+};
+
 /// Nothing where no load is known.
 Cell average_load_cell(std::span<const double> loads) {
   return loads.empty() ? Cell() : Cell(100 * dataflow::average_load(loads));
-}
-
-std::vector<Cell> summary_row(const dataflow::Report& report, const BalanceStudy& study, const Cutting& cutting) {
-  const RayHops hops = ray_hops_of(report, study.topology);
-  const bool has_hops = report.messages_per_ray() > 0;
-  std::vector<Cell> row = {std::uint64_t{report.plan.node_count()},
-                           cutting.name,
-                           average_load_cell(report.predicted),
-                           average_load_cell(report.work()),
-                           report.duplication,
-                           report.messages_per_ray(),
-                           has_hops ? Cell(hops.mean) : Cell(),
-                           has_hops ? Cell(hops.mean_of_random) : Cell()};
-  row.resize(study.columns().size());
-  return row;
 }
 
 /// The share of `node` in all work; nothing where no load is known.
@@ -65,17 +57,29 @@ Cell share_cell(std::span<const double> loads, std::uint32_t node) {
   return loads.empty() ? Cell() : Cell(percent_of(loads[node], std::accumulate(loads.begin(), loads.end(), 0.0)));
 }
 
-void add_node_rows(const dataflow::Report& report, const BalanceStudy& study, const Cutting& cutting, Table& table) {
-  const std::vector<double> work = report.work();
-  for (std::uint32_t node = 0; node < work.size(); ++node) {
-    std::vector<Cell> row(study.columns().size());
-    row[0] = std::uint64_t{report.plan.node_count()};
-    row[1] = cutting.name;
-    row[row.size() - 3] = std::uint64_t{node};
-    row[row.size() - 2] = share_cell(report.predicted, node);
-    row[row.size() - 1] = share_cell(work, node);
-    table.add_row(std::move(row));
+/// Nothing where no ray went on.
+Cell hops_cell(const BalanceRow& row, double hops) { return row.report.messages_per_ray() > 0 ? Cell(hops) : Cell(); }
+
+FilledColumns<BalanceRow> balance_columns(const BalanceStudy& study) {
+  using Row = BalanceRow;
+  const auto of_all = [](auto cell) { return only_if([](const Row& row) { return !row.node; }, cell); };
+  const auto of_node = [](auto cell) { return only_if([](const Row& row) { return row.node.has_value(); }, cell); };
+  FilledColumns<Row> columns = {
+      {{"nodes"}, [](const Row& row) { return std::uint64_t{row.report.plan.node_count()}; }},
+      {{"regions"}, [](const Row& row) { return row.regions; }},
+      {{"average load predicted", "%", 1}, of_all([](const Row& row) { return average_load_cell(row.report.predicted); })},
+      {{"average load achieved", "%", 1}, of_all([](const Row& row) { return average_load_cell(row.work); })},
+      {{"duplication", "", 3}, of_all([](const Row& row) { return row.report.duplication; })},
+      {{"moves a ray", "", 3}, of_all([](const Row& row) { return row.report.messages_per_ray(); })},
+      {{"hops", "", 2}, of_all([](const Row& row) { return hops_cell(row, row.hops.mean); })},
+      {{"hops at random", "", 2}, of_all([](const Row& row) { return hops_cell(row, row.hops.mean_of_random); })}};
+  if (study.per_node) {
+    columns.push_back({{"node"}, of_node([](const Row& row) { return std::uint64_t{*row.node}; })});
+    columns.push_back(
+        {{"share predicted", "%", 2}, of_node([](const Row& row) { return share_cell(row.report.predicted, *row.node); })});
+    columns.push_back({{"share achieved", "%", 2}, of_node([](const Row& row) { return share_cell(row.work, *row.node); })});
   }
+  return columns;
 }
 
 /// The article's Rings3, in as many triangles.
@@ -84,22 +88,32 @@ bool is_rings_3(const std::string& scene) {
   return scene_name && scene_name->text() == "rings-3-t1";
 }
 
+/// The average load that a row of these regions on so many nodes has; nothing if there is none.
+std::optional<double> load_with(const Table& table, double node_count, const std::string& regions) {
+  for (const std::vector<Cell>& row : table.rows()) {
+    const auto load = number_in(table, row, "average load achieved");
+    if (load && number_in(table, row, "nodes") == node_count && row[1] == Cell(regions)) {
+      return load;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-std::vector<Column> BalanceStudy::columns() const {
-  std::vector<Column> columns = {{"nodes"},
-                                 {"regions"},
-                                 {"average load predicted", "%", 1},
-                                 {"average load achieved", "%", 1},
-                                 {"duplication", "", 3},
-                                 {"moves a ray", "", 3},
-                                 {"hops", "", 2},
-                                 {"hops at random", "", 2}};
-  if (per_node) {
-    columns.insert(columns.end(), {{"node"}, {"share predicted", "%", 2}, {"share achieved", "%", 2}});
-  }
-  return columns;
+void BalanceStudy::add_options(StudyLine line) {
+  add_node_counts(line.set, node_counts);
+  add_option(line.set, core::field_of<&dataflow::BalanceOptions::subsample>(), regions);
+  add_option(line.set, core::field_of<&dataflow::BalanceOptions::columns_per_side>(), regions);
+  add_topology_option(line.set, topology);
+  line.set.add_flag("--per-node", per_node, "Show each node's share of the work, too");
+  line.set.set_examples(
+      "Examples:\n"
+      "  dmpc study balance rings-3-t1\n"
+      "  dmpc study balance teapot-12 --nodes=16 --topology=torus --per-node --format=csv -o teapot.csv");
 }
+
+std::vector<Column> BalanceStudy::columns() const { return heads_of(balance_columns(*this)); }
 
 std::vector<Plot> BalanceStudy::plots() const {
   std::vector<PlotSeries> series;
@@ -113,14 +127,21 @@ std::vector<Plot> BalanceStudy::plots() const {
       curves("balance_load", "Average load of the nodes", "nodes", node_axis(), percent_axis("average load"), std::move(series))};
 }
 
+std::vector<PlannedRun> BalanceStudy::planned() const {
+  return planned_for(node_counts, std::vector<PlannedRun>(cuttings.size(), {Strategy::dataflow}));
+}
+
 void BalanceStudy::measure(StudyRuns& runs, Table& table) const {
+  const FilledColumns<BalanceRow> columns = balance_columns(*this);
   for (const std::uint32_t node_count : node_counts) {
     for (const Cutting& cutting : cuttings) {
       const std::string computer = std::to_string(node_count) + " nodes, regions " + cutting.name;
       const dataflow::Report report = runs.run(computer, options_for(*this, node_count, cutting));
-      table.add_row(summary_row(report, *this, cutting));
-      if (per_node) {
-        add_node_rows(report, *this, cutting, table);
+      BalanceRow row{report, cutting.name, ray_hops_of(report, topology), report.work()};
+      table.add_row(row_of(columns, row));
+      for (std::uint32_t node = 0; per_node && node < row.work.size(); ++node) {
+        row.node = node;
+        table.add_row(row_of(columns, row));
       }
     }
   }
@@ -144,6 +165,16 @@ std::vector<std::string> BalanceStudy::notes(const std::string& scene) const {
         "20 % with regions of equal size.");
   }
   return notes;
+}
+
+std::string BalanceStudy::conclusion(const Table& table) const {
+  const auto* const last = last_with(table, {"nodes", "average load achieved"});
+  const double node_count = last == nullptr ? 0 : *number_in(table, *last, "nodes");
+  const auto sampled = load_with(table, node_count, "subsampled"), equal = load_with(table, node_count, "equal size");
+  return !sampled || !equal
+             ? ""
+             : "On " + nodes_text(table, *last) + " the average load is " + percent_text(*sampled) +
+                   " with regions by the subsampled picture, and " + percent_text(*equal) + " with regions of equal size.";
 }
 
 }  // namespace dmpc::apps

@@ -1,26 +1,25 @@
 #include "apps/lab/study/cache.h"
 
-#include <algorithm>
-#include <functional>
-#include <span>
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/machine/machine_file.h"
+#include "apps/edge/machine/machines.h"
+#include "apps/edge/table/filled_columns.h"
 #include "apps/edge/table/geometric_sizes.h"
 #include "apps/lab/study/cache_curves.h"
 #include "apps/run/run_strategy.h"
-#include "core/base/elementary.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
 #include "svm/packets.h"
-#include "svm/run.h"
 
 namespace dmpc::apps {
 namespace {
 
-using Sizes = std::vector<std::uint32_t>;
-
 constexpr std::uint32_t standard_size_count = 12;
+/// Within so much of the best lru is as good as any policy.
+constexpr double as_good = 1.1;
 
 /// svm on a machine, one pixel at a time on each node as the 1994 paper's nodes worked.
 StrategyOptions one_at_a_time(std::uint32_t node_count, const nodes::Machine& machine) {
@@ -35,106 +34,56 @@ svm::RunOptions recording(std::uint32_t node_count) {
           .pages = {.in_flight = 1, .work_item_side = 0, .record_references = true}};
 }
 
-/// The rows of the table on their way: each is added if all of its runs have ended.
-class Sweep {
- public:
-  Sweep(const CacheStudy& study, const Sizes& sizes, std::uint32_t page_count, const CacheCurves& curves, Table& table)
-      : node_count_(study.node_count), table_(table) {
-    for (std::size_t row = 0; row < sizes.size(); ++row) {
-      begin_row(curves.row(row, page_count));
-      if (study.machine) {
-        if (row == 0) {
-          add_job(one_at_a_time(1, *study.machine), [this](const svm::Report& report) { one_node_ns_ = total_ns(report); });
-        }
-        add_timed(sizes[row], *study.machine);
-      }
-      rows_.back().cells.resize(table.columns().size());
-    }
-  }
-  Sweep(const Sweep&) = delete;
-  Sweep& operator=(const Sweep&) = delete;
+/// What a size takes on the machine.
+struct TimedCache {
+  std::uint32_t node_count;
+  std::uint64_t total_ns, page_bytes;
+  std::optional<std::uint64_t> one_node_ns;
 
-  /// After a signal or an error, too, the table has the rows whose runs had all ended.
-  void carry_out(StudyRuns& runs) {
-    try {
-      run_jobs(runs);
-    } catch (...) {
-      add_finished_rows();
-      throw;
-    }
-    add_finished_rows();
-  }
-
- private:
-  struct Job {
-    std::size_t row;  ///< that needs it
-    StrategyOptions options;
-    std::function<void(const svm::Report&)> take;
-  };
-  struct Row {
-    std::vector<Cell> cells;
-    std::size_t jobs_left = 0;
-  };
-
-  void run_jobs(StudyRuns& runs) {
-    std::vector<StrategyOptions> options;
-    for (const Job& job : jobs_) {
-      options.push_back(job.options);
-    }
-    runs.run_side_by_side(options, [this](std::size_t index, const StudyOutcome& outcome) {
-      if (!outcome.report) {
-        throw core::InputError(outcome.misfit);
-      }
-      jobs_[index].take(std::get<svm::Report>(*outcome.report));
-      --rows_[jobs_[index].row].jobs_left;
-    });
-  }
-
-  void add_finished_rows() {
-    for (const Row& row : rows_) {
-      if (row.jobs_left == 0) {
-        table_.add_row(row.cells);
-      }
-    }
-  }
-
-  static std::uint64_t total_ns(const svm::Report& report) { return report.virtual_time->total_ns; }
-
-  /// For the row begun last.
-  void add_job(StrategyOptions options, std::function<void(const svm::Report&)> take) {
-    jobs_.push_back({rows_.size() - 1, std::move(options), std::move(take)});
-    ++rows_.back().jobs_left;
-  }
-
-  void begin_row(std::vector<Cell> cells) {
-    time_at_ = cells.size();
-    rows_.push_back({std::move(cells)});
-  }
-
-  void add_timed(std::uint32_t cache_pages, const nodes::Machine& machine) {
-    StrategyOptions options = one_at_a_time(node_count_, machine);
-    options.pages.cache_pages = cache_pages;
-    add_job(options, [this, row = rows_.size() - 1](const svm::Report& report) { fill_times(rows_[row].cells, report); });
-  }
-
-  void fill_times(std::vector<Cell>& row, const svm::Report& report) const {
-    const double seconds = static_cast<double>(total_ns(report)) * 1e-9;
-    const std::uint64_t page_bytes = report.sent()[svm::number_of(svm::Kind::page_reply)].bytes;
-    const bool takes_time = total_ns(report) > 0;
-    row[time_at_] = seconds;
-    row[time_at_ + 1] =
-        takes_time && one_node_ns_ ? Cell(percent_of<std::uint64_t>(*one_node_ns_, node_count_ * total_ns(report))) : Cell();
-    row[time_at_ + 2] =
-        takes_time ? Cell(static_cast<std::uint64_t>(static_cast<double>(page_bytes) / node_count_ / seconds)) : Cell();
-  }
-
-  std::uint32_t node_count_;
-  Table& table_;
-  std::optional<std::uint64_t> one_node_ns_;
-  std::size_t time_at_ = 0;  ///< where a row's cells of what is timed are
-  std::vector<Row> rows_;
-  std::vector<Job> jobs_;  ///< in the order of their rows
+  double seconds() const { return 1e-9 * static_cast<double>(total_ns); }
+  bool takes_time() const { return total_ns > 0; }
 };
+
+const FilledColumns<TimedCache>& timed_cache_columns() {
+  static const FilledColumns<TimedCache> columns = {
+      {{"virtual time", "s", 3}, [](const TimedCache& row) { return row.seconds(); }},
+      {{"efficiency", "%", 2},
+       only_if([](const TimedCache& row) { return row.takes_time() && row.one_node_ns; },
+               [](const TimedCache& row) { return percent_of<std::uint64_t>(*row.one_node_ns, row.node_count * row.total_ns); })},
+      {{"page traffic a node", "bytes/s"},
+       only_if([](const TimedCache& row) { return row.takes_time(); },
+               [](const TimedCache& row) {
+                 return static_cast<std::uint64_t>(static_cast<double>(row.page_bytes) / row.node_count / row.seconds());
+               })}};
+  return columns;
+}
+
+/// Adds a row for each size, as soon as the machine has run with it.
+void add_timed_rows(const CacheStudy& study, const CacheCurves& curves, std::uint32_t page_count, StudyRuns& runs, Table& table) {
+  std::vector<StrategyOptions> options = {one_at_a_time(1, *study.machine)};
+  for (const std::uint32_t size : curves.sizes()) {
+    options.push_back(one_at_a_time(study.node_count, *study.machine));
+    options.back().pages.cache_pages = size;
+  }
+  std::optional<std::uint64_t> one_node_ns;
+  runs.run_side_by_side(options, [&](std::size_t run, const StudyOutcome& outcome) {
+    if (!outcome.report) {
+      throw core::InputError(outcome.misfit);
+    }
+    const auto& report = std::get<svm::Report>(*outcome.report);
+    const std::uint64_t total_ns = report.virtual_time->total_ns;
+    if (run == 0) {
+      one_node_ns = total_ns;
+      return;
+    }
+    std::vector<Cell> row = curves.row(run - 1, page_count);
+    const std::uint64_t page_bytes = report.sent()[svm::number_of(svm::Kind::page_reply)].bytes;
+    for (Cell& cell : row_of(timed_cache_columns(), TimedCache{study.node_count, total_ns, page_bytes, one_node_ns})) {
+      row.push_back(std::move(cell));
+    }
+    table.add_row(std::move(row));
+  });
+}
 
 std::vector<CacheCurves::NodeReferences> references_of(const svm::Report& recorded) {
   std::vector<CacheCurves::NodeReferences> references;
@@ -146,10 +95,35 @@ std::vector<CacheCurves::NodeReferences> references_of(const svm::Report& record
 
 }  // namespace
 
+void add_cache_pages(OptionSet set, std::vector<std::uint32_t>& cache_pages) {
+  constexpr std::uint32_t most = 0x7fffffff;
+  set.add_text(
+      "--cache-pages", "N,N,... [12 from 1 to all]",
+      [&cache_pages](const std::string& text) { cache_pages = parse_numbers(text, "--cache-pages", most); },
+      "Sizes of the caches in pages");
+}
+
+void CacheStudy::add_options(StudyLine line) {
+  line.set.add_number("--nodes", node_count, 2, nodes::node_count_max, "32", "Nodes, each with a cache of its own");
+  add_cache_pages(line.set, cache_pages);
+  line.set.add_text(
+      "--machine", "MACHINE|FILE.json",
+      [this, &file = line.machine_name](const std::string& text) {
+        machine = load_machine(text).machine;
+        file = text;
+      },
+      "The machine that the study is timed on, in virtual time: one of " + machine_preset_names() + ", or a file");
+  line.set.set_examples(
+      "Examples:\n"
+      "  dmpc study cache rings-4-t1\n"
+      "  dmpc study cache tetra-9 --nodes=32 --machine=ipsc2 --resolution=512x512 --format=csv -o tetra.csv");
+}
+
 std::vector<Column> CacheStudy::columns() const {
   std::vector<Column> columns = CacheCurves::columns("share of database");
   if (machine) {
-    columns.insert(columns.end(), {{"virtual time", "s", 3}, {"efficiency", "%", 2}, {"page traffic a node", "bytes/s"}});
+    const std::vector<Column> timed = heads_of(timed_cache_columns());
+    columns.insert(columns.end(), timed.begin(), timed.end());
   }
   return columns;
 }
@@ -166,14 +140,26 @@ std::vector<Plot> CacheStudy::plots() const {
   return plots;
 }
 
+std::vector<PlannedRun> CacheStudy::planned() const {
+  constexpr std::size_t policies_run = 3;  // feeding the caches of all policies takes about as long
+  constexpr double times = 2.5;            // small caches miss often
+  const std::size_t sizes = cache_pages.empty() ? standard_size_count : cache_pages.size();
+  return std::vector<PlannedRun>(1 + sizes * (policies_run + (machine ? 1 : 0)), {Strategy::svm, node_count, true, times});
+}
+
 void CacheStudy::measure(StudyRuns& runs, Table& table) const {
   svm::Report recorded = runs.run(std::to_string(node_count) + " nodes, recording", recording(node_count));
   const std::uint32_t page_count = recorded.plan.request.page_count;
-  const Sizes sizes =
-      cache_pages.empty() ? geometric_sizes(page_count - page_count / node_count, standard_size_count) : cache_pages;
-  const CacheCurves curves(references_of(recorded), recorded.pages().references, sizes, [&runs] { runs.check(); });
+  const CacheCurves curves(
+      references_of(recorded), recorded.pages().references,
+      cache_pages.empty() ? geometric_sizes(page_count - page_count / node_count, standard_size_count) : cache_pages,
+      [&runs] { runs.check(); });
   recorded = {.film = core::Film(1, 1)};  // the references take much memory
-  Sweep(*this, sizes, page_count, curves, table).carry_out(runs);
+  if (machine) {
+    add_timed_rows(*this, curves, page_count, runs, table);
+  } else {
+    curves.add_rows(page_count, table);
+  }
   table.add_note(curves.needs_note());
   runs.check();
 }
@@ -201,6 +187,22 @@ std::vector<std::string> CacheStudy::notes(const std::string& scene) const {
         "Badouel, Bouatouch and Priol (1994) report for Tetra9 on 32 nodes of an iPSC/2 that a small cache is enough.");
   }
   return notes;
+}
+
+std::string CacheStudy::conclusion(const Table& table) const {
+  for (const std::vector<Cell>& row : table.rows()) {
+    const auto pages = number_in(table, row, "cache pages"), share = number_in(table, row, "share of database"),
+               lru = number_in(table, row, "faults lru"), optimum = number_in(table, row, "faults optimum");
+    const std::vector<Cell>& first = table.rows().front();
+    const double most = number_in(table, first, "faults lru").value_or(0);
+    if (pages && share && lru && optimum && *pages > 1 && most > 0 && *lru <= as_good * *optimum) {
+      return "From caches of " + counted(static_cast<std::uint64_t>(*pages), "page") + " on (" + percent_text(*share) +
+             " of the database) lru is within 10 % of the best that any policy could do; it faults " +
+             percent_text(100 * *lru / most) + " as often as with " +
+             counted(static_cast<std::uint64_t>(number_in(table, first, "cache pages").value_or(0)), "page") + ".";
+    }
+  }
+  return "";
 }
 
 }  // namespace dmpc::apps

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/effort/planned_run.h"
+#include "apps/lab/study/engine/study_line.h"
 #include "apps/lab/study/runs.h"
 #include "nodes/machine.h"
 
@@ -23,11 +24,17 @@ struct CacheStudy {
   std::vector<std::uint32_t> cache_pages;  ///< sizes in pages; empty: about 12, from 1 to all pages that are not at home
   std::optional<nodes::Machine> machine;   ///< without it nothing is timed
 
+  void add_options(StudyLine line);
   std::vector<Column> columns() const;
   std::vector<Plot> plots() const;
-  std::uint32_t run_count() const { return 0; }
+  /// About as many as there will be: how many depends on the first one.
+  std::vector<PlannedRun> planned() const;
   void measure(StudyRuns& runs, Table& table) const;
   std::vector<std::string> notes(const std::string& scene) const;
+  std::string conclusion(const Table& table) const;
 };
+
+/// Declares --cache-pages: sizes in pages, about 12 of them where none are given.
+void add_cache_pages(OptionSet set, std::vector<std::uint32_t>& cache_pages);
 
 }  // namespace dmpc::apps

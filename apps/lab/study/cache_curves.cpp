@@ -108,6 +108,12 @@ std::vector<Cell> CacheCurves::row(std::size_t index, std::uint32_t page_count) 
   return cells;
 }
 
+void CacheCurves::add_rows(std::uint32_t page_count, Table& table) const {
+  for (std::size_t size = 0; size < sizes_.size(); ++size) {
+    table.add_row(row(size, page_count));
+  }
+}
+
 std::string CacheCurves::needs_note() const {
   if (lru_.references() == 0) {
     return "No node references a page of another.";

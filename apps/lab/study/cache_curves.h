@@ -34,8 +34,10 @@ class CacheCurves {
   /// Where the figures come from.
   static std::string note();
 
-  std::size_t row_count() const { return sizes_.size(); }
+  const std::vector<std::uint32_t>& sizes() const { return sizes_; }
   std::vector<Cell> row(std::size_t index, std::uint32_t page_count) const;
+  /// One for each size.
+  void add_rows(std::uint32_t page_count, Table& table) const;
   /// How many pages the nodes have to do with.
   std::string needs_note() const;
 

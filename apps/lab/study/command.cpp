@@ -15,7 +15,6 @@
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
 #include "apps/effort/effort.h"
-#include "apps/lab/study/conclusions.h"
 #include "apps/lab/study/effort.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/runs.h"
@@ -96,7 +95,7 @@ TableResult result_of(const OneStudy& study, const Table& table, const Marks& ma
                        .table = table,
                        .data_file = data_file_of(OneStudy::name),
                        .plots = study.plots(),
-                       .conclusion = conclusion_of(study, table),
+                       .conclusion = study.conclusion(table),
                        .facts = marks.film_hash ? html::Facts{{"film", hash_text(*marks.film_hash)}} : html::Facts{},
                        .scene_digest = marks.scene_digest},
                       options.table.format);
@@ -128,13 +127,20 @@ void measure(const OneStudy& study, StudyRuns& runs, Table& table) {
 }
 
 /// A signal ends the process here and now.
-void announce_effort(const StudyOptions& options, const Subject& subject, Interrupt& interrupt) {
+template <class OneStudy>
+void announce_effort(const OneStudy& study, const StudyOptions& options, const Subject& subject, Interrupt& interrupt) {
   if (!options.quiet && stderr_is_terminal()) {
     const Interrupt::EndAtOnce end_at_once(interrupt);
-    const std::vector<PlannedRun> runs = planned_runs(options.study);
-    const std::string name = std::visit([](const auto& study) { return std::string(study.name); }, options.study);
-    announce("study " + name + ", " + counted(runs.size(), "run"), effort_of(runs, subject), options.quiet, std::cerr);
+    const std::vector<PlannedRun> runs = study.planned();
+    const std::string what = std::string("study ") + OneStudy::name + ", " + counted(runs.size(), "run");
+    announce(what, effort_of(runs, subject), options.quiet, std::cerr);
   }
+}
+
+/// 0 where that is known after the first one.
+template <class OneStudy>
+std::uint32_t run_count(const OneStudy& study) {
+  return std::is_same_v<OneStudy, CacheStudy> ? 0 : static_cast<std::uint32_t>(study.planned().size());
 }
 
 /// A study that compares structures is given the scene to build them from.
@@ -154,11 +160,11 @@ int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& fil
   if constexpr (std::is_same_v<OneStudy, SystemsStudy>) {
     give_scene(study, *scene, options);
   }
-  announce_effort(options, subject, interrupt);
+  announce_effort(study, options, subject, interrupt);
   Table table = empty_table(study, options, subject);
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   table.set_listener([&shown](const Table& rows) { shown.show(rows); });
-  StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal(), study.run_count()}, interrupt);
+  StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal(), run_count(study)}, interrupt);
   const auto write = [&](bool is_whole, Attempts& attempts) {
     table.add_note(film_note(runs));
     std::optional<Interrupt::EndAtOnce> end_at_once;

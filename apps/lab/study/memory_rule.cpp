@@ -1,7 +1,6 @@
 #include "apps/lab/study/memory_rule.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 
 #include "apps/edge/line/number_text.h"

@@ -1,12 +1,11 @@
 #include "apps/lab/study/speedup.h"
 
-#include <algorithm>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
-#include "apps/edge/run/time_parts.h"
-#include "apps/run/report.h"
+#include "apps/lab/study/engine/time_part_columns.h"
 #include "apps/run/run_strategy.h"
 #include "nodes/size_text.h"
 
@@ -15,40 +14,38 @@ namespace {
 
 constexpr double nanosecond = 1e-9;
 
-/// The rows of the table as their runs end.
-class Rows {
- public:
-  explicit Rows(Table& table) : table_(table) {}
+/// What became of a run on so many nodes.
+struct SpeedupRow {
+  std::uint32_t node_count;
+  std::optional<Account> account = {};  ///< nothing where the scene does not fit
+  double first_node_seconds = 0;        ///< of the first run that has an account
 
-  void add(std::uint32_t node_count, const StudyOutcome& outcome) {
-    add_notes(counted(node_count, "node"), outcome, table_);
-    if (outcome.report) {
-      return add(node_count, account_of(*outcome.report));
-    }
-    std::vector<Cell> row = {std::uint64_t{node_count}};
-    row.resize(table_.columns().size());
-    table_.add_row(std::move(row));
-  }
-
- private:
-  void add(std::uint32_t node_count, const Account& account) {
-    const nodes::VirtualReport& time = *account.virtual_time;
-    const double seconds = nanosecond * static_cast<double>(time.total_ns);
-    first_ = first_.value_or(seconds * node_count);
-    const double efficiency = seconds == 0 ? 1 : *first_ / (seconds * node_count);
-    std::vector<Cell> row = {std::uint64_t{node_count}, seconds, efficiency * node_count, 100 * efficiency};
-    for (const double percent : parts_of(sum_of_nodes(time), account.waits).percent()) {
-      row.emplace_back(percent);
-    }
-    row.emplace_back(nanosecond * static_cast<double>(time.links.wait_ns));
-    row.emplace_back(static_cast<std::uint64_t>(account.node_memory_max_bytes));
-    row.emplace_back(hash_text(time.run_hash(account.film.hash())));
-    table_.add_row(std::move(row));
-  }
-
-  Table& table_;
-  std::optional<double> first_;  ///< node-seconds of the first run
+  double seconds() const { return nanosecond * static_cast<double>(account->virtual_time->total_ns); }
+  double efficiency() const { return seconds() == 0 ? 1 : first_node_seconds / (seconds() * node_count); }
 };
+
+const FilledColumns<SpeedupRow>& speedup_columns() {
+  using Row = SpeedupRow;
+  static const FilledColumns<Row> all = [] {
+    const auto of_run = [](auto cell) { return only_if([](const Row& row) { return row.account.has_value(); }, cell); };
+    FilledColumns<Row> columns = {{{"nodes"}, [](const Row& row) { return std::uint64_t{row.node_count}; }},
+                                  {{"virtual time", "s", 3}, of_run([](const Row& row) { return row.seconds(); })},
+                                  {{"speedup", "", 2}, of_run([](const Row& row) { return row.efficiency() * row.node_count; })},
+                                  {{"efficiency", "%", 1}, of_run([](const Row& row) { return 100 * row.efficiency(); })}};
+    add_time_parts(
+        1, [](const Row& row) { return row.account ? std::optional(parts_of(*row.account)) : std::nullopt; }, columns);
+    columns.push_back({{"link wait", "s", 3}, of_run([](const Row& row) {
+                         return nanosecond * static_cast<double>(row.account->virtual_time->links.wait_ns);
+                       })});
+    columns.push_back(
+        {{"node memory", "bytes"}, of_run([](const Row& row) { return std::uint64_t{row.account->node_memory_max_bytes}; })});
+    columns.push_back({{"run hash"}, of_run([](const Row& row) {
+                         return hash_text(row.account->virtual_time->run_hash(row.account->film.hash()));
+                       })});
+    return columns;
+  }();
+  return all;
+}
 
 std::string computer_text(const StrategyOptions& run) {
   const std::string memory =
@@ -81,14 +78,29 @@ std::string rays_text(const dataflow::RayOptions& rays) {
 
 }  // namespace
 
-std::vector<Column> SpeedupStudy::columns() const {
-  std::vector<Column> columns = {{"nodes"}, {"virtual time", "s", 3}, {"speedup", "", 2}, {"efficiency", "%", 1}};
-  for (const char* part : time_part_names) {
-    columns.push_back({part, "%", 1});
-  }
-  columns.insert(columns.end(), {{"link wait", "s", 3}, {"node memory", "bytes"}, {"run hash"}});
-  return columns;
+void SpeedupStudy::add_options(StudyLine line) {
+  add_node_counts(line.set, node_counts);
+  add_strategy_option(line.set, run.strategy);
+  add_memory_option(line.set, run.computer.node_memory_bytes);
+  add_machine_options(line.set, run.runner, "");
+  add_page_options(line.set, run.pages, "1");
+  add_ray_options(line.set, run.rays);
+  line.set.check_in_the_end([this, set = line.set, &file = line.machine_name, &database = line.database] {
+    file = run.runner.machine_name;
+    settle_database(set, run.strategy, database);
+    check_together(set, run);
+    choose_machine(run);
+  });
+  line.set.set_examples(
+      "Examples:\n"
+      "  dmpc study speedup rings-4-t1\n"
+      "  dmpc study speedup rings-4-t1 --node-memory=1MiB --replacement=clock --in-flight=4 --format=csv -o rings.csv\n"
+      "  dmpc study speedup teapot-12 --strategy=dataflow --machine=hdr --nodes=1,16,256,1024\n"
+      "A number of nodes whose memory cannot hold the scene has a row without figures, and a note that says what would do.\n"
+      "If none can, the exit status is 4.");
 }
+
+std::vector<Column> SpeedupStudy::columns() const { return heads_of(speedup_columns()); }
 
 std::vector<Plot> SpeedupStudy::plots() const {
   const PlotAxis times{.label = "speedup", .scale = PlotScale::powers_of_2};
@@ -96,22 +108,31 @@ std::vector<Plot> SpeedupStudy::plots() const {
   Plot losses = curves("speedup_losses", "Where the nodes' time goes", "nodes", {}, percent_axis("of the nodes' time"), {});
   losses.is_stacked = true;
   for (const char* part : time_part_names) {
-    std::string title = part;
-    std::replace(title.begin(), title.end(), '_', ' ');
-    losses.series.push_back({std::move(title), part, {}, PlotMark::bars, losses.series.size()});
+    losses.series.push_back({time_part_words(part), part, {}, PlotMark::bars, losses.series.size()});
   }
   return {curves("speedup", "Speedup", "nodes", node_axis(), times, {{who, "speedup"}}),
           curves("speedup_efficiency", "Efficiency", "nodes", node_axis(), percent_axis("efficiency"), {{who, "efficiency"}}),
           std::move(losses)};
 }
 
+std::vector<PlannedRun> SpeedupStudy::planned() const { return planned_for(node_counts, {{run.strategy, 1, true}}); }
+
 void SpeedupStudy::measure(StudyRuns& runs, Table& table) const {
   std::vector<StrategyOptions> options(node_counts.size(), run);
   for (std::size_t i = 0; i < options.size(); ++i) {
     options[i].computer.node_count = node_counts[i];
   }
-  Rows rows(table);
-  runs.run_side_by_side(options, [&](std::size_t i, const StudyOutcome& outcome) { rows.add(node_counts[i], outcome); });
+  std::optional<double> first;
+  runs.run_side_by_side(options, [&](std::size_t i, const StudyOutcome& outcome) {
+    SpeedupRow row{node_counts[i]};
+    add_notes(counted(row.node_count, "node"), outcome, table);
+    if (outcome.report) {
+      row.account.emplace(account_of(*outcome.report));
+      first = first.value_or(row.seconds() * row.node_count);
+      row.first_node_seconds = *first;
+    }
+    table.add_row(row_of(speedup_columns(), row));
+  });
   runs.check();
 }
 
@@ -123,6 +144,25 @@ std::vector<std::string> SpeedupStudy::notes(const std::string&) const {
       "Parts of the nodes' time, summed over them: they add up to 100 %. data_wait is for pages or rays, work_wait for pixels of "
       "other nodes, stolen and lent serve page requests while there is something else to do and while there is not.",
       "Link wait: that messages stood before links that others held, summed. Node memory: of the fullest node."};
+}
+
+std::string SpeedupStudy::conclusion(const Table& table) const {
+  const auto* const last = last_with(table, {"nodes", "speedup", "efficiency"});
+  if (last == nullptr) {
+    return "";
+  }
+  std::string largest;
+  double share = 0;
+  for (const char* const part : time_part_names) {
+    const double percent = number_in(table, *last, part).value_or(0);
+    if (std::string_view(part) != "computing" && percent > share) {
+      largest = time_part_words(part);
+      share = percent;
+    }
+  }
+  return "On " + nodes_text(table, *last) + " the speedup is " + fixed(*number_in(table, *last, "speedup"), 1) +
+         ", an efficiency of " + percent_text(*number_in(table, *last, "efficiency")) +
+         (largest.empty() ? "." : "; the largest loss is " + largest + ", " + percent_text(share) + " of the nodes' time.");
 }
 
 }  // namespace dmpc::apps

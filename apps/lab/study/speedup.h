@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/effort/planned_run.h"
+#include "apps/lab/study/engine/study_line.h"
 #include "apps/lab/study/runs.h"
-#include "apps/run/strategy_options.h"
-#include "nodes/machine.h"
 
 namespace dmpc::apps {
 
@@ -23,15 +22,17 @@ struct SpeedupStudy {
   /// What all runs have in common, their machine included; its node count is without meaning.
   StrategyOptions run = on_usual_machine();
 
+  void add_options(StudyLine line);
   std::vector<Column> columns() const;
   std::vector<Plot> plots() const;
-  std::uint32_t run_count() const { return static_cast<std::uint32_t>(node_counts.size()); }
+  std::vector<PlannedRun> planned() const;
   /// Adds to `table`, which has columns(), a row for each node count, those that were finished after a signal; and notes: why a
   /// row is empty (the scene does not fit so many nodes), and what was reduced to fit. Throws as StudyRuns does:
   /// NothingFits when all rows are there, without figures.
   void measure(StudyRuns& runs, Table& table) const;
   /// What the columns mean, and what runs.
   std::vector<std::string> notes(const std::string& scene) const;
+  std::string conclusion(const Table& table) const;
 };
 
 }  // namespace dmpc::apps

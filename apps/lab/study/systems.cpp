@@ -1,41 +1,34 @@
 #include "apps/lab/study/systems.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "apps/edge/line/amount.h"
 #include "apps/edge/line/number_text.h"
-#include "apps/edge/run/time_parts.h"
-#include "apps/run/report.h"
+#include "apps/edge/line/words.h"
+#include "apps/lab/study/engine/time_part_columns.h"
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
 
-constexpr double seconds_of_ns = 1e-9;
+constexpr double system_seconds_of_ns = 1e-9;
 
-/// A row, and the run that it shows.
-struct PlannedRow {
-  std::uint32_t node_count;
-  const MemoryRule* memory;
-  System system;
-  std::size_t run;
-};
-
-/// A run of `system` by `memory`.
+/// A system on a computer: a row of the table, or a run.
 struct SystemRun {
   std::uint32_t node_count;
   const MemoryRule* memory;
   System system;
 };
 
+/// The runs, the rows, and by row the run that is good for it.
 struct SystemPlan {
-  std::vector<SystemRun> runs;
-  std::vector<PlannedRow> rows;
+  std::vector<SystemRun> runs, rows;
+  std::vector<std::size_t> run_of;
 };
 
 constexpr MemoryRule as_needed = {};
@@ -50,12 +43,13 @@ SystemPlan plan_of(const SystemsStudy& study) {
       for (const System system : study.chosen) {
         const auto before = unbounded.find(system);
         const bool is_new = memory.changes(system) || before == unbounded.end();
-        plan.rows.push_back({node_count, &memory, system, is_new ? plan.runs.size() : before->second});
+        plan.rows.push_back({node_count, &memory, system});
+        plan.run_of.push_back(is_new ? plan.runs.size() : before->second);
         if (is_new) {
           plan.runs.push_back({node_count, memory.changes(system) ? &memory : &as_needed, system});
         }
         if (!memory.changes(system)) {
-          unbounded.emplace(system, plan.rows.back().run);
+          unbounded.emplace(system, plan.run_of.back());
         }
       }
     }
@@ -95,18 +89,6 @@ class Structures {
   std::map<std::size_t, Subject> extents_;  ///< by size of pages
 };
 
-/// What a run came to: cells, and what decides whether it fits.
-struct Figures {
-  std::size_t held_bytes = 0;  ///< of the database, at the node that holds most
-  std::size_t memory_bytes = 0, all_memory_bytes = 0;
-  double seconds = 0;
-  double computing_seconds = 0;  ///< summed over the nodes
-  double average_load = 0;
-  std::array<double, time_part_count> parts{};
-  double messages_a_ray = 0, bytes_a_ray = 0;
-  double host_share = 0, busiest_link = 0;
-};
-
 double ratio(double part, double whole) { return whole == 0 ? 0 : part / whole; }
 
 /// Mean over maximum of the time that the nodes computed.
@@ -120,93 +102,156 @@ double load_of(const nodes::VirtualReport& time) {
   return most == 0 ? 1 : static_cast<double>(sum) / static_cast<double>(most * nodes.size());
 }
 
-Figures figures_of(const Account& account) {
-  const nodes::VirtualReport& time = *account.virtual_time;
-  const nodes::VirtualTimes sum = sum_of_nodes(time);
-  const nodes::Traffic sent = nodes::total(account.sent);
-  const auto rays = static_cast<double>(account.operations.ray_count());
-  const auto total_ns = static_cast<double>(time.total_ns);
-  Figures figures{.memory_bytes = account.node_memory_max_bytes,
-                  .seconds = seconds_of_ns * total_ns,
-                  .computing_seconds = seconds_of_ns * static_cast<double>(sum.computing_ns),
-                  .average_load = load_of(time),
-                  .parts = parts_of(sum, account.waits).percent(),
-                  .messages_a_ray = ratio(static_cast<double>(sent.packets), rays),
-                  .bytes_a_ray = ratio(static_cast<double>(sent.bytes), rays)};
+/// Seconds of a whole run, and of all nodes' computing.
+struct RunTimes {
+  double seconds, computing_seconds;
+
+  explicit RunTimes(const Account& account)
+      : seconds(system_seconds_of_ns * static_cast<double>(account.virtual_time->total_ns)),
+        computing_seconds(system_seconds_of_ns * static_cast<double>(sum_of_nodes(*account.virtual_time).computing_ns)) {}
+};
+
+/// Bytes of the database at the node that holds most.
+std::size_t most_held_bytes(const Account& account) {
+  std::size_t most = 0;
   for (const NodeAccount& node : account.nodes) {
-    figures.held_bytes = std::max(figures.held_bytes, held_bytes(node.memory_planned));
-    figures.all_memory_bytes += node.memory_planned.total();
+    most = std::max(most, held_bytes(node.memory_planned));
   }
-  const std::uint64_t host_bytes = nodes::total(account.host.sent).bytes + nodes::total(account.host.received).bytes;
-  figures.host_share = ratio(static_cast<double>(host_bytes), static_cast<double>(sent.bytes));
-  if (!time.busiest_links.empty()) {
-    figures.busiest_link = ratio(static_cast<double>(time.busiest_links.front().busy_ns), total_ns);
-  }
-  return figures;
+  return most;
 }
+
+/// The bytes that the host sends or is sent, over all.
+double host_share(const Account& account) {
+  const std::uint64_t host_bytes = nodes::total(account.host.sent).bytes + nodes::total(account.host.received).bytes;
+  return ratio(static_cast<double>(host_bytes), static_cast<double>(nodes::total(account.sent).bytes));
+}
+
+double busiest_link(const nodes::VirtualReport& time) {
+  return time.busiest_links.empty()
+             ? 0
+             : ratio(static_cast<double>(time.busiest_links.front().busy_ns), static_cast<double>(time.total_ns));
+}
+
+double all_memory_bytes(const Account& account) {
+  return std::accumulate(account.nodes.begin(), account.nodes.end(), 0.0, [](double sum, const NodeAccount& node) {
+    return sum + static_cast<double>(node.memory_planned.total());
+  });
+}
+
+/// What stands in a row of a run that fits.
+struct FittingRun {
+  const Account& account;
+  RunTimes times, one;  ///< its own, and those of one node with the whole scene
+  std::size_t database_bytes;
+
+  double a_ray(std::uint64_t count) const {
+    return ratio(static_cast<double>(count), static_cast<double>(account.operations.ray_count()));
+  }
+  double efficiency() const { return ratio(one.seconds, times.seconds * static_cast<double>(account.nodes.size())); }
+};
+
+const FilledColumns<FittingRun>& system_columns() {
+  using Run = FittingRun;
+  static const FilledColumns<Run> all = [] {
+    FilledColumns<Run> columns = {
+        {{"virtual time", "s", 6}, [](const Run& run) { return run.times.seconds; }},
+        {{"efficiency", "%", 1}, [](const Run& run) { return 100 * run.efficiency(); }},
+        {{"average load", "%", 1}, [](const Run& run) { return 100 * load_of(*run.account.virtual_time); }},
+        {{"work", "", 2}, [](const Run& run) { return ratio(run.times.computing_seconds, run.one.computing_seconds); }}};
+    add_time_parts(
+        1, [](const Run& run) { return std::optional(parts_of(run.account)); }, columns);
+    const FilledColumns<Run> behind = {
+        {{"messages a ray", "", 3}, [](const Run& run) { return run.a_ray(nodes::total(run.account.sent).packets); }},
+        {{"bytes a ray", "bytes", 1}, [](const Run& run) { return run.a_ray(nodes::total(run.account.sent).bytes); }},
+        {{"host", "%", 1}, [](const Run& run) { return 100 * host_share(run.account); }},
+        {{"busiest link", "%", 1}, [](const Run& run) { return 100 * busiest_link(*run.account.virtual_time); }},
+        {{"node memory", "bytes"}, [](const Run& run) { return std::uint64_t{run.account.node_memory_max_bytes}; }},
+        {{"all memories", "", 2},
+         [](const Run& run) { return all_memory_bytes(run.account) / static_cast<double>(run.database_bytes); }}};
+    columns.insert(columns.end(), behind.begin(), behind.end());
+    return columns;
+  }();
+  return all;
+}
+
+/// What a run came to.
+struct SystemOutcome {
+  std::size_t held_bytes = 0;
+  std::vector<Cell> figures;  ///< for a row that it fits
+};
 
 /// The rows of the table, as soon as their runs and all before them have ended.
 class SystemRows {
  public:
   SystemRows(const SystemPlan& plan, const std::vector<StudyRun>& runs, Table& table)
-      : plan_(plan), runs_(runs), table_(table), figures_(plan.runs.size()), is_done_(plan.runs.size()) {}
+      : plan_(plan), runs_(runs), table_(table), outcomes_(plan.runs.size()), is_done_(plan.runs.size()) {}
 
   void take(std::size_t run, const StudyOutcome& outcome) {
     const SystemRun& done = plan_.runs[run];
     add_notes(std::string(name_of(done.system)) + " on " + counted(done.node_count, "node") + ", memory " + done.memory->text(),
               outcome, table_);
     if (outcome.report) {
-      figures_[run] = figures_of(account_of(*outcome.report));
+      note(run, account_of(*outcome.report));
     }
     is_done_[run] = true;
-    for (; next_ < plan_.rows.size() && is_done_[plan_.rows[next_].run]; ++next_) {
-      add(plan_.rows[next_]);
+    for (; one_ && next_ < plan_.rows.size() && is_done_[plan_.run_of[next_]]; ++next_) {
+      add(plan_.rows[next_], plan_.run_of[next_]);
     }
   }
 
  private:
-  void add(const PlannedRow& planned) {
-    std::vector<Cell> row = {name_of(planned.system), planned.memory->text(), std::uint64_t{planned.node_count}};
-    const std::optional<Figures>& figures = figures_[planned.run];
-    const core::Database& database = *runs_[planned.run].database;
-    const bool fits = figures && planned.memory->allows(figures->held_bytes, database, planned.node_count);
-    row.emplace_back(fits ? "yes" : "no");
-    row.push_back(figures ? share_cell(figures->held_bytes, database) : Cell());
+  /// The first run is the one that efficiencies are by.
+  void note(std::size_t run, const Account& account) {
+    const RunTimes times(account);
+    one_ = one_.value_or(times);
+    const FittingRun fitting{account, times, *one_, runs_[run].database->bytes().size()};
+    outcomes_[run] = {most_held_bytes(account), row_of(system_columns(), fitting)};
+  }
+
+  void add(const SystemRun& planned, std::size_t run) {
+    const core::Database& database = *runs_[run].database;
+    const std::optional<SystemOutcome>& outcome = outcomes_[run];
+    const bool fits = outcome && planned.memory->allows(outcome->held_bytes, database, planned.node_count);
+    std::vector<Cell> row = {name_of(planned.system), planned.memory->text(), std::uint64_t{planned.node_count},
+                             fits ? "yes" : "no"};
+    row.push_back(outcome ? Cell(100 * static_cast<double>(outcome->held_bytes) / static_cast<double>(database.bytes().size()))
+                          : Cell());
     if (fits) {
-      append(row, *figures, database, planned.node_count);
+      row.insert(row.end(), outcome->figures.begin(), outcome->figures.end());
     }
     row.resize(table_.columns().size());
     table_.add_row(std::move(row));
   }
 
-  static Cell share_cell(std::size_t bytes, const core::Database& database) {
-    return 100 * static_cast<double>(bytes) / static_cast<double>(database.bytes().size());
-  }
-
-  void append(std::vector<Cell>& row, const Figures& figures, const core::Database& database, std::uint32_t node_count) const {
-    const Figures& one = *figures_.front();
-    row.emplace_back(figures.seconds);
-    row.emplace_back(100 * ratio(one.seconds, figures.seconds * node_count));
-    row.emplace_back(100 * figures.average_load);
-    row.emplace_back(ratio(figures.computing_seconds, one.computing_seconds));
-    for (const double percent : figures.parts) {
-      row.emplace_back(percent);
-    }
-    row.emplace_back(figures.messages_a_ray);
-    row.emplace_back(figures.bytes_a_ray);
-    row.emplace_back(100 * figures.host_share);
-    row.emplace_back(100 * figures.busiest_link);
-    row.emplace_back(static_cast<std::uint64_t>(figures.memory_bytes));
-    row.emplace_back(static_cast<double>(figures.all_memory_bytes) / static_cast<double>(database.bytes().size()));
-  }
-
   const SystemPlan& plan_;
   const std::vector<StudyRun>& runs_;
   Table& table_;
-  std::vector<std::optional<Figures>> figures_;  ///< by run
-  std::vector<bool> is_done_;                    ///< by run
+  std::optional<RunTimes> one_;
+  std::vector<std::optional<SystemOutcome>> outcomes_;  ///< by run
+  std::vector<bool> is_done_;                           ///< by run
   std::size_t next_ = 0;
 };
+
+/// "svm,forest", in that order, each once.
+std::vector<System> parse_systems(const std::string& text) {
+  std::vector<System> chosen;
+  for (const std::string& word : words_between(text, ',')) {
+    if (const System system = find_system(word); std::find(chosen.begin(), chosen.end(), system) == chosen.end()) {
+      chosen.push_back(system);
+    }
+  }
+  return chosen;
+}
+
+/// In the end: the database is that of the systems in a grid.
+void check_database(const OptionSet& set) {
+  if (set.is_given("--structure")) {
+    throw core::UsageError("--structure does not go with study systems: each system has its own");
+  }
+  if (set.is_given("--record-order")) {
+    throw core::UsageError("--record-order does not go with study systems: a subtree of forest lies in one page");
+  }
+}
 
 }  // namespace
 
@@ -218,25 +263,33 @@ std::vector<System> SystemsStudy::all_systems() {
   return all;
 }
 
+void SystemsStudy::add_options(StudyLine line) {
+  add_node_counts(line.set, node_counts);
+  line.set.add_text(
+      "--systems", "NAME,NAME,... [all]", [this](const std::string& text) { chosen = parse_systems(text); },
+      "Which are compared: " + system_names());
+  line.set.add_text(
+      "--node-memory", "RULE,RULE,... [auto,25%,5%,1%]", [this](const std::string& text) { memories = parse_memory_rules(text); },
+      "What a node may hold: auto, as much as its system needs; S%, its part and so much of the database more; or a size such "
+      "as 4MiB, of all that its memory holds");
+  add_machine_options(line.set, machine.runner, "");
+  line.set.check_in_the_end([this, set = line.set, &file = line.machine_name] {
+    file = machine.runner.machine_name;
+    check_database(set);
+    choose_machine(machine);
+  });
+  line.set.set_examples(
+      "Examples:\n"
+      "  dmpc study systems rings-4-t1\n"
+      "  dmpc study systems balls-4 --machine=hdr --resolution=256x256 --plots=plots -o systems.md\n"
+      "  dmpc study systems mount-6-t6 --nodes=8,64 --systems=svm,forest --node-memory=auto,2% --format=csv -o systems.csv\n"
+      "A system that does not fit has a row without figures.");
+}
+
 std::vector<Column> SystemsStudy::columns() const {
-  std::vector<Column> columns = {{"system"},
-                                 {"memory"},
-                                 {"nodes"},
-                                 {"fits"},
-                                 {"database held", "%", 1},
-                                 {"virtual time", "s", 6},
-                                 {"efficiency", "%", 1},
-                                 {"average load", "%", 1},
-                                 {"work", "", 2}};
-  for (const char* part : time_part_names) {
-    columns.push_back({part, "%", 1});
-  }
-  columns.insert(columns.end(), {{"messages a ray", "", 3},
-                                 {"bytes a ray", "bytes", 1},
-                                 {"host", "%", 1},
-                                 {"busiest link", "%", 1},
-                                 {"node memory", "bytes"},
-                                 {"all memories", "", 2}});
+  std::vector<Column> columns = {{"system"}, {"memory"}, {"nodes"}, {"fits"}, {"database held", "%", 1}};
+  const std::vector<Column> figures = heads_of(system_columns());
+  columns.insert(columns.end(), figures.begin(), figures.end());
   return columns;
 }
 
@@ -255,7 +308,13 @@ std::vector<Plot> SystemsStudy::plots() const {
           bars("systems_efficiency", "Efficiency of the systems", "efficiency", percent_axis("efficiency"))};
 }
 
-std::uint32_t SystemsStudy::run_count() const { return static_cast<std::uint32_t>(plan_of(*this).runs.size()); }
+std::vector<PlannedRun> SystemsStudy::planned() const {
+  std::vector<PlannedRun> planned;
+  for (const SystemRun& run : plan_of(*this).runs) {
+    planned.push_back({strategy_of(run.system).strategy, run.node_count, true});
+  }
+  return planned;
+}
 
 void SystemsStudy::measure(StudyRuns& runs, Table& table) const {
   const SystemPlan plan = plan_of(*this);
@@ -298,6 +357,23 @@ std::vector<std::string> SystemsStudy::notes(const std::string&) const {
        "held. "
        "All memories: over the database."});
   return notes;
+}
+
+std::string SystemsStudy::conclusion(const Table& table) const {
+  const std::vector<Cell>* fastest = nullptr;
+  double seconds = 0;
+  for (const std::vector<Cell>& row : table.rows()) {
+    const auto time = number_in(table, row, "virtual time");
+    const bool is_copy = std::get<std::string>(row[0]).starts_with("replicated");
+    if (time && !is_copy && (fastest == nullptr || *time < seconds)) {
+      fastest = &row;
+      seconds = *time;
+    }
+  }
+  return fastest == nullptr ? ""
+                            : "Of the systems whose nodes do not hold the whole scene " + std::get<std::string>((*fastest)[0]) +
+                                  " is the fastest: " + amount_text(seconds, "s") + " on " + nodes_text(table, *fastest) +
+                                  ", memory " + std::get<std::string>((*fastest)[1]) + ".";
 }
 
 }  // namespace dmpc::apps

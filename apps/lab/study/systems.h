@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/effort/planned_run.h"
+#include "apps/lab/study/engine/study_line.h"
 #include "apps/lab/study/memory_rule.h"
 #include "apps/lab/study/runs.h"
-#include "apps/run/strategy_options.h"
 #include "apps/run/systems.h"
 #include "apps/scene/subject.h"
 #include "core/database/structure.h"
-#include "nodes/machine.h"
 
 namespace dmpc::apps {
 
@@ -36,15 +35,17 @@ struct SystemsStudy {
   Build build;                                   ///< must be there to measure()
 
   static std::vector<System> all_systems();
+  void add_options(StudyLine line);
   std::vector<Column> columns() const;
   std::vector<Plot> plots() const;
-  std::uint32_t run_count() const;
+  std::vector<PlannedRun> planned() const;
   /// Adds to `table`, which has columns(), the rows; notes: why a system does not fit, and which of the expectations that were
   /// written down before the first of these runs have held. A system that memory does not change has one run for all rules.
   /// Throws as StudyRuns does.
   void measure(StudyRuns& runs, Table& table) const;
   /// What the columns mean, and what runs.
   std::vector<std::string> notes(const std::string& scene) const;
+  std::string conclusion(const Table& table) const;
 };
 
 /// Expectations of shared memory against travelling rays and questions, each with what a table of the study says of it: "held" or

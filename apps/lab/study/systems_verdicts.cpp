@@ -1,8 +1,5 @@
 // What was expected of the systems, written down before the first comparison, and what a table says of it.
-#include <algorithm>
 #include <functional>
-#include <optional>
-#include <set>
 #include <string>
 #include <variant>
 #include <vector>

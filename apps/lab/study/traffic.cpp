@@ -1,18 +1,26 @@
 #include "apps/lab/study/traffic.h"
 
 #include <algorithm>
-#include <utility>
 
+#include "apps/edge/line/amount.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/table/filled_columns.h"
 #include "dataflow/regions/balance.h"
-#include "dataflow/regions/bsp.h"
-#include "dataflow/run.h"
 #include "svm/packets.h"
-#include "svm/run.h"
 
 namespace dmpc::apps {
 namespace {
 
 using dataflow::Balance;
+
+/// The runs of a row.
+struct TrafficRow {
+  std::uint32_t node_count;
+  dataflow::Report rays, rays_of_equal_size;
+  svm::Report pages;
+
+  nodes::Traffic ray_traffic() const { return dataflow::ray_traffic(rays.sent()); }
+};
 
 /// The memory of the node that used most.
 template <class Report>
@@ -29,46 +37,47 @@ Cell percent_cell(double part, std::uint64_t rays_sent) {
   return rays_sent == 0 ? Cell() : Cell(100 * part / static_cast<double>(rays_sent));
 }
 
+Cell fill_cell(const dataflow::Report& report) {
+  const std::uint64_t sent = report.gathers().rays;
+  return percent_cell(report.mean_fill() * static_cast<double>(sent), sent);
+}
+
+Cell overflow_cell(const dataflow::Report& report) {
+  return percent_cell(static_cast<double>(report.gathers().rays_overflowed), report.gathers().rays);
+}
+
 double average_load_percent(const dataflow::Report& report) { return 100 * dataflow::average_load(report.work()); }
 
-/// In the order of columns().
-std::vector<Cell> ray_cells(const dataflow::Report& report) {
-  const dataflow::Gather::Counters gathers = report.gathers();
-  const nodes::Traffic traffic = dataflow::ray_traffic(report.sent());
-  return {report.messages_per_ray(),
-          gathers.rays,
-          traffic.packets,
-          traffic.bytes,
-          percent_cell(report.mean_fill() * static_cast<double>(gathers.rays), gathers.rays),
-          percent_cell(static_cast<double>(gathers.rays_overflowed), gathers.rays),
-          memory_max_bytes(report),
-          average_load_percent(report)};
+const FilledColumns<TrafficRow>& traffic_columns() {
+  using Row = TrafficRow;
+  static const FilledColumns<Row> columns = {
+      {{"nodes"}, [](const Row& row) { return std::uint64_t{row.node_count}; }},
+      {{"hops a ray", "", 3}, [](const Row& row) { return row.rays.messages_per_ray(); }},
+      {{"rays sent"}, [](const Row& row) { return row.rays.gathers().rays; }},
+      {{"ray packets"}, [](const Row& row) { return row.ray_traffic().packets; }},
+      {{"ray traffic", "bytes"}, [](const Row& row) { return row.ray_traffic().bytes; }},
+      {{"packet fill", "%", 1}, [](const Row& row) { return fill_cell(row.rays); }},
+      {{"overflow", "%", 2}, [](const Row& row) { return overflow_cell(row.rays); }},
+      {{"dataflow memory", "bytes"}, [](const Row& row) { return memory_max_bytes(row.rays); }},
+      {{"average load", "%", 1}, [](const Row& row) { return average_load_percent(row.rays); }},
+      {{"average load equal size", "%", 1}, [](const Row& row) { return average_load_percent(row.rays_of_equal_size); }},
+      {{"faults"}, [](const Row& row) { return row.pages.pages().faults; }},
+      {{"page traffic", "bytes"}, [](const Row& row) { return row.pages.sent()[svm::number_of(svm::Kind::page_reply)].bytes; }},
+      {{"svm memory", "bytes"}, [](const Row& row) { return memory_max_bytes(row.pages); }}};
+  return columns;
 }
-
-std::vector<Cell> page_cells(const svm::Report& report) {
-  const nodes::Traffic replies = report.sent()[svm::number_of(svm::Kind::page_reply)];
-  return {report.pages().faults, replies.bytes, memory_max_bytes(report)};
-}
-
-void append(std::vector<Cell>& row, const std::vector<Cell>& more) { row.insert(row.end(), more.begin(), more.end()); }
 
 }  // namespace
 
-std::vector<Column> TrafficStudy::columns() const {
-  return {{"nodes"},
-          {"hops a ray", "", 3},
-          {"rays sent"},
-          {"ray packets"},
-          {"ray traffic", "bytes"},
-          {"packet fill", "%", 1},
-          {"overflow", "%", 2},
-          {"dataflow memory", "bytes"},
-          {"average load", "%", 1},
-          {"average load equal size", "%", 1},
-          {"faults"},
-          {"page traffic", "bytes"},
-          {"svm memory", "bytes"}};
+void TrafficStudy::add_options(StudyLine line) {
+  add_node_counts(line.set, node_counts);
+  line.set.set_examples(
+      "Examples:\n"
+      "  dmpc study traffic teapot-12\n"
+      "  dmpc study traffic rings-4-t1 --nodes=8,64 --resolution=256x256 --format=json -o rings.json");
 }
+
+std::vector<Column> TrafficStudy::columns() const { return heads_of(traffic_columns()); }
 
 std::vector<Plot> TrafficStudy::plots() const {
   const PlotAxis bytes{.label = "", .scale = PlotScale::powers_of_10};
@@ -78,18 +87,20 @@ std::vector<Plot> TrafficStudy::plots() const {
                  {{.title = "rays travel", .column = "dataflow memory", .color = 1}, {"pages travel", "svm memory"}})};
 }
 
+std::vector<PlannedRun> TrafficStudy::planned() const {
+  return planned_for(node_counts, {{Strategy::dataflow}, {Strategy::dataflow}, {Strategy::svm}});
+}
+
 void TrafficStudy::measure(StudyRuns& runs, Table& table) const {
   for (const std::uint32_t node_count : node_counts) {
-    const auto run_dataflow = [&](Balance balance, const char* regions) {
+    const auto by_rays = [&](Balance balance, const char* regions) {
       return runs.run(std::to_string(node_count) + " nodes, dataflow, regions " + regions,
                       dataflow::RunOptions{.computer = {.node_count = node_count}, .rays = {.balance = {.balance = balance}}});
     };
-    std::vector<Cell> row = {std::uint64_t{node_count}};
-    append(row, ray_cells(run_dataflow(Balance::subsampled, "subsampled")));
-    row.emplace_back(average_load_percent(run_dataflow(Balance::equal_size, "equal size")));
-    append(row, page_cells(runs.run(std::to_string(node_count) + " nodes, svm",
-                                    svm::RunOptions{.computer = {.node_count = node_count}})));
-    table.add_row(std::move(row));
+    table.add_row(row_of(traffic_columns(), TrafficRow{node_count, by_rays(Balance::subsampled, "subsampled"),
+                                                       by_rays(Balance::equal_size, "equal size"),
+                                                       runs.run(std::to_string(node_count) + " nodes, svm",
+                                                                svm::RunOptions{.computer = {.node_count = node_count}})}));
   }
 }
 
@@ -101,6 +112,22 @@ std::vector<std::string> TrafficStudy::notes(const std::string&) const {
       "Average load: mean over maximum of the nodes' work, with regions by the subsampled picture and of equal size.",
       "Pages travel (svm, cache of a quarter of the database): faults, and the bytes of the pages sent for them.",
       "Memory: high-water mark of the fullest node."};
+}
+
+std::string TrafficStudy::conclusion(const Table& table) const {
+  const auto* const last = last_with(table, {"nodes", "ray traffic", "page traffic"});
+  if (last == nullptr) {
+    return "";
+  }
+  const std::string where = "On " + nodes_text(table, *last);
+  const double rays = *number_in(table, *last, "ray traffic"), pages = *number_in(table, *last, "page traffic");
+  if (rays == 0 || pages == 0) {
+    return where + (rays == pages ? " nothing travels." : rays == 0 ? " no ray travels." : " no page travels.");
+  }
+  const bool rays_are_less = rays < pages;
+  return where + " rays move " + amount_text(rays, "bytes") + " and pages " + amount_text(pages, "bytes") + ": " +
+         (rays_are_less ? "rays" : "pages") + " are " + fixed(rays_are_less ? pages / rays : rays / pages, 1) +
+         " times cheaper here.";
 }
 
 }  // namespace dmpc::apps

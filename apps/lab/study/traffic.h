@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "apps/edge/table/plot.h"
-#include "apps/edge/table/table.h"
+#include "apps/effort/planned_run.h"
+#include "apps/lab/study/engine/study_line.h"
 #include "apps/lab/study/runs.h"
 
 namespace dmpc::apps {
@@ -18,11 +19,13 @@ struct TrafficStudy {
 
   std::vector<std::uint32_t> node_counts = {1, 2, 4, 8, 16, 32, 64};
 
+  void add_options(StudyLine line);
   std::vector<Column> columns() const;
   std::vector<Plot> plots() const;
-  std::uint32_t run_count() const { return 3 * static_cast<std::uint32_t>(node_counts.size()); }
+  std::vector<PlannedRun> planned() const;
   void measure(StudyRuns& runs, Table& table) const;
   std::vector<std::string> notes(const std::string& scene) const;
+  std::string conclusion(const Table& table) const;
 };
 
 }  // namespace dmpc::apps

@@ -7,6 +7,7 @@
 #include "apps/effort/pilot.h"
 #include "apps/effort/render_effort.h"
 #include "apps/lab/study/effort.h"
+#include "apps/lab/study/options.h"
 #include "tests/support/small_subject.h"
 
 namespace dmpc::apps::effort_test {
@@ -54,16 +55,16 @@ TEST_CASE("more pixels, a machine's model and a check take longer") {
 TEST_CASE("every run of a study is planned") {
   BalanceStudy balance;
   balance.node_counts = {4, 8};
-  CHECK(planned_runs(balance).size() == balance.run_count());
+  CHECK(balance.planned().size() == 8);
   TrafficStudy traffic;
-  CHECK(planned_runs(traffic).size() == traffic.run_count());
+  CHECK(traffic.planned().size() == 21);
   SpeedupStudy speedup;
   speedup.node_counts = {1, 1024};
-  const auto runs = planned_runs(speedup);
+  const auto runs = speedup.planned();
   REQUIRE(runs.size() == 2);
   CHECK(runs[1].node_count == 1024);
   CHECK(runs[1].is_virtual);
-  CHECK(planned_runs(CacheStudy{.cache_pages = {1, 8}}).size() == 7);
+  CHECK(CacheStudy{.cache_pages = {1, 8}}.planned().size() == 7);
 }
 
 TEST_CASE("more nodes take longer and more memory") {

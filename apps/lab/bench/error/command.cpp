@@ -228,16 +228,14 @@ int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::
   const TableFiles files = files_of(options);
   const double load = machine_load();
   std::vector<SceneResult> results;
-  const auto write = [&](bool is_whole, Attempts& attempts) {
-    files.write({.text = text_of(finished_table(options, results, load, is_whole), options.table.format),
-                 .plotted = [&] { return plotted_tables(results); }},
-                output, std::cerr, attempts);
+  const auto result = [&](bool is_whole) -> TableResult {
+    return {.text = text_of(finished_table(options, results, load, is_whole), options.table.format),
+            .plotted = [&] { return plotted_tables(results); }};
   };
   return run_tabled({.measure = [&] { measure_all(options, files, interrupt, results); },
                      .has_findings = [&] { return std::any_of(results.begin(), results.end(), has_measurements); },
-                     .consequence = "the table has the points measured before",
-                     .write = write},
-                    interrupt);
+                     .consequence = "the table has the points measured before"},
+                    result, files, interrupt, output);
 }
 
 }  // namespace dmpc::apps

@@ -1,7 +1,6 @@
 #include "apps/lab/bench/error/findings.h"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <utility>
 

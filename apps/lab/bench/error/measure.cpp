@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <cctype>
-#include <functional>
 #include <iostream>
 #include <map>
 #include <utility>
 
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/real_load.h"
-#include "apps/edge/system/stopwatch.h"
 #include "apps/edge/table/rounds.h"
 #include "apps/effort/effort.h"
 #include "apps/effort/pilot.h"
 #include "apps/lab/oracle/accurate/picture.h"
+#include "apps/lab/study/engine/timed_render.h"
 #include "apps/picture/film_image.h"
-#include "apps/run/run_strategy.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
@@ -193,15 +191,10 @@ class Bench {
     const Scenes::Built& built = scenes_.of(setting.tessellation);
     const core::Database& database = built.subject.database;
     const core::RenderSettings settings = render_settings(picture_of(options_.picture, setting), built.scene, database);
-    const ReadyRun run = make_ready(options_.strategy, database, settings, interrupt_.token());
-    interrupt_.check();
-    Stopwatch stopwatch;
-    const Report report = run.start([](std::uint32_t, std::uint32_t) {}, interrupt_.token());
-    const double seconds = stopwatch.lap();
-    interrupt_.check();
-    const Account account = account_of(report);
+    const TimedRender one = render_timed(options_.strategy, database, settings, interrupt_);
+    const Account account = account_of(one.report);
     return {.picture = image_of(account.film),
-            .seconds = seconds,
+            .seconds = one.times.wall_seconds,
             .rays = account.operations.ray_count(),
             .samples = account.film.samples(),
             .film_hash = account.film.hash()};

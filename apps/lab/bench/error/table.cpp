@@ -5,48 +5,13 @@
 #include <utility>
 
 #include "apps/edge/table/averages.h"
+#include "apps/edge/table/filled_columns.h"
 #include "apps/lab/bench/error/curve.h"
 
 namespace dmpc::apps {
 namespace {
 
 constexpr double steps = 255;
-
-std::vector<Column> error_columns() {
-  return {{"scene"},
-          {"knob"},
-          {"setting"},
-          {"samples a pixel", "", 2},
-          {"rays"},
-          {"rays a pixel", "", 2},
-          {"seconds median", "s", 3},
-          {"seconds least", "s", 3},
-          {"seconds most", "s", 3},
-          {"RMSE", "1/255", 3},
-          {"relative MSE", "", 6},
-          {"largest", "1/255", 1},
-          {"99th percentile", "1/255", 2},
-          {"FLIP mean", "", 4},
-          {"FLIP 99th percentile", "", 3},
-          {"remark"},
-          {"front by rays"},
-          {"front by seconds"},
-          {"deterministic RMSE", "1/255", 3},
-          {"deterministic relative MSE", "", 6},
-          {"deterministic largest", "1/255", 1},
-          {"deterministic 99th percentile", "1/255", 2},
-          {"deterministic FLIP mean", "", 4},
-          {"deterministic FLIP 99th percentile", "", 3}};
-}
-
-/// Nothing for what is infinite: a table has no place for it.
-Cell number(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
-
-void add_error(std::vector<Cell>& row, const PictureError& error) {
-  row.insert(row.end(),
-             {number(steps * error.root_mean_square), number(error.relative_mean_square), number(steps * error.largest),
-              number(steps * error.percentile_99), number(error.flip_mean), number(error.flip_percentile_99)});
-}
 
 /// Which measurements are on the fronts.
 struct Fronts {
@@ -65,29 +30,70 @@ Fronts fronts_of(const SceneResult& result) {
   return {pareto_front(rays, is_eligible), pareto_front(seconds, is_eligible)};
 }
 
-std::vector<Cell> row_of(const SceneResult& result, const Fronts& fronts, std::size_t point) {
-  const Measurement& one = result.of(point);
-  const auto pixels = static_cast<double>(result.pixels());
-  const auto [least, most] = std::minmax_element(one.seconds.begin(), one.seconds.end());
-  std::vector<Cell> row = {result.scene,
-                           std::string(name_of(result.points[point].knob)),
-                           result.points[point].text,
-                           static_cast<double>(one.samples) / pixels,
-                           one.rays,
-                           static_cast<double>(one.rays) / pixels,
-                           median(one.seconds),
-                           *least,
-                           *most};
-  add_error(row, one.error);
-  const auto yes_if = [](bool is_so) { return Cell(std::string(is_so ? "yes" : "")); };
-  row.insert(row.end(),
-             {Cell(std::string(is_claimed(result, one) ? "" : "below the reference")),
-              yes_if(fronts.by_rays[result.measurement_of[point]]), yes_if(fronts.by_seconds[result.measurement_of[point]])});
-  if (const auto deterministic = deterministic_error(result, point)) {
-    add_error(row, *deterministic);
-  }
-  row.resize(error_columns().size());
-  return row;
+/// A point that has been measured.
+struct ErrorRow {
+  const SceneResult& result;
+  const Fronts& fronts;
+  std::size_t point;
+
+  const Point& place() const { return result.points[point]; }
+  const Measurement& measured() const { return result.of(point); }
+  double a_pixel(std::uint64_t count) const { return static_cast<double>(count) / static_cast<double>(result.pixels()); }
+};
+
+/// Nothing for what is infinite: a table has no place for it.
+Cell number(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
+
+Cell yes_if(bool is_so) { return std::string(is_so ? "yes" : ""); }
+
+/// A column for each measure of what `error` has of a row, if it has that.
+template <class Error>
+void add_errors(const std::string& kind, const Error& error, FilledColumns<ErrorRow>& columns) {
+  const auto add = [&](Column column, double PictureError::*measure, double scale) {
+    column.name = kind + column.name;
+    columns.push_back({std::move(column), [error, measure, scale](const ErrorRow& row) {
+                         const std::optional<PictureError> found = error(row);
+                         return found ? number(scale * (*found).*measure) : Cell();
+                       }});
+  };
+  add({"RMSE", "1/255", 3}, &PictureError::root_mean_square, steps);
+  add({"relative MSE", "", 6}, &PictureError::relative_mean_square, 1);
+  add({"largest", "1/255", 1}, &PictureError::largest, steps);
+  add({"99th percentile", "1/255", 2}, &PictureError::percentile_99, steps);
+  add({"FLIP mean", "", 4}, &PictureError::flip_mean, 1);
+  add({"FLIP 99th percentile", "", 3}, &PictureError::flip_percentile_99, 1);
+}
+
+FilledColumns<ErrorRow> make_error_columns() {
+  using Row = ErrorRow;
+  FilledColumns<Row> columns = {
+      {{"scene"}, [](const Row& row) { return row.result.scene; }},
+      {{"knob"}, [](const Row& row) { return name_of(row.place().knob); }},
+      {{"setting"}, [](const Row& row) { return row.place().text; }},
+      {{"samples a pixel", "", 2}, [](const Row& row) { return row.a_pixel(row.measured().samples); }},
+      {{"rays"}, [](const Row& row) { return row.measured().rays; }},
+      {{"rays a pixel", "", 2}, [](const Row& row) { return row.a_pixel(row.measured().rays); }},
+      {{"seconds median", "s", 3}, [](const Row& row) { return median(row.measured().seconds); }},
+      {{"seconds least", "s", 3}, [](const Row& row) { return std::ranges::min(row.measured().seconds); }},
+      {{"seconds most", "s", 3}, [](const Row& row) { return std::ranges::max(row.measured().seconds); }}};
+  add_errors(
+      "", [](const Row& row) { return std::optional(row.measured().error); }, columns);
+  columns.push_back({{"remark"}, [](const Row& row) {
+                       return std::string(is_claimed(row.result, row.measured()) ? "" : "below the reference");
+                     }});
+  const auto is_on = [](const std::vector<bool>& front, const Row& row) {
+    return yes_if(front[row.result.measurement_of[row.point]]);
+  };
+  columns.push_back({{"front by rays"}, [is_on](const Row& row) { return is_on(row.fronts.by_rays, row); }});
+  columns.push_back({{"front by seconds"}, [is_on](const Row& row) { return is_on(row.fronts.by_seconds, row); }});
+  add_errors(
+      "deterministic ", [](const Row& row) { return deterministic_error(row.result, row.point); }, columns);
+  return columns;
+}
+
+const FilledColumns<ErrorRow>& error_columns() {
+  static const FilledColumns<ErrorRow> columns = make_error_columns();
+  return columns;
 }
 
 void add_rows(Table& table, const SceneResult& result, bool only_claimed) {
@@ -95,7 +101,7 @@ void add_rows(Table& table, const SceneResult& result, bool only_claimed) {
   for (std::size_t point = 0; point < result.points.size(); ++point) {
     const Measurement& one = result.of(point);
     if (one.is_done() && (!only_claimed || is_claimed(result, one))) {
-      table.add_row(row_of(result, fronts, point));
+      table.add_row(row_of(error_columns(), ErrorRow{result, fronts, point}));
     }
   }
 }
@@ -128,7 +134,7 @@ Plot plot_of(const SceneResult& result, const std::string& name, PlotAxis x, con
 }  // namespace
 
 Table table_of(std::span<const SceneResult> results, const std::string& title) {
-  Table table(title, error_columns());
+  Table table(title, heads_of(error_columns()));
   for (const SceneResult& result : results) {
     add_rows(table, result, false);
   }
@@ -136,7 +142,7 @@ Table table_of(std::span<const SceneResult> results, const std::string& title) {
 }
 
 Table plotted_table(const SceneResult& result) {
-  Table table(result.scene, error_columns());
+  Table table(result.scene, heads_of(error_columns()));
   add_rows(table, result, true);
   return table;
 }

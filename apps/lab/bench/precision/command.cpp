@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "apps/edge/system/progress.h"
+#include "apps/edge/table/filled_columns.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
 #include "apps/effort/effort.h"
@@ -38,17 +39,38 @@ TableFiles files_of(const PrecisionOptions& options) {
   return {options.table, {}, others};
 }
 
-Table empty_table(const PrecisionOptions& options) {
-  std::vector<Column> columns{
-      {"scene"}, {"primitives"}, {"rays"}, {"equal pixels", "%", 4}, {"RMSE", "1/255", 4}, {"largest", "1/255", 3}, {"differ"}};
+double percent_equal(const Precision& precision) {
+  return 100 * (1 - static_cast<double>(precision.differing_pixels) / static_cast<double>(precision.pixels));
+}
+
+/// What came of a scene.
+struct PrecisionRow {
+  const std::string& scene;
+  const Precision& precision;
+};
+
+FilledColumns<PrecisionRow> precision_columns() {
+  using Row = PrecisionRow;
+  FilledColumns<Row> columns = {{{"scene"}, [](const Row& row) { return row.scene; }},
+                                {{"primitives"}, [](const Row& row) { return row.precision.primitives; }},
+                                {{"rays"}, [](const Row& row) { return row.precision.rays; }},
+                                {{"equal pixels", "%", 4}, [](const Row& row) { return percent_equal(row.precision); }},
+                                {{"RMSE", "1/255", 4}, [](const Row& row) { return 255 * row.precision.root_mean_square; }},
+                                {{"largest", "1/255", 3}, [](const Row& row) { return 255 * row.precision.largest; }},
+                                {{"differ"}, [](const Row& row) { return row.precision.differing_pixels; }}};
   for (std::size_t cause = 0; cause < pixel_cause_count; ++cause) {
-    columns.push_back({std::string(name_of(static_cast<PixelCause>(cause)))});
+    columns.push_back({{std::string(name_of(static_cast<PixelCause>(cause)))},
+                       [cause](const Row& row) { return row.precision.causes[cause]; }});
   }
-  columns.push_back({"largest step", "", 2});
+  columns.push_back({{"largest step", "", 2}, [](const Row& row) { return row.precision.largest_step; }});
+  return columns;
+}
+
+Table empty_table(const PrecisionOptions& options) {
   Table table("Precision of the picture in float against double precision: " + std::to_string(options.resolution.width) + "x" +
                   std::to_string(options.resolution.height) + " pixels, one sample a pixel, depth " +
                   std::to_string(options.depth) + ", convention haines",
-              std::move(columns));
+              heads_of(precision_columns()));
   table.add_note("Pixels are compared in 8 bits with the sRGB curve; RMSE and largest are of linear light.");
   table.add_note(
       "The pixels that differ stand under what comes first where the two renderers follow the same pixel: two surfaces at the "
@@ -61,23 +83,6 @@ Table empty_table(const PrecisionOptions& options) {
       "units of what rounding to float does; " +
       std::to_string(static_cast<int>(StepAudit::steps_allowed)) + " are allowed.");
   return table;
-}
-
-double percent_equal(const Precision& precision) {
-  return 100 * (1 - static_cast<double>(precision.differing_pixels) / static_cast<double>(precision.pixels));
-}
-
-std::vector<Cell> row_of(const std::string& scene, const Precision& precision) {
-  std::vector<Cell> row{scene,
-                        precision.primitives,
-                        precision.rays,
-                        percent_equal(precision),
-                        255 * precision.root_mean_square,
-                        255 * precision.largest,
-                        precision.differing_pixels};
-  row.insert(row.end(), precision.causes.begin(), precision.causes.end());
-  row.emplace_back(precision.largest_step);
-  return row;
 }
 
 void describe_errors(const std::string& scene, const Precision& precision, Table& table) {
@@ -108,7 +113,7 @@ void measure_all(const PrecisionOptions& options, const std::vector<std::string>
   for (const std::string& scene : scenes) {
     interrupt.check();
     const Precision precision = measure(options, scene, files, interrupt);
-    table.add_row(row_of(scene, precision));
+    table.add_row(row_of(precision_columns(), PrecisionRow{scene, precision}));
     describe_errors(scene, precision, table);
     is_explained = is_explained && precision.errors.empty();
   }
@@ -150,15 +155,14 @@ int bench_precision_command(const PrecisionOptions& options, Interrupt& interrup
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   table.set_listener([&shown](const Table& rows) { shown.show(rows); });
   bool is_explained = true;
-  const auto write = [&](bool is_whole, Attempts& attempts) {
+  const auto result = [&](bool is_whole) -> TableResult {
     table.add_note(verdict_of(is_whole, is_explained));
-    files.write({.text = text_of(table, options.table.format)}, output, std::cerr, attempts);
+    return {.text = text_of(table, options.table.format)};
   };
   const int status = run_tabled({.measure = [&] { measure_all(options, scenes, files, interrupt, table, is_explained); },
                                  .has_findings = [&] { return !table.rows().empty(); },
-                                 .consequence = "the table has the scenes measured before",
-                                 .write = write},
-                                interrupt);
+                                 .consequence = "the table has the scenes measured before"},
+                                result, files, interrupt, output);
   return is_explained ? status : unexplained_status;
 }
 

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <iostream>
 #include <utility>
 
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/edge/table/rounds.h"
-#include "apps/run/run_strategy.h"
+#include "apps/lab/study/engine/timed_render.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
 #include "core/picture/background.h"
@@ -117,13 +116,8 @@ class AblationBench {
     settings.background =
         variant.skips.background ? core::find_background(subject_.database, settings.camera) : core::BackgroundTiles();
     const double to_prepare = stopwatch.lap().processor_seconds;
-    const ReadyRun run = make_ready(strategy_of(variant), subject_.database, settings, interrupt_.token());
-    interrupt_.check();
-    stopwatch.lap();
-    Report report = run.start([](std::uint32_t, std::uint32_t) {}, interrupt_.token());
-    const double seconds = stopwatch.lap().processor_seconds;
-    interrupt_.check();
-    return {to_prepare + seconds, std::move(report)};
+    TimedRender one = render_timed(strategy_of(variant), subject_.database, settings, interrupt_);
+    return {to_prepare + one.times.processor_seconds, std::move(one.report)};
   }
 
   Ablation result_of(const Row& row) const {

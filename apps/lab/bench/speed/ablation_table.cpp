@@ -1,62 +1,43 @@
 #include "apps/lab/bench/speed/ablation_table.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "apps/edge/table/averages.h"
+#include "apps/edge/table/filled_columns.h"
 #include "apps/lab/bench/speed/table.h"
 #include "apps/lab/bench/speed/verdict.h"
 
 namespace dmpc::apps {
 namespace {
 
-std::vector<Column> ablation_columns() {
-  return {{"scene"},
-          {"skip"},
-          {"kind"},
-          {"strategy"},
-          {"nodes"},
-          {"processor time with it", "s", 3},
-          {"without over with", "", 3},
-          {"least", "", 3},
-          {"largest", "", 3},
-          {"counted work", "", 3},
-          {"avoided"},
-          {"avoided what"},
-          {"root mean square error", "1/255", 4},
-          {"here"}};
-}
-
 std::string kind_of(const Ablation& ablation) {
   return ablation.is_control() ? "noise" : ablation.is_exact() ? "exact" : "bounded";
 }
 
-std::vector<Cell> row_of(const Ablation& ablation) {
-  const Comparison& seconds = ablation.seconds;
-  const RatioSpread ratio = ratio_of(seconds);
-  return {seconds.scene,
-          seconds.what,
-          kind_of(ablation),
-          seconds.detail,
-          std::uint64_t{seconds.threads},
-          median(seconds.rival_figures),
-          ratio.median,
-          ratio.least,
-          ratio.most,
-          ablation.work_ratio,
-          ablation.avoided ? Cell(*ablation.avoided) : Cell(),
-          ablation.unit,
-          ablation.error ? Cell(255 * *ablation.error) : Cell(),
-          ablation.is_control() ? Cell() : Cell(text_of(verdict_on(ablation)))};
+const FilledColumns<Ablation>& ablation_columns() {
+  using A = Ablation;
+  static const FilledColumns<A> columns = {
+      {{"scene"}, [](const A& a) { return a.seconds.scene; }},
+      {{"skip"}, [](const A& a) { return a.seconds.what; }},
+      {{"kind"}, kind_of},
+      {{"strategy"}, [](const A& a) { return a.seconds.detail; }},
+      {{"nodes"}, [](const A& a) { return std::uint64_t{a.seconds.threads}; }},
+      {{"processor time with it", "s", 3}, [](const A& a) { return median(a.seconds.rival_figures); }},
+      {{"without over with", "", 3}, [](const A& a) { return ratio_of(a.seconds).median; }},
+      {{"least", "", 3}, [](const A& a) { return ratio_of(a.seconds).least; }},
+      {{"largest", "", 3}, [](const A& a) { return ratio_of(a.seconds).most; }},
+      {{"counted work", "", 3}, &A::work_ratio},
+      {{"avoided"}, [](const A& a) { return cell_of(a.avoided); }},
+      {{"avoided what"}, &A::unit},
+      {{"root mean square error", "1/255", 4}, [](const A& a) { return a.error ? Cell(255 * *a.error) : Cell(); }},
+      {{"here"}, only_if([](const A& a) { return !a.is_control(); }, [](const A& a) { return text_of(verdict_on(a)); })}};
+  return columns;
 }
 
 }  // namespace
 
 Table table_of(std::span<const Ablation> ablations, const std::string& title) {
-  Table table(title, ablation_columns());
-  for (const Ablation& ablation : ablations) {
-    table.add_row(row_of(ablation));
-  }
+  Table table = filled_table(title, ablation_columns(), ablations);
   for (std::string& sentence : verdicts_on(ablations)) {
     table.add_note(std::move(sentence));
   }

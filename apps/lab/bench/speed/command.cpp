@@ -283,16 +283,13 @@ int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::
   announce("bench speed", effort_of(options), options.quiet, std::cerr);
   const double load = machine_load();
   Results results;
-  const auto write = [&](bool is_whole, Attempts& attempts) {
-    files.write(
-        {.text = text_of_all(options, results, load, is_whole), .plotted = [&] { return plotted_tables(options, results); }},
-        output, std::cerr, attempts);
+  const auto result = [&](bool is_whole) -> TableResult {
+    return {.text = text_of_all(options, results, load, is_whole), .plotted = [&] { return plotted_tables(options, results); }};
   };
   return run_tabled({.measure = [&] { measure_all(options, files, interrupt, results); },
                      .has_findings = [&] { return results.has_figures(); },
-                     .consequence = "the table has what was measured before",
-                     .write = write},
-                    interrupt);
+                     .consequence = "the table has what was measured before"},
+                    result, files, interrupt, output);
 }
 
 }  // namespace dmpc::apps

@@ -49,19 +49,4 @@ std::vector<double> ratios_of(const Comparisons& comparisons) {
   return ratios;
 }
 
-void add_timed(Comparison comparison, std::vector<Comparison>& results) {
-  for (const char* clock : {"wall clock", "processor time"}) {
-    comparison.detail = clock;
-    results.push_back(comparison);
-  }
-}
-
-void note(const Times& times, bool is_rival, Comparison* first) {
-  constexpr double least_seconds = 1e-9;
-  for (const double seconds : {times.wall_seconds, times.processor_seconds}) {
-    (is_rival ? first->rival_figures : first->subject_figures).push_back(std::max(seconds, least_seconds));
-    ++first;
-  }
-}
-
 }  // namespace dmpc::apps

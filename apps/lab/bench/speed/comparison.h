@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/system/stopwatch.h"
 #include "apps/lab/bench/speed/part.h"
 
 namespace dmpc::apps {
@@ -45,10 +44,5 @@ std::vector<Comparisons> grouped(const Comparisons& comparisons,
                                  const std::function<bool(const Comparison&, const Comparison&)>& are_alike);
 /// The median one of each.
 std::vector<double> ratios_of(const Comparisons& comparisons);
-
-/// Adds the comparison twice: its detail "wall clock", then "processor time".
-void add_timed(Comparison comparison, std::vector<Comparison>& results);
-/// Notes what the subject or the rival took, in one round, in two comparisons made by add_timed(), the first of which is given.
-void note(const Times& times, bool is_rival, Comparison* first);
 
 }  // namespace dmpc::apps

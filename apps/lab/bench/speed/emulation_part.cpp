@@ -5,10 +5,9 @@
 #include <string>
 
 #include "apps/edge/system/progress.h"
-#include "apps/edge/system/stopwatch.h"
-#include "apps/edge/table/rounds.h"
+#include "apps/lab/bench/speed/matches.h"
 #include "apps/lab/bench/speed/parts.h"
-#include "apps/run/run_strategy.h"
+#include "apps/lab/study/engine/timed_render.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
 
@@ -53,66 +52,35 @@ StrategyOptions strategy_of(const Computer& computer, const core::Database& data
   return options;
 }
 
-/// The renders of one scene.
-class EmulationBench {
- public:
-  EmulationBench(const std::string& scene, const SpeedSettings& settings, const Interrupt& interrupt,
-                 std::vector<Comparison>& results)
-      : interrupt_(interrupt),
-        results_(results),
-        first_(results.size()),
-        subject_(settings.subject_of(SpeedPart::emulation, scene)) {
-    for (const Pairing& pairing : pairings) {
-      add_timed({.part = SpeedPart::emulation,
-                 .scene = scene,
-                 .what = pairing.what,
-                 .threads = computers[pairing.subject].node_count,
-                 .subject = pairing.subject_name,
-                 .rival = pairing.rival_name,
-                 .unit = "s"},
-                results_);
-    }
-  }
-
-  void measure(std::size_t computer) {
-    const Times times = render(computers[computer]);
-    for (std::size_t i = 0; i < pairings.size(); ++i) {
-      if (pairings[i].subject == computer || pairings[i].rival == computer) {
-        note(times, pairings[i].rival == computer, &results_[first_ + 2 * i]);
-      }
-    }
-  }
-
- private:
-  Times render(const Computer& computer) {
-    const ReadyRun run =
-        make_ready(strategy_of(computer, subject_.database), subject_.database, subject_.settings, interrupt_.token());
-    interrupt_.check();
-    DoubleStopwatch stopwatch;
-    const Report report = run.start([](std::uint32_t, std::uint32_t) {}, interrupt_.token());
-    const Times times = stopwatch.lap();
-    interrupt_.check();
-    const std::uint64_t hash = account_of(report).film.hash();
-    core::expect(film_hash_.value_or(hash) == hash, "all computers render one film");
-    film_hash_ = hash;
-    return times;
-  }
-
-  const Interrupt& interrupt_;
-  std::vector<Comparison>& results_;
-  std::size_t first_;
-  Subject subject_;
-  std::optional<std::uint64_t> film_hash_;
-};
-
 }  // namespace
 
 void measure_emulation(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
-  const std::size_t rounds = settings.rounds_of(SpeedPart::emulation);
   for (const std::string& scene : settings.scenes_of(SpeedPart::emulation)) {
     Progress progress(std::cerr, stderr_is_terminal(), scene + " emulated:", "renders");
-    EmulationBench bench(scene, settings, interrupt, results);
-    round_by_round(rounds, computers.size(), progress, [&](std::size_t index) { bench.measure(index); });
+    const Subject subject = settings.subject_of(SpeedPart::emulation, scene);
+    std::optional<std::uint64_t> film_hash;
+    Matches matches(results);
+    for (const Computer& computer : computers) {
+      matches.add([&] {
+        const TimedRender one =
+            render_timed(strategy_of(computer, subject.database), subject.database, subject.settings, interrupt);
+        const std::uint64_t hash = account_of(one.report).film.hash();
+        film_hash = film_hash.value_or(hash);
+        core::expect(film_hash == hash, "all computers render one film");
+        return figures_of(one.times);
+      });
+    }
+    for (const Pairing& pairing : pairings) {
+      matches.compare_timed(pairing.subject, pairing.rival,
+                            {.part = SpeedPart::emulation,
+                             .scene = scene,
+                             .what = pairing.what,
+                             .threads = computers[pairing.subject].node_count,
+                             .subject = pairing.subject_name,
+                             .rival = pairing.rival_name,
+                             .unit = "s"});
+    }
+    matches.measure(settings.rounds_of(SpeedPart::emulation), progress);
   }
 }
 

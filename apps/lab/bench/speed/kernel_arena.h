@@ -1,7 +1,6 @@
 // A scene's rays and everybody who traces them, for the kernel of `bench speed`.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>

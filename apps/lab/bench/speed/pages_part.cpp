@@ -5,8 +5,8 @@
 
 #include "apps/edge/system/progress.h"
 #include "apps/lab/bench/speed/parts.h"
+#include "apps/lab/study/engine/timed_render.h"
 #include "apps/lab/study/paper/data.h"
-#include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
 
@@ -25,9 +25,7 @@ double pages_a_pixel(const Subject& subject, const Interrupt& interrupt) {
   StrategyOptions options;
   options.computer.node_count = 1;
   options.pages.count_pages = true;
-  const ReadyRun run = make_ready(options, subject.database, subject.settings);
-  const Report report = run.start([](std::uint32_t, std::uint32_t) {}, interrupt.token());
-  interrupt.check();
+  const Report report = render_timed(options, subject.database, subject.settings, interrupt).report;
   const std::uint64_t pages = std::get<svm::Report>(report).pages().distinct_pages;
   return static_cast<double>(pages) / subject.settings.camera.pixel_count();
 }

@@ -1,7 +1,6 @@
 // What each part of `bench speed` measures.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "apps/edge/system/interrupt.h"

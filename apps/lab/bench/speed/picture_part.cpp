@@ -5,7 +5,7 @@
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/scratch_folder.h"
 #include "apps/edge/system/stopwatch.h"
-#include "apps/edge/table/rounds.h"
+#include "apps/lab/bench/speed/matches.h"
 #include "apps/lab/bench/speed/parts.h"
 #include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::uint32_t picture_node_count = 2;
 constexpr std::array<const char*, 6> phase_names = {"load", "build", "prepare", "render", "write", "whole picture"};
-using Phases = std::array<Times, phase_names.size()>;
 
 StrategyOptions strategy_of(bool is_rival) {
   return {.strategy = is_rival ? Strategy::replicated : Strategy::svm,
@@ -26,62 +25,68 @@ StrategyOptions strategy_of(bool is_rival) {
           .tracer = is_rival ? TracerChoice::embree : TracerChoice::grid};
 }
 
-/// Times of each phase, and in the end of all.
-Phases render_whole(const std::string& scene_name, const SpeedSettings& settings, const StrategyOptions& strategy,
-                    const std::filesystem::path& path, const Interrupt& interrupt) {
-  const PictureOptions picture = settings.picture_of(SpeedPart::picture, scene_name);
-  Phases phases{};
-  DoubleStopwatch stopwatch;
-  core::Scene scene = settings.load(picture);
-  phases[0] = stopwatch.lap();
-  const Subject subject = build_subject(std::move(scene), picture);
-  phases[1] = stopwatch.lap();
-  const ReadyRun run = make_ready(strategy, subject.database, subject.settings, interrupt.token());
-  phases[2] = stopwatch.lap();
-  const Report report = run.start([](std::uint32_t, std::uint32_t) {}, interrupt.token());
-  interrupt.check();
-  phases[3] = stopwatch.lap();
-  write_image(path, image_of(account_of(report).film));
-  phases[4] = stopwatch.lap();
-  for (std::size_t phase = 0; phase < 5; ++phase) {
-    phases[5].wall_seconds += phases[phase].wall_seconds;
-    phases[5].processor_seconds += phases[phase].processor_seconds;
+void add_figures(const Times& times, std::vector<double>& figures) {
+  for (const double figure : figures_of(times)) {
+    figures.push_back(figure);
   }
-  return phases;
 }
 
-void add_comparisons(const std::string& scene, std::vector<Comparison>& results) {
-  for (const char* phase : phase_names) {
-    add_timed({.part = SpeedPart::picture,
-               .scene = scene,
-               .what = phase,
-               .threads = picture_node_count,
-               .subject = "svm",
-               .rival = "replicated with Embree",
-               .unit = "s"},
-              results);
-  }
+/// Both times of each phase, and in the end of all.
+std::vector<double> render_whole(const std::string& scene_name, const SpeedSettings& settings, const StrategyOptions& strategy,
+                                 const std::filesystem::path& path, const Interrupt& interrupt) {
+  const PictureOptions picture = settings.picture_of(SpeedPart::picture, scene_name);
+  std::vector<double> figures;
+  Times whole;
+  DoubleStopwatch stopwatch;
+  const auto end_phase = [&] {
+    const Times times = stopwatch.lap();
+    whole.wall_seconds += times.wall_seconds;
+    whole.processor_seconds += times.processor_seconds;
+    add_figures(times, figures);
+  };
+  core::Scene scene = settings.load(picture);
+  end_phase();
+  const Subject subject = build_subject(std::move(scene), picture);
+  end_phase();
+  const ReadyRun run = make_ready(strategy, subject.database, subject.settings, interrupt.token());
+  end_phase();
+  const Report report = run.start([](std::uint32_t, std::uint32_t) {}, interrupt.token());
+  interrupt.check();
+  end_phase();
+  write_image(path, image_of(account_of(report).film));
+  end_phase();
+  add_figures(whole, figures);
+  return figures;
 }
 
 }  // namespace
 
 void measure_picture(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
   const ScratchFolder folder;
-  const std::vector<std::string> scenes = settings.scenes_of(SpeedPart::picture);
-  const std::size_t first = results.size(), count = 2 * scenes.size(), rounds = settings.rounds_of(SpeedPart::picture);
-  for (const std::string& scene : scenes) {
-    add_comparisons(scene, results);
+  Matches matches(results);
+  for (const std::string& scene : settings.scenes_of(SpeedPart::picture)) {
+    const auto add = [&](bool is_rival) {
+      return matches.add([&, scene, is_rival] {
+        interrupt.check();
+        return render_whole(scene, settings, strategy_of(is_rival), folder / "picture.png", interrupt);
+      });
+    };
+    const std::size_t subject = add(false), rival = add(true);
+    for (std::size_t phase = 0; phase < phase_names.size(); ++phase) {
+      matches.compare_timed(subject, rival,
+                            {.part = SpeedPart::picture,
+                             .scene = scene,
+                             .what = phase_names[phase],
+                             .threads = picture_node_count,
+                             .subject = "svm",
+                             .rival = "replicated with Embree",
+                             .unit = "s"},
+                            2 * phase);
+    }
   }
   open_embree();  // which is no part of a render
   Progress progress(std::cerr, stderr_is_terminal(), "pictures:", "renders");
-  round_by_round(rounds, count, progress, [&](std::size_t index) {
-    interrupt.check();
-    const bool is_rival = index % 2 == 1;
-    const Phases phases = render_whole(scenes[index / 2], settings, strategy_of(is_rival), folder / "picture.png", interrupt);
-    for (std::size_t phase = 0; phase < phases.size(); ++phase) {
-      note(phases[phase], is_rival, &results[first + 2 * (index / 2 * phases.size() + phase)]);
-    }
-  });
+  matches.measure(settings.rounds_of(SpeedPart::picture), progress);
 }
 
 }  // namespace dmpc::apps

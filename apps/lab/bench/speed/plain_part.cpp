@@ -4,9 +4,10 @@
 
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
-#include "apps/edge/table/rounds.h"
+#include "apps/lab/bench/speed/matches.h"
 #include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/plain_renderer.h"
+#include "apps/lab/study/engine/timed_render.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
@@ -62,44 +63,22 @@ class PlainBench {
       : scene_(scene),
         interrupt_(interrupt),
         results_(results),
-        first_(results.size()),
         timed_(loaded(scene, settings), settings.picture_of(SpeedPart::plain, scene)) {}
 
   bool is_textured() const { return timed_.subject.database.records().textured > 0; }
 
-  void prepare() {
+  void measure(std::size_t rounds) {
     plain_.emplace(timed_.subject);
+    Matches matches(results_);
     for (const Contender& contender : contenders) {
-      add_timed(comparison_of("render", contender.name, rival_name, contender.count), results_);
+      const std::size_t number =
+          matches.add([&] { return figures_of(contender.strategy ? render_ours(contender) : render_plain(contender.count)); });
+      matches.compare_timed(number, 0, comparison_of("render", contender.name, rival_name, contender.count));
     }
-    add_timed(comparison_of("build", "database", "Embree robust of high quality", 0), results_);
-    note(timed_.build_times, false, &results_[first_ + 2 * contenders.size()]);
-    note(plain_->build_times(), true, &results_[first_ + 2 * contenders.size()]);
-  }
-
-  void measure(std::size_t index) {
-    const Contender& contender = contenders[index];
-    const Times times = contender.strategy ? render_ours(contender) : render_plain(contender.count);
-    note(times, false, &results_[first_ + 2 * index]);
-    for (std::size_t i = 0; index == 0 && i < contenders.size(); ++i) {
-      note(times, true, &results_[first_ + 2 * i]);
-    }
-  }
-
-  /// After a round.
-  void compare() {
-    core::expect(picture_.has_value() && film_.has_value(), "what is compared has been rendered");
-    const double distance = distance_to_ours(*picture_, *film_, scene_);
-    Comparison rays = comparison_of("rays", "ours", "plain", 0);
-    rays.unit = "rays";
-    rays.subject_figures = {static_cast<double>(rays_)};
-    rays.rival_figures = {static_cast<double>(picture_->rays)};
-    results_.push_back(rays);
-    Comparison error = comparison_of("distance", "plain to ours", "1/255", 0);
-    error.unit = "root mean square";
-    error.subject_figures = {distance};
-    error.rival_figures = {plain_error_max};
-    results_.push_back(error);
+    compare_builds();
+    Progress progress(std::cerr, stderr_is_terminal(), scene_ + " beside a plain renderer:", "renders");
+    matches.measure(rounds, progress);
+    compare_pictures();
   }
 
  private:
@@ -117,6 +96,31 @@ class PlainBench {
             .unit = "s"};
   }
 
+  void compare_builds() {
+    Comparison builds = comparison_of("build", "database", "Embree robust of high quality", 0);
+    const std::vector<double> ours = figures_of(timed_.build_times), theirs = figures_of(plain_->build_times());
+    for (std::size_t clock = 0; clock < clock_names.size(); ++clock) {
+      builds.detail = clock_names[clock];
+      builds.subject_figures = {ours[clock]};
+      builds.rival_figures = {theirs[clock]};
+      results_.push_back(builds);
+    }
+  }
+
+  /// After a round.
+  void compare_pictures() {
+    core::expect(picture_.has_value() && film_.has_value(), "what is compared has been rendered");
+    add("rays", "ours", "plain", "rays", static_cast<double>(rays_), static_cast<double>(picture_->rays));
+    add("distance", "plain to ours", "1/255", "root mean square", distance_to_ours(*picture_, *film_, scene_), plain_error_max);
+  }
+
+  void add(const char* what, const char* subject, const char* rival, const char* unit, double ours, double theirs) {
+    Comparison& once = results_.emplace_back(comparison_of(what, subject, rival, 0));
+    once.unit = unit;
+    once.subject_figures = {ours};
+    once.rival_figures = {theirs};
+  }
+
   Times render_plain(std::uint32_t threads) {
     interrupt_.check();
     picture_.reset();
@@ -127,23 +131,17 @@ class PlainBench {
 
   Times render_ours(const Contender& contender) {
     const Subject& subject = timed_.subject;
-    const ReadyRun run = make_ready(strategy_of(contender), subject.database, subject.settings, interrupt_.token());
-    interrupt_.check();
-    DoubleStopwatch stopwatch;
-    const Report report = run.start([](std::uint32_t, std::uint32_t) {}, interrupt_.token());
-    const Times times = stopwatch.lap();
-    interrupt_.check();
-    const Account account = account_of(report);
+    const TimedRender one = render_timed(strategy_of(contender), subject.database, subject.settings, interrupt_);
+    const Account account = account_of(one.report);
     core::expect(!film_ || film_->hash() == account.film.hash(), "all computers render one film");
     film_ = account.film;
     rays_ = account.operations.ray_count();
-    return times;
+    return one.times;
   }
 
   std::string scene_;
   const Interrupt& interrupt_;
   std::vector<Comparison>& results_;
-  std::size_t first_;
   TimedSubject timed_;
   std::optional<PlainRenderer> plain_;
   std::optional<PlainPicture> picture_;
@@ -154,18 +152,14 @@ class PlainBench {
 }  // namespace
 
 void measure_plain(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
-  const std::size_t rounds = settings.rounds_of(SpeedPart::plain);
   for (const std::string& scene : settings.scenes_of(SpeedPart::plain)) {
     interrupt.check();
     PlainBench bench(scene, settings, interrupt, results);
     if (bench.is_textured()) {
       std::cerr << "dmpc: " << scene << " has textures, of which the plain renderer knows nothing: left out of part plain\n";
-      continue;
+    } else {
+      bench.measure(settings.rounds_of(SpeedPart::plain));
     }
-    bench.prepare();
-    Progress progress(std::cerr, stderr_is_terminal(), scene + " beside a plain renderer:", "renders");
-    round_by_round(rounds, contenders.size(), progress, [&](std::size_t index) { bench.measure(index); });
-    bench.compare();
   }
 }
 

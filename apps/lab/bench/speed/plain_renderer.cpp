@@ -1,11 +1,9 @@
 #include "apps/lab/bench/speed/plain_renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/lab/bench/speed/crew.h"

@@ -4,48 +4,34 @@
 #include <utility>
 
 #include "apps/edge/table/averages.h"
+#include "apps/edge/table/filled_columns.h"
 
 namespace dmpc::apps {
 namespace {
 
-std::vector<Column> columns() {
-  return {{"part"},
-          {"scene"},
-          {"what"},
-          {"detail"},
-          {"threads or nodes"},
-          {"subject"},
-          {"rival"},
-          {"unit"},
-          {"subject's figure", "", 4},
-          {"rival's figure", "", 4},
-          {"ratio", "", 3},
-          {"least ratio", "", 3},
-          {"largest ratio", "", 3},
-          {"rounds"}};
+/// The middle one of the rounds that both have ended.
+double median_of(const Comparison& comparison, const std::vector<double>& figures) {
+  return median({figures.begin(), figures.begin() + static_cast<std::ptrdiff_t>(comparison.rounds())});
 }
 
-double median_of(const std::vector<double>& figures, std::size_t rounds) {
-  return median({figures.begin(), figures.begin() + static_cast<std::ptrdiff_t>(rounds)});
-}
-
-std::vector<Cell> row_of(const Comparison& comparison) {
-  const std::size_t rounds = comparison.rounds();
-  const RatioSpread ratio = ratio_of(comparison);
-  return {std::string(name_of(comparison.part)),
-          comparison.scene,
-          comparison.what,
-          comparison.detail,
-          comparison.threads == 0 ? Cell() : Cell(std::uint64_t{comparison.threads}),
-          comparison.subject,
-          comparison.rival,
-          comparison.unit,
-          median_of(comparison.subject_figures, rounds),
-          median_of(comparison.rival_figures, rounds),
-          ratio.median,
-          ratio.least,
-          ratio.most,
-          std::uint64_t{rounds}};
+const FilledColumns<Comparison>& comparison_columns() {
+  using C = Comparison;
+  static const FilledColumns<C> columns = {
+      {{"part"}, [](const C& c) { return name_of(c.part); }},
+      {{"scene"}, &C::scene},
+      {{"what"}, &C::what},
+      {{"detail"}, &C::detail},
+      {{"threads or nodes"}, [](const C& c) { return c.threads == 0 ? Cell() : Cell(std::uint64_t{c.threads}); }},
+      {{"subject"}, &C::subject},
+      {{"rival"}, &C::rival},
+      {{"unit"}, &C::unit},
+      {{"subject's figure", "", 4}, [](const C& c) { return median_of(c, c.subject_figures); }},
+      {{"rival's figure", "", 4}, [](const C& c) { return median_of(c, c.rival_figures); }},
+      {{"ratio", "", 3}, [](const C& c) { return ratio_of(c).median; }},
+      {{"least ratio", "", 3}, [](const C& c) { return ratio_of(c).least; }},
+      {{"largest ratio", "", 3}, [](const C& c) { return ratio_of(c).most; }},
+      {{"rounds"}, &C::rounds}};
+  return columns;
 }
 
 std::string pair_named_in(const Comparison& comparison) {
@@ -62,9 +48,9 @@ bool are_of_one_bar(const Comparison& a, const Comparison& b) {
 }  // namespace
 
 Table table_of(std::span<const Comparison> comparisons, const std::string& title) {
-  Table table(title, columns());
+  Table table(title, heads_of(comparison_columns()));
   for (const Comparison* const comparison : measured(comparisons, [](const Comparison&) { return true; })) {
-    table.add_row(row_of(*comparison));
+    table.add_row(row_of(comparison_columns(), *comparison));
   }
   return table;
 }

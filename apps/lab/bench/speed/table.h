@@ -3,7 +3,6 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 #include "apps/edge/table/plot.h"
 #include "apps/edge/table/table.h"

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <iostream>
 #include <limits>
-#include <memory>
 
 #include "apps/edge/line/words.h"
 #include "apps/edge/system/progress.h"
@@ -133,11 +132,11 @@ int bench_stability_command(const StabilityOptions& options, Interrupt& interrup
   announce("bench stability", effort_of(options), options.quiet, std::cerr);
   const StabilityRun run(stability_cases({options.rays}, options.tests), options.seed);
   KeptRun kept(options, run);
-  const auto write = [&](bool, Attempts& attempts) {
-    files.write({.text = text_of(table_of(kept.state(), options.seed), options.table.format)}, output, std::cerr, attempts);
+  const auto result = [&](bool) -> TableResult {
+    return {.text = text_of(table_of(kept.state(), options.seed), options.table.format)};
   };
-  const int status =
-      run_tabled({.measure = [&] { kept.finish(interrupt); }, .consequence = "nothing was written", .write = write}, interrupt);
+  const int status = run_tabled({.measure = [&] { kept.finish(interrupt); }, .consequence = "nothing was written"}, result, files,
+                                interrupt, output);
   return kept.state().own_failures() == 0 ? status : failed_status;
 }
 

@@ -1,9 +1,7 @@
 // R6: every point of every primitive lies in boxes that lead to the primitive, with the pad and (to rounding of the points)
 // without.
 #include <array>
-#include <cmath>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "apps/lab/bench/stability/case.h"

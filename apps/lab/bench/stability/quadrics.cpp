@@ -1,9 +1,7 @@
 // Cancellation: far, tiny spheres and grazed cones, the error of t in units of a float's last place against long double.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "apps/lab/bench/stability/case.h"
 #include "apps/lab/bench/stability/rays.h"

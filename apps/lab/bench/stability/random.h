@@ -1,7 +1,6 @@
 // A seeded source of numbers, points and directions, the same on every machine.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "core/base/sampling.h"

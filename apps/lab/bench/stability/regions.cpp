@@ -2,7 +2,6 @@
 // owner to owner ends with the same bits.
 #include <array>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 

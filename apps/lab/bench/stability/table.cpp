@@ -1,9 +1,8 @@
 #include "apps/lab/bench/stability/table.h"
 
 #include <string>
-#include <utility>
-#include <vector>
 
+#include "apps/edge/table/filled_columns.h"
 #include "apps/oracle/oracle.h"
 #include "core/trace/kernel.h"
 
@@ -11,22 +10,34 @@ namespace dmpc::apps {
 namespace {
 
 constexpr double per_billion = 1e9;
-/// Where the columns behind `wrong hits` stand.
-constexpr std::size_t claims_column = 5, unexplained_column = 6, explained_column = 7, rate_column = 8, error_column = 9;
 
-void add_row(Table& table, const std::string& test, StabilityKernel kernel, const StabilityCounts& counts) {
-  std::vector<Cell> row{test, std::string(name_of(kernel)), counts.tried, counts.leaks, counts.wrong_hits};
-  row.resize(table.columns().size());
-  if (kernel == StabilityKernel::regions) {
-    row[claims_column] = counts.double_claims;
-  }
-  row[unexplained_column] = counts.unexplained;
-  row[explained_column] = counts.explained;
-  row[rate_column] = failure_rate_bound(counts.failures(), counts.tried) * per_billion;
-  if (counts.error_milliulp > 0) {
-    row[error_column] = static_cast<double>(counts.error_milliulp) / 1000;
-  }
-  table.add_row(std::move(row));
+/// What a kernel came to in a test.
+struct KernelRow {
+  const std::string& test;
+  StabilityKernel kernel;
+  const StabilityCounts& counts;
+
+  double rate_bound() const { return failure_rate_bound(counts.failures(), counts.tried) * per_billion; }
+};
+
+const FilledColumns<KernelRow>& stability_columns() {
+  using Row = KernelRow;
+  static const FilledColumns<Row> columns = {
+      {{"test"}, [](const Row& row) { return row.test; }},
+      {{"kernel"}, [](const Row& row) { return std::string(name_of(row.kernel)); }},
+      {{"rays tried"}, [](const Row& row) { return row.counts.tried; }},
+      {{"leaks"}, [](const Row& row) { return row.counts.leaks; }},
+      {{"wrong hits"}, [](const Row& row) { return row.counts.wrong_hits; }},
+      {{"double claims"},
+       only_if([](const Row& row) { return row.kernel == StabilityKernel::regions; },
+               [](const Row& row) { return row.counts.double_claims; })},
+      {{"unexplained"}, [](const Row& row) { return row.counts.unexplained; }},
+      {{"within rounding"}, [](const Row& row) { return row.counts.explained; }},
+      {{"failure rate at most", "per 10^9", 0}, &Row::rate_bound},
+      {{"worst error", "ulp", 3},
+       only_if([](const Row& row) { return row.counts.error_milliulp > 0; },
+               [](const Row& row) { return static_cast<double>(row.counts.error_milliulp) / 1000; })}};
+  return columns;
 }
 
 void add_notes(Table& table, const StabilityState& state) {
@@ -49,20 +60,11 @@ void add_notes(Table& table, const StabilityState& state) {
 Table table_of(const StabilityState& state, std::uint64_t seed) {
   Table table("Numerical stability: our grid (" + std::string(core::simd_name()) + ") beside Embree " + embree_version() +
                   ", seed " + std::to_string(seed),
-              {{"test"},
-               {"kernel"},
-               {"rays tried"},
-               {"leaks"},
-               {"wrong hits"},
-               {"double claims"},
-               {"unexplained"},
-               {"within rounding"},
-               {"failure rate at most", "per 10^9", 0},
-               {"worst error", "ulp", 3}});
+              heads_of(stability_columns()));
   for (const StabilityRow& row : state.rows) {
     for (std::size_t k = 0; k < row.counts.size(); ++k) {
       if (row.counts[k].tried > 0) {
-        add_row(table, row.name, static_cast<StabilityKernel>(k), row.counts[k]);
+        table.add_row(row_of(stability_columns(), KernelRow{row.name, static_cast<StabilityKernel>(k), row.counts[k]}));
       }
     }
   }

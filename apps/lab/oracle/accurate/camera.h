@@ -1,8 +1,6 @@
 // From a place on the picture to a primary ray in double precision.
 #pragma once
 
-#include <cstdint>
-
 #include "apps/lab/oracle/accurate/ray.h"
 #include "core/scene/scene.h"
 

@@ -1,8 +1,6 @@
 #include "apps/lab/oracle/accurate/ray_log.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 
 #include "core/base/expect.h"
 #include "core/base/sampling.h"

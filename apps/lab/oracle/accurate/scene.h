@@ -1,7 +1,6 @@
 // A scene in double precision as the accurate renderer takes it: flat lists, world coordinates.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "apps/lab/oracle/accurate/body.h"

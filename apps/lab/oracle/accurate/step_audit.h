@@ -1,7 +1,6 @@
 // Whether each single step of the product's way through a pixel is right but for rounding, however far the steps lead together.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>

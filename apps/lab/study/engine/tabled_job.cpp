@@ -36,6 +36,12 @@ int run_tabled(const TabledJob& job, Interrupt& interrupt) {
   return attempts.status();
 }
 
+int run_tabled(TabledJob job, const std::function<TableResult(bool is_whole)>& result, const TableFiles& files,
+               Interrupt& interrupt, std::ostream& output) {
+  job.write = [&](bool is_whole, Attempts& attempts) { files.write(result(is_whole), output, std::cerr, attempts); };
+  return run_tabled(job, interrupt);
+}
+
 TableResult study_result(StudyFindings findings, TableFormat format) {
   std::string text = text_of(findings.table, format);
   const auto kept = std::make_shared<const StudyFindings>(std::move(findings));

@@ -22,7 +22,8 @@ struct TabledJob {
   std::function<void()> measure;
   std::function<bool()> has_findings = {};                             ///< though measure() threw; without it there are none then
   const char* consequence = "the table has the rows finished before";  ///< of a signal, once it is written: a literal
-  std::function<void(bool is_whole, Attempts& attempts)> write;        ///< what was found, all of it or what there is
+  /// Writes what was found, all of it or what there is.
+  std::function<void(bool is_whole, Attempts& attempts)> write = {};
 };
 
 /// Measures, and writes what was found whatever ended that: a table to the file asked for (whole or not at all), else to the
@@ -30,6 +31,9 @@ struct TabledJob {
 /// is said on stderr and keeps nothing else from being written. Returns the exit status, 0 or that of the first such output;
 /// rethrows what ended the measuring before its time, Interrupted after a signal.
 int run_tabled(const TabledJob& job, Interrupt& interrupt);
+/// What is written is result(is_whole).
+int run_tabled(TabledJob job, const std::function<TableResult(bool is_whole)>& result, const TableFiles& files,
+               Interrupt& interrupt, std::ostream& output);
 
 /// One table with its plots, and what its page tells beside them.
 struct StudyFindings {

@@ -1,7 +1,6 @@
 #include "apps/lab/study/paper/catalogue.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "apps/edge/machine/machines.h"
 #include "core/base/expect.h"

@@ -1,6 +1,5 @@
 // What Table 3 owes to the sizes of memories and to the order of records.
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -6,12 +6,12 @@
 #include <map>
 #include <numeric>
 #include <tuple>
-#include <utility>
 
 #include "apps/edge/system/progress.h"
 #include "apps/lab/study/engine/measure_each.h"
 #include "apps/lab/study/paper/hot_spots.h"
 #include "apps/run/report.h"
+#include "apps/run/run_strategy.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "dataflow/regions/bsp.h"
@@ -57,27 +57,19 @@ std::optional<std::uint32_t> cache_pages_of(const PaperRun& run, const core::Dat
 }
 
 Report report_of(const PaperRun& run, const Subject& subject, const std::stop_token& stop) {
-  if (run.strategy == Strategy::dataflow) {
-    dataflow::RunOptions options{
-        .computer = {.node_count = run.node_count, .node_memory_bytes = run.node_memory_bytes, .machine = run.machine},
-        .rays = run.rays};
-    options.rays.topology = run.machine.topology;
-    return dataflow::run_dataflow(subject.database, subject.settings, options, stop);
-  }
-  svm::RunOptions options{
-      .computer = {.node_count = run.node_count, .node_memory_bytes = run.node_memory_bytes, .machine = run.machine},
-      .pages = run.pages};
+  StrategyOptions options{.strategy = run.strategy,
+                          .computer = {.node_count = run.node_count, .node_memory_bytes = run.node_memory_bytes},
+                          .pages = run.pages,
+                          .rays = run.rays};
+  choose_machine(options, run.machine);
   options.pages.cache_pages = cache_pages_of(run, subject.database);
-  if (run.strategy == Strategy::replicated) {
-    return svm::run_replicated(subject.database, subject.settings, options, stop);
-  }
-  return svm::run_svm(subject.database, subject.settings, options, stop);
+  return make_ready(options, subject.database, subject.settings, stop).start([](std::uint32_t, std::uint32_t) {}, stop);
 }
 
 PaperResult result_of(const Report& report, const core::Database& database) {
   const Account account = account_of(report);
   PaperResult result{.total_ns = account.virtual_time->total_ns,
-                     .parts = parts_of(sum_of_nodes(*account.virtual_time), account.waits),
+                     .parts = parts_of(account),
                      .rays = account.operations.ray_count(),
                      .tests = std::accumulate(account.operations.primitive_tests.begin(),
                                               account.operations.primitive_tests.end(), std::uint64_t{0}),

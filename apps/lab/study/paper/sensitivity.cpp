@@ -1,6 +1,5 @@
 #include "apps/lab/study/paper/sensitivity.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>

@@ -1,7 +1,6 @@
 #include "apps/lab/study/paper/tables.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>

@@ -3,14 +3,13 @@
 #include <iostream>
 #include <mutex>
 #include <optional>
-#include <utility>
 
 #include "apps/edge/line/number_text.h"
-#include "apps/edge/line/option_values.h"
 #include "apps/edge/show/references/reference_file.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/table/geometric_sizes.h"
 #include "apps/edge/table/table_files.h"
+#include "apps/lab/study/cache.h"
 #include "apps/lab/study/cache_curves.h"
 #include "apps/lab/study/engine/tabled_job.h"
 
@@ -19,7 +18,6 @@ namespace {
 
 constexpr const char* references_data_file = "references.csv";
 constexpr std::uint32_t references_size_count = 12;
-constexpr std::uint32_t references_cache_pages_max = 0x7fffffff;
 
 TableFiles files_of(const ReferencesOptions& options) {
   return {options.table, {names_of(references_data_file, {CacheCurves::plot()})}, {.inputs = {{"FILE", options.file}}}};
@@ -56,9 +54,7 @@ Table table_of(const ReferenceTrace& trace, const ReferencesOptions& options, co
     interrupt.check();
     fed.count();
   });
-  for (std::size_t row = 0; row < curves.row_count(); ++row) {
-    table.add_row(curves.row(row, trace.page_count));
-  }
+  curves.add_rows(trace.page_count, table);
   table.add_note(
       "Each node has a cache of its own, and faults are those of all. Share of pages: the cache of one node over all "
       "that are referenced. Misses are given as a share of all references.");
@@ -73,12 +69,7 @@ void add_options(OptionSet set, ReferencesOptions& options) {
   set.add_argument(
       "FILE", [&options](const std::string& text) { options.file = text; },
       "A CSV file whose first line names its columns: page, and perhaps node; others are passed over");
-  set.add_text(
-      "--cache-pages", "N,N,... [12 from 1 to all]",
-      [&options](const std::string& text) {
-        options.cache_pages = parse_numbers(text, "--cache-pages", references_cache_pages_max);
-      },
-      "Sizes of the caches in pages");
+  add_cache_pages(set, options.cache_pages);
   add_options(set, options.table, TableExtras::plots_and_report);
   set.add_quiet(options.quiet);
   set.set_examples(
@@ -95,17 +86,15 @@ int study_references_command(const ReferencesOptions& options, Interrupt& interr
     return read_references(std::filesystem::path(options.file));
   }();
   std::optional<Table> table;
-  const auto write = [&](bool, Attempts& attempts) {
-    files.write(study_result({.title = "Study references of " + options.file,
-                              .table = *table,
-                              .data_file = references_data_file,
-                              .plots = {CacheCurves::plot()}},
-                             options.table.format),
-                output, std::cerr, attempts);
+  const auto result = [&](bool) {
+    return study_result({.title = "Study references of " + options.file,
+                         .table = *table,
+                         .data_file = references_data_file,
+                         .plots = {CacheCurves::plot()}},
+                        options.table.format);
   };
-  return run_tabled(
-      {.measure = [&] { table = table_of(trace, options, interrupt); }, .consequence = "nothing was written", .write = write},
-      interrupt);
+  return run_tabled({.measure = [&] { table = table_of(trace, options, interrupt); }, .consequence = "nothing was written"},
+                    result, files, interrupt, output);
 }
 
 }  // namespace dmpc::apps

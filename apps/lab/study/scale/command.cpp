@@ -143,13 +143,10 @@ int study_scale_command(const ScaleOptions& options, Interrupt& interrupt, std::
     results.push_back(std::move(result));
     shown.show(scale_rows(results, options.settings));
   };
-  const auto write = [&](bool is_whole, Attempts& attempts) {
-    files.write(result_of(results, options, load, is_whole), output, std::cerr, attempts);
-  };
-  const int status = run_tabled({.measure = [&] { measure_scale(runs, options.settings, interrupt, take); },
-                                 .has_findings = [&] { return !results.empty(); },
-                                 .write = write},
-                                interrupt);
+  const int status = run_tabled(
+      {.measure = [&] { measure_scale(runs, options.settings, interrupt, take); },
+       .has_findings = [&] { return !results.empty(); }},
+      [&](bool is_whole) { return result_of(results, options, load, is_whole); }, files, interrupt, output);
   check_any_fits(results);
   return status;
 }

@@ -1,77 +1,65 @@
 #include "apps/lab/study/scale/figures.h"
 
-#include <nlohmann/json.hpp>
-
 #include "apps/edge/table/averages.h"
+#include "apps/edge/table/filled_columns.h"
+#include "apps/lab/study/engine/render_process.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr double bytes_per_megabyte = 1e6;
 
-double number_at(const Json& json, const char* pointer) { return json.at(Json::json_pointer(pointer)).get<double>(); }
+/// What a run tells.
+struct ScaleStats {
+  const std::vector<Figure>& stats;
+  std::optional<std::size_t> memory_bytes;
 
-std::optional<double> number_if_any(const Json& json, const char* pointer) {
-  const Json::json_pointer at(pointer);
-  return json.contains(at) && json.at(at).is_number() ? std::optional(json.at(at).get<double>()) : std::nullopt;
-}
-
-std::optional<double> over(std::optional<double> number, double divisor) {
-  return number && divisor > 0 ? std::optional(*number / divisor) : std::nullopt;
-}
-
-double local_memories(const Json& json) {
-  double bytes = 0;
-  for (const Json& node : json.at("nodes")) {
-    bytes += number_at(node, "/memory/planned/total");
+  double operator[](const char* name) const { return needed_number(stats, name); }
+  std::optional<double> if_any(const char* name) const { return number_of(stats, name); }
+  std::optional<double> a_ray(std::optional<double> number) const {
+    const double rays = (*this)["rays.total"];
+    return number && rays > 0 ? std::optional(*number / rays) : std::nullopt;
   }
-  return bytes;
-}
-
-void read_times(const Json& json, ScaleFigures& figures) {
-  figures[ScaleFigure::load] = number_at(json, "/seconds/load");
-  figures[ScaleFigure::build] = number_at(json, "/seconds/build");
-  figures[ScaleFigure::prepare] = number_at(json, "/seconds/prepare");
-  figures[ScaleFigure::render] = number_at(json, "/seconds/render");
-  figures[ScaleFigure::processor] = number_at(json, "/seconds/render_user") + number_at(json, "/seconds/render_system");
-  double total = number_at(json, "/seconds/write");
-  for (const ScaleFigure phase : {ScaleFigure::load, ScaleFigure::build, ScaleFigure::prepare, ScaleFigure::render}) {
-    total += *figures[phase];
+  double local_memory_bytes() const {
+    double bytes = 0;
+    for (const Figure& figure : stats) {
+      bytes += is_within(figure.name, "nodes.*.memory.planned.total") ? number_of(figure.value).value_or(0) : 0;
+    }
+    return bytes;
   }
-  figures[ScaleFigure::total] = total;
+};
+
+double total_seconds(const ScaleStats& told) {
+  return told["seconds.write"] + told["seconds.load"] + told["seconds.build"] + told["seconds.prepare"] + told["seconds.render"];
 }
 
-void read_counts(const Json& json, ScaleFigures& figures) {
-  const double rays = number_at(json, "/rays/total");
-  figures[ScaleFigure::database] = number_at(json, "/database/bytes") / bytes_per_megabyte;
-  figures[ScaleFigure::local_memory] = local_memories(json) / bytes_per_megabyte;
-  figures[ScaleFigure::faults] = over(number_if_any(json, "/pages/faults"), rays);
-  figures[ScaleFigure::packets] = over(number_at(json, "/packets/sent"), rays);
-  figures[ScaleFigure::moves] = number_if_any(json, "/travel/messages_per_ray");
-  figures[ScaleFigure::pages] = number_if_any(json, "/pages/distinct_per_pixel");
+/// By number.
+const std::array<FilledColumn<ScaleStats>, scale_figure_count>& scale_figure_columns() {
+  const auto megabytes = [](double bytes) { return bytes / bytes_per_megabyte; };
+  static const std::array<FilledColumn<ScaleStats>, scale_figure_count> columns = {
+      {{{"load", "s", 3}, [](const ScaleStats& told) { return told["seconds.load"]; }},
+       {{"build", "s", 3}, [](const ScaleStats& told) { return told["seconds.build"]; }},
+       {{"prepare", "s", 3}, [](const ScaleStats& told) { return told["seconds.prepare"]; }},
+       {{"render", "s", 3}, [](const ScaleStats& told) { return told["seconds.render"]; }},
+       {{"total", "s", 3}, total_seconds},
+       {{"processor", "s", 3},
+        [](const ScaleStats& told) { return told["seconds.render_user"] + told["seconds.render_system"]; }},
+       {{"database", "MB", 2}, [=](const ScaleStats& told) { return megabytes(told["database.bytes"]); }},
+       {{"memory", "MB", 2},
+        only_if([](const ScaleStats& told) { return told.memory_bytes.has_value(); },
+                [=](const ScaleStats& told) { return megabytes(static_cast<double>(*told.memory_bytes)); })},
+       {{"local memory", "MB", 2}, [=](const ScaleStats& told) { return megabytes(told.local_memory_bytes()); }},
+       {{"faults a ray", "", 4}, [](const ScaleStats& told) { return cell_of(told.a_ray(told.if_any("pages.faults"))); }},
+       {{"packets a ray", "", 4}, [](const ScaleStats& told) { return cell_of(told.a_ray(told["packets.sent"])); }},
+       {{"moves a ray", "", 3}, [](const ScaleStats& told) { return cell_of(told.if_any("travel.messages_per_ray")); }},
+       {{"pages a pixel", "", 2}, [](const ScaleStats& told) { return cell_of(told.if_any("pages.distinct_per_pixel")); }}}};
+  return columns;
 }
 
 }  // namespace
 
-const Column& column_of(ScaleFigure figure) {
-  static const std::array<Column, scale_figure_count> columns = {{{"load", "s", 3},
-                                                                  {"build", "s", 3},
-                                                                  {"prepare", "s", 3},
-                                                                  {"render", "s", 3},
-                                                                  {"total", "s", 3},
-                                                                  {"processor", "s", 3},
-                                                                  {"database", "MB", 2},
-                                                                  {"memory", "MB", 2},
-                                                                  {"local memory", "MB", 2},
-                                                                  {"faults a ray", "", 4},
-                                                                  {"packets a ray", "", 4},
-                                                                  {"moves a ray", "", 3},
-                                                                  {"pages a pixel", "", 2}}};
-  return columns[static_cast<std::size_t>(figure)];
-}
+const Column& column_of(ScaleFigure figure) { return scale_figure_columns()[static_cast<std::size_t>(figure)].column; }
 
 std::vector<ScaleFigure> all_scale_figures() {
   std::vector<ScaleFigure> figures;
@@ -81,21 +69,19 @@ std::vector<ScaleFigure> all_scale_figures() {
   return figures;
 }
 
-ScaleFigures scale_figures_of(const std::string& stats, std::optional<std::size_t> memory_bytes) {
-  try {
-    const Json json = Json::parse(stats);
-    ScaleFigures figures;
-    read_times(json, figures);
-    read_counts(json, figures);
-    if (memory_bytes) {
-      figures[ScaleFigure::memory] = static_cast<double>(*memory_bytes) / bytes_per_megabyte;
-    }
-    figures.primitives = json.at("database").at("primitives").get<std::uint64_t>();
-    figures.film_hash = json.at("film_hash").get<std::string>();
-    return figures;
-  } catch (const Json::exception& error) {
-    throw core::InternalError(std::string("the statistics of a render cannot be read: ") + error.what());
+ScaleFigures scale_figures_of(const std::vector<Figure>& stats, std::optional<std::size_t> memory_bytes) {
+  const ScaleStats told{stats, memory_bytes};
+  ScaleFigures figures;
+  for (const ScaleFigure figure : all_scale_figures()) {
+    const Cell cell = scale_figure_columns()[static_cast<std::size_t>(figure)].cell(told);
+    const double* const number = std::get_if<double>(&cell);
+    figures[figure] = number != nullptr ? std::optional(*number) : std::nullopt;
   }
+  figures.primitives = static_cast<std::uint64_t>(told["database.primitives"]);
+  const FigureValue* const film = find_value(stats, "film_hash");
+  core::expect(film != nullptr, "the statistics of a render have its film's hash");
+  figures.film_hash = text_of(*film);
+  return figures;
 }
 
 ScaleFigures median_figures(const std::vector<ScaleFigures>& rounds) {

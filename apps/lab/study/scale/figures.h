@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/edge/table/table.h"
+#include "apps/lab/figures/figures_file.h"
 
 namespace dmpc::apps {
 
@@ -51,8 +52,8 @@ class ScaleFigures {
 /// Each by number.
 std::vector<ScaleFigure> all_scale_figures();
 
-/// From what `render --stats` writes, and the memory if it is known. Throws core::InternalError for a text that is no such JSON.
-ScaleFigures scale_figures_of(const std::string& stats, std::optional<std::size_t> memory_bytes);
+/// From what `render --stats` writes, and the memory if it is known. Throws core::InternalError if figures are missing there.
+ScaleFigures scale_figures_of(const std::vector<Figure>& stats, std::optional<std::size_t> memory_bytes);
 
 /// Median by median of runs that give one film, which is asserted. Requires one at least.
 ScaleFigures median_figures(const std::vector<ScaleFigures>& rounds);

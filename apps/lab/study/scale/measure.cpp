@@ -1,28 +1,19 @@
 #include "apps/lab/study/scale/measure.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <map>
-#include <sstream>
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
-#include "apps/edge/system/scratch_folder.h"
 #include "apps/edge/system/watched_process.h"
 #include "apps/lab/study/engine/measure_each.h"
-#include "apps/lab/study/render_process.h"
+#include "apps/lab/study/engine/render_process.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
-
-std::string text_of_file(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// The anonymous memory of a dmpc that does nothing; that ends so soon that it is watched several times, and may not be seen.
 std::optional<std::size_t> idle_bytes(const ScaleSettings& settings, const Interrupt& interrupt) {
@@ -42,49 +33,37 @@ std::optional<std::size_t> idle_bytes(const ScaleSettings& settings, const Inter
 class ScaleBench {
  public:
   ScaleBench(const ScaleSettings& settings, const Interrupt& interrupt)
-      : settings_(settings), interrupt_(interrupt), idle_bytes_(idle_bytes(settings, interrupt)) {}
+      : settings_(settings),
+        interrupt_(interrupt),
+        idle_bytes_(idle_bytes(settings, interrupt)),
+        renders_(settings.program, interrupt) {}
 
   ScaleResult measure(const ScaleRun& run) {
-    ScaleResult result{.run = run, .figures = {}, .misfit = {}};
     std::vector<ScaleFigures> rounds;
-    while (rounds.size() < settings_.rounds && result.misfit.empty()) {
+    while (rounds.size() < settings_.rounds) {
       interrupt_.check();
-      const WatchedProcess process = render(run);
-      if (const auto misfit = misfit_of(process)) {
-        result.misfit = *misfit;
-      } else {
-        rounds.push_back(scale_figures_of(text_of_file(folder_ / stats_name), above_idle(process.peak_anonymous_bytes)));
+      const RenderEnd end = renders_.run(render_arguments(run, settings_), "render");
+      if (!end.figures) {
+        return {.run = run, .figures = {}, .misfit = end.misfit};
       }
+      rounds.push_back(scale_figures_of(*end.figures, above_idle(end.peak_anonymous_bytes)));
     }
-    if (result.misfit.empty()) {
-      result.figures = median_figures(rounds);
-      check_film(run, *result.figures);
-    }
-    return result;
+    const ScaleFigures middle = median_figures(rounds);
+    const auto film = films_.emplace(run.scene.text(), middle.film_hash).first;
+    core::expect(film->second == middle.film_hash, "every run of a scene gives the same film");
+    return {.run = run, .figures = middle, .misfit = {}};
   }
 
  private:
-  static constexpr const char* stats_name = "stats.json";
-
-  WatchedProcess render(const ScaleRun& run) {
-    const std::string stats = folder_ / stats_name, picture = folder_ / "picture.exr";
-    return watch_process(settings_.program, render_arguments(run, settings_, stats, picture), interrupt_);
-  }
-
   /// Nothing unless both were seen.
   std::optional<std::size_t> above_idle(std::optional<std::size_t> bytes) const {
     return bytes && idle_bytes_ ? std::optional(*bytes - std::min(*bytes, *idle_bytes_)) : std::nullopt;
   }
 
-  void check_film(const ScaleRun& run, const ScaleFigures& figures) {
-    const auto film = films_.emplace(run.scene.text(), figures.film_hash).first;
-    core::expect(film->second == figures.film_hash, "every run of a scene gives the same film");
-  }
-
   const ScaleSettings& settings_;
   const Interrupt& interrupt_;
   std::optional<std::size_t> idle_bytes_;  ///< of the libraries, before anything is done
-  ScratchFolder folder_;
+  RenderProcesses renders_;
   std::map<std::string, std::string> films_;  ///< by scene
 };
 
@@ -94,17 +73,10 @@ std::string label_of(const ScaleRun& run, const ScaleSettings& settings) {
 
 }  // namespace
 
-std::vector<std::string> render_arguments(const ScaleRun& run, const ScaleSettings& settings, const std::string& stats,
-                                          const std::string& picture) {
+std::vector<std::string> render_arguments(const ScaleRun& run, const ScaleSettings& settings) {
   const std::string size = std::to_string(settings.resolution.width) + "x" + std::to_string(settings.resolution.height);
-  std::vector<std::string> words = {"render",
-                                    run.scene.text(),
-                                    "--nodes=" + std::to_string(run.node_count),
-                                    "--quiet",
-                                    "--resolution=" + size,
-                                    "--stats=" + stats,
-                                    "-o",
-                                    picture};
+  std::vector<std::string> words = {"render", run.scene.text(), "--nodes=" + std::to_string(run.node_count),
+                                    "--resolution=" + size};
   if (run.method == ScaleMethod::dataflow) {
     words.emplace_back("--strategy=dataflow");
     return words;

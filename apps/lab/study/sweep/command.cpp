@@ -138,11 +138,9 @@ int study_sweep_command(const StudySweepOptions& options, Interrupt& interrupt, 
       progress.update(results.size(), runs.size());
     });
   };
-  const auto write = [&](bool is_whole, Attempts& attempts) {
-    files.write(result_of(options, runs, results, is_whole), output, std::cerr, attempts);
-  };
-  const int status =
-      run_tabled({.measure = measure, .has_findings = [&] { return !results.empty(); }, .write = write}, interrupt);
+  const int status = run_tabled(
+      {.measure = measure, .has_findings = [&] { return !results.empty(); }},
+      [&](bool is_whole) { return result_of(options, runs, results, is_whole); }, files, interrupt, output);
   check_any_fits(results);
   return status;
 }

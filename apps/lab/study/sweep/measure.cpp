@@ -3,68 +3,34 @@
 #include <algorithm>
 #include <utility>
 
-#include "apps/edge/system/scratch_folder.h"
-#include "apps/edge/system/watched_process.h"
 #include "apps/lab/study/engine/measure_each.h"
-#include "apps/lab/study/render_process.h"
+#include "apps/lab/study/engine/render_process.h"
 #include "apps/lab/study/sweep/kept_runs.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
-namespace {
-
-class SweepBench {
- public:
-  SweepBench(const SweepSettings& settings, const OpenedFiles& scene, const Interrupt& interrupt)
-      : settings_(settings), interrupt_(interrupt) {
-    if (settings.kept) {
-      kept_.emplace(*settings.kept, settings.program, scene);
-    }
-  }
-
-  /// From any thread; `number` is no other run's.
-  SweepResult measure(const SweepRun& run, std::size_t number) const {
-    interrupt_.check();
-    if (auto figures = kept_ ? kept_->find(run) : std::nullopt) {
-      return {.run = run, .figures = std::move(figures), .misfit = {}, .is_kept = true};
-    }
-    const std::string name = std::to_string(number);
-    const std::filesystem::path stats = kept_ ? kept_->file_of(run) : folder_ / (name + ".json");
-    const std::filesystem::path picture = folder_ / (name + ".exr");
-    const WatchedProcess process = watch_process(settings_.program, render_words(run, stats, picture), interrupt_);
-    std::error_code ignored;
-    std::filesystem::remove(picture, ignored);
-    if (const std::optional<std::string> misfit = misfit_or_throw(run, process)) {
-      return {.run = run, .figures = {}, .misfit = *misfit};
-    }
-    return {.run = run, .figures = read_figures(stats), .misfit = {}};
-  }
-
- private:
-  std::optional<std::string> misfit_or_throw(const SweepRun& run, const WatchedProcess& process) const {
-    try {
-      return misfit_of(process);
-    } catch (const core::InputError& error) {
-      throw core::InputError("the run with " + text_of(settings_.variations, run) + " failed: " + error.what());
-    }
-  }
-
-  const SweepSettings& settings_;
-  const Interrupt& interrupt_;
-  std::optional<KeptRuns> kept_;
-  ScratchFolder folder_;
-};
-
-}  // namespace
 
 void measure_sweep(const SweepSettings& settings, const std::vector<SweepRun>& runs, const OpenedFiles& scene,
                    const Interrupt& interrupt, const std::function<void(SweepResult)>& take) {
-  const SweepBench bench(settings, scene, interrupt);
+  const RenderProcesses renders(settings.program, interrupt);
+  const std::optional<KeptRuns> kept =
+      settings.kept ? std::optional(KeptRuns(*settings.kept, settings.program, scene)) : std::nullopt;
+  const auto measure = [&](std::size_t i) -> SweepResult {
+    interrupt.check();
+    if (auto figures = kept ? kept->find(runs[i]) : std::nullopt) {
+      return {.run = runs[i], .figures = std::move(figures), .misfit = {}, .is_kept = true};
+    }
+    try {
+      RenderEnd end = renders.run(runs[i].words, std::to_string(i), kept ? std::optional(kept->file_of(runs[i])) : std::nullopt);
+      return {.run = runs[i], .figures = std::move(end.figures), .misfit = std::move(end.misfit)};
+    } catch (const core::InputError& error) {
+      throw core::InputError("the run with " + text_of(settings.variations, runs[i]) + " failed: " + error.what());
+    }
+  };
   const bool is_timed =
       std::any_of(runs.begin(), runs.end(), [](const SweepRun& run) { return is_timed_by_the_wall(run.options); });
-  measure_each(
-      runs.size(), is_timed ? Turns::one_by_one : Turns::side_by_side, [&](std::size_t i) { return bench.measure(runs[i], i); },
-      [&](std::size_t, SweepResult result) { take(std::move(result)); });
+  measure_each(runs.size(), is_timed ? Turns::one_by_one : Turns::side_by_side, measure,
+               [&](std::size_t, SweepResult result) { take(std::move(result)); });
 }
 
 }  // namespace dmpc::apps

@@ -1,7 +1,6 @@
 // The runs of a sweep, each a `dmpc render` of its own.
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>

@@ -6,6 +6,7 @@
 #include "apps/edge/line/command_line.h"
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/words.h"
+#include "apps/lab/study/engine/render_process.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
@@ -122,7 +123,7 @@ void check_options(const SweepSettings& settings) {
 /// What `render` makes of a combination.
 RenderOptions options_of(const SweepRun& run, const std::vector<VariedOption>& variations) {
   try {
-    return RenderLine().parse(render_words(run, "stats.json", "picture.exr"));
+    return RenderLine().parse(RenderProcesses::with_outputs(run.words, "stats.json", "picture.exr"));
   } catch (const core::UsageError& error) {
     throw core::UsageError("with " + text_of(variations, run) + " dmpc render would say: " + error.what());
   }
@@ -152,12 +153,6 @@ VariedOption parse_variation(const std::string& text) {
   VariedOption variation{"--" + name, option.value.empty(), words_between(text.substr(colon + 1), ',')};
   check_values(variation, text);
   return variation;
-}
-
-std::vector<std::string> render_words(const SweepRun& run, const std::string& stats, const std::string& picture) {
-  std::vector<std::string> words = run.words;
-  words.insert(words.end(), {"--quiet", "--stats=" + stats, "--output=" + picture});
-  return words;
 }
 
 std::vector<SweepRun> sweep_runs(const SweepSettings& settings) {

@@ -48,9 +48,6 @@ struct SweepRun {
 /// What it takes is wall-clock time, so nothing else should run beside it.
 inline bool is_timed_by_the_wall(const RenderOptions& options) { return options.runner.kind != RunnerKind::virtual_time; }
 
-/// The words with which `run` writes its counters and its picture.
-std::vector<std::string> render_words(const SweepRun& run, const std::string& stats, const std::string& picture);
-
 /// All combinations. Throws core::UsageError for one that `render` would not take, saying which, or for more than 10,000.
 std::vector<SweepRun> sweep_runs(const SweepSettings& settings);
 

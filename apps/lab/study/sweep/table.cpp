@@ -10,6 +10,7 @@
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/line/words.h"
 #include "apps/lab/figures/known_figures.h"
+#include "apps/lab/study/engine/render_process.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -74,9 +75,8 @@ Cell cell_of(const SweepResult& result, const std::string& figure) {
   if (!result.figures) {
     return {};
   }
-  const auto found =
-      std::find_if(result.figures->begin(), result.figures->end(), [&](const Figure& each) { return each.name == figure; });
-  return found == result.figures->end() ? Cell() : std::visit(ValueCell(), found->value);
+  const FigureValue* const value = find_value(*result.figures, figure);
+  return value == nullptr ? Cell() : std::visit(ValueCell(), *value);
 }
 
 /// Decimal places with which the largest of a column's numbers has four digits.

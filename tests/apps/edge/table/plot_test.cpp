@@ -130,8 +130,23 @@ TEST_CASE("a plot of what the table has not, of too many colours, or of bars and
   plot.places = {"nodes", "scene"};
   is_refused(plot);
   plot = bars(false);
-  plot.places = {"remark"};  // has a comma
-  is_refused(plot);
+  plot.places = {"remark"};
+  Table two_lines("Times", small_times().columns());
+  two_lines.add_row({"a", std::uint64_t{1}, 8.0, 0.0, "x\ny"});
+  CHECK_THROWS_AS(script_of(plot, two_lines, "t.csv"), core::InternalError);
+}
+
+TEST_CASE("rows and places whose names CSV has to quote, which gnuplot would cut, are known by their rows") {
+  Table table("Regions", {{"nodes"}, {"regions"}, {"load", "%", 1}});
+  for (const char* regions : {"cut", "cut, by turns", "so \"even\""}) {
+    table.add_row({std::uint64_t{4}, regions, 50.0});
+  }
+  Plot lines = apps::curves("load", "Load", "nodes", {}, {}, {{"by turns", "load", {{"regions", "cut, by turns"}}}});
+  const std::string text = script(lines, table);
+  CHECK(contains(text, "array texts2[3] = ['cut', 'cut, by turns', 'so \"even\"']\n"));
+  CHECK(contains(text, "(texts2[int(column(0)) + 1] eq 'cut, by turns' ? column('load (%)') : NaN)"));
+  Plot bars = apps::curves("load", "Load", "regions", {}, {}, {{.title = "load", .column = "load", .mark = PlotMark::bars}});
+  CHECK(contains(script(bars, table), "using (place_of(texts2[int(column(0)) + 1])):"));
 }
 
 TEST_CASE("a small plot has its legend below, and none for a single series") {

@@ -131,6 +131,17 @@ TEST_CASE("pictures of a study go to a folder that is made for them, beside the 
   CHECK_THROWS_AS(output_of(options), core::InputError);
 }
 
+TEST_CASE("pictures and a page of a study are made of regions whose names have commas") {
+  const TemporaryFolder folder;
+  StudyOptions options = small_study();
+  options.study = apps::BalanceStudy{.node_counts = {1, 2}};
+  options.table.plots = folder / "plots";
+  options.table.report = folder / "page.html";
+  output_of(options);
+  CHECK(contains(file_text(*options.table.plots / "balance_load.gnuplot"), "'scattered, 16 a node, achieved'"));
+  CHECK(contains(file_text(folder / "page.html"), "alt=\"Plot: Average load of the nodes\""));
+}
+
 TEST_CASE("a page of a study has its table and pictures, and no place where another output goes") {
   const TemporaryFolder folder;
   StudyOptions options = small_study();

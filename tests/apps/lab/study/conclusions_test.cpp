@@ -1,4 +1,4 @@
-#include "apps/lab/study/conclusions.h"
+#include "apps/lab/study/options.h"
 
 #include <doctest/doctest.h>
 
@@ -25,17 +25,16 @@ Table table_with(const Study& study, const std::vector<std::vector<std::pair<std
 }  // namespace
 
 TEST_CASE("a table without rows has no conclusion") {
-  CHECK(conclusion_of(BalanceStudy{}, table_with(BalanceStudy{}, {})).empty());
-  CHECK(conclusion_of(TrafficStudy{}, table_with(TrafficStudy{}, {})).empty());
-  CHECK(conclusion_of(SpeedupStudy{}, table_with(SpeedupStudy{}, {})).empty());
-  CHECK(conclusion_of(CacheStudy{}, table_with(CacheStudy{}, {})).empty());
-  CHECK(conclusion_of(SystemsStudy{}, table_with(SystemsStudy{}, {})).empty());
+  CHECK(BalanceStudy{}.conclusion(table_with(BalanceStudy{}, {})).empty());
+  CHECK(TrafficStudy{}.conclusion(table_with(TrafficStudy{}, {})).empty());
+  CHECK(SpeedupStudy{}.conclusion(table_with(SpeedupStudy{}, {})).empty());
+  CHECK(CacheStudy{}.conclusion(table_with(CacheStudy{}, {})).empty());
+  CHECK(SystemsStudy{}.conclusion(table_with(SystemsStudy{}, {})).empty());
 }
 
 TEST_CASE("traffic is concluded with what is cheaper on the most nodes") {
   const auto sentence = [](std::uint64_t rays, std::uint64_t pages) {
-    return conclusion_of(
-        TrafficStudy{},
+    return TrafficStudy{}.conclusion(
         table_with(TrafficStudy{}, {{{"nodes", std::uint64_t{64}}, {"ray traffic", rays}, {"page traffic", pages}}}));
   };
   CHECK(sentence(4'800'000, 12'000'000) == "On 64 nodes rays move 4.80 MB and pages 12.0 MB: rays are 2.5 times cheaper here.");
@@ -47,7 +46,7 @@ TEST_CASE("balance is concluded with both kinds of regions") {
   const Table table =
       table_with(BalanceStudy{}, {{{"nodes", std::uint64_t{4}}, {"regions", "subsampled"}, {"average load achieved", 90.0}},
                                   {{"nodes", std::uint64_t{4}}, {"regions", "equal size"}, {"average load achieved", 40.0}}});
-  CHECK(conclusion_of(BalanceStudy{}, table) ==
+  CHECK(BalanceStudy{}.conclusion(table) ==
         "On 4 nodes the average load is 90.0 % with regions by the subsampled picture, and 40.0 % with regions of equal size.");
 }
 
@@ -59,7 +58,7 @@ TEST_CASE("speedup is concluded with the last row that has figures, and its larg
                                                    {"stolen", 5.0},
                                                    {"data_wait", 20.0}},
                                                   {{"nodes", std::uint64_t{64}}}});
-  CHECK(conclusion_of(SpeedupStudy{}, table) ==
+  CHECK(SpeedupStudy{}.conclusion(table) ==
         "On 32 nodes the speedup is 24.0, an efficiency of 75.0 %; the largest loss is data wait, 20.0 % of the nodes' time.");
 }
 
@@ -70,7 +69,7 @@ TEST_CASE("caches are concluded with the size from which lru is good") {
                                                      {"faults lru", lru},
                                                      {"faults optimum", optimum}};
   };
-  CHECK(conclusion_of(CacheStudy{}, table_with(CacheStudy{}, {row(1, 1000, 1000), row(4, 500, 300), row(16, 105, 100)})) ==
+  CHECK(CacheStudy{}.conclusion(table_with(CacheStudy{}, {row(1, 1000, 1000), row(4, 500, 300), row(16, 105, 100)})) ==
         "From caches of 16 pages on (16.0 % of the database) lru is within 10 % of the best that any policy could do; it faults "
         "10.5 % as often as with 1 page.");
 }
@@ -81,7 +80,7 @@ TEST_CASE("systems are concluded with the fastest that does not hold the whole s
         {"system", system}, {"memory", memory}, {"nodes", std::uint64_t{8}}, {"virtual time", seconds}};
   };
   const Table table = table_with(SystemsStudy{}, {row("replicated", "auto", 1), row("svm", "auto", 3), row("forest", "5%", 2)});
-  CHECK(conclusion_of(SystemsStudy{}, table) ==
+  CHECK(SystemsStudy{}.conclusion(table) ==
         "Of the systems whose nodes do not hold the whole scene forest is the fastest: 2.00 s on 8 nodes, memory 5%.");
 }
 

@@ -57,8 +57,8 @@ TEST_CASE("every system has a row for each rule of memory, and one run for all r
   }));
   const Table table = subject.measure(study);
   REQUIRE(table.rows().size() == 3 * count);
-  CHECK(study.run_count() == 1 + count + 2 * with_cache);
-  CHECK(subject.runs.count() == study.run_count());
+  CHECK(study.planned().size() == 1 + count + 2 * with_cache);
+  CHECK(subject.runs.count() == study.planned().size());
   for (std::size_t row = 0; row < table.rows().size(); ++row) {
     CAPTURE(row);
     CHECK(text(table, row, "system") == name_of(study.chosen[row % count]));

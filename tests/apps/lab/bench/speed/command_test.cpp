@@ -175,6 +175,12 @@ TEST_CASE("bench speed writes its table and plots where they are asked for") {
   }
 }
 
+TEST_CASE("bench speed draws renderers whose names have commas") {
+  const TemporaryFolder folder;
+  output_of(tiny_speed({"--parts=plain", "--plots=" + folder.path().string()}));
+  CHECK(contains(file_text(folder / "speed_plain.gnuplot"), "'svm on 64 nodes, virtual / plain on 2 threads'"));
+}
+
 TEST_CASE("bench speed writes what was measured before an error ended it") {
   const TemporaryFolder folder;
   apps::Interrupt interrupt;

@@ -2,8 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <sstream>
 #include <vector>
 
+#include "apps/lab/bench/speed/matches.h"
 #include "core/base/expect.h"
 
 namespace dmpc::tests::comparison_test {
@@ -33,15 +35,37 @@ TEST_CASE("nothing is compared before a round has ended or with a rival that too
 
 TEST_CASE("what is timed is compared by the wall clock and by processor time") {
   std::vector<Comparison> results(1);
-  apps::add_timed({.scene = "tetra-2"}, results);
+  apps::Matches matches(results);
+  const auto slow = matches.add([] { return apps::figures_of({.wall_seconds = 6, .processor_seconds = 8}); });
+  const auto fast = matches.add([] { return apps::figures_of({.wall_seconds = 3, .processor_seconds = 2}); });
+  matches.compare_timed(slow, fast, {.scene = "tetra-2"});
   REQUIRE(results.size() == 3);
-  note({.wall_seconds = 6, .processor_seconds = 8}, false, &results[1]);
-  note({.wall_seconds = 3, .processor_seconds = 2}, true, &results[1]);
+  std::ostringstream silent;
+  apps::Progress progress(silent, false, "");
+  matches.measure(1, progress);
   CHECK(results[1].is_by_wall_clock());
   CHECK_FALSE(results[2].is_by_wall_clock());
   CHECK(ratio_of(results[1]).median == 2);
   CHECK(ratio_of(results[2]).median == 4);
   CHECK(results[0].rounds() == 0);
+}
+
+TEST_CASE("contenders take turns round by round, and each has one figure of a round in all its comparisons, its own included") {
+  std::vector<Comparison> results;
+  apps::Matches matches(results);
+  double clock = 0;
+  const auto first = matches.add([&] { return std::vector{++clock}; }),
+             second = matches.add([&] { return std::vector{++clock}; });
+  matches.compare(first, first, {});
+  matches.compare(second, first, {});
+  std::ostringstream silent;
+  apps::Progress progress(silent, false, "");
+  matches.measure(2, progress);
+  using Figures = std::vector<double>;
+  CHECK(results[0].subject_figures == Figures{1, 3});
+  CHECK(results[0].rival_figures == Figures{1, 3});
+  CHECK(results[1].subject_figures == Figures{2, 4});
+  CHECK(results[1].rival_figures == Figures{1, 3});
 }
 
 }  // namespace dmpc::tests::comparison_test

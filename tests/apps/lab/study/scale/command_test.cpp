@@ -94,7 +94,7 @@ TEST_CASE("the study of scale is written as text that says what it means, how bu
 TEST_CASE("a run asks for the method's strategy, cache and counters") {
   const ScaleOptions options = tiny_scale({"--cache=4KiB"});
   const auto words = [&](ScaleMethod method) {
-    return apps::render_arguments({ScalePart::sizes, {.family = "tetra", .size = 2}, method, 5}, options.settings, "s", "p");
+    return apps::render_arguments({ScalePart::sizes, {.family = "tetra", .size = 2}, method, 5}, options.settings);
   };
   CHECK(has_word(words(ScaleMethod::cache), "--cache-pages=4"));
   CHECK(has_word(words(ScaleMethod::cache), "--nodes=5"));
@@ -171,6 +171,18 @@ TEST_CASE("a program that fails by a fault of its own ends the study of scale") 
   options.settings.program =
       stand_in(folder, "[ \"$1\" = --version ] && exec " DMPC_PROGRAM " --version\necho fault >&2\nexit 3");
   CHECK_THROWS_WITH_AS(apps::study_scale_command(options, interrupt, output), doctest::Contains("fault"), core::InternalError);
+}
+
+TEST_CASE("counters of a run that cannot be read are a fault of our own") {
+  const TemporaryFolder folder;
+  ScaleOptions options = tiny_scale();
+  options.settings.program = stand_in(folder, "[ \"$1\" = --version ] && exec " DMPC_PROGRAM
+                                              " --version\nfor word; do case $word in --stats=*) "
+                                              "echo nonsense > \"${word#--stats=}\";; esac; done");
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK_THROWS_WITH_AS(apps::study_scale_command(options, interrupt, output),
+                       doctest::Contains("the statistics of a render cannot be read"), core::InternalError);
 }
 
 TEST_CASE("options of the study of scale are taken, and wrong ones refused") {

@@ -15,12 +15,16 @@ using apps::ScaleFigures;
 namespace {
 
 /// What `render --stats` writes of a run of 100 rays on two nodes, as far as it is read.
-const std::string statistics = R"({"film_hash": "0123456789abcdef",
+const std::string statistics = R"({"format": 1, "film_hash": "0123456789abcdef",
   "rays": {"total": 100}, "packets": {"sent": 50}, "pages": {"faults": 20, "distinct_per_pixel": 2.5},
   "travel": null, "database": {"bytes": 3000000, "primitives": 77},
   "seconds": {"load": 1.0, "build": 2.0, "prepare": 4.0, "render": 8.0, "write": 16.0, "user": 99.0, "system": 99.0,
               "render_user": 0.5, "render_system": 0.25},
   "nodes": [{"memory": {"planned": {"total": 1000000}}}, {"memory": {"planned": {"total": 1500000}}}]})";
+
+ScaleFigures figures_of(const std::string& stats, std::optional<std::size_t> memory_bytes) {
+  return apps::scale_figures_of(apps::parse_figures(stats, "stats.json"), memory_bytes);
+}
 
 ScaleFigures round_of(double seconds, const std::string& film = "a") {
   ScaleFigures figures;
@@ -32,7 +36,7 @@ ScaleFigures round_of(double seconds, const std::string& film = "a") {
 }  // namespace
 
 TEST_CASE("figures of a run are read from its statistics") {
-  const ScaleFigures figures = apps::scale_figures_of(statistics, 7'000'000);
+  const ScaleFigures figures = figures_of(statistics, 7'000'000);
   CHECK(figures[ScaleFigure::build] == 2);
   CHECK(figures[ScaleFigure::total] == 31);
   CHECK(figures[ScaleFigure::processor] == 0.75);
@@ -47,21 +51,19 @@ TEST_CASE("figures of a run are read from its statistics") {
   CHECK(figures.film_hash == "0123456789abcdef");
 }
 
-TEST_CASE("memory that was not seen is no figure") {
-  CHECK_FALSE(apps::scale_figures_of(statistics, std::nullopt)[ScaleFigure::memory]);
-}
+TEST_CASE("memory that was not seen is no figure") { CHECK_FALSE(figures_of(statistics, std::nullopt)[ScaleFigure::memory]); }
 
 TEST_CASE("moves are rays that dataflow sent to another node, not links that they passed") {
   const std::string travel = "\"travel\": {\"messages_per_ray\": 0.75}";
   std::string of_dataflow = statistics;
   of_dataflow.replace(of_dataflow.find("\"travel\": null"), 14, travel);
-  CHECK(apps::scale_figures_of(of_dataflow, 0)[ScaleFigure::moves] == 0.75);
+  CHECK(figures_of(of_dataflow, 0)[ScaleFigure::moves] == 0.75);
   CHECK(column_of(ScaleFigure::moves).name == "moves a ray");
 }
 
 TEST_CASE("statistics that cannot be read are a fault of our own") {
-  for (const char* text : {"", "{}", "nonsense", "{\"rays\": 3}"}) {
-    CHECK_THROWS_AS(apps::scale_figures_of(text, 0), core::InternalError);
+  for (const char* text : {"{\"format\": 1}", "{\"format\": 1, \"rays\": 3}"}) {
+    CHECK_THROWS_AS(figures_of(text, 0), core::InternalError);
   }
 }
 

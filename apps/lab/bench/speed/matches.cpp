@@ -1,0 +1,46 @@
+#include "apps/lab/bench/speed/matches.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/edge/table/rounds.h"
+
+namespace dmpc::apps {
+
+std::size_t Matches::add(Measure measure) {
+  contenders_.push_back(std::move(measure));
+  return contenders_.size() - 1;
+}
+
+void Matches::compare(std::size_t subject, std::size_t rival, Comparison comparison, std::size_t figure) {
+  pairs_.push_back({subject, rival, figure, results_.size()});
+  results_.push_back(std::move(comparison));
+}
+
+void Matches::compare_timed(std::size_t subject, std::size_t rival, Comparison comparison, std::size_t figure) {
+  for (const char* clock : clock_names) {
+    comparison.detail = clock;
+    compare(subject, rival, comparison, figure++);
+  }
+}
+
+void Matches::measure(std::size_t rounds, Progress& progress) {
+  round_by_round(rounds, contenders_.size(), progress, [&](std::size_t contender) {
+    const std::vector<double> figures = contenders_[contender]();
+    for (const Pair& pair : pairs_) {
+      if (pair.subject == contender) {
+        results_[pair.comparison].subject_figures.push_back(figures[pair.figure]);
+      }
+      if (pair.rival == contender) {
+        results_[pair.comparison].rival_figures.push_back(figures[pair.figure]);
+      }
+    }
+  });
+}
+
+std::vector<double> figures_of(const Times& times) {
+  constexpr double least_seconds = 1e-9;
+  return {std::max(times.wall_seconds, least_seconds), std::max(times.processor_seconds, least_seconds)};
+}
+
+}  // namespace dmpc::apps

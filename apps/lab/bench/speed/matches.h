@@ -1,0 +1,51 @@
+// Contenders that are measured in turn, and which of them are held against which others.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "apps/edge/system/progress.h"
+#include "apps/edge/system/stopwatch.h"
+#include "apps/lab/bench/speed/comparison.h"
+
+namespace dmpc::apps {
+
+/// Not thread-safe.
+class Matches {
+ public:
+  /// The figures of one contender in one round.
+  using Measure = std::function<std::vector<double>()>;
+
+  /// `results` outlives it, and has what was measured so far at any time.
+  explicit Matches(std::vector<Comparison>& results) : results_(results) {}
+
+  /// Returns the number by which the others know the contender.
+  std::size_t add(Measure measure);
+  /// Adds `comparison` to the results: of each round a figure of the subject, against the same one of the rival. They may be one.
+  void compare(std::size_t subject, std::size_t rival, Comparison comparison, std::size_t figure = 0);
+  /// Adds it twice: by the wall clock, then by processor time, of those who have figures_of() their times.
+  void compare_timed(std::size_t subject, std::size_t rival, Comparison comparison, std::size_t figure = 0);
+
+  /// All contenders, in the order in which they came, in every round. Throws what measuring throws.
+  void measure(std::size_t rounds, Progress& progress);
+
+ private:
+  struct Pair {
+    std::size_t subject, rival, figure;
+    std::size_t comparison;  ///< its place among the results
+  };
+
+  std::vector<Comparison>& results_;
+  std::vector<Measure> contenders_;
+  std::vector<Pair> pairs_;
+};
+
+/// The clocks that figures_of() times has, as comparisons call them.
+inline constexpr std::array<const char*, 2> clock_names = {"wall clock", "processor time"};
+
+/// By the wall clock and by processor time; above 0, since ratios are taken to them.
+std::vector<double> figures_of(const Times& times);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,94 @@
+#include "apps/lab/study/engine/render_process.h"
+
+#include <algorithm>
+#include <csignal>
+#include <string_view>
+#include <utility>
+
+#include "apps/edge/line/exit_status.h"
+#include "apps/edge/system/watched_process.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+std::string sentence_of(std::string complaint) {
+  constexpr std::string_view program = "dmpc: ";
+  if (complaint.starts_with(program)) {
+    complaint.erase(0, program.size());
+  }
+  complaint.erase(complaint.find_last_not_of(" \n.") + 1);
+  return complaint.empty() ? "It did not say why" : complaint;
+}
+
+namespace {
+
+/// Nothing if it did what it should; why there was no room for it, if that was so.
+std::optional<std::string> misfit_of(const WatchedProcess& process) {
+  if (process.status == 0) {
+    return std::nullopt;
+  }
+  if (process.status == -SIGKILL) {
+    return "It was killed, as a computer without memory to spare does";
+  }
+  if (process.status == no_room_status) {
+    return sentence_of(process.complaint);
+  }
+  if (process.status == input_status) {
+    throw core::InputError(sentence_of(process.complaint));
+  }
+  throw core::InternalError("a render ended with status " + std::to_string(process.status) + ": " +
+                            sentence_of(process.complaint));
+}
+
+std::vector<Figure> figures_in(const std::filesystem::path& stats) {
+  try {
+    return read_figures(stats);
+  } catch (const core::InputError& error) {
+    throw core::InternalError(std::string("the statistics of a render cannot be read: ") + error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> RenderProcesses::with_outputs(std::vector<std::string> words, const std::string& stats,
+                                                       const std::string& picture) {
+  words.insert(words.end(), {"--quiet", "--stats=" + stats, "--output=" + picture});
+  return words;
+}
+
+RenderEnd RenderProcesses::run(std::vector<std::string> words, const std::string& name,
+                               const std::optional<std::filesystem::path>& stats) const {
+  const std::filesystem::path counters = stats.value_or(folder_ / (name + ".json")), picture = folder_ / (name + ".exr");
+  const WatchedProcess process =
+      watch_process(program_, with_outputs(std::move(words), counters.string(), picture.string()), interrupt_);
+  std::error_code ignored;
+  std::filesystem::remove(picture, ignored);
+  if (std::optional<std::string> misfit = misfit_of(process)) {
+    return {{}, std::move(*misfit), process.peak_anonymous_bytes};
+  }
+  return {figures_in(counters), {}, process.peak_anonymous_bytes};
+}
+
+const FigureValue* find_value(const std::vector<Figure>& figures, const std::string& name) {
+  const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& figure) { return figure.name == name; });
+  return found == figures.end() ? nullptr : &found->value;
+}
+
+std::optional<double> number_of(const FigureValue& value) {
+  const auto* const whole = std::get_if<std::uint64_t>(&value);
+  const auto* const real = std::get_if<double>(&value);
+  return whole != nullptr ? std::optional(static_cast<double>(*whole)) : real != nullptr ? std::optional(*real) : std::nullopt;
+}
+
+std::optional<double> number_of(const std::vector<Figure>& figures, const std::string& name) {
+  const FigureValue* const value = find_value(figures, name);
+  return value == nullptr ? std::nullopt : number_of(*value);
+}
+
+double needed_number(const std::vector<Figure>& figures, const std::string& name) {
+  const std::optional<double> number = number_of(figures, name);
+  core::expect(number.has_value(), "the statistics of a render have all that they always have");
+  return *number;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,56 @@
+// A `dmpc render` as a process of its own, and what it tells.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/edge/system/interrupt.h"
+#include "apps/edge/system/scratch_folder.h"
+#include "apps/lab/figures/figures_file.h"
+
+namespace dmpc::apps {
+
+/// "dmpc: there is no room\n" as "there is no room".
+std::string sentence_of(std::string complaint);
+
+/// What became of it.
+struct RenderEnd {
+  std::optional<std::vector<Figure>> figures;       ///< of its --stats; nothing if there was no room for it
+  std::string misfit;                               ///< without figures: why, without a full stop
+  std::optional<std::size_t> peak_anonymous_bytes;  ///< if it was seen with any
+};
+
+/// Thread-safe, if no two renders at a time have one name.
+class RenderProcesses {
+ public:
+  /// Both outlive it.
+  RenderProcesses(const std::filesystem::path& program, const Interrupt& interrupt) : program_(program), interrupt_(interrupt) {}
+
+  /// Runs `words`, of a line of `render` but for its outputs, to its end. Its counters go to `stats`, else to a scratch file, its
+  /// picture nowhere. A computer out of memory ends a process by the signal that cannot be caught: that is no room, too. Throws
+  /// Interrupted after a signal, core::InputError if the program cannot be started or its input is bad, core::InternalError for
+  /// any other end.
+  RenderEnd run(std::vector<std::string> words, const std::string& name,
+                const std::optional<std::filesystem::path>& stats = {}) const;
+
+  /// With the words that say where counters and picture go.
+  static std::vector<std::string> with_outputs(std::vector<std::string> words, const std::string& stats,
+                                               const std::string& picture);
+
+ private:
+  const std::filesystem::path& program_;
+  const Interrupt& interrupt_;
+  ScratchFolder folder_;
+};
+
+/// nullptr if there is none of this name.
+const FigureValue* find_value(const std::vector<Figure>& figures, const std::string& name);
+/// A figure's number; nothing where it is not there, or is no number. Throws core::InternalError for one that is needed.
+std::optional<double> number_of(const FigureValue& value);
+std::optional<double> number_of(const std::vector<Figure>& figures, const std::string& name);
+double needed_number(const std::vector<Figure>& figures, const std::string& name);
+
+}  // namespace dmpc::apps

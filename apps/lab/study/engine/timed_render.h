@@ -1,0 +1,22 @@
+// A render whose phase `render` is timed, by nobody watched.
+#pragma once
+
+#include "apps/edge/system/interrupt.h"
+#include "apps/edge/system/stopwatch.h"
+#include "apps/run/report.h"
+#include "apps/run/strategy_options.h"
+#include "core/database/database.h"
+#include "core/picture/pixel_task.h"
+
+namespace dmpc::apps {
+
+struct TimedRender {
+  Report report;
+  Times times;
+};
+
+/// Makes the run ready, then times it. Throws as make_ready() and the run do, Interrupted if a signal comes before its end.
+TimedRender render_timed(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
+                         const Interrupt& interrupt);
+
+}  // namespace dmpc::apps
