@@ -60,9 +60,9 @@ void check_refinement(const OptionSet& options, PictureOptions& picture) {
   }
 }
 
-/// A picture that is refined looks at textures through cones half as wide: its estimate of the error sees how samples differ, but
-/// not what all of them blur alike.
-double cone_share(const PictureOptions& picture) { return picture.is_refined ? 0.5 : 1; }
+/// A sample of a picture that is refined stands for half of the sides of what is its: its estimate of the error sees how samples
+/// differ, but not what all of them blur alike.
+double pixel_share(const PictureOptions& picture) { return picture.is_refined ? 0.5 : 1; }
 
 }  // namespace
 
@@ -130,7 +130,7 @@ core::RenderSettings render_settings(const PictureOptions& options, const core::
                     .depth_max = options.depth,
                     .cutoff = options.cutoff,
                     .radiance_bound = core::radiance_bound(scene, options.depth),
-                    .pixel_angle = database.records().textured > 0 ? camera.pixel_size() * cone_share(options) : 0,
+                    .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
                     .first_samples = static_cast<std::uint32_t>(options.samples)},
           .refinement = options.refinement,
           .skips = options.skips,

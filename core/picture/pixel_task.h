@@ -194,7 +194,7 @@ TaskState PixelTask::shade(T& tracer, const RenderSettings& settings, Operations
       return TaskState::absent;
     }
     Ray child;
-    if (Shader(settings.header, settings.shade, settings.skips, operations).step(state, record, child)) {
+    if (Shader(settings.header, settings.shade, settings.skips, operations, &settings.camera).step(state, record, child)) {
       shoot(child, operations);
       return TaskState::more;
     }

@@ -89,25 +89,31 @@ double sample_spacing(std::uint32_t sample, std::uint32_t first_samples) {
   return 1.0 / std::sqrt(static_cast<double>(count));
 }
 
-/// The width, grid-local, of the ray's cone where it hits.
-double Shader::cone_at_hit(const HitState& state) const {
-  const double angle = options_.pixel_angle * sample_spacing(state.ray.sample, options_.first_samples);
+/// How wide, grid-local, what the ray stands for is where it hits. Of a primary ray: along the film, which is a pixel's side
+/// there. Of all others: across the ray, by the shorter of the sides in which its pixel is seen from the eye: so wide a cone
+/// covers nothing that the pixel does not, and what it does not cover other samples do, whose difference an estimate of the error
+/// sees.
+double Shader::width_at_hit(const HitState& state) const {
+  const Ray& ray = state.ray;
+  const double side = options_.pixel_share * sample_spacing(ray.sample, options_.first_samples) * camera_->pixel_size();
   const double t{state.hit.t};
-  return state.ray.kind == RayKind::primary ? angle * (cone_width(state.ray) + t) : cone_width(state.ray) + angle * t;
+  return ray.kind == RayKind::primary ? side * (cone_width(ray) + t) * dot(Vec3d(ray.direction), camera_->forward())
+                                      : cone_width(ray) + side * camera_->square_cosine(ray.pixel) * t;
 }
 
 void Shader::read_geometry(HitState& state, const std::byte* record) const {
   core::read_geometry(state, record);
-  if (options_.pixel_angle > 0 && state.stage == Stage::normals) {
-    std::construct_at(&state.ellipse, cut_ellipse(state, record));
+  if (options_.pixel_share > 0 && state.stage == Stage::normals) {
+    const bool is_primary = state.ray.kind == RayKind::primary;
+    std::construct_at(&state.ellipse, cut_ellipse(state, record, is_primary ? camera_->forward() : Vec3d(state.ray.direction)));
   }
 }
 
 void Shader::begin_texture(HitState& state, const std::byte* record) const {
   ++operations_.texture_lookups;
   const auto textured = read<TexturedNormals>(record);
-  const CutEllipse ellipse = options_.pixel_angle > 0 ? state.ellipse : CutEllipse{};
-  const TextureFootprint footprint = footprint_of(textured, state.u, state.v, ellipse, cone_at_hit(state));
+  const CutEllipse ellipse = options_.pixel_share > 0 ? state.ellipse : CutEllipse{};
+  const TextureFootprint footprint = footprint_of(textured, state.u, state.v, ellipse, width_at_hit(state));
   state.u = footprint.middle.s;
   state.v = footprint.middle.t;
   std::construct_at(&state.lookup, begin_lookup(textured.texture, footprint));
@@ -213,8 +219,10 @@ bool Shader::shine(HitState& state, const LightRecord& light, const LightFall& f
 
 /// A reflected or refracted ray's cone goes on with its parent's width and angle: what a curved surface does to it is left out.
 void Shader::widen(const HitState& state, Ray& child) const {
-  if (options_.pixel_angle > 0) {
-    child.cone = cone_bits(cone_at_hit(state));
+  if (options_.pixel_share > 0) {
+    const bool is_primary = state.ray.kind == RayKind::primary;
+    const double shorter = is_primary ? dot(Vec3d(state.ray.direction), camera_->forward()) : 1.0;
+    child.cone = cone_bits(width_at_hit(state) * shorter);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/base/vec.h"
+#include "core/picture/camera.h"
 #include "core/picture/hit_state.h"
 #include "core/picture/light_fall.h"
 #include "core/record/ray.h"
@@ -26,14 +27,14 @@ struct ShadeOptions {
   /// sample's error. 0: none is cut (after R. Hall, D. Greenberg, "A Testbed for Realistic Image Synthesis", 1983).
   double cutoff = 0;
   double radiance_bound = 0;  ///< radiance_bound() of the scene; read only if there is a cutoff
-  /// Between the rays of neighbouring pixels, in radians: how fast the cones of rays would widen, if pixels had one each. 0: no
-  /// texture asks for them.
-  double pixel_angle = 0;
+  /// How much of its pixel's sides a ray stands for where it looks at a texture, if the pixel had only this one. 0: no texture
+  /// asks for it.
+  double pixel_share = 0;
   std::uint32_t first_samples = 1;  ///< of every pixel; more follow if it is refined
 };
 
 /// How far a pixel's samples lie from each other, in sides of the pixel, when those of the pass that this one belongs to have
-/// been taken: passes double them. It is by so much that a sample's cone is narrower than its pixel's, so the more samples there
+/// been taken: passes double them. It is so much of its pixel that a sample stands for, so the more samples there
 /// are, the less a texture is blurred before they see it.
 double sample_spacing(std::uint32_t sample, std::uint32_t first_samples);
 
@@ -44,14 +45,16 @@ double radiance_bound(const Scene& scene, int depth_max);
 /// Shades hits, one record a step. What it is made from outlives it.
 class Shader {
  public:
-  Shader(const DatabaseHeader& header, const ShadeOptions& options, const Skips& skips, Operations& operations)
-      : header_(header), options_(options), skips_(skips), operations_(operations) {}
+  /// `camera` may be null where no texture asks what a pixel covers.
+  Shader(const DatabaseHeader& header, const ShadeOptions& options, const Skips& skips, Operations& operations,
+         const Camera* camera = nullptr)
+      : header_(header), options_(options), skips_(skips), operations_(operations), camera_(camera) {}
 
   /// One step. `record` is the record of record_needed() (nullptr if that was no_address). Returns whether `child` was set to a
   /// ray to be shot; the caller shoots it, then goes on, until state.stage is finished.
   bool step(HitState& state, const std::byte* record, Ray& child) const;
   /// Whether step() does to a hit's geometry what read_geometry() does, and no more.
-  bool reads_beside() const { return !(options_.pixel_angle > 0); }
+  bool reads_beside() const { return !(options_.pixel_share > 0); }
   /// Goes on with a hit at a light that is known to fall on it so; `highlight`: lobe_cosine() to the power of its shine.
   bool shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const;
   /// Goes on with a hit that mirrors or lets through a ray, which leaves `towards` a unit direction from `start`.
@@ -74,13 +77,14 @@ class Shader {
   void judge_children(HitState& state) const;
   bool leaves_out(bool is_lit, const Color& weight) const;
   bool is_worth_it(const Ray& child) const;
-  double cone_at_hit(const HitState& state) const;
+  double width_at_hit(const HitState& state) const;
   void widen(const HitState& state, Ray& child) const;
 
   const DatabaseHeader& header_;
   const ShadeOptions& options_;
   const Skips& skips_;
   Operations& operations_;
+  const Camera* camera_;
 };
 
 }  // namespace dmpc::core
