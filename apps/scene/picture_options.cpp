@@ -7,6 +7,7 @@
 #include "apps/edge/line/option_values.h"
 #include "core/base/expect.h"
 #include "core/picture/background.h"
+#include "core/picture/film_scale.h"
 
 namespace dmpc::apps {
 
@@ -121,6 +122,11 @@ void add_view_options(OptionSet options, PictureOptions& picture) {
                                        "When shadow rays are cast: towards lights that the surface faces, or towards all");
 }
 
+core::FilmScale film_scale_of(const PictureOptions& options, const core::Scene& scene) {
+  const std::uint32_t samples = options.is_refined ? options.refinement.samples_max : static_cast<std::uint32_t>(options.samples);
+  return core::film_scale_for(scene, options.depth, samples);
+}
+
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
   const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
   const core::Camera camera(scene.view, database.header().frame, size.width, size.height, options.samples);
@@ -131,7 +137,8 @@ core::RenderSettings render_settings(const PictureOptions& options, const core::
                     .cutoff = options.cutoff,
                     .radiance_bound = core::radiance_bound(scene, options.depth),
                     .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
-                    .first_samples = static_cast<std::uint32_t>(options.samples)},
+                    .first_samples = static_cast<std::uint32_t>(options.samples),
+                    .film_scale = film_scale_of(options, scene)},
           .refinement = options.refinement,
           .skips = options.skips,
           .background = options.skips.background ? core::find_background(database, camera) : core::BackgroundTiles()};

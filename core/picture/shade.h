@@ -6,6 +6,7 @@
 
 #include "core/base/vec.h"
 #include "core/picture/camera.h"
+#include "core/picture/film.h"
 #include "core/picture/hit_state.h"
 #include "core/picture/light_fall.h"
 #include "core/record/ray.h"
@@ -31,6 +32,7 @@ struct ShadeOptions {
   /// asks for it.
   double pixel_share = 0;
   std::uint32_t first_samples = 1;  ///< of every pixel; more follow if it is refined
+  FilmScale film_scale = {};        ///< film_scale_for() the scene: of what rays deposit
 };
 
 /// How far a pixel's samples lie from each other, in sides of the pixel, when those of the pass that this one belongs to have
