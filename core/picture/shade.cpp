@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <memory>
 
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
+#include "core/base/sampling.h"
 #include "core/picture/hit_geometry.h"
 
 namespace dmpc::core {
@@ -22,6 +24,21 @@ TexturePlace texture_place(const HitState& state) { return {state.u, state.v}; }
 /// What of the light found by a reflected ray counts: what cannot be transmitted is reflected, too.
 float mirrored_share(const HitState& state) {
   return state.surface.material.specular + (state.has_refraction ? 0.0F : state.surface.material.transmittance);
+}
+
+/// What its two children count for.
+float both_shares(const HitState& state) { return mirrored_share(state) + state.surface.material.transmittance; }
+
+std::uint64_t bits_of(const Vec3f& vector) {
+  const auto word = [](float value) { return std::uint64_t{std::bit_cast<std::uint32_t>(value)}; };
+  return mix(mix(word(vector.x) << 32U | word(vector.y)) + word(vector.z));
+}
+
+/// From 0 to 1, of a ray: its own, whoever shades its hit, and when.
+double chance_of(const Ray& ray) {
+  const std::uint64_t place = std::uint64_t{ray.pixel} << 32U | ray.sample;
+  const std::uint64_t bits = mix(mix(mix(place) + bits_of(ray.origin) + ray.depth) + bits_of(ray.direction));
+  return static_cast<double>(bits >> 11U) * 0x1p-53;
 }
 
 /// A child along the unit direction `towards`.
@@ -149,12 +166,22 @@ bool Shader::refracts(const HitState& state) const {
   return state.has_refraction && (state.surface.material.transmittance > 0.0F || !skips_.zero_terms);
 }
 
-Stage Shader::after_reflection(const HitState& state) const { return refracts(state) ? Stage::refracted : Stage::finished; }
+bool Shader::sends_one(const HitState& state) const {
+  return options_.one_child_from > 0 && state.ray.depth >= options_.one_child_from && reflects(state) && refracts(state);
+}
+
+Stage Shader::after_reflection(const HitState& state) const {
+  return refracts(state) && !sends_one(state) ? Stage::refracted : Stage::finished;
+}
 
 /// The stage after the lights: children only while depth is left.
 Stage Shader::after_lights(const HitState& state) const {
   if (state.ray.depth >= options_.depth_max) {
     return Stage::finished;
+  }
+  if (sends_one(state)) {
+    return chance_of(state.ray) * double{both_shares(state)} < double{mirrored_share(state)} ? Stage::reflected
+                                                                                             : Stage::refracted;
   }
   return reflects(state) ? Stage::reflected : after_reflection(state);
 }
@@ -231,7 +258,9 @@ bool Shader::send(HitState& state, const Vec3d& towards, const RayStart& start, 
   expect(is_mirrored || state.stage == Stage::refracted, "a hit sends a ray when it has come to that");
   child = child_ray(state, towards, start, is_mirrored ? RayKind::reflected : RayKind::refracted);
   widen(state, child);
-  child.weight = state.ray.weight * (is_mirrored ? mirrored_share(state) : state.surface.material.transmittance);
+  child.weight = state.ray.weight * (sends_one(state) ? both_shares(state)
+                                     : is_mirrored    ? mirrored_share(state)
+                                                      : state.surface.material.transmittance);
   state.stage = is_mirrored ? after_reflection(state) : Stage::finished;
   return is_worth_it(child);
 }

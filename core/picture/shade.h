@@ -23,6 +23,11 @@ enum class Convention : std::uint8_t { haines, paper };
 
 struct ShadeOptions {
   Convention convention = Convention::haines;
+  /// A hit from this depth on that could send both a mirrored and a refracted ray sends one of them, by chance, which counts for
+  /// both: the more often the more the ray counts for by itself, so that the picture is right on average (Russian roulette: J.
+  /// Arvo, D. Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990). The chance is a hash of the ray. 0: all hits send
+  /// both.
+  std::uint8_t one_child_from = 0;
   int depth_max = 5;  ///< hits at this depth spawn shadow rays only; the primary ray has depth 1
   /// A ray that can bring but less light than this to its sample, in every channel, is not shot: each one cut adds less to the
   /// sample's error. 0: none is cut (after R. Hall, D. Greenberg, "A Testbed for Realistic Image Synthesis", 1983).
@@ -74,6 +79,7 @@ class Shader {
 
   bool reflects(const HitState& state) const;
   bool refracts(const HitState& state) const;
+  bool sends_one(const HitState& state) const;
   HitState::Stage after_lights(const HitState& state) const;
   HitState::Stage after_reflection(const HitState& state) const;
   void judge_children(HitState& state) const;
