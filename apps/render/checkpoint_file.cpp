@@ -119,7 +119,7 @@ class Reader {
     }
     digest_.add(std::as_bytes(std::span(head)));
     if (found == format_without_scale) {
-      facts.push_back({film_scale_fact, text_of(core::FilmScale{})});
+      facts.push_back({film_scale_fact, apps::text_of(core::FilmScale{})});
     }
     return facts;
   }

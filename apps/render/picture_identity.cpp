@@ -128,7 +128,7 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
   // A ray from the eye is like one that is reflected, one hit earlier.
   identity.terms = {static_cast<std::uint32_t>(picture.samples), picture.refinement,
                     core::radiance_bound(scene, picture.depth + 1), film_scale_of(picture, scene)};
-  facts.push_back({film_scale_fact, text_of(identity.terms.film_scale)});
+  facts.push_back({film_scale_fact, apps::text_of(identity.terms.film_scale)});
   return identity;
 }
 
