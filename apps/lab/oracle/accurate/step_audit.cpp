@@ -175,7 +175,7 @@ class StepAudit::Case {
     if (std::isfinite(right.t_max) && !(std::fabs(found.t_max - right.t_max) <= end_rounding * (right.t_max + audit_.unit_))) {
       complain(text_of(found) + " with another end");
     }
-    if (!(std::fabs(found.cone - right.cone) <= cone_rounding * right.cone)) {
+    if (!(std::fabs(found.cone - right.cone) <= cone_rounding * right.cone + float_rounding * audit_.unit_)) {
       complain(text_of(found) + " with another cone");
     }
   }
