@@ -491,8 +491,9 @@ void RayProgram<RaysTask, Units>::count_claim(core::RayKind kind) {
 template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::end_miss(const core::Ray& ray) {
   ++counters_.ended;
-  const core::Color background = constants_->settings.header.background;
-  const core::FixedColor light = core::to_fixed(ray.kind == core::RayKind::shadow ? ray.weight : ray.weight * background);
+  const core::RenderSettings& settings = constants_->settings;
+  const core::Color found = ray.kind == core::RayKind::shadow ? ray.weight : ray.weight * settings.header.background;
+  const core::FixedColor light = core::to_fixed(found, settings.shade.film_scale);
   if (light != core::FixedColor{}) {
     film_.add(ray.pixel, ray.sample % 2, light);
   }

@@ -255,7 +255,9 @@ Report run_prepared(const Prepared& prepared, const core::RenderSettings& settin
   const core::PartialPicture* const start = options.continuation.start;
   core::expect(start == nullptr || start->film.pixels().size() == settings.camera.pixel_count(),
                "what is gone on with is of the same picture");
-  Report report{.film = start != nullptr ? start->film : core::Film(settings.camera.width(), settings.camera.height()),
+  Report report{.film = start != nullptr
+                            ? start->film
+                            : core::Film(settings.camera.width(), settings.camera.height(), settings.shade.film_scale),
                 .samples_found_done = start != nullptr ? start->samples_done() : 0,
                 .plan = prepared.plan,
                 .regions = prepared.distribution.regions,

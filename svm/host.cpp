@@ -24,7 +24,7 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
       film_(&film),
       progress_(std::move(progress)),
       continuation_(continuation),
-      refinement_(shape.refinement, shape.first_samples, film.width(), film.height(), shape.detail),
+      refinement_(shape.refinement, shape.first_samples, film.width(), film.height(), shape.detail, film.scale()),
       arrived_(own_layout(shape).in(node.memory())),
       pixels_sent_(shape.refinement.is_wanted() ? shape.node_count : 0),
       node_count_(shape.node_count),

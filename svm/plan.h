@@ -41,6 +41,7 @@ struct PlanRequest {
   std::uint32_t width = 0, height = 0;
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;
+  core::FilmScale film_scale;                   ///< of the film, which the host has
   const core::PartialPicture* start = nullptr;  ///< what is done already, if anything; outlives plan and run. Its light is the
                                                 ///< host's: without that there may be none
   std::span<const std::byte> database = {};  ///< its bytes, where the host is home to all pages; outlive the making of programs

@@ -42,6 +42,7 @@ PlanRequest request_of(const Strategy& strategy, const core::Database& database,
           .height = static_cast<std::uint32_t>(settings.camera.height()),
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
+          .film_scale = settings.shade.film_scale,
           .start = options.continuation.start,
           .bundles = settings.skips.bundles && strategy.takes_bundles() && walks_in_bundles(options)};
 }
@@ -160,9 +161,9 @@ std::vector<NodeReport> gather_reports(nodes::Runner& runner, const Plan& plan) 
 
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const RunOptions& options, std::stop_token stop) {
   const core::PartialPicture* const start = plan.request.start;
-  Report report{.film = start != nullptr
-                            ? start->film
-                            : core::Film(static_cast<int>(plan.request.width), static_cast<int>(plan.request.height)),
+  Report report{.film = start != nullptr ? start->film
+                                         : core::Film(static_cast<int>(plan.request.width), static_cast<int>(plan.request.height),
+                                                      plan.request.film_scale),
                 .end = nodes::RunEnd::finished,
                 .plan = plan,
                 .nodes = {},

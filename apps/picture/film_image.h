@@ -1,12 +1,17 @@
 // A film as a picture.
 #pragma once
 
+#include <string>
+
 #include "apps/picture/image_file.h"
 #include "core/picture/film.h"
 
 namespace dmpc::apps {
 
-/// Mean linear radiance of each pixel; requires samples > 0.
+/// Mean linear radiance of each pixel, with the film's scale as a remark; requires samples > 0.
 Image image_of(const core::Film& film);
+
+/// "1", "2^34": a scale as people read it, and as files have it.
+std::string text_of(core::FilmScale scale);
 
 }  // namespace dmpc::apps

@@ -52,7 +52,7 @@ std::string exr_of(const Image& image) {
   return exr_file({.width = image.width,
                    .height = image.height,
                    .channels = {{"R", values, 3}, {"G", values.subspan(1), 3}, {"B", values.subspan(2), 3}},
-                   .remarks = {}});
+                   .remarks = image.remarks});
 }
 
 std::string file_of(const fs::path& path, const Image& image) {

@@ -22,6 +22,7 @@ struct Image {
 
   int width = 0, height = 0;
   std::vector<float> rgb;
+  std::vector<std::pair<std::string, std::string>> remarks = {};  ///< names and texts, kept where the format is EXR
 };
 
 /// One number a pixel, row by row from the top left, with what a reader should know of them.

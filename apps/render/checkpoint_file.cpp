@@ -9,6 +9,7 @@
 
 #include "apps/edge/system/digest.h"
 #include "apps/edge/system/file_source.h"
+#include "apps/picture/film_image.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
 
@@ -18,7 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view first_line = "dmpc checkpoint 2";
+constexpr std::string_view first_words = "dmpc checkpoint ";
+/// Which are read; the latter is written. Films of the former had no scale.
+constexpr char format_without_scale = '2', format = '3';
 
 struct PixelRecord {
   core::PixelSums sums;
@@ -39,7 +42,7 @@ constexpr std::uint32_t block_pixels = 4096;
 }
 
 std::string head_of(const PictureIdentity& identity) {
-  std::string text = std::string(first_line) + "\n";
+  std::string text = std::string(first_words) + format + "\n";
   for (const PictureFact& fact : identity.facts) {
     text += fact.name + "=" + fact.value + "\n";
   }
@@ -97,11 +100,16 @@ class Reader {
   Reader(const fs::path& path, Files& files) : path_(path), stream_(path, files) { check_read(); }
 
   std::vector<PictureFact> take_head() {
-    std::string head(first_line.size() + 1, ' ');
+    std::string head(first_words.size() + 2, ' ');
     stream_.read(head.data(), static_cast<std::streamsize>(head.size()));
     check_read();
-    if (!stream_ || head != std::string(first_line) + "\n") {
-      fail(path_, "this is no checkpoint of this version of dmpc");
+    const char found = head[first_words.size()];
+    if (!stream_ || !head.starts_with(first_words) || !head.ends_with('\n')) {
+      fail(path_, "this is no checkpoint of dmpc");
+    }
+    if (found != format_without_scale && found != format) {
+      fail(path_, std::string("this is no checkpoint of this version of dmpc: its format is ") + found + ", here " +
+                      format_without_scale + " and " + format + " are read");
     }
     std::vector<PictureFact> facts;
     for (std::string line = take_line(head); !line.empty(); line = take_line(head)) {
@@ -110,6 +118,9 @@ class Reader {
       facts.push_back({line.substr(0, sign), line.substr(sign + 1)});
     }
     digest_.add(std::as_bytes(std::span(head)));
+    if (found == format_without_scale) {
+      facts.push_back({film_scale_fact, apps::text_of(core::FilmScale{})});
+    }
     return facts;
   }
   template <class T>
@@ -215,7 +226,7 @@ core::PartialPicture read_checkpoint(const fs::path& path, const PictureIdentity
   std::uint64_t passes = 0;
   reader.take(std::span(&passes, 1));
   const auto pixel_count = static_cast<std::uint32_t>(identity.width) * static_cast<std::uint32_t>(identity.height);
-  core::PartialPicture picture{core::Film(identity.width, identity.height), reader.narrow(passes),
+  core::PartialPicture picture{core::Film(identity.width, identity.height, identity.terms.film_scale), reader.narrow(passes),
                                core::Pass(pixel_count, identity.terms.samples), core::PixelMask(pixel_count)};
   take_steps(reader, picture.pass);
   reader.take(picture.done.words());

@@ -22,6 +22,7 @@
 #include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
 #include "apps/render/checkpoints.h"
+#include "apps/render/film_notes.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/outputs.h"
 #include "apps/render/preview.h"
@@ -197,9 +198,11 @@ class Rendering {
 
   /// The picture before all else, so that nothing that fails takes it away. Returns the exit status.
   int write() {
-    const core::Film& film = account_of(*report_).film;
+    const Account account = account_of(*report_);
+    const core::Film& film = account.film;
     Attempts attempts(std::cerr);
     const bool is_written = attempts.make([&] { write_picture(film); });
+    attempts.make([&] { say(film_notes(film, lit_in(account))); });
     if (checkpoints_ && is_written) {
       attempts.make([&] { checkpoints_->finish(); });
     } else if (checkpoints_ && checkpoints_->has_one()) {
@@ -224,6 +227,13 @@ class Rendering {
     picture.commit();
     interrupt_.set_consequence("the picture was written, what follows it is incomplete");
     seconds_.write = stopwatch.lap();
+  }
+
+  /// Shadow rays that brought light, where none is shot that would not.
+  std::uint64_t lit_in(const Account& account) const {
+    const bool all_bring_light = options_.picture.skips.zero_terms && options_.picture.convention == core::Convention::haines;
+    const std::uint64_t shot = account.operations.rays[static_cast<std::size_t>(core::RayKind::shadow)];
+    return all_bring_light ? shot - account.operations.shadow_blocked : 0;
   }
 
   /// What the onlookers have seen; says so if some of a trace was lost, or there is none.

@@ -6,6 +6,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/digest.h"
+#include "apps/picture/film_image.h"
 #include "apps/run/render_record.h"
 
 namespace dmpc::apps {
@@ -125,7 +126,8 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
   add_samples(facts, picture);
   // A ray from the eye is like one that is reflected, one hit earlier.
   identity.terms = {static_cast<std::uint32_t>(picture.samples), picture.refinement,
-                    core::radiance_bound(scene, picture.depth + 1)};
+                    core::radiance_bound(scene, picture.depth + 1), film_scale_of(picture, scene)};
+  facts.push_back({film_scale_fact, apps::text_of(identity.terms.film_scale)});
   return identity;
 }
 

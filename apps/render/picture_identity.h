@@ -11,6 +11,9 @@
 
 namespace dmpc::apps {
 
+/// The name of the fact that is the last: the scale of the film.
+inline constexpr const char* film_scale_fact = "film-scale";
+
 struct PictureIdentity {
   int width = 1, height = 1;
   std::vector<PictureFact> facts;

@@ -21,10 +21,11 @@ constexpr std::chrono::seconds patience_at_the_end{2};
 /// The clock is asked once in so many pixels.
 constexpr std::uint32_t pixels_a_look = 64;
 
-void add_pixel(std::vector<float>& rgb, const core::PixelSums& sums, std::uint32_t samples) {
+/// `step`: the film's.
+void add_pixel(std::vector<float>& rgb, const core::PixelSums& sums, double step, std::uint32_t samples) {
   for (std::size_t channel = 0; channel < 3; ++channel) {
     const double sum = static_cast<double>(sums.plane[0].channel[channel]) + static_cast<double>(sums.plane[1].channel[channel]);
-    rgb.push_back(samples == 0 ? 0.0F : static_cast<float>(sum * core::film_resolution / samples));
+    rgb.push_back(samples == 0 ? 0.0F : static_cast<float>(sum * step / samples));
   }
 }
 
@@ -104,7 +105,7 @@ PictureTile Preview::tile_of(const core::Film& film, std::uint32_t index) const 
   tile.rgb.reserve(std::size_t{3} * width * height);
   for (std::uint32_t row = y; row < y + height; ++row) {
     for (std::uint32_t pixel = row * width_ + x; pixel < row * width_ + x + width; ++pixel) {
-      add_pixel(tile.rgb, film.pixels()[pixel], film.samples(pixel) + new_samples_[pixel]);
+      add_pixel(tile.rgb, film.pixels()[pixel], film.step(), film.samples(pixel) + new_samples_[pixel]);
     }
   }
   return tile;

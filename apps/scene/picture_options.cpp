@@ -7,6 +7,7 @@
 #include "apps/edge/line/option_values.h"
 #include "core/base/expect.h"
 #include "core/picture/background.h"
+#include "core/picture/film_scale.h"
 
 namespace dmpc::apps {
 
@@ -60,9 +61,9 @@ void check_refinement(const OptionSet& options, PictureOptions& picture) {
   }
 }
 
-/// A picture that is refined looks at textures through cones half as wide: its estimate of the error sees how samples differ, but
-/// not what all of them blur alike.
-double cone_share(const PictureOptions& picture) { return picture.is_refined ? 0.5 : 1; }
+/// A sample of a picture that is refined stands for half of the sides of what is its: its estimate of the error sees how samples
+/// differ, but not what all of them blur alike.
+double pixel_share(const PictureOptions& picture) { return picture.is_refined ? 0.5 : 1; }
 
 }  // namespace
 
@@ -121,6 +122,11 @@ void add_view_options(OptionSet options, PictureOptions& picture) {
                                        "When shadow rays are cast: towards lights that the surface faces, or towards all");
 }
 
+core::FilmScale film_scale_of(const PictureOptions& options, const core::Scene& scene) {
+  const std::uint32_t samples = options.is_refined ? options.refinement.samples_max : static_cast<std::uint32_t>(options.samples);
+  return core::film_scale_for(scene, options.depth, samples);
+}
+
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
   const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
   const core::Camera camera(scene.view, database.header().frame, size.width, size.height, options.samples);
@@ -130,8 +136,9 @@ core::RenderSettings render_settings(const PictureOptions& options, const core::
                     .depth_max = options.depth,
                     .cutoff = options.cutoff,
                     .radiance_bound = core::radiance_bound(scene, options.depth),
-                    .pixel_angle = database.records().textured > 0 ? camera.pixel_size() * cone_share(options) : 0,
-                    .first_samples = static_cast<std::uint32_t>(options.samples)},
+                    .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
+                    .first_samples = static_cast<std::uint32_t>(options.samples),
+                    .film_scale = film_scale_of(options, scene)},
           .refinement = options.refinement,
           .skips = options.skips,
           .background = options.skips.background ? core::find_background(database, camera) : core::BackgroundTiles()};

@@ -55,6 +55,9 @@ void add_skip_option(OptionSet options, core::Skips& skips);
 /// Declares those that neither are the scene nor trade error for time: --resolution, --depth and --convention.
 void add_view_options(OptionSet options, PictureOptions& picture);
 
+/// What the scene's film multiplies light by.
+core::FilmScale film_scale_of(const PictureOptions& options, const core::Scene& scene);
+
 /// What the nodes need beside the records.
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database);
 

@@ -5,6 +5,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
+#include "core/picture/ray_crowd.h"
 #include "core/scene/frame.h"
 
 namespace dmpc::apps {
@@ -18,7 +19,8 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
   build.axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
   build.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
   core::Database database = core::build_database(std::move(scene), build);
-  const core::RenderSettings settings = render_settings(picture, scene, database);
+  core::RenderSettings settings = render_settings(picture, scene, database);
+  settings.shade.one_child_from = core::find_one_child_depth(database, settings);
   const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
   return {std::move(database), settings, loss};
 }
@@ -28,7 +30,8 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
 Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options, bool shows_progress) {
   Subject subject = build(scene, picture, options, shows_progress);
   for (const std::string& text :
-       {dropped_text(subject.database.dropped()), loss_text(subject.loss), duplicates_text(subject.database.duplicates())}) {
+       {dropped_text(subject.database.dropped()), loss_text(subject.loss), duplicates_text(subject.database.duplicates()),
+        crowd_text(subject.settings.shade.one_child_from)}) {
     if (!text.empty()) {
       std::cerr << "dmpc: " << text << '\n';
     }
@@ -57,6 +60,17 @@ std::string loss_text(const core::RoundingLoss& loss) {
   }
   return text.empty() ? ""
                       : text + ": bring the scene's parts nearer to each other or nearer in size, or view it from farther away";
+}
+
+std::string crowd_text(std::uint8_t one_child_from) {
+  const std::string depth = std::to_string(one_child_from), before = std::to_string(one_child_from - 1);
+  return one_child_from == 0
+             ? ""
+             : "glass that mirrors, too, has a sample shoot more than " + grouped(core::crowd_rays) + " rays: from depth " +
+                   depth +
+                   " on each hit sends one of its two, chosen by chance, so that the picture is right on average and "
+                   "noisy where such rays count; with --depth=" +
+                   before + " none is chosen";
 }
 
 std::string duplicates_text(std::uint64_t count) {

@@ -34,6 +34,9 @@ std::string dropped_text(std::uint64_t count);
 /// What is said about triangles that have the corners of others.
 std::string duplicates_text(std::uint64_t count);
 
+/// A sentence about a picture whose hits send one ray of two from this depth on; empty if that is 0.
+std::string crowd_text(std::uint8_t one_child_from);
+
 /// A sentence about what rounding takes from a picture, in pixels, and what to do; empty if that is nothing.
 std::string loss_text(const core::RoundingLoss& loss);
 

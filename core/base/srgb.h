@@ -1,12 +1,34 @@
 // The sRGB curve (IEC 61966-2-1), from arithmetic alone, so that an 8-bit picture is the same on every machine.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace dmpc::core {
 
+/// The fifth root of `value` in (0, 1], by Newton's method from above, where it falls until rounding stops it.
+constexpr double fifth_root(double value) {
+  double root = 1;
+  for (;;) {
+    const double cube = root * root * root;
+    const double next = root - (cube * root * root - value) / (5 * cube * root);
+    if (!(next < root)) {
+      return root;
+    }
+    root = next;
+  }
+}
+
 /// Linear light of an encoded value; both 0 to 1. x/12.92 up to 0.04045, ((x + 0.055) / 1.055)^2.4 above. Outside it is clamped.
-double linear_from_srgb(double encoded);
+/// Tables of it are made by the compiler: as a program starts, a library that it is linked with may have it round otherwise.
+constexpr double linear_from_srgb(double encoded) {
+  if (!(encoded > 0)) {
+    return 0;
+  }
+  encoded = std::min(encoded, 1.0);
+  const double base = (encoded + 0.055) / 1.055;
+  return encoded <= 0.04045 ? encoded / 12.92 : base * base * fifth_root(base * base);
+}
 
 /// The byte whose encoded value lies nearest to that of `linear`, clamped to 0..255; NaN gives 0. Exact: a comparison with the
 /// linear values half-way between neighbouring bytes.

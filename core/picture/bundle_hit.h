@@ -67,7 +67,7 @@ class BundleShader {
         tracer_(tracer),
         settings_(settings),
         operations_(operations),
-        shader_(settings.header, settings.shade, settings.skips, operations) {}
+        shader_(settings.header, settings.shade, settings.skips, operations, &settings.camera) {}
 
   /// Ends the phase that the hits are in: shoot(child, i) is called for every child of hit i, at most one for each. False if a
   /// record is absent, whose address is then `absent`: call it again once that is there. Requires a phase other than finished.

@@ -47,7 +47,7 @@ void BundleTask::shoot_primary(std::uint32_t place, std::uint32_t sample, const 
   ++operations.skipped.background;
   ++ended_;
   const Ray ray{.pixel = pixels_[place], .sample = sample};
-  deposit(sums_[place], ray, ray.weight * settings.header.background, operations);
+  deposit(sums_[place], ray, ray.weight * settings.header.background, settings, operations);
 }
 
 void BundleTask::add_ray(const Ray& ray, std::uint32_t place, Operations& operations) {
@@ -74,7 +74,7 @@ void BundleTask::end_rays(const RenderSettings& settings, Operations& operations
   for (std::uint32_t i = 0; i < bundle_.count; ++i) {
     const Ray& ray = bundle_.rays[i];
     if (const auto light = light_of_ended(ray, (bundle_.found >> i & 1U) != 0, settings, operations)) {
-      deposit(sums_[place_[i]], ray, *light, operations);
+      deposit(sums_[place_[i]], ray, *light, settings, operations);
     } else if (!is_shadow) {
       hits->add(ray, bundle_.best.of(i), place_[i]);
     }

@@ -30,9 +30,19 @@ double Camera::start_of(const Vec3d& towards) const {
   return reach_ > 0 ? std::max(0.0, dot(middle_ - eye_, towards) - reach_) : 0.0;
 }
 
+double Camera::square_cosine(std::uint32_t pixel) const {
+  const PixelPlace place = place_of(pixel);
+  const Vec3d towards = forward_ + right_ * place.column + down_ * place.row;
+  return 1.0 / dot(towards, towards);
+}
+
+Camera::PixelPlace Camera::place_of(std::uint32_t pixel) const {
+  return {static_cast<double>(pixel % static_cast<std::uint32_t>(width_)) - 0.5 * (width_ - 1),
+          static_cast<double>(pixel / static_cast<std::uint32_t>(width_)) - 0.5 * (height_ - 1)};
+}
+
 Ray Camera::primary_ray(std::uint32_t pixel, std::uint32_t sample) const {
-  double column = static_cast<double>(pixel % static_cast<std::uint32_t>(width_)) - 0.5 * (width_ - 1);
-  double row = static_cast<double>(pixel / static_cast<std::uint32_t>(width_)) - 0.5 * (height_ - 1);
+  auto [column, row] = place_of(pixel);
   if (samples_ > 1) {
     const SamplePosition position = sample_position(pixel, sample);
     column += position.x - 0.5;

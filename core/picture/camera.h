@@ -23,6 +23,11 @@ class Camera {
   /// along the direction in which the camera looks. Behind the eye the depth is negative.
   Vec3d on_film(const Vec3d& offset) const;
   const Vec3d& eye() const { return eye_; }
+  /// The direction in which the camera looks, of unit length.
+  const Vec3d& forward() const { return forward_; }
+  /// The square of the cosine between that and the ray through a pixel's middle. Seen from the eye the pixel is by so much
+  /// shorter, outwards, than one in the middle of the picture; across that it is shorter by the cosine alone.
+  double square_cosine(std::uint32_t pixel) const;
   /// The side of a pixel on a film at distance 1.
   double pixel_size() const { return length(right_); }
   int width() const { return width_; }
@@ -31,6 +36,13 @@ class Camera {
   int samples() const { return samples_; }
 
  private:
+  /// In pixels from the middle of the picture.
+  struct PixelPlace {
+    double column = 0, row = 0;
+  };
+
+  /// Of its middle.
+  PixelPlace place_of(std::uint32_t pixel) const;
   /// How far from the eye a ray along the unit direction `towards` starts.
   double start_of(const Vec3d& towards) const;
 

@@ -75,7 +75,7 @@ void ErrorEstimate::end_pass(const Film& film, const Pass& pass) {
     if (pass.has(pixel)) {
       note_evidence(film, pass, pixel);
       note_variance(film, pixel);
-      past_[pixel].mean = rounded(film.radiance(pixel));
+      past_[pixel].mean = rounded(film.scaled_mean(pixel));
     }
   }
   find_contrast(film);
@@ -96,7 +96,7 @@ void ErrorEstimate::note_evidence(const Film& film, const Pass& pass, std::uint3
   PixelPast& past = past_[pixel];
   const std::uint32_t before = pass.samples(pixel).first, now = film.samples(pixel);
   if (before > 0 && past.expected >= 0) {
-    const double change = square_mean(film.radiance(pixel) - vector_of(past.mean)) / (1 - double{1} * before / now);
+    const double change = square_mean(film.scaled_mean(pixel) - vector_of(past.mean)) / (1 - double{1} * before / now);
     past.evidence = static_cast<float>((change - double{past.expected}) * spread(before));
     past.weight = 1;
   }
@@ -114,7 +114,8 @@ void ErrorEstimate::find_contrast(const Film& film) {
     return;
   }
   contrast_ = 1;
-  double found = detail_->contrast(), expected = 1;
+  const double scale = film.scale().factor();
+  double found = detail_->contrast() * scale * scale, expected = 1;
   for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
     if (has_detail(pixel)) {
       const std::uint32_t samples = film.samples(pixel);

@@ -14,7 +14,7 @@ namespace dmpc::core {
 
 /// What an estimate remembers of a pixel that a film does not tell.
 struct PixelPast {
-  std::array<float, 3> mean{};  ///< when the pass under way was chosen
+  std::array<float, 3> mean{};  ///< of light as the film scales it, when the pass under way was chosen
   float expected = -1;          ///< its square error then, if it looked even; less than 0: it did not
   float evidence = 0;           ///< what it has shown of error unseen by pixels that look even, times spread(samples)
   float weight = 0;             ///< of the evidence: 1 at first, half as much after each pass
@@ -26,7 +26,7 @@ struct PixelPast {
 /// Stratified Sampling in Graphics", SIGGRAPH 1996).
 double spread(std::uint32_t samples);
 
-/// Square errors of the means of pixels; not thread-safe.
+/// Square errors of the means of pixels, of light as the film scales it; not thread-safe.
 ///
 /// *What the film shows*: half of the difference between the means of a pixel's even and odd samples is an estimate of its error.
 /// One difference says little, and may be 0 by chance; so a pixel's variance is the mean over it and its neighbours, and at least

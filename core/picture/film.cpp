@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
+#include <cstdlib>
 #include <numeric>
 
 #include "core/base/expect.h"
@@ -10,14 +10,12 @@
 namespace dmpc::core {
 namespace {
 
-constexpr std::int64_t channel_max = std::numeric_limits<std::int64_t>::max();
-
-std::int64_t fixed(float light) {
-  const double scaled = double{light} / film_resolution;
+std::int64_t fixed(float light, double units) {
+  const double scaled = double{light} * units;
   if (!(scaled > 0.0)) {
     return 0;
   }
-  return scaled >= 9.2e18 ? channel_max : static_cast<std::int64_t>(std::llrint(scaled));
+  return scaled >= 9.2e18 ? film_channel_max : static_cast<std::int64_t>(std::llrint(scaled));
 }
 
 class Fnv1a {
@@ -55,21 +53,26 @@ Vec3d sum_of(const FixedColor& plane) {
 
 }  // namespace
 
-FixedColor to_fixed(const Color& light) { return {{fixed(light.x), fixed(light.y), fixed(light.z)}}; }
+FixedColor to_fixed(const Color& light, FilmScale scale) {
+  const double units = scale.factor() / film_resolution;
+  return {{fixed(light.x, units), fixed(light.y, units), fixed(light.z, units)}};
+}
 
 bool add(FixedColor& sum, const FixedColor& deposit) {
   bool saturated = false;
   for (std::size_t i = 0; i < 3; ++i) {
     if (__builtin_add_overflow(sum.channel[i], deposit.channel[i], &sum.channel[i])) {
-      sum.channel[i] = channel_max;
+      sum.channel[i] = film_channel_max;
     }
-    saturated = saturated || sum.channel[i] == channel_max;
+    saturated = saturated || sum.channel[i] == film_channel_max;
   }
   return saturated;
 }
 
-Film::Film(int width, int height)
-    : width_(width), height_(height), pixels_(pixel_count_of(width, height)), samples_(pixels_.size()) {}
+Film::Film(int width, int height, FilmScale scale)
+    : width_(width), height_(height), scale_(scale), pixels_(pixel_count_of(width, height)), samples_(pixels_.size()) {
+  expect(std::abs(scale.exponent) <= FilmScale::exponent_max, "a film's scale is one that doubles hold");
+}
 
 bool Film::deposit(std::uint32_t pixel, const PixelSums& sums) {
   expect(pixel < pixels_.size(), "a deposit falls on the film");
@@ -83,7 +86,7 @@ std::uint64_t Film::samples() const {
   return std::accumulate(all.begin(), all.end(), std::uint64_t{0});
 }
 
-Vec3d Film::radiance(std::uint32_t pixel) const {
+Vec3d Film::scaled_mean(std::uint32_t pixel) const {
   expect(samples_[pixel] > 0, "a picture has samples");
   return (sum_of(pixels_[pixel].plane[0]) + sum_of(pixels_[pixel].plane[1])) * (film_resolution / samples_[pixel]);
 }
@@ -99,6 +102,9 @@ std::uint64_t Film::hash() const {
   Fnv1a hash;
   hash.add(static_cast<std::uint64_t>(width_));
   hash.add(static_cast<std::uint64_t>(height_));
+  if (scale_ != FilmScale{}) {
+    hash.add(static_cast<std::uint64_t>(std::int64_t{scale_.exponent}));
+  }
   for (const PixelSums& sums : pixels()) {
     for (const FixedColor& plane : sums.plane) {
       for (const std::int64_t channel : plane.channel) {

@@ -113,7 +113,7 @@ void read_geometry(HitState& state, const std::byte* record) {
   read_surface(state, record);
 }
 
-CutEllipse cut_ellipse(const HitState& state, const std::byte* record) {
+CutEllipse cut_ellipse(const HitState& state, const std::byte* record, const Vec3d& upright) {
   const BlockLane lane = lane_of(state, record);
   const Vec3d v0 = lane.vector(0), edge1 = lane.vector(3) - v0, edge2 = lane.vector(6) - v0, normal = cross(edge1, edge2);
   const double square = dot(normal, normal);
@@ -121,11 +121,11 @@ CutEllipse cut_ellipse(const HitState& state, const std::byte* record) {
     return {};
   }
   const Vec3d direction(state.ray.direction), unit = state.geometric_normal;
-  const double approach = dot(direction, unit), cosine = std::fabs(approach);
-  const Vec3d slope = direction - unit * approach;
-  const Vec3d along = dot(slope, slope) > 0.0 ? normalize(slope) : normalize(edge1);
-  const double length = 1.0 / std::max(cosine, cosine_min);
-  const std::array<Vec3d, 2> axes{along * length, cross(unit, along)};
+  const double approach = std::copysign(std::max(std::fabs(dot(direction, unit)), cosine_min), dot(direction, unit));
+  // One diameter of the disc lies in the triangle's plane, the other is moved there along the ray.
+  const Vec3d common = cross(unit, upright);
+  const Vec3d across = normalize(dot(common, common) > 0.0 ? common : edge1), outwards = cross(upright, across);
+  const std::array<Vec3d, 2> axes{outwards - direction * (dot(outwards, unit) / approach), across};
   const Vec3d of_u = cross(edge2, normal), of_v = cross(normal, edge1);
   CutEllipse ellipse;
   for (std::size_t axis = 0; axis < 2; ++axis) {

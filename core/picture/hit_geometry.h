@@ -18,7 +18,9 @@ void read_geometry(HitState& state, const std::byte* record);
 /// All of that but point, weights, true normal and clearance, which are set already.
 void read_surface(HitState& state, const std::byte* record);
 
-/// What a cone about the ray cuts out of a triangle's plane. From the same record, after read_geometry().
-CutEllipse cut_ellipse(const HitState& state, const std::byte* record);
+/// What is covered of a triangle's plane by a disc about the ray that stands at a right angle on the unit vector `upright`, seen
+/// along the ray: upright is where the camera looks if the disc lies on its film, and the ray itself if a cone is meant. From the
+/// same record, after read_geometry().
+CutEllipse cut_ellipse(const HitState& state, const std::byte* record, const Vec3d& upright);
 
 }  // namespace dmpc::core

@@ -24,7 +24,7 @@ bool is_beyond(const PixelMask& mask, std::uint32_t pixel_count) {
 
 /// Twice what scenes can bring, for what is rounded on the way.
 bool can_hold(const FixedColor& sum, std::uint32_t samples, const PictureTerms& terms) {
-  const double most = 2 * terms.radiance_max * samples / film_resolution + samples;
+  const double most = 2 * terms.radiance_max * samples * terms.film_scale.factor() / film_resolution + samples;
   return std::all_of(sum.channel.begin(), sum.channel.end(),
                      [&](std::int64_t channel) { return channel == 0 || (channel > 0 && static_cast<double>(channel) <= most); });
 }
@@ -73,17 +73,18 @@ const char* fault_of_later_pass(const PartialPicture& picture, const PictureTerm
 }
 
 /// More than any film can show, and less than what overflows on the way. Only what looked even was expected to be so.
-bool can_be(const PixelPast& past, const RefinementOptions& options) {
+bool can_be(const PixelPast& past, const PictureTerms& terms) {
+  const double error = terms.refinement.error * terms.film_scale.factor();
   constexpr float mean_max = 0x1p31F, evidence_max = 1e30F;
   const auto is_mean = [](float channel) { return channel >= 0 && channel <= mean_max; };
   return std::all_of(past.mean.begin(), past.mean.end(), is_mean) && past.expected >= -1 &&
-         double{past.expected} <= options.error * options.error && std::fabs(past.evidence) <= evidence_max && past.weight >= 0 &&
+         double{past.expected} <= error * error && std::fabs(past.evidence) <= evidence_max && past.weight >= 0 &&
          past.weight <= 1;
 }
 
 const char* fault_of_past(const PartialPicture& picture, const PictureTerms& terms) {
   const bool is_whole = picture.past.size() == picture.film.pixels().size();
-  const auto is_right = [&](const PixelPast& past) { return can_be(past, terms.refinement); };
+  const auto is_right = [&](const PixelPast& past) { return can_be(past, terms); };
   return is_whole && std::all_of(picture.past.begin(), picture.past.end(), is_right) ? nullptr : "an estimate that no film has";
 }
 
@@ -123,6 +124,9 @@ PartialPicture partial_picture(const Film& film, const Refinement& refinement, c
 }
 
 const char* fault_of(const PartialPicture& picture, const PictureTerms& terms) {
+  if (picture.film.scale() != terms.film_scale) {
+    return "light of another scale";
+  }
   if (picture.passes == 0 || picture.passes > passes_max || (picture.passes > 1 && !terms.refinement.is_wanted())) {
     return "a pass that the picture does not have";
   }

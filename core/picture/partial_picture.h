@@ -34,6 +34,7 @@ struct PictureTerms {
   std::uint32_t samples = 1;                                      ///< of every pixel, in the first pass
   RefinementOptions refinement;                                   ///< what of the others
   double radiance_max = std::numeric_limits<double>::infinity();  ///< of a sample, in any channel, but for rounding
+  FilmScale film_scale = {};                                      ///< of the film
 };
 
 /// What the picture says that cannot be, as a part of a sentence; nullptr if it could have come about. It looks at passes, masks,

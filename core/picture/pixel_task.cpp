@@ -37,7 +37,7 @@ void PixelTask::end_ray(Traced result, const RenderSettings& settings, Operation
   expect(result == Traced::hit || result == Traced::miss, "a pixel's tracer sees the whole scene");
   tracing_ = false;
   if (const auto light = light_of_ended(ray_, result == Traced::hit, settings, operations)) {
-    deposit(sums_, ray_, *light, operations);
+    deposit(sums_, ray_, *light, settings, operations);
   } else if (ray_.kind != RayKind::shadow) {
     expect(stack_size_ < stack_.size(), "the ray stack holds a hit a depth");
     stack_[stack_size_++] = begin_shading(ray_, cursor_.best);

@@ -79,8 +79,8 @@ struct RenderSettings {
 };
 
 /// Adds what a sample of the ray's number finds to its pixel's sums.
-inline void deposit(PixelSums& sums, const Ray& ray, const Color& light, Operations& operations) {
-  if (add(sums.plane[ray.sample % 2], to_fixed(light))) {
+inline void deposit(PixelSums& sums, const Ray& ray, const Color& light, const RenderSettings& settings, Operations& operations) {
+  if (add(sums.plane[ray.sample % 2], to_fixed(light, settings.shade.film_scale))) {
     ++operations.deposits_saturated;
   }
 }
@@ -194,7 +194,7 @@ TaskState PixelTask::shade(T& tracer, const RenderSettings& settings, Operations
       return TaskState::absent;
     }
     Ray child;
-    if (Shader(settings.header, settings.shade, settings.skips, operations).step(state, record, child)) {
+    if (Shader(settings.header, settings.shade, settings.skips, operations, &settings.camera).step(state, record, child)) {
       shoot(child, operations);
       return TaskState::more;
     }

@@ -62,15 +62,17 @@ std::uint32_t level_max(const RefinementOptions& options, std::uint32_t samples)
   return level;
 }
 
-Refinement::Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height, const FineDetail* detail)
-    : options_(options),
+Refinement::Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height, const FineDetail* detail,
+                       FilmScale scale)
+    : scale_(scale.factor()),
+      error_(options.error * scale_),
       level_max_(core::level_max(options, samples)),
       pass_(static_cast<std::uint32_t>(width * height), samples),
       pixel_count_(static_cast<std::uint32_t>(width * height)) {
   expect(samples > 0, "a picture has samples");
   if (options.is_wanted()) {
     expect(samples % 2 == 0 && samples <= options.samples_max, "a picture that is refined starts with samples on both planes");
-    estimate_.emplace(width, height, detail, even_share * options.error * options.error);
+    estimate_.emplace(width, height, detail, even_share * error_ * error_);
     square_errors_.resize(pixel_count_);
   }
 }
@@ -96,7 +98,7 @@ bool Refinement::next_pass(Film& film) {
   }
   estimate_->end_pass(film, pass_);
   find_errors(film);
-  return result_.error > options_.error && result_.passes < passes_max && choose();
+  return result_.error > error_ && result_.passes < passes_max && choose();
 }
 
 void Refinement::find_errors(const Film& film) {
@@ -114,7 +116,7 @@ bool Refinement::choose() {
     const std::uint32_t level = std::max(step.from(), step.to());
     step = {level, level};
   }
-  const double wanted = aim * options_.error * options_.error, too_much = result_.error * result_.error - wanted;
+  const double wanted = aim * error_ * error_, too_much = result_.error * result_.error - wanted;
   const std::uint64_t samples = take_best(promises().threshold(too_much * static_cast<double>(square_errors_.size())));
   if (samples > 0) {
     explore(samples);
@@ -139,7 +141,7 @@ double Refinement::hash(std::uint32_t pixel) const {
 /// What each doubling of any pixel's samples would take off the sum of square errors, by what it is worth.
 Refinement::Promises Refinement::promises() const {
   Promises promises;
-  const double negligible = negligible_share * options_.error * options_.error;
+  const double negligible = negligible_share * error_ * error_;
   for (std::uint32_t pixel = 0; pixel < square_errors_.size(); ++pixel) {
     double square_error = square_errors_[pixel];
     const std::uint32_t from = pass_.steps()[pixel].from(), end = std::min(level_max_, from + doublings_max);
@@ -153,7 +155,7 @@ Refinement::Promises Refinement::promises() const {
 
 /// Takes all promises that are worth as much as the threshold's bin says. Returns how many samples that takes.
 std::uint64_t Refinement::take_best(std::size_t threshold) {
-  const double negligible = negligible_share * options_.error * options_.error;
+  const double negligible = negligible_share * error_ * error_;
   std::uint64_t samples = 0;
   for (std::uint32_t pixel = 0; pixel < square_errors_.size(); ++pixel) {
     double square_error = square_errors_[pixel];
@@ -182,7 +184,7 @@ void Refinement::explore(std::uint64_t samples_chosen) {
   }
   double share =
       explored_share * static_cast<double>(samples_chosen) / static_cast<double>(std::max<std::uint64_t>(samples_of_all, 1));
-  share = result_.passes == 1 ? std::max(share, explored_first(options_.error, square_errors_.size())) : share;
+  share = result_.passes == 1 ? std::max(share, explored_first(error_, square_errors_.size())) : share;
   for (std::uint32_t pixel = 0; pixel < square_errors_.size(); ++pixel) {
     if (hash(pixel) < share && can_explore(pixel)) {
       const std::uint32_t level = pass_.steps()[pixel].from();

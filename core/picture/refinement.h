@@ -48,8 +48,9 @@ struct RefinementResult {
 class Refinement {
  public:
   /// `samples`: of every pixel in the first pass, which is under way from the start. Requires an even number of them, and a film
-  /// of this size, if there is an error to come down to; else any number. `detail`, if there is any, outlives it.
-  Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height, const FineDetail* detail = nullptr);
+  /// of this size and scale, if there is an error to come down to; else any number. `detail`, if there is any, outlives it.
+  Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height, const FineDetail* detail = nullptr,
+             FilmScale scale = {});
 
   /// Goes on where another has left off. Before the first next_pass().
   void resume(const PartialPicture& start);
@@ -61,7 +62,7 @@ class Refinement {
   /// picture is good enough, or no pixel may have more samples.
   bool next_pass(Film& film);
   /// Up to the pass under way, its error not yet known.
-  const RefinementResult& result() const { return result_; }
+  RefinementResult result() const { return {result_.passes, result_.error / scale_}; }
   /// What it remembers of the pixels, for who goes on; of none, if no refinement is wanted.
   std::span<const PixelPast> past() const;
 
@@ -78,11 +79,12 @@ class Refinement {
   double worth(std::uint32_t pixel, double square_error, std::uint32_t level) const;
   double hash(std::uint32_t pixel) const;
 
-  RefinementOptions options_;
+  double scale_;  ///< the film's: errors of light are multiplied by it
+  double error_;  ///< the one asked for, scaled
   std::uint32_t level_max_ = 1;
   Pass pass_;
   std::uint32_t pixel_count_;
-  RefinementResult result_;
+  RefinementResult result_;                ///< its error scaled
   std::optional<ErrorEstimate> estimate_;  ///< this and the next are empty without refinement
   std::vector<float> square_errors_;
 };

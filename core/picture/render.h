@@ -26,8 +26,8 @@ PixelSums render_pixel(PixelTask& task, std::uint32_t pixel, const SampleRange& 
 template <Tracer T>
 Film render(T& tracer, const RenderSettings& settings, Operations& operations, const FineDetail* detail = nullptr) {
   const int width = settings.camera.width(), height = settings.camera.height();
-  Film film(width, height);
-  Refinement refinement(settings.refinement, settings.first_samples().count, width, height, detail);
+  Film film(width, height, settings.shade.film_scale);
+  Refinement refinement(settings.refinement, settings.first_samples().count, width, height, detail, film.scale());
   std::vector<HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
   PixelTask task(stack);
   do {

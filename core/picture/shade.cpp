@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <memory>
 
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
+#include "core/base/sampling.h"
 #include "core/picture/hit_geometry.h"
 
 namespace dmpc::core {
@@ -22,6 +24,21 @@ TexturePlace texture_place(const HitState& state) { return {state.u, state.v}; }
 /// What of the light found by a reflected ray counts: what cannot be transmitted is reflected, too.
 float mirrored_share(const HitState& state) {
   return state.surface.material.specular + (state.has_refraction ? 0.0F : state.surface.material.transmittance);
+}
+
+/// What its two children count for.
+float both_shares(const HitState& state) { return mirrored_share(state) + state.surface.material.transmittance; }
+
+std::uint64_t bits_of(const Vec3f& vector) {
+  const auto word = [](float value) { return std::uint64_t{std::bit_cast<std::uint32_t>(value)}; };
+  return mix(mix(word(vector.x) << 32U | word(vector.y)) + word(vector.z));
+}
+
+/// From 0 to 1, of a ray: its own, whoever shades its hit, and when.
+double chance_of(const Ray& ray) {
+  const std::uint64_t place = std::uint64_t{ray.pixel} << 32U | ray.sample;
+  const std::uint64_t bits = mix(mix(mix(place) + bits_of(ray.origin) + ray.depth) + bits_of(ray.direction));
+  return static_cast<double>(bits >> 11U) * 0x1p-53;
 }
 
 /// A child along the unit direction `towards`.
@@ -89,25 +106,31 @@ double sample_spacing(std::uint32_t sample, std::uint32_t first_samples) {
   return 1.0 / std::sqrt(static_cast<double>(count));
 }
 
-/// The width, grid-local, of the ray's cone where it hits.
-double Shader::cone_at_hit(const HitState& state) const {
-  const double angle = options_.pixel_angle * sample_spacing(state.ray.sample, options_.first_samples);
+/// How wide, grid-local, what the ray stands for is where it hits. Of a primary ray: along the film, which is a pixel's side
+/// there. Of all others: across the ray, by the shorter of the sides in which its pixel is seen from the eye: so wide a cone
+/// covers nothing that the pixel does not, and what it does not cover other samples do, whose difference an estimate of the error
+/// sees.
+double Shader::width_at_hit(const HitState& state) const {
+  const Ray& ray = state.ray;
+  const double side = options_.pixel_share * sample_spacing(ray.sample, options_.first_samples) * camera_->pixel_size();
   const double t{state.hit.t};
-  return state.ray.kind == RayKind::primary ? angle * (cone_width(state.ray) + t) : cone_width(state.ray) + angle * t;
+  return ray.kind == RayKind::primary ? side * (cone_width(ray) + t) * dot(Vec3d(ray.direction), camera_->forward())
+                                      : cone_width(ray) + side * camera_->square_cosine(ray.pixel) * t;
 }
 
 void Shader::read_geometry(HitState& state, const std::byte* record) const {
   core::read_geometry(state, record);
-  if (options_.pixel_angle > 0 && state.stage == Stage::normals) {
-    std::construct_at(&state.ellipse, cut_ellipse(state, record));
+  if (options_.pixel_share > 0 && state.stage == Stage::normals) {
+    const bool is_primary = state.ray.kind == RayKind::primary;
+    std::construct_at(&state.ellipse, cut_ellipse(state, record, is_primary ? camera_->forward() : Vec3d(state.ray.direction)));
   }
 }
 
 void Shader::begin_texture(HitState& state, const std::byte* record) const {
   ++operations_.texture_lookups;
   const auto textured = read<TexturedNormals>(record);
-  const CutEllipse ellipse = options_.pixel_angle > 0 ? state.ellipse : CutEllipse{};
-  const TextureFootprint footprint = footprint_of(textured, state.u, state.v, ellipse, cone_at_hit(state));
+  const CutEllipse ellipse = options_.pixel_share > 0 ? state.ellipse : CutEllipse{};
+  const TextureFootprint footprint = footprint_of(textured, state.u, state.v, ellipse, width_at_hit(state));
   state.u = footprint.middle.s;
   state.v = footprint.middle.t;
   std::construct_at(&state.lookup, begin_lookup(textured.texture, footprint));
@@ -143,12 +166,22 @@ bool Shader::refracts(const HitState& state) const {
   return state.has_refraction && (state.surface.material.transmittance > 0.0F || !skips_.zero_terms);
 }
 
-Stage Shader::after_reflection(const HitState& state) const { return refracts(state) ? Stage::refracted : Stage::finished; }
+bool Shader::sends_one(const HitState& state) const {
+  return options_.one_child_from > 0 && state.ray.depth >= options_.one_child_from && reflects(state) && refracts(state);
+}
+
+Stage Shader::after_reflection(const HitState& state) const {
+  return refracts(state) && !sends_one(state) ? Stage::refracted : Stage::finished;
+}
 
 /// The stage after the lights: children only while depth is left.
 Stage Shader::after_lights(const HitState& state) const {
   if (state.ray.depth >= options_.depth_max) {
     return Stage::finished;
+  }
+  if (sends_one(state)) {
+    return chance_of(state.ray) * double{both_shares(state)} < double{mirrored_share(state)} ? Stage::reflected
+                                                                                             : Stage::refracted;
   }
   return reflects(state) ? Stage::reflected : after_reflection(state);
 }
@@ -213,8 +246,10 @@ bool Shader::shine(HitState& state, const LightRecord& light, const LightFall& f
 
 /// A reflected or refracted ray's cone goes on with its parent's width and angle: what a curved surface does to it is left out.
 void Shader::widen(const HitState& state, Ray& child) const {
-  if (options_.pixel_angle > 0) {
-    child.cone = cone_bits(cone_at_hit(state));
+  if (options_.pixel_share > 0) {
+    const bool is_primary = state.ray.kind == RayKind::primary;
+    const double shorter = is_primary ? dot(Vec3d(state.ray.direction), camera_->forward()) : 1.0;
+    child.cone = cone_bits(width_at_hit(state) * shorter);
   }
 }
 
@@ -223,7 +258,9 @@ bool Shader::send(HitState& state, const Vec3d& towards, const RayStart& start, 
   expect(is_mirrored || state.stage == Stage::refracted, "a hit sends a ray when it has come to that");
   child = child_ray(state, towards, start, is_mirrored ? RayKind::reflected : RayKind::refracted);
   widen(state, child);
-  child.weight = state.ray.weight * (is_mirrored ? mirrored_share(state) : state.surface.material.transmittance);
+  child.weight = state.ray.weight * (sends_one(state) ? both_shares(state)
+                                     : is_mirrored    ? mirrored_share(state)
+                                                      : state.surface.material.transmittance);
   state.stage = is_mirrored ? after_reflection(state) : Stage::finished;
   return is_worth_it(child);
 }

@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "core/base/vec.h"
+#include "core/picture/camera.h"
+#include "core/picture/film.h"
 #include "core/picture/hit_state.h"
 #include "core/picture/light_fall.h"
 #include "core/record/ray.h"
@@ -21,19 +23,25 @@ enum class Convention : std::uint8_t { haines, paper };
 
 struct ShadeOptions {
   Convention convention = Convention::haines;
+  /// A hit from this depth on that could send both a mirrored and a refracted ray sends one of them, by chance, which counts for
+  /// both: the more often the more the ray counts for by itself, so that the picture is right on average (Russian roulette: J.
+  /// Arvo, D. Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990). The chance is a hash of the ray. 0: all hits send
+  /// both.
+  std::uint8_t one_child_from = 0;
   int depth_max = 5;  ///< hits at this depth spawn shadow rays only; the primary ray has depth 1
   /// A ray that can bring but less light than this to its sample, in every channel, is not shot: each one cut adds less to the
   /// sample's error. 0: none is cut (after R. Hall, D. Greenberg, "A Testbed for Realistic Image Synthesis", 1983).
   double cutoff = 0;
   double radiance_bound = 0;  ///< radiance_bound() of the scene; read only if there is a cutoff
-  /// Between the rays of neighbouring pixels, in radians: how fast the cones of rays would widen, if pixels had one each. 0: no
-  /// texture asks for them.
-  double pixel_angle = 0;
+  /// How much of its pixel's sides a ray stands for where it looks at a texture, if the pixel had only this one. 0: no texture
+  /// asks for it.
+  double pixel_share = 0;
   std::uint32_t first_samples = 1;  ///< of every pixel; more follow if it is refined
+  FilmScale film_scale = {};        ///< film_scale_for() the scene: of what rays deposit
 };
 
 /// How far a pixel's samples lie from each other, in sides of the pixel, when those of the pass that this one belongs to have
-/// been taken: passes double them. It is by so much that a sample's cone is narrower than its pixel's, so the more samples there
+/// been taken: passes double them. It is so much of its pixel that a sample stands for, so the more samples there
 /// are, the less a texture is blurred before they see it.
 double sample_spacing(std::uint32_t sample, std::uint32_t first_samples);
 
@@ -44,14 +52,16 @@ double radiance_bound(const Scene& scene, int depth_max);
 /// Shades hits, one record a step. What it is made from outlives it.
 class Shader {
  public:
-  Shader(const DatabaseHeader& header, const ShadeOptions& options, const Skips& skips, Operations& operations)
-      : header_(header), options_(options), skips_(skips), operations_(operations) {}
+  /// `camera` may be null where no texture asks what a pixel covers.
+  Shader(const DatabaseHeader& header, const ShadeOptions& options, const Skips& skips, Operations& operations,
+         const Camera* camera = nullptr)
+      : header_(header), options_(options), skips_(skips), operations_(operations), camera_(camera) {}
 
   /// One step. `record` is the record of record_needed() (nullptr if that was no_address). Returns whether `child` was set to a
   /// ray to be shot; the caller shoots it, then goes on, until state.stage is finished.
   bool step(HitState& state, const std::byte* record, Ray& child) const;
   /// Whether step() does to a hit's geometry what read_geometry() does, and no more.
-  bool reads_beside() const { return !(options_.pixel_angle > 0); }
+  bool reads_beside() const { return !(options_.pixel_share > 0); }
   /// Goes on with a hit at a light that is known to fall on it so; `highlight`: lobe_cosine() to the power of its shine.
   bool shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const;
   /// Goes on with a hit that mirrors or lets through a ray, which leaves `towards` a unit direction from `start`.
@@ -69,18 +79,20 @@ class Shader {
 
   bool reflects(const HitState& state) const;
   bool refracts(const HitState& state) const;
+  bool sends_one(const HitState& state) const;
   HitState::Stage after_lights(const HitState& state) const;
   HitState::Stage after_reflection(const HitState& state) const;
   void judge_children(HitState& state) const;
   bool leaves_out(bool is_lit, const Color& weight) const;
   bool is_worth_it(const Ray& child) const;
-  double cone_at_hit(const HitState& state) const;
+  double width_at_hit(const HitState& state) const;
   void widen(const HitState& state, Ray& child) const;
 
   const DatabaseHeader& header_;
   const ShadeOptions& options_;
   const Skips& skips_;
   Operations& operations_;
+  const Camera* camera_;
 };
 
 }  // namespace dmpc::core

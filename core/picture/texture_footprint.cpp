@@ -9,7 +9,7 @@ namespace {
 /// What covers more is taken for this: far beyond the coarsest level, and near enough for places to keep their precision.
 constexpr double texels_max = 0x1p24;
 
-/// By columns: where the ends of two axes at right angles come to lie.
+/// By columns: where the ends of two diameters at right angles come to lie.
 struct Matrix {
   double a = 0, b = 0, c = 0, d = 0;  ///< (a, c) and (b, d) are its columns
 };
@@ -54,7 +54,7 @@ std::array<double, 2> extent_of(const TexturedNormals& triangle, std::size_t sid
   return {double{low}, double{high}};
 }
 
-/// Texels along an axis of the cone's ellipse, over `size` texels of a side.
+/// Texels along a diameter of the ellipse, over `size` texels of a side.
 double texels_along(const TexturedNormals& triangle, const std::array<float, 2>& axis, std::size_t side, double size) {
   const auto& place = triangle.place;
   const double along1 = double{place[1][side]} - double{place[0][side]}, along2 = double{place[2][side]} - double{place[0][side]};

@@ -14,8 +14,8 @@ struct TexturePlace {
   double s = 0, t = 0;
 };
 
-/// The ellipse that a cone as wide as a grid-local unit cuts out of a triangle's plane: how the weights of vertices 1 and 2
-/// change from end to end of its axes, the longer one first.
+/// The ellipse that what a ray stands for, where that is as wide as a grid-local unit, covers of a triangle's plane: how the
+/// weights of vertices 1 and 2 change from end to end of two diameters of which each halves the chords along the other.
 struct CutEllipse {
   std::array<std::array<float, 2>, 2> axis{};
 };
@@ -32,7 +32,7 @@ struct TextureFootprint {
 /// Probes of a look-up at most. A footprint that is longer has wider ones.
 inline constexpr double probes_max = 15;
 
-/// The footprint of a cone of this width, grid-local, about the point of the triangle with weights u and v. What it covers of the
+/// The footprint of what is so wide, grid-local, about the point of the triangle with weights u and v. What it covers of the
 /// texture is an ellipse (P. Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989), taken by probes along its
 /// longer axis (J. McCormack and others, "Feline: Fast Elliptical Lines for Anisotropic Texture Mapping", SIGGRAPH 1999). The
 /// middles of probes keep to the rectangle in which the triangle's corners lie on the texture: beyond it a texture may show

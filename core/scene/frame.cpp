@@ -41,10 +41,13 @@ double cell_edge(const Vec3d& extent, double wanted) {
   }
 }
 
+/// Whose square does not vanish, in the same direction; as it is unless it is tiny.
+Vec3d enlarged(const Vec3d& way) { return largest_component(way) < 0x1p-500 ? way * 0x1p550 : way; }
+
 }  // namespace
 
 GridAxes screen_axes(const View& view) {
-  const Vec3d forward = normalize(view.at - view.from), right = normalize(cross(forward, view.up));
+  const Vec3d forward = normalize(enlarged(view.at - view.from)), right = normalize(cross(forward, enlarged(view.up)));
   return {right, cross(right, forward), -forward};
 }
 

@@ -14,14 +14,14 @@ namespace {
 constexpr int mantissa_bits = 9, exponent_bias = 15, exponent_max = 31;
 constexpr double mantissa_max = (1U << mantissa_bits) - 1;
 
-std::array<float, 256> curve() {
+constexpr std::array<float, 256> curve() {
   std::array<float, 256> light{};
   for (std::size_t byte = 0; byte < light.size(); ++byte) {
     light[byte] = static_cast<float>(linear_from_srgb(static_cast<double>(byte) / 255));
   }
   return light;
 }
-const std::array<float, 256> light_of_byte = curve();
+constexpr std::array<float, 256> light_of_byte = curve();
 
 float mantissa(std::uint32_t texel, std::uint32_t channel) {
   return static_cast<float>(texel >> channel * mantissa_bits & ((1U << mantissa_bits) - 1));

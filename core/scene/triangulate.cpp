@@ -1,5 +1,7 @@
 #include "core/scene/triangulate.h"
 
+#include <algorithm>
+
 #include "core/scene/ear_clipper.h"
 #include "core/scene/flat_polygon.h"
 
@@ -31,9 +33,33 @@ bool is_fan(const FlatPolygon& seen, std::uint32_t count) {
   return true;
 }
 
+/// Below it squares of areas may vanish, which are four such sizes multiplied.
+constexpr double size_min = 0x1p-240;
+/// Brings them nearer to where they do not, and none so far that they are infinite.
+constexpr double enlargement = 0x1p480;
+
+double size_of(std::span<const Vec3d> vertices) {
+  double size = 0;
+  for (const Vec3d& vertex : vertices) {
+    size = std::max(size, largest_component(vertex - vertices[0]));
+  }
+  return size;
+}
+
+std::vector<CornerTriangle> triangulate_enlarged(std::span<const Vec3d> vertices) {
+  std::vector<Vec3d> enlarged;
+  for (const Vec3d& vertex : vertices) {
+    enlarged.push_back((vertex - vertices[0]) * enlargement);
+  }
+  return triangulate(enlarged);
+}
+
 }  // namespace
 
 std::vector<CornerTriangle> triangulate(std::span<const Vec3d> vertices) {
+  if (const double size = size_of(vertices); size > 0 && size < size_min) {
+    return triangulate_enlarged(vertices);
+  }
   const auto count = static_cast<std::uint32_t>(vertices.size());
   const Vec3d normal = area_vector(vertices);
   std::vector<CornerTriangle> triangles;

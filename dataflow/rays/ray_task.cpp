@@ -131,7 +131,7 @@ bool RayTask::next_child(PartTracer& tracer, const core::RenderSettings& setting
     }
     const core::Address address = core::record_needed(hit, settings.header);
     const std::byte* const record = address == core::no_address ? nullptr : tracer.find(address);
-    if (core::Shader(settings.header, settings.shade, settings.skips, operations).step(hit, record, child)) {
+    if (core::Shader(settings.header, settings.shade, settings.skips, operations, &settings.camera).step(hit, record, child)) {
       return true;
     }
   }

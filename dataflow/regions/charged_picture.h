@@ -107,8 +107,8 @@ class ChargedPicture {
       const core::Address address = core::record_needed(state, settings_.header);
       const std::byte* record = address == core::no_address ? nullptr : records_.find(address);
       core::Ray child;
-      const bool has_child =
-          core::Shader(settings_.header, settings_.shade, settings_.skips, operations_).step(state, record, child);
+      const bool has_child = core::Shader(settings_.header, settings_.shade, settings_.skips, operations_, &settings_.camera)
+                                 .step(state, record, child);
       settle();
       if (has_child) {
         shoot(child);

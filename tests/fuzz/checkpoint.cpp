@@ -57,7 +57,7 @@ class Picture {
  public:
   Picture(int samples, const core::RefinementOptions& refinement)
       : subject_(tests::mirrors_and_glass(), {side, side, samples, refinement}),
-        identity_{side, side, {{"depth", "5"}, {"objects", "#1"}}, {}} {
+        identity_{side, side, {{"depth", "5"}, {"objects", "#1"}, {apps::film_scale_fact, "1"}}, {}} {
     identity_.terms = {static_cast<std::uint32_t>(samples), refinement, core::radiance_bound(tests::mirrors_and_glass(), 6)};
     for (const std::uint32_t keeps : {1U, 4U, 10U, 12U}) {
       keep(keeps);

@@ -66,7 +66,7 @@ class Subject {
                   core::Camera(scene.view, database_.header().frame, size.width, size.height, size.samples),
                   {.cutoff = size.cutoff,
                    .radiance_bound = 10,
-                   .pixel_angle = 0.01,
+                   .pixel_share = 1,
                    .first_samples = static_cast<std::uint32_t>(size.samples)},
                   size.refinement} {
     core::LocalRecords records(database_.bytes());

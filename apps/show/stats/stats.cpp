@@ -299,6 +299,7 @@ std::string stats_json(const RenderRecord& record) {
               {"runner", name_of(record.options.runner.kind)},
               {"machine", machine ? machine_json(*machine) : Json()},
               {"film_hash", hash_text(account.film.hash())},
+              {"film_scale", account.film.scale().factor()},
               {"sampling", sampling_json(record, account)},
               {"rays", rays_json(account.operations.rays)},
               {"hits", json_of(account.operations, hit_counters)},

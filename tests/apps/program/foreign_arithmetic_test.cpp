@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/picture/image_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/film_in.h"
+#include "tests/support/noise_texture.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::tests::foreign_arithmetic_test {
@@ -53,6 +55,23 @@ TEST_CASE("a library that flushes to zero and rounds down in every thread change
   check_kept_beside_it({"tree-6", "--strategy=replicated"});
   check_kept_beside_it({"gears-2", "--runner=virtual"});
   check_kept_beside_it({"shells-2", "--tracer=embree", "--strategy=replicated"});
+}
+
+TEST_CASE("a texture looks alike beside a library that flushes to zero and rounds down, in 8 bits and in floats") {
+  const TemporaryFolder folder;
+  core::Texture bytes = noise_texture(32, 16);
+  apps::Image picture(32, 16);
+  for (std::size_t value = 0; value < picture.rgb.size(); ++value) {
+    picture.rgb[value] = static_cast<float>(bytes.levels[0].texels[value / 3] >> value % 3 * 8 & 0xffU) / 200;
+  }
+  for (const std::string ending : {"png", "exr"}) {
+    CAPTURE(ending);
+    apps::write_image(folder / ("t." + ending), picture);
+    write_text(folder / "a.mtl", "newmtl m\nmap_Kd t." + ending + "\n");
+    write_text(folder / "a.obj",
+               "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 2 0 0.3\nv 0.1 1.9 0\nvt 0 0\nvt 1.7 0\nvt 0 1.3\nf 1/1 2/2 3/3\n");
+    check_kept_beside_it({folder / "a.obj", "--up=z"});
+  }
 }
 
 TEST_CASE("a library that flushes to zero and rounds down changes no table of a study, whose runs go side by side") {

@@ -2,8 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 
+#include "apps/edge/system/digest.h"
 #include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -17,7 +21,7 @@ using tests::write_text;
 
 namespace {
 
-const PictureIdentity identity{100, 50, {{"depth", "5"}, {"objects", "#12"}}, {.samples = 4}};
+const PictureIdentity identity{100, 50, {{"depth", "5"}, {"objects", "#12"}, {film_scale_fact, "1"}}, {.samples = 4}};
 
 /// A picture of 5,000 pixels, of which a third are done.
 struct SmallPicture {
@@ -35,6 +39,22 @@ struct SmallPicture {
   core::Refinement pass{{}, 4, 100, 50};
   core::PixelMask done{5000};
 };
+
+/// As format 2 had it, whose head did not tell of a scale; the digest goes over the head, too, and over parts as they are
+/// written.
+std::string without_scale(std::string text) {
+  const std::string fact = std::string(film_scale_fact) + "=1\n";
+  text.replace(text.find("checkpoint 3"), 12, "checkpoint 2").erase(text.find(fact), fact.size());
+  text.resize(text.size() - sizeof(std::uint64_t));
+  auto bytes = std::as_bytes(std::span(text));
+  Digest digest;
+  for (const std::size_t part : {text.find("\n\n") + 2, 8UL, 5000UL, 79 * 8UL, 4096 * 56UL, 904 * 56UL}) {
+    digest.add(bytes.first(part));
+    bytes = bytes.subspan(part);
+  }
+  const std::uint64_t value = digest.value();
+  return text.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
 
 std::string file_complaint(const std::filesystem::path& path, const PictureIdentity& of = identity) {
   try {
@@ -93,6 +113,29 @@ TEST_CASE("wherever a byte of a checkpoint is changed, it is refused") {
   }
 }
 
+TEST_CASE("a checkpoint of the format without a scale is gone on with where the scale is 1, and else refused") {
+  const TemporaryFolder folder;
+  const SmallPicture small;
+  small.write(folder / "a");
+  write_text(folder / "b", without_scale(file_text(folder / "a")));
+  CHECK(read_checkpoint(folder / "b", identity).film.hash() == small.film.hash());
+  PictureIdentity scaled = identity;
+  scaled.facts.back().value = "2^34";
+  scaled.terms.film_scale = {34};
+  CHECK(contains(file_complaint(folder / "b", scaled), "film-scale is 1, here 2^34"));
+}
+
+TEST_CASE("a checkpoint's film has the scale of the picture") {
+  const TemporaryFolder folder;
+  PictureIdentity scaled = identity;
+  scaled.facts.back().value = "2^34";
+  scaled.terms.film_scale = {34};
+  const core::Film film(100, 50, {34});
+  write_checkpoint(folder / "a", scaled, film, core::Refinement({}, 4, 100, 50), core::PixelMask(5000));
+  CHECK(contains(file_text(folder / "a"), "film-scale=2^34\n"));
+  CHECK(read_checkpoint(folder / "a", scaled).film.scale() == film.scale());
+}
+
 TEST_CASE("a checkpoint that is cut short or goes on too long is damaged") {
   const TemporaryFolder folder;
   SmallPicture().write(folder / "a");
@@ -108,7 +151,7 @@ TEST_CASE("what is no checkpoint is refused") {
   write_text(folder / "a", "");
   CHECK(contains(file_complaint(folder / "a"), "no checkpoint"));
   write_text(folder / "a", "dmpc checkpoint 1\n\n");
-  CHECK(contains(file_complaint(folder / "a"), "no checkpoint of this version"));
+  CHECK(contains(file_complaint(folder / "a"), "no checkpoint of this version of dmpc: its format is 1, here 2 and 3 are read"));
   CHECK(contains(file_complaint(folder / "none"), "cannot be read"));
   write_text(folder / "a", "dmpc checkpoint 2\n" + std::string(100'000, 'x') + "=\n");
   CHECK(contains(file_complaint(folder / "a"), "is damaged"));

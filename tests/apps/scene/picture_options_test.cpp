@@ -26,11 +26,11 @@ TEST_CASE("cones are as wide as pixels where there is a texture, half as wide wh
   const core::Database database = core::build_database(painted, {});
   PictureOptions picture{.resolution = Resolution{16, 16}, .samples = 9};
   const core::RenderSettings plain = render_settings(picture, painted, database);
-  CHECK(plain.shade.pixel_angle == plain.camera.pixel_size());
+  CHECK(plain.shade.pixel_share == 1);
   CHECK(plain.shade.first_samples == 9);
   picture.is_refined = true;
-  CHECK(render_settings(picture, painted, database).shade.pixel_angle == plain.camera.pixel_size() / 2);
-  CHECK(render_settings(picture, laid, core::build_database(laid, {})).shade.pixel_angle == 0);
+  CHECK(render_settings(picture, painted, database).shade.pixel_share == 0.5);
+  CHECK(render_settings(picture, laid, core::build_database(laid, {})).shade.pixel_share == 0);
 }
 
 }  // namespace dmpc::apps::picture_options_test

@@ -153,7 +153,7 @@ TEST_CASE("pixels known to show the background are not traced, alone or beside o
 }
 
 TEST_CASE("bundles that wait for every record give the same light, count the same work and look up as often") {
-  const TiledPicture subject(everything(), 1, {.pixel_angle = 0.03});
+  const TiledPicture subject(everything(), 1, {.pixel_share = 1});
   Operations once, often;
   int never = 0, waits = 0;
   CHECK(same_sums(tiled<LocalRecords>(subject, 16, once, never), tiled<apps::OneRecord>(subject, 16, often, waits)));

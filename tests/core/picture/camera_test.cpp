@@ -52,6 +52,14 @@ TEST_CASE("the middle ray of an odd picture goes straight ahead") {
   CHECK(ray.origin == Vec3f{0, 0, 1});
 }
 
+TEST_CASE("a pixel off the middle is seen under less of an angle, outwards by the square of its cosine") {
+  const View right_angle{.from = {0, 0, 1}, .at = {0, 0, 0}, .up = {0, 1, 0}, .angle_degrees = 90};
+  const Camera camera(right_angle, {}, 3, 3, 1);
+  CHECK(camera.square_cosine(4) == doctest::Approx(1));
+  CHECK(camera.square_cosine(3) == doctest::Approx(1.0 / 2));
+  CHECK(camera.square_cosine(0) == doctest::Approx(1.0 / 3));
+}
+
 TEST_CASE("the angle belongs to the shorter side, and pixels are square") {
   const Camera camera(straight, {}, 9, 5, 1);
   CHECK(place(camera, 0).second == doctest::Approx(reach).epsilon(1e-6));

@@ -21,7 +21,7 @@ Film picture_of(const Scene& scene, int side, int samples, double error = 0) {
   const Camera camera(scene.view, database.header().frame, side, side, samples);
   const RenderSettings settings{database.header(),
                                 camera,
-                                {.pixel_angle = database.records().textured > 0 ? camera.pixel_size() / (error > 0 ? 2 : 1) : 0,
+                                {.pixel_share = database.records().textured > 0 ? 1.0 / (error > 0 ? 2 : 1) : 0,
                                  .first_samples = static_cast<std::uint32_t>(samples)},
                                 {.error = error}};
   LocalRecords records(database.bytes());
@@ -30,17 +30,26 @@ Film picture_of(const Scene& scene, int side, int samples, double error = 0) {
   return render(tracer, settings, operations);
 }
 
+constexpr int side = 32;
+
+Scene seen_at(Scene scene, double angle_degrees) {
+  scene.view.angle_degrees = angle_degrees;
+  return scene;
+}
+
 /// How far a painted floor is from the one that is laid, seen with very many samples: root mean square, in 255ths.
-double error_of_paint(int samples, double error = 0) {
-  constexpr int side = 32;
-  static const Film laid = picture_of(CheckedFloor::laid(), side, 1024);
-  const Film painted = picture_of(CheckedFloor::painted(), side, samples, error / 255);
+double error_between(const Film& painted, const Film& laid) {
   double squares = 0;
   for (std::uint32_t pixel = 0; pixel < side * side; ++pixel) {
     const Vec3d off = painted.radiance(pixel) - laid.radiance(pixel);
     squares += dot(off, off);
   }
   return 255 * std::sqrt(squares / (3 * side * side));
+}
+
+double error_of_paint(int samples, double error = 0) {
+  static const Film laid = picture_of(CheckedFloor::laid(), side, 1024);
+  return error_between(picture_of(CheckedFloor::painted(), side, samples, error / 255), laid);
 }
 
 /// A wall of one colour, straight ahead, under a light at a slant: its middle.
@@ -67,6 +76,15 @@ TEST_CASE("a floor painted with checks becomes the floor laid in checks as sampl
 TEST_CASE("a painted floor that is refined keeps to the error asked for") {
   for (const double error : {4.0, 1.0}) {
     CHECK(error_of_paint(2, error) < 1.05 * error);
+  }
+}
+
+TEST_CASE("a painted floor that is refined keeps to the error asked for, however wide the view") {
+  for (const double angle_degrees : {110.0, 125.0, 140.0}) {
+    CAPTURE(angle_degrees);
+    const Film laid = picture_of(seen_at(CheckedFloor::laid(), angle_degrees), side, 1024);
+    const Film painted = picture_of(seen_at(CheckedFloor::painted(), angle_degrees), side, 2, 1.0 / 255);
+    CHECK(error_between(painted, laid) < 1.05);
   }
 }
 

@@ -24,7 +24,7 @@ std::vector<Vec3d> render_row(const Subject& subject, std::uint32_t row) {
   core::PixelTask task(stack);
   core::Operations operations;
   const auto width = static_cast<std::uint32_t>(settings.camera.width());
-  core::Film film(settings.camera.width(), 1);
+  core::Film film(settings.camera.width(), 1, settings.shade.film_scale);
   std::vector<Vec3d> radiance(width);
   for (std::uint32_t column = 0; column < width; ++column) {
     film.deposit(column, core::render_pixel(task, row * width + column, {0, 1}, tracer, settings, operations));

@@ -23,8 +23,23 @@ AccurateRay AccurateCamera::ray_through(double column, double row) const {
   const double x = column - (width_ - 1) / 2.0, y = row - (height_ - 1) / 2.0;
   AccurateRay ray;
   ray.origin = eye_;
-  ray.direction = normalize(forward_ + right_ * x + down_ * y);
+  const core::Vec3d towards = forward_ + right_ * x + down_ * y;
+  const double distance = length(towards);
+  ray.direction = towards * (1 / distance);
+  // The derivatives of the line above (H. Igehy, "Tracing Ray Differentials", SIGGRAPH 1999).
+  const auto turned_by = [&](const core::Vec3d& step) {
+    return (step - ray.direction * dot(step, ray.direction)) * (1 / distance);
+  };
+  ray.apart = {turned_by(right_), turned_by(down_)};
   return ray;
+}
+
+/// The lesser singular value of the two changes of the direction.
+double narrow_angle(const AccurateRay& ray) {
+  const auto& [column, row] = ray.apart;
+  const double first = dot(column, column), second = dot(row, row);
+  const double less = (first + second) / 2 - std::hypot((first - second) / 2, dot(column, row));
+  return std::sqrt(std::max(less, 0.0));
 }
 
 }  // namespace dmpc::apps

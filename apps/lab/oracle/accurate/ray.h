@@ -1,6 +1,7 @@
 // Rays and hits of the accurate renderer: double precision, the scene's own coordinates.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -19,8 +20,14 @@ struct AccurateRay {
   int depth = 1;
   core::RayKind kind = core::RayKind::primary;
   std::uint32_t light = 0;  ///< of a shadow ray: index into the scene's lights
-  double cone = 0;          ///< the width, where it starts, of what it stands for
+  /// The width, where it starts, of what it stands for; of a primary ray how far from the eye it starts.
+  double cone = 0;
+  /// By how much the directions of its pixel's primary rays change from column to column and from row to row.
+  std::array<core::Vec3d, 2> apart{};
 };
+
+/// The narrower of the two angles, in radians, in which the pixel of a ray is seen from the eye.
+double narrow_angle(const AccurateRay& ray);
 
 /// The least (t, body) that a ray meets; of a shadow ray some hit, whichever was found.
 struct AccurateHit {

@@ -188,7 +188,7 @@ ProductLog ProductLogger::log_of(std::uint32_t pixel) const {
   std::vector<core::HitState> stack(static_cast<std::size_t>(settings_.shade.depth_max));
   core::PixelTask task(stack);
   core::Operations operations;
-  core::Film film(1, 1);
+  core::Film film(1, 1, settings_.shade.film_scale);
   film.deposit(0, core::render_pixel(task, pixel, {0, 1}, tracer, settings_, operations));
   film.add_samples(0, 1);
   log.radiance = film.radiance(0);

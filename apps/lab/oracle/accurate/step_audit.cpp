@@ -57,10 +57,12 @@ std::string text_of(const AccurateRay& ray) {
 
 class StepAudit::Case {
  public:
-  Case(const StepAudit& audit, const ProductLog& log) : audit_(audit), log_(log) { result_.doubts.resize(log.rays.size()); }
+  Case(const StepAudit& audit, const ProductLog& log, const AccurateRay& primary) : audit_(audit), log_(log), primary_(primary) {
+    result_.doubts.resize(log.rays.size());
+  }
 
-  Audit of(const AccurateRay& primary) {
-    check_primary(primary);
+  Audit run() {
+    check_primary(primary_);
     for (std::size_t index = 0; index < log_.rays.size(); ++index) {
       check_answer(index);
       if (log_.rays[index].hit && log_.rays[index].kind != RayKind::shadow) {
@@ -75,8 +77,8 @@ class StepAudit::Case {
 
   /// A ray of an eye that is far away starts nearer.
   void check_primary(AccurateRay primary) {
-    primary.origin =
-        primary.origin + primary.direction * dot(log_.shots.front().world.origin - primary.origin, primary.direction);
+    primary.cone = dot(log_.shots.front().world.origin - primary.origin, primary.direction);
+    primary.origin = primary.origin + primary.direction * primary.cone;
     std::vector<Rays> trials;
     for (std::uint64_t seed = 0; seed < trial_count; ++seed) {
       trials.push_back({primary});
@@ -109,7 +111,8 @@ class StepAudit::Case {
   }
 
   void check_spawned(std::size_t index) {
-    const AccurateRay& from = log_.shots[index].world;
+    AccurateRay from = log_.shots[index].world;
+    from.apart = primary_.apart;
     if (log_.rays[index].body == core::no_primitive) {
       return complain(text_of(from) + " hits what double precision leaves out");
     }
@@ -172,16 +175,17 @@ class StepAudit::Case {
     if (std::isfinite(right.t_max) && !(std::fabs(found.t_max - right.t_max) <= end_rounding * (right.t_max + audit_.unit_))) {
       complain(text_of(found) + " with another end");
     }
-    if (!(std::fabs(found.cone - right.cone) <= cone_rounding * right.cone)) {
+    if (!(std::fabs(found.cone - right.cone) <= cone_rounding * right.cone + float_rounding * audit_.unit_)) {
       complain(text_of(found) + " with another cone");
     }
   }
 
   const StepAudit& audit_;
   const ProductLog& log_;
+  const AccurateRay& primary_;
   Audit result_;
 };
 
-Audit StepAudit::of(const ProductLog& log, const AccurateRay& primary) const { return Case(*this, log).of(primary); }
+Audit StepAudit::of(const ProductLog& log, const AccurateRay& primary) const { return Case(*this, log, primary).run(); }
 
 }  // namespace dmpc::apps

@@ -105,9 +105,12 @@ double reach_to(double middle, double length, double low, double high, double re
   return reach > 0 ? std::clamp(steps, 0.0, reach) : std::clamp(steps, reach, 0.0);
 }
 
-/// The change of (s, t) over a step in the triangle's plane.
-AccuratePlace change_over(const AccuratePaint& paint, const Vec3d& step) {
+/// The change of (s, t) over a step from the ray to one beside it, along which the triangle's plane is then looked for.
+AccuratePlace change_over(const AccuratePaint& paint, const Vec3d& aside, const Vec3d& direction) {
   const Vec3d normal = cross(paint.corner[1] - paint.corner[0], paint.corner[2] - paint.corner[0]);
+  const double approach = dot(direction, normal), least = cosine_min * length(normal);
+  const double height = dot(aside, normal) / (std::fabs(approach) < least ? std::copysign(least, approach) : approach);
+  const Vec3d step = aside - direction * height;
   AccuratePlace change{};
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3d opposite = paint.corner[(k + 2) % 3] - paint.corner[(k + 1) % 3];
@@ -120,24 +123,25 @@ AccuratePlace change_over(const AccuratePaint& paint, const Vec3d& step) {
 
 }  // namespace
 
+AccurateReach cone_about(const Vec3d& direction, double width) {
+  const Vec3d aside = std::fabs(direction.x) < std::fabs(direction.y) ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  const Vec3d one = normalize(cross(direction, aside));
+  return {one * width, cross(direction, one) * width};
+}
+
 AccurateFootprint footprint_of(const AccuratePaint& paint, const core::Texture& texture, const std::array<double, 3>& weight,
-                               const Vec3d& direction, double cone) {
+                               const Vec3d& direction, const AccurateReach& reach) {
   AccurateFootprint footprint;
   for (std::size_t k = 0; k < 3; ++k) {
     footprint.middle[0] += weight[k] * paint.place[k][0];
     footprint.middle[1] += weight[k] * paint.place[k][1];
   }
-  if (cone == 0) {
+  if (reach == AccurateReach{}) {
     return footprint;
   }
-  const Vec3d edge = paint.corner[1] - paint.corner[0];
-  const Vec3d normal = normalize(cross(edge, paint.corner[2] - paint.corner[0]));
-  const Vec3d sideways = cross(direction, normal);
-  const Vec3d across = length(sideways) > 0 ? normalize(sideways) : normalize(edge), along = cross(normal, across);
-  const AccuratePlace far = change_over(paint, along * (cone / std::max(std::fabs(dot(direction, normal)), cosine_min)));
-  const AccuratePlace wide = change_over(paint, across * cone);
+  const AccuratePlace one = change_over(paint, reach[0], direction), other = change_over(paint, reach[1], direction);
   const double columns = texture.levels[0].width, rows = texture.levels[0].height;
-  const Axes axes = axes_of(far[0] * columns, wide[0] * columns, far[1] * rows, wide[1] * rows);
+  const Axes axes = axes_of(one[0] * columns, other[0] * columns, one[1] * rows, other[1] * rows);
   const double texel = std::max(axes.shorter, 1.0), between = std::max(axes.longer - texel, 0.0);
   const AccuratePlace step{std::cos(axes.angle) / columns, std::sin(axes.angle) / rows};
   double from = -between / 2, to = between / 2;

@@ -24,10 +24,16 @@ struct AccurateFootprint {
   double width = 0, strides = 1;
 };
 
-/// The footprint of a cone `cone` wide, in world units, where its axis meets the triangle in the point with these weights of its
-/// corners. A cone of no width sees a point.
+/// Two steps from a ray, in world units, that span what it stands for.
+using AccurateReach = std::array<core::Vec3d, 2>;
+
+/// Of a cone about a unit direction, `width` wide.
+AccurateReach cone_about(const core::Vec3d& direction, double width);
+
+/// The footprint of what a ray along `direction` stands for, where it meets the triangle in the point with these weights of its
+/// corners. What has no width sees a point.
 AccurateFootprint footprint_of(const AccuratePaint& paint, const core::Texture& texture, const std::array<double, 3>& weight,
-                               const core::Vec3d& direction, double cone);
+                               const core::Vec3d& direction, const AccurateReach& reach);
 
 /// The mean, in linear light.
 core::Vec3d texture_color(const core::Texture& texture, const AccurateFootprint& footprint);

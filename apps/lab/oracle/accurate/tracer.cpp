@@ -37,10 +37,11 @@ struct AccurateTracer::Touch {
   std::uint32_t body;
   const core::Material& material;
   AccurateSurface surface;
-  Vec3d normal;      ///< for shading: on the ray's side, between a patch's normals
-  double index = 1;  ///< of refraction: on the ray's side over the other one
-  double cone = 0;   ///< the width of the ray's cone here
-  Vec3d color;       ///< of the diffuse part, with what a texture makes of it
+  Vec3d normal;           ///< for shading: on the ray's side, between a patch's normals
+  double index = 1;       ///< of refraction: on the ray's side over the other one
+  double cone = 0;        ///< the width here of the cones of the rays that leave
+  AccurateReach reach{};  ///< of the ray itself
+  Vec3d color;            ///< of the diffuse part, with what a texture makes of it
 
   /// The square of the cosine behind the surface by Snell's law; below 0 all is reflected.
   double refracted_cosine_squared() const {
@@ -107,7 +108,11 @@ AccurateTracer::Touch AccurateTracer::touch(const AccurateRay& ray, const Accura
   }
   const double inside = result.material.refraction_index > 0 ? result.material.refraction_index : 1;
   result.index = leaving ? inside : 1 / inside;
-  result.cone = ray.cone + hit.t * options_.pixel_angle / std::sqrt(static_cast<double>(options_.first_samples));
+  const double share = options_.pixel_share / std::sqrt(static_cast<double>(options_.first_samples)), distance = ray.cone + hit.t;
+  const bool is_primary = ray.kind == RayKind::primary;
+  result.cone = share * narrow_angle(ray) * (is_primary ? distance : hit.t) + (is_primary ? 0 : ray.cone);
+  result.reach = is_primary ? AccurateReach{ray.apart[0] * (share * distance), ray.apart[1] * (share * distance)}
+                            : cone_about(ray.direction, result.cone);
   result.color = body.is_textured() ? painted(result) : result.material.color;
   return result;
 }
@@ -118,7 +123,7 @@ Vec3d AccurateTracer::painted(const Touch& touch) const {
   AccuratePaint paint{.corner = body.place, .place = {}};
   std::copy_n(scene_.places.begin() + body.first_place, paint.place.size(), paint.place.begin());
   const core::Texture& texture = scene_.textures[touch.material.texture];
-  AccurateFootprint footprint = footprint_of(paint, texture, touch.surface.weight, touch.ray.direction, touch.cone);
+  AccurateFootprint footprint = footprint_of(paint, texture, touch.surface.weight, touch.ray.direction, touch.reach);
   if (watcher_ != nullptr) {
     watcher_->look_up(footprint);
   }
@@ -135,6 +140,7 @@ AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayK
   ray.depth = touch.ray.depth + (kind == RayKind::shadow ? 0 : 1);
   ray.kind = kind;
   ray.cone = kind == RayKind::shadow ? 0 : touch.cone;
+  ray.apart = touch.ray.apart;
   return ray;
 }
 

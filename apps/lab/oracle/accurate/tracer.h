@@ -31,7 +31,8 @@ class RayWatcher {
 class AccurateTracer {
  public:
   /// All outlive the tracer; `watcher` may be null. Secondary rays start 1e-9 of the scene's size off their surface. Rays look at
-  /// textures as the product's first samples do; where the options have no pixel angle, at points of them.
+  /// textures as the product's first samples do, by what the ray's own camera says that a pixel covers; where the options give
+  /// them no share of it, at points.
   AccurateTracer(const AccurateScene& scene, const AccurateFinder& finder, const core::ShadeOptions& options,
                  RayWatcher* watcher = nullptr)
       : scene_(scene), finder_(finder), options_(options), watcher_(watcher) {}

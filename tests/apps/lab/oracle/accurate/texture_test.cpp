@@ -62,6 +62,48 @@ struct TwoTriangles {
   }
 };
 
+/// A ray in single precision that hits a triangle.
+struct Met {
+  core::Ray ray;
+  core::HitState state;
+
+  Met(const TwoTriangles& triangle, const Vec3d& from, double u, double v) {
+    const Vec3d hit = triangle.paint.corner[0] * (1 - u - v) + triangle.paint.corner[1] * u + triangle.paint.corner[2] * v;
+    ray.origin = core::Vec3f(hit + from);
+    ray.direction = core::Vec3f(normalize(hit - Vec3d(ray.origin)));
+    state = core::begin_shading(ray, {.t = 1, .primitive = 0, .lane = 0});
+    core::read_geometry(state, triangle.block().data());
+  }
+  Vec3d direction() const { return normalize(Vec3d(ray.direction)); }
+  std::array<double, 3> weight() const { return {1 - state.u - state.v, state.u, state.v}; }
+};
+
+void check_alike(const core::TextureFootprint& ours, const apps::AccurateFootprint& theirs) {
+  REQUIRE(ours.width == doctest::Approx(theirs.width).epsilon(1e-3));
+  REQUIRE(ours.strides == doctest::Approx(theirs.strides).epsilon(1e-3));
+  REQUIRE(std::fabs(ours.middle.s - theirs.middle[0]) < 1e-3);
+  REQUIRE(std::fabs(ours.middle.t - theirs.middle[1]) < 1e-3);
+}
+
+TEST_CASE("a pixel covers in double what it covers by the records but for rounding, wherever it is on the film") {
+  std::mt19937 random(19);
+  std::uniform_real_distribution<double> share(0, 1), exponent(-12, -2), aside(-3, 3);
+  const core::Texture texture = noise_texture(40, 70);
+  for (int i = 0; i < 2000; ++i) {
+    const TwoTriangles triangle(random);
+    const double u = share(random), width = std::exp2(exponent(random));
+    const Met met(triangle, {share(random) - 0.5, share(random) - 0.5, share(random) - 0.5}, u, share(random) * (1 - u));
+    // A camera that sees the ray at this place of its film, one pixel of which is so wide where the ray hits.
+    const Vec3d one = normalize(cross(met.direction(), {0.36, 0.48, 0.8})), other = cross(met.direction(), one);
+    const Vec3d forward = normalize(met.direction() + one * aside(random) + other * aside(random));
+    const Vec3d column = normalize(cross(forward, {0.6, 0.8, 0})) * width, row = cross(forward, column);
+    const core::TextureFootprint ours = core::footprint_of(triangle.textured, met.state.u, met.state.v,
+                                                           core::cut_ellipse(met.state, triangle.block().data(), forward), width);
+    CAPTURE(i);
+    check_alike(ours, apps::footprint_of(triangle.paint, texture, met.weight(), met.direction(), {column, row}));
+  }
+}
+
 TEST_CASE("a cone covers in double what it covers by the records but for rounding") {
   std::mt19937 random(18);
   std::uniform_real_distribution<double> share(0, 1), exponent(-12, 2);
@@ -69,22 +111,12 @@ TEST_CASE("a cone covers in double what it covers by the records but for roundin
   for (int i = 0; i < 2000; ++i) {
     const TwoTriangles triangle(random);
     const double u = share(random), v = share(random) * (1 - u), cone = std::exp2(exponent(random));
-    const Vec3d hit = triangle.paint.corner[0] * (1 - u - v) + triangle.paint.corner[1] * u + triangle.paint.corner[2] * v;
-    core::Ray ray;
-    ray.origin = core::Vec3f(hit + Vec3d{share(random) - 0.5, share(random) - 0.5, share(random) - 0.5});
-    ray.direction = core::Vec3f(normalize(hit - Vec3d(ray.origin)));
-    core::HitState state = core::begin_shading(ray, {.t = 1, .primitive = 0, .lane = 0});
-    const auto block = triangle.block();
-    core::read_geometry(state, block.data());
-    const core::TextureFootprint ours =
-        core::footprint_of(triangle.textured, state.u, state.v, core::cut_ellipse(state, block.data()), cone);
-    const apps::AccurateFootprint theirs = apps::footprint_of(triangle.paint, texture, {1 - state.u - state.v, state.u, state.v},
-                                                              normalize(Vec3d(ray.direction)), cone);
+    const Met met(triangle, {share(random) - 0.5, share(random) - 0.5, share(random) - 0.5}, u, v);
+    const core::CutEllipse ellipse = core::cut_ellipse(met.state, triangle.block().data(), Vec3d(met.ray.direction));
     CAPTURE(i);
-    REQUIRE(ours.width == doctest::Approx(theirs.width).epsilon(1e-3));
-    REQUIRE(ours.strides == doctest::Approx(theirs.strides).epsilon(1e-3));
-    REQUIRE(std::fabs(ours.middle.s - theirs.middle[0]) < 1e-3);
-    REQUIRE(std::fabs(ours.middle.t - theirs.middle[1]) < 1e-3);
+    check_alike(
+        core::footprint_of(triangle.textured, met.state.u, met.state.v, ellipse, cone),
+        apps::footprint_of(triangle.paint, texture, met.weight(), met.direction(), apps::cone_about(met.direction(), cone)));
   }
 }
 

@@ -38,7 +38,7 @@ struct Workbench {
 
   static core::RenderSettings settings_of(const core::Scene& scene, const core::Database& database, int side) {
     const core::Camera camera(scene.view, database.header().frame, side, side, 1);
-    return {database.header(), camera, {.pixel_angle = scene.textures.empty() ? 0 : camera.pixel_size()}};
+    return {database.header(), camera, {.pixel_share = scene.textures.empty() ? 0.0 : 1.0}};
   }
 
   core::Scene scene;

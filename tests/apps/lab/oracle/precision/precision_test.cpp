@@ -137,6 +137,15 @@ TEST_CASE("a scene with textures has the same 8 bits in float and in double but 
   CHECK(apps::measure_precision(everything(), sized(64)).errors.empty());
 }
 
+TEST_CASE("a scene with textures looks as in double through a wide angle, too, and is explained") {
+  core::Scene scene = CheckedFloor::painted();
+  scene.view.angle_degrees = 135;
+  const apps::Precision floor = apps::measure_precision(scene, sized(64));
+  CHECK(floor.errors.empty());
+  CHECK(floor.differing_pixels < 60);
+  CHECK(floor.root_mean_square < 1e-4);
+}
+
 TEST_CASE("more than one sample a pixel is not measured") {
   apps::PictureOptions picture = sized(8);
   picture.samples = 2;

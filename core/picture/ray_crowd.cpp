@@ -1,0 +1,55 @@
+#include "core/picture/ray_crowd.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "core/record/records.h"
+
+namespace dmpc::core {
+namespace {
+
+constexpr std::uint64_t looked_at = 64;
+/// Odd and near to what is left of the golden ratio: its multiples go all over the picture.
+constexpr std::uint64_t stride = 2'654'435'761;
+
+bool can_send_two(const Database& database) {
+  const DatabaseHeader& header = database.header();
+  const LocalRecords records(database.bytes());
+  for (std::uint32_t i = 0; i < header.material_count; ++i) {
+    const auto material = read<MaterialRecord>(records.find(advance(header.materials, i * sizeof(MaterialRecord))));
+    if (material.specular > 0.0F && material.transmittance > 0.0F) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::uint64_t rays_in(const Operations& operations) {
+  return std::accumulate(operations.rays.begin(), operations.rays.end(), std::uint64_t{0});
+}
+
+}  // namespace
+
+std::uint8_t find_one_child_depth(const Database& database, const RenderSettings& settings) {
+  if (settings.shade.depth_max <= crowd_depth || !can_send_two(database)) {
+    return 0;
+  }
+  LocalRecords records(database.bytes());
+  GridTracer tracer(records, settings.header, settings.skips);
+  std::vector<HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
+  PixelTask task(stack);
+  Operations operations;
+  const std::uint64_t pixels = settings.camera.pixel_count(), count = std::min(looked_at, pixels);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    task.start(static_cast<std::uint32_t>(i * stride % pixels), {0, 1}, settings, operations);
+    while (task.run(tracer, settings, operations) != TaskState::finished) {
+      if (rays_in(operations) > crowd_rays * count) {
+        return crowd_depth;
+      }
+    }
+  }
+  return 0;
+}
+
+}  // namespace dmpc::core

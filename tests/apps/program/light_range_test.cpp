@@ -1,0 +1,72 @@
+// Light of any strength is in the picture as it is, or a line says what is not.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "apps/picture/image_file.h"
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests::light_range_test {
+
+namespace {
+
+/// A matt wall, seen and lit from where the eye is, by so much light.
+struct Wall {
+  TemporaryFolder folder;
+
+  explicit Wall(const std::string& light, const std::string& more = "") {
+    write_text(folder / "a.nff", "v\nfrom 0 0 2\nat 0 0 0\nup 0 1 0\nangle 20\nhither 0.1\nresolution 8 8\nl 0 0 2 " + light +
+                                     " " + light + " " + light + "\n" + more +
+                                     "f 1 0.5 0.25 0.5 0 0 0 0\np 4\n-9 -9 0\n9 -9 0\n9 9 0\n-9 9 0\n");
+  }
+  /// What it says.
+  std::string render(const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> command = {
+        DMPC_PROGRAM, "render", folder / "a.nff", "--nodes=2", "--stats=" + (folder / "s.json").string(), "-o", folder / "a.exr"};
+    command.insert(command.end(), options.begin(), options.end());
+    ChildProcess process(command);
+    CHECK(process.status() == 0);
+    return process.errors();
+  }
+  /// Of the pixels' red.
+  float brightest() const {
+    const std::vector<float> values = apps::read_image(folder / "a.exr").rgb;
+    return *std::max_element(values.begin(), values.end());
+  }
+};
+
+}  // namespace
+
+TEST_CASE("light of 10^-10 and of 10^12 is in the picture, without a word, by every strategy") {
+  for (const std::string strategy : {"svm", "dataflow"}) {
+    const Wall dim("1e-10"), glaring("1e12");
+    CHECK(dim.render({"--strategy=" + strategy}).empty());
+    CHECK(dim.brightest() == doctest::Approx(0.5e-10).epsilon(0.01));
+    CHECK(contains(file_text(dim.folder / "s.json"), "\"film_scale\": 17179869184.0"));
+    CHECK(contains(file_text(dim.folder / "a.exr"), "2^34"));
+    CHECK(glaring.render({"--strategy=" + strategy}).empty());
+    CHECK(glaring.brightest() == doctest::Approx(0.5e12).epsilon(0.01));
+  }
+}
+
+TEST_CASE("light that a bound did not tell of is cut with a word, and light far below all other is said") {
+  const Wall bright("2e9");
+  CHECK(contains(bright.render({"--samples=16"}), "64 of 64 pixels are brighter than the film can hold and were cut"));
+  const Wall dim("1e-10", "l 0 0 -2 1 1 1\n");
+  CHECK(contains(dim.render(), "the picture is black, though 64 shadow rays reached a light"));
+}
+
+TEST_CASE("a picture of little light goes on from its checkpoint with the same scale") {
+  const Wall whole("1e-10");
+  whole.render({"--samples=16"});
+  ChildProcess({DMPC_PROGRAM, "render", whole.folder / "a.nff", "--samples=16", "--checkpoint=" + (whole.folder / "c").string(),
+                "--keep-checkpoint", "-o", whole.folder / "b.exr"})
+      .status();
+  CHECK(contains(file_text(whole.folder / "c"), "film-scale=2^34"));
+}
+
+}  // namespace dmpc::tests::light_range_test
