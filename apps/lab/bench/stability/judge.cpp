@@ -55,6 +55,9 @@ void judge(const StabilitySubject& subject, const Ray& ray, const StabilityAnswe
     const Hit& hit = answers[k];
     StabilityCounts& count = counts[k];
     ++count.tried;
+    count.sure_hits += expectation.must == Must::hit ? 1 : 0;
+    count.sure_misses += expectation.must == Must::miss ? 1 : 0;
+    count.heard += heard ? 1 : 0;
     if (!hit.found() && expectation.must == Must::hit) {
       ++count.leaks;
     } else if (hit.found() && expectation.must == Must::miss) {
