@@ -45,7 +45,7 @@ bool same_bits(Kernel kernel, const Hit& hit, const Hit& expected) {
 
 void judge(const StabilitySubject& subject, const Ray& ray, const StabilityAnswers& answers,
            const StabilityExpectation& expectation, KernelCounts& counts) {
-  const Hearing nearest(subject.database, subject.referee, of_kind(ray, core::RayKind::primary)),
+  const Hearing nearest(subject.database, subject.referee, of_kind(ray, core::RayKind::reflected)),
       any(subject.database, subject.referee, of_kind(ray, core::RayKind::shadow));
   const Hit& grid = answers[index_of(Kernel::grid)];
   const Hit& expected = expectation.bits != nullptr ? *expectation.bits : grid;
