@@ -25,11 +25,12 @@ std::array<double, 2> roots(double a, double b, double c, double quarter_discrim
   return first < second || std::isnan(second) ? std::array{first, second} : std::array{second, first};
 }
 
-/// The first root in (0, t_max) that `accept` takes.
+/// The first root, `start` farther along the ray, in (0, t_max) that `accept` takes.
 template <class Accept>
-std::optional<double> first_of(const std::array<double, 2>& candidates, float t_max, const Accept& accept) {
-  for (const double t : candidates) {
-    if (t > 0 && t < static_cast<double>(t_max) && accept(t)) {
+std::optional<double> first_of(const std::array<double, 2>& candidates, double start, float t_max, const Accept& accept) {
+  for (const double root : candidates) {
+    const double t = start + root;
+    if (t > 0 && t < static_cast<double>(t_max) && accept(root)) {
       return t;
     }
   }
@@ -47,7 +48,7 @@ std::optional<double> nearest_on_sphere(const core::CurvedValues& value, const c
   const Vec3d across = from_center - direction * (b / a);
   const double distance = length(from_center);
   const double c = (distance - std::fabs(radius)) * (distance + std::fabs(radius));
-  return first_of(roots(a, b, c, a * (radius * radius - dot(across, across))), ray.t_max,
+  return first_of(roots(a, b, c, a * (radius * radius - dot(across, across))), 0, ray.t_max,
                   [&](double t) { return radius > 0 || dot(from_center + direction * t, direction) > 0; });
 }
 
@@ -59,23 +60,23 @@ struct Axial {
 };
 
 Axial axial(const core::CurvedValues& value) {
-  const Vec3d base = value.vector(0), to_apex = value.vector(4) - base;
+  const Vec3d base = value.vector(0), to_apex = value.axis();
   const double height = length(to_apex);
   const double base_radius = std::fabs(value.value(3)), apex_radius = std::fabs(value.value(7));
-  return {base,
-          to_apex * (1 / height),
-          base_radius,
-          height,
-          (apex_radius - base_radius) / height,
-          value.value(3) < 0 || value.value(7) < 0};
+  return {
+      base, to_apex * (1 / height), base_radius, height, (apex_radius - base_radius) / height, value.is_inside_visible_only()};
 }
 
 std::optional<double> nearest_on_cone(const core::CurvedValues& value, const core::Ray& ray) {
   const Axial cone = axial(value);
-  const Vec3d from_base = ray.full_origin() - cone.base;
   const Vec3d direction = ray.full_direction();
-  const double along_origin = dot(from_base, cone.axis);
   const double along_direction = dot(direction, cone.axis);
+  // A thin one all but lies in the plane of its base: only from there on its two sheets can be told apart.
+  const double widest = std::max(cone.base_radius, std::fabs(cone.base_radius + cone.slope * cone.height));
+  const bool is_thin = cone.height < std::fabs(along_direction) * widest * 0x1p-6;
+  const double start = is_thin ? dot(cone.base - ray.full_origin(), cone.axis) / along_direction : 0;
+  const Vec3d from_base = ray.full_origin() + direction * start - cone.base;
+  const double along_origin = dot(from_base, cone.axis);
   const Vec3d across_origin = from_base - cone.axis * along_origin;
   const Vec3d across_direction = direction - cone.axis * along_direction;
   const double radius_origin = cone.base_radius + cone.slope * along_origin;
@@ -84,7 +85,7 @@ std::optional<double> nearest_on_cone(const core::CurvedValues& value, const cor
   const double b = dot(across_origin, across_direction) - radius_origin * radius_direction;
   const double across_length = length(across_origin);
   const double c = (across_length - radius_origin) * (across_length + radius_origin);
-  return first_of(roots(a, b, c, b * b - a * c), ray.t_max, [&](double t) {
+  return first_of(roots(a, b, c, b * b - a * c), start, ray.t_max, [&](double t) {
     const double along = along_origin + t * along_direction;
     const double turn = dot(across_origin + across_direction * t, direction) -
                         cone.slope * (radius_origin + t * radius_direction) * along_direction;
@@ -93,10 +94,9 @@ std::optional<double> nearest_on_cone(const core::CurvedValues& value, const cor
 }
 
 /// Grows [center - radius, center + radius] by a few units in the last place, so that rounding never cuts into the body.
-void enclose(std::array<float, 6>& box, const float* center, float radius) {
+void enclose(std::array<float, 6>& box, const Vec3d& center, double radius) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double middle = static_cast<double>(center[axis]);
-    const double reach = std::fabs(static_cast<double>(radius));
+    const double middle = center[axis], reach = std::fabs(radius);
     const double slack = (std::fabs(middle) + reach) * 0x1p-21;
     box[axis] = std::min(box[axis], static_cast<float>(middle - reach - slack));
     box[axis + 3] = std::max(box[axis + 3], static_cast<float>(middle + reach + slack));
@@ -114,9 +114,10 @@ std::optional<double> nearest_on_curved(const core::PrimitiveValues& values, con
 std::array<float, 6> bounds_of_curved(const core::PrimitiveValues& values) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   std::array<float, 6> box{infinity, infinity, infinity, -infinity, -infinity, -infinity};
-  enclose(box, values.value.data(), values.value[3]);
+  const core::CurvedValues exact = values.curved();
+  enclose(box, exact.vector(0), exact.value(3));
   if (values.kind == core::PrimitiveKind::cone) {
-    enclose(box, values.value.data() + 4, values.value[7]);
+    enclose(box, exact.apex(), exact.value(7));
   }
   return box;
 }

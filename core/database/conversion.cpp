@@ -9,8 +9,10 @@
 #include "core/base/box.h"
 #include "core/base/units.h"
 #include "core/database/overlap.h"
+#include "core/record/cone_floats.h"
 #include "core/record/coordinate.h"
 #include "core/record/curved_values.h"
+#include "core/record/passing_surface.h"
 #include "core/scene/frame.h"
 #include "core/scene/triangulate.h"
 
@@ -34,14 +36,66 @@ void put(PrimitiveValues& primitive, std::size_t row, const Vec3d& v) {
 }
 
 /// Values from `first` on, each to its row, and their rests.
-void put_four(PrimitiveValues& primitive, std::size_t first, const Vec3d& v, double radius) {
-  const std::array<double, 4> values{on_lattice(v.x), on_lattice(v.y), on_lattice(v.z), on_lattice(radius)};
+void put_values(PrimitiveValues& primitive, std::size_t first, const std::array<double, 4>& values) {
   std::uint32_t rests = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     float& rounded = primitive.value[first + i] = static_cast<float>(values[i]);
     rests |= std::uint32_t{static_cast<std::uint8_t>(rest_of(values[i], rounded))} << (8 * i);
   }
   primitive.value[rest_row(primitive.kind) + first / 4] = std::bit_cast<float>(rests);
+}
+
+void put_four(PrimitiveValues& primitive, std::size_t first, const Vec3d& v, double radius) {
+  put_values(primitive, first, {on_lattice(v.x), on_lattice(v.y), on_lattice(v.z), on_lattice(radius)});
+}
+
+/// Of a flat cone, in place of its apex: no coordinates, so on no lattice.
+void put_axis(PrimitiveValues& primitive, const Vec3d& axis, double apex_radius) {
+  put_values(primitive, 4, {axis.x, axis.y, axis.z, on_lattice(apex_radius)});
+}
+
+BlockLane lane_of(const PrimitiveValues& primitive) { return {primitive.value.data(), 1, 0}; }
+
+/// The rests of four values from `first` on whose floats pass by local zero; the radius, which keeps its sign, may be another
+/// one.
+void put_passing(PrimitiveValues& primitive, std::size_t first, const Vec3d& place, double radius) {
+  primitive.value[first + 3] = static_cast<float>(radius);
+  const std::uint32_t rests =
+      passing_rests_of({on_lattice(place.x), on_lattice(place.y), on_lattice(place.z), radius}, &primitive.value[first]);
+  primitive.value[rest_row(primitive.kind) + first / 4] = std::bit_cast<float>(rests);
+}
+
+double grown(double radius, double by) { return std::copysign(std::max(std::fabs(radius) + by, 0.0), radius); }
+
+/// A sphere that passes by local zero (core/record/passing_surface.h) does so where it did before its centre was rounded.
+void settle_passing_sphere(PrimitiveValues& sphere, const Vec3d& center, double radius) {
+  put_passing(sphere, 0, center, radius);
+  const Vec3d rounded = sphere.curved().vector(0);
+  put_passing(sphere, 0, center, grown(radius, dot(rounded - center, rounded + center) / (length(rounded) + length(center))));
+  if (!passes_by_zero(sphere.kind, lane_of(sphere))) {
+    put_passing(sphere, 0, center, radius);  // on the border between what passes by and what does not
+  }
+}
+
+/// How far the surface of a cone is from local zero, negative within.
+double gap_at_zero(const Vec3d& base, const Vec3d& axis, double base_radius, double apex_radius) {
+  const double height = -dot(base, axis) / dot(axis, axis);
+  return length(base + axis * height) - (base_radius + (apex_radius - base_radius) * height);
+}
+
+/// The same of a cone or cylinder.
+void settle_passing_cone(PrimitiveValues& values, const Vec3d& base, const Vec3d& apex, double base_radius, double apex_radius) {
+  const double low = std::fabs(base_radius), high = std::fabs(apex_radius);
+  const auto put = [&](double by) {
+    put_passing(values, 0, base, grown(base_radius, by));
+    put_passing(values, 4, apex, grown(apex_radius, by));
+  };
+  put(0.0);
+  const CurvedValues rounded = values.curved();
+  put(gap_at_zero(rounded.vector(0), rounded.axis(), low, high) - gap_at_zero(base, apex - base, low, high));
+  if (!passes_by_zero(values.kind, lane_of(values))) {
+    put(0.0);
+  }
 }
 
 /// Decided on the floats that are stored: equal vertices first, then area (a difference of exact products could be hidden by
@@ -81,8 +135,13 @@ Place usable_place(Place place) {
   return place;
 }
 
-bool degenerate_cone(const PrimitiveValues& cone) {
-  return cone.vector(0) == cone.vector(4) || (cone.value[3] == 0.0F && cone.value[7] == 0.0F);
+/// Thinner than this share of its coordinates, a flat cone is no more than a point to doubles.
+constexpr double axis_share = 0x1p-46;
+
+bool degenerate_cone(const PrimitiveValues& values) {
+  const ConeFloats cone(lane_of(values));
+  const double least = cone.is_flat ? axis_share * (largest_component(cone.base) + cone.widest()) : 0.0;
+  return cone.widest() == 0.0 || !(largest_component(cone.axis) > least);
 }
 
 void include_cube(Box& box, const Vec3d& center, double half) {
@@ -188,21 +247,47 @@ class Converter {
 
   void add_sphere(std::uint32_t index, const Object& object, const Sphere& sphere) {
     PrimitiveValues values{.kind = PrimitiveKind::sphere};
-    put_four(values, 0, local(sphere.center), sphere.radius * frame_.scale);
+    const Vec3d center = local(sphere.center);
+    put_four(values, 0, center, sphere.radius * frame_.scale);
+    if (passes_by_zero(values.kind, lane_of(values))) {
+      settle_passing_sphere(values, center, sphere.radius * frame_.scale);
+    }
     const bool finite = usable(sphere.center) && std::fabs(sphere.radius) < coordinate_max;
     add(values, index, !finite || is_point(values), object.material, sphere.center,
         [&] { return finite ? 2 * std::fabs(sphere.radius) : 0.0; });
   }
 
   void add_cone(std::uint32_t index, const Object& object, const Cone& cone) {
-    PrimitiveValues values{.kind = PrimitiveKind::cone};
-    put_four(values, 0, local(cone.base), cone.base_radius * frame_.scale);
-    put_four(values, 4, local(cone.apex), cone.apex_radius * frame_.scale);
+    const PrimitiveValues values = values_of(cone);
     const bool finite = usable(cone.base) && usable(cone.apex) && std::fabs(cone.base_radius) < coordinate_max &&
                         std::fabs(cone.apex_radius) < coordinate_max;
     const bool has_radius = cone.base_radius != 0 || cone.apex_radius != 0;
     add(values, index, !finite || degenerate_cone(values) || is_point(values), object.material, cone.base,
-        [&] { return finite && has_radius ? length(cone.apex - cone.base) : 0.0; });
+        [&] { return finite && has_radius ? size_across(cone) : 0.0; });
+  }
+
+  /// 0 of one without a length.
+  static double size_across(const Cone& cone) {
+    const double height = length(cone.apex - cone.base);
+    return height > 0 ? std::max(height, 2 * std::max(std::fabs(cone.base_radius), std::fabs(cone.apex_radius))) : 0.0;
+  }
+
+  PrimitiveValues values_of(const Cone& cone) const {
+    const bool inside_only = cone.base_radius < 0 || cone.apex_radius < 0;
+    const double low = std::fabs(cone.base_radius) * frame_.scale, high = std::fabs(cone.apex_radius) * frame_.scale;
+    const Vec3d axis = turned(frame_.axes, cone.apex - cone.base) * frame_.scale;
+    const bool is_flat = length(axis) <= flat_cone_share * std::max(low, high);
+    const auto with_sign = [](double radius, bool negative) { return negative ? -radius : radius; };
+    const double base_radius = with_sign(low, inside_only), apex_radius = with_sign(high, inside_only != is_flat);
+    PrimitiveValues values{.kind = PrimitiveKind::cone};
+    put_four(values, 0, local(cone.base), base_radius);
+    is_flat ? put_axis(values, axis, apex_radius) : put_four(values, 4, local(cone.apex), apex_radius);
+    values.value[3] = std::copysign(values.value[3], static_cast<float>(base_radius));  // of 0, too
+    values.value[7] = std::copysign(values.value[7], static_cast<float>(apex_radius));
+    if (passes_by_zero(values.kind, lane_of(values))) {
+      settle_passing_cone(values, local(cone.base), local(cone.apex), base_radius, apex_radius);
+    }
+    return values;
   }
 
   const Scene& scene_;

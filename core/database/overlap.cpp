@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/record/cone_floats.h"
+
 namespace dmpc::core {
 namespace {
 
@@ -53,9 +55,9 @@ Box bounds_of(const PrimitiveValues& primitive) {
       break;
     }
     case PrimitiveKind::cone: {
-      const Vec3d base = primitive.vector(0), apex = primitive.vector(4);
-      include_disc(box, base, apex - base, std::fabs(double{primitive.value[3]}));
-      include_disc(box, apex, apex - base, std::fabs(double{primitive.value[7]}));
+      const ConeFloats cone({primitive.value.data(), 1, 0});
+      include_disc(box, cone.base, cone.axis, cone.base_radius);
+      include_disc(box, cone.apex, cone.axis, cone.apex_radius);
       break;
     }
   }
@@ -86,7 +88,7 @@ Overlap::Overlap(const PrimitiveValues& primitive)
       radius_ = std::fabs(double{primitive.value[3]});
       break;
     case PrimitiveKind::cone:
-      b_ = primitive.vector(4) - a_;
+      b_ = ConeFloats({primitive.value.data(), 1, 0}).axis;
       radius_ = std::fabs(double{primitive.value[3]});
       apex_radius_ = std::fabs(double{primitive.value[7]});
       break;

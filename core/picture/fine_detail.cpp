@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/record/cone_floats.h"
 #include "core/record/records.h"
 
 namespace dmpc::core {
@@ -97,7 +98,8 @@ class FineDetailFinder {
   }
 
   /// Where the point is seen, times its depth.
-  Vec3d on_film(const float* point) const { return camera_.on_film(Vec3d{point[0], point[1], point[2]} - eye_); }
+  Vec3d on_film(const Vec3d& point) const { return camera_.on_film(point - eye_); }
+  Vec3d on_film(const float* point) const { return on_film(Vec3d{point[0], point[1], point[2]}); }
   static Place place_of(const Vec3d& seen) { return {seen.x / seen.z, seen.y / seen.z}; }
   double pixels_of(double size, double depth) const { return std::fabs(size) / (depth * camera_.pixel_size()); }
 
@@ -106,7 +108,7 @@ class FineDetailFinder {
       case PrimitiveKind::sphere:
         return look_at_sphere(primitive.value.data());
       case PrimitiveKind::cone:
-        return look_at_cone(primitive.value.data());
+        return look_at_cone(ConeFloats({primitive.value.data(), 1, 0}));
       case PrimitiveKind::triangle:
         return look_at_triangle(primitive.value.data());
     }
@@ -135,9 +137,13 @@ class FineDetailFinder {
     end_primitive();
   }
 
-  void look_at_cone(const float* value) {
-    std::array<Vec3d, 2> seen{on_film(value), on_film(value + 4)};
-    std::array<double, 2> radius{value[3], value[7]};
+  /// A flat one is no strip, and not thin.
+  void look_at_cone(const ConeFloats& cone) {
+    if (cone.is_flat) {
+      return;
+    }
+    std::array<Vec3d, 2> seen{on_film(cone.base), on_film(cone.apex)};
+    std::array<double, 2> radius{cone.base_radius, cone.apex_radius};
     const double nearest = near_share * std::max(seen[0].z, seen[1].z);
     if (!(nearest > 0)) {
       return;

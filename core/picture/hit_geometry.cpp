@@ -4,20 +4,13 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/picture/curved_clearance.h"
 #include "core/picture/triangle_hit.h"
 #include "core/record/curved_values.h"
 #include "core/trace/primitive.h"
 
 namespace dmpc::core {
 namespace {
-
-/// A ray starts off by so much of the largest coordinate and radius: they are solved in double from rays that are exact to 2^-49.
-constexpr double curved_clearance = 0x1p-40;
-
-/// `size`: the largest coordinate and radius; `radius`: of the surface where it was hit.
-Clearance clearance_on_curved(const HitState& state, double size, double radius) {
-  return {flat_clearance * size + tie_clearance * double{state.hit.t}, curved_clearance * size, radius};
-}
 
 Vec3d along(const Ray& ray, double t) { return ray.full_origin() + ray.full_direction() * t; }
 
@@ -47,7 +40,7 @@ void sphere_geometry(HitState& state, const BlockLane& lane) {
   const double t = sphere_distance(state.ray, lane.rows, lane.stride, lane.lane);
   state.geometric_normal = normalize(along(state.ray, t) - center);
   state.point = center + state.geometric_normal * radius;
-  state.clearance = clearance_on_curved(state, largest_component(center) + radius, radius);
+  state.clearance = clearance_on_curved(state, largest_component(center) + radius, radius, sphere.passes_by());
 }
 
 /// The least cosine of a cone's axis with a surface that is told from 0.
@@ -57,21 +50,24 @@ constexpr double change_max = 1e30;
 
 float bounded(double change) { return static_cast<float>(std::clamp(change, -change_max, change_max)); }
 
+/// On a flat cone the way off the axis tells better than the height where the point is.
 void cone_geometry(HitState& state, const BlockLane& lane) {
   const CurvedValues cone(PrimitiveKind::cone, lane.rows, lane.stride, lane.lane);
-  const Vec3d base = cone.vector(0), apex = cone.vector(4), axis = apex - base;
+  const Vec3d base = cone.vector(0), apex = cone.apex(), axis = cone.axis();
   const double t = cone_distance(state.ray, lane.rows, lane.stride, lane.lane);
   const Vec3d from_base = along(state.ray, t) - base;
   const double base_radius = std::fabs(cone.value(3)), widening = std::fabs(cone.value(7)) - base_radius;
-  const double height = std::clamp(dot(from_base, axis) / dot(axis, axis), 0.0, 1.0);
-  const Vec3d outward = from_base - axis * height;
-  const double distance = length(outward), radius = base_radius + widening * height;
+  const double up = std::clamp(dot(from_base, axis) / dot(axis, axis), 0.0, 1.0);
+  const Vec3d outward = from_base - axis * up;
+  const double distance = length(outward);
+  const double height = cone.is_flat() && widening != 0.0 ? std::clamp((distance - base_radius) / widening, 0.0, 1.0) : up;
+  const double radius = base_radius + widening * height;
   const Vec3d radial = distance > 0.0 ? outward * (1.0 / distance) : Vec3d{};
   state.point = base + axis * height + radial * radius;
   const Vec3d normal = radial * dot(axis, axis) - axis * widening;
   state.geometric_normal = normalize(normal);
   const double size = std::max(largest_component(base), largest_component(apex)) + base_radius + std::max(widening, 0.0);
-  state.clearance = clearance_on_curved(state, size, radius);
+  state.clearance = clearance_on_curved(state, size, radius, cone.passes_by());
 }
 
 }  // namespace

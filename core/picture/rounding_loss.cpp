@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/database/overlap.h"
+#include "core/picture/curved_clearance.h"
 #include "core/record/coordinate.h"
 
 namespace dmpc::core {
@@ -14,6 +15,10 @@ namespace {
 
 /// Half a unit in the last place of a float, of its value; of one with a rest, a 256th of that.
 constexpr double float_rounding = 0x1p-24, rest_rounding = 0x1p-32;
+/// The same of the place and the radius of one that passes by local zero.
+constexpr double passing_rounding = 0x1p-28, passing_radius_rounding = 0x1p-44;
+/// The eye counts as no nearer to a curved surface than this share of its radius, or of one that passes by local zero.
+constexpr double curve_nearest = 0x1p-20, passing_nearest = 0x1p-36;
 /// Triangles of one polygon among which its inner edges are looked for.
 constexpr std::size_t polygon_triangles_max = 64;
 
@@ -58,6 +63,25 @@ double distance_to(const Triangle& triangle, const Vec3d& eye) {
   return std::isinf(beside) ? std::fabs(dot(eye - a, normal)) : beside;
 }
 
+/// From a point to the lateral surface.
+double distance_to_cone(const CurvedValues& cone, const Vec3d& point) {
+  const Vec3d axis = cone.axis(), from_base = point - cone.vector(0);
+  const double height = length(axis), up = dot(from_base, axis) / height, off = length(from_base - axis * (up / height));
+  const Vec3d at{up, off, 0}, low{0, std::fabs(cone.value(3)), 0}, high{height, std::fabs(cone.value(7)), 0};
+  return length(low + (high - low) * nearest_place(low, high, at) - at);
+}
+
+double distance_to_curved(const PrimitiveValues& primitive, const Vec3d& point) {
+  const CurvedValues curved = primitive.curved();
+  return primitive.kind == PrimitiveKind::cone ? distance_to_cone(curved, point)
+                                               : std::fabs(length(point - curved.vector(0)) - std::fabs(curved.value(3)));
+}
+
+double widest(const PrimitiveValues& curved) {
+  const double radius = std::fabs(double{curved.value[3]});
+  return curved.kind == PrimitiveKind::cone ? std::max(radius, std::fabs(double{curved.value[7]})) : radius;
+}
+
 class LossFinder {
  public:
   LossFinder(const Database& database, const Camera& camera) : database_(database), camera_(camera) {}
@@ -98,13 +122,22 @@ class LossFinder {
     if (!may_matter(box)) {
       return;
     }
-    const double moved = primitive.kind == PrimitiveKind::triangle ? moved_triangle(id) : moved_curved(box);
+    const double moved = primitive.kind == PrimitiveKind::triangle ? moved_triangle(id) : moved_curved(primitive, box);
     loss_.moved += moved > rounding_allowed_pixels ? 1 : 0;
     loss_.moved_pixels = std::max(loss_.moved_pixels, moved > rounding_allowed_pixels ? moved : 0.0);
   }
 
-  double moved_curved(const Box& box) const {
-    return pixels(2 * rest_rounding * largest_coordinate(box), std::max(distance_to(box, camera_.eye()), length(box.half())));
+  /// In pixels, where it is nearest to the eye: what rounding moves it by, and how far off it rays start, which see nothing of
+  /// what is nearer.
+  double moved_curved(const PrimitiveValues& curved, const Box& box) const {
+    const double size = 2 * largest_coordinate(box), radius = widest(curved),
+                 distance = distance_to_curved(curved, camera_.eye());
+    if (!curved.curved().passes_by()) {
+      return pixels((3 * rest_rounding + curved_going_on) * size, std::max(distance, curve_nearest * radius));
+    }
+    const double nearest = std::max(distance, passing_nearest * radius);
+    const double turned = 2 * passing_rounding * (largest_component(camera_.eye()) + nearest);
+    return pixels((passing_clearance + passing_radius_rounding) * size + turned, nearest);
   }
 
   /// In pixels: its plane where it is nearest, its corners, and its edges where they are nearest to the eye.

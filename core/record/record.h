@@ -109,8 +109,8 @@ inline constexpr std::size_t block_lanes = 8;
 /// primitive ids (ascending), then a row of ShadingReference. Grid-local coordinates, floats.
 ///   triangle rows: v0.x v0.y v0.z v1.x .. v2.z
 ///   sphere rows:   centre.x .y .z radius, rests
-///   cone rows:     base.x .y .z radius, apex.x .y .z radius, rests of the first four, of the last four
-/// Rests: what rounding left of four values, a byte each, the first lowest (core/record/curved_values.h).
+///   cone rows:     base.x .y .z radius, apex (or axis: cone_floats.h) .x .y .z radius, rests of the first four, of the last four
+/// Rests: what rounding left of four values, a byte each, the first lowest, or of the radius alone (core/record/curved_values.h).
 /// Behind the rows of a block that has_plane: the FacePlane of all its triangles.
 struct BlockHeader {
   PrimitiveKind kind{};

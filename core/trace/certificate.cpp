@@ -238,11 +238,11 @@ int sign_of(const Interval& a) { return a.low > 0.0 ? 1 : a.high < 0.0 ? -1 : 0;
 struct RealCone {
   RealCone(const Ray& ray, const CurvedValues& cone)
       : direction(exactly(ray.direction) + exactly(ray.direction_rest)), radius(std::fabs(cone.value(3))) {
-    const Vec3d base = cone.vector(0), apex = cone.vector(4);
+    const Vec3d base = cone.vector(0), apex = cone.vector(4), apex_from = cone.is_flat() ? Vec3d{} : base;
     for (std::size_t corner = 0; corner < 3; ++corner) {
       from_base[corner] =
           Interval(double{ray.origin[corner]}) - Interval(base[corner]) + Interval(double{ray.origin_rest[corner]});
-      axis[corner] = Interval(apex[corner]) - Interval(base[corner]);
+      axis[corner] = Interval(apex[corner]) - Interval(apex_from[corner]);
     }
     axis_squared = dot(axis, axis);
     widening = Interval(std::fabs(cone.value(7))) - radius;
@@ -332,7 +332,7 @@ bool is_first(const RealCone& cone, const Interval& t, bool gets_out, bool is_in
 Certificate certify_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
   const CurvedValues values(PrimitiveKind::cone, rows, stride, lane);
   const RealCone cone(ray, values);
-  const bool is_inside_visible_only = values.value(3) < 0.0 || rows[7 * stride + lane] < 0.0F;
+  const bool is_inside_visible_only = values.is_inside_visible_only();
   const double t = cone_distance(ray, rows, stride, lane);
   if (!(t > 0.0)) {
     return {};

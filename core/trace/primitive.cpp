@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/record/block_lane.h"
+#include "core/record/cone_floats.h"
 #include "core/record/curved_values.h"
 
 namespace dmpc::core {
@@ -236,21 +237,36 @@ bool passes_sphere(const Ray& ray, const float* rows, std::size_t stride, std::s
 /// For certain: the ray's line passes the cone's axis at more than its largest radius.
 bool passes_cone(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
   const BlockLane cone{rows, stride, lane};
-  const Vec3d base = cone.vector(0), axis = cone.vector(4) - base;
+  const float base_radius = rows[3 * stride + lane], apex_radius = rows[7 * stride + lane];
+  const Vec3d base = cone.vector(0), axis = is_flat_cone(base_radius, apex_radius) ? cone.vector(4) : cone.vector(4) - base;
   const Vec3d d(ray.direction), to_origin = Vec3d(ray.origin) - base, across = cross(d, axis);
-  const double radius = std::max(std::fabs(double{rows[3 * stride + lane]}), std::fabs(double{rows[7 * stride + lane]}));
+  const double radius{std::max(std::fabs(base_radius), std::fabs(apex_radius))};
   const double reach =
       radius + reach_of_rests(radius + largest_component(base) + largest_component(axis) + largest_component(to_origin));
   const double off = dot(to_origin, across), area = dot(across, across);
   return area > 1e-6 * dot(axis, axis) && off * off > reach * reach * area;
 }
 
+/// An eye lies on a surface if it is nearer than rounding may have moved that. `distance_squared`: from centre or axis; `size`:
+/// the largest coordinate and radius.
+bool is_on(const CurvedValues& curved, double distance_squared, double radius, double size) {
+  constexpr double moved = 0x1p-30, moved_passing = 0x1p-46;
+  return std::fabs(distance_squared - radius * radius) <= (curved.passes_by() ? moved_passing : moved) * size * std::fabs(radius);
+}
+
+/// Rays of the eye alone may start on a surface: others start off it. One that does has a root next to its start, however much it
+/// grazes the surface.
+bool may_start_on(const Ray& ray, double first_root, double second_root) {
+  constexpr double next_to_start = 0x1p-13;
+  return ray.kind == RayKind::primary && std::min(std::fabs(first_root), std::fabs(second_root)) < next_to_start;
+}
+
 }  // namespace
 
 double sphere_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
   const CurvedValues sphere(PrimitiveKind::sphere, rows, stride, lane);
-  const double radius = sphere.value(3);
-  const Vec3d d = ray.full_direction(), to_origin = ray.full_origin() - sphere.vector(0);
+  const auto [center, radius] = sphere.four(0);
+  const Vec3d d = ray.full_direction(), to_origin = ray.full_origin() - center;
   const double a = dot(d, d), middle = -dot(to_origin, d) / a;
   const Vec3d nearest = to_origin + d * middle;
   const double rest = radius * radius - dot(nearest, nearest);
@@ -259,6 +275,10 @@ double sphere_distance(const Ray& ray, const float* rows, std::size_t stride, st
   }
   const double half = std::sqrt(rest / a);
   const double near = middle - half, far = middle + half;
+  if (may_start_on(ray, near, far) &&
+      is_on(sphere, dot(to_origin, to_origin), radius, largest_component(center) + std::fabs(radius))) {
+    return middle > 0.0 ? far : double{missed};
+  }
   return near > 0.0 && radius > 0.0 ? near : far > 0.0 ? far : double{missed};
 }
 
@@ -278,6 +298,13 @@ struct ConeLine {
   bool leaving(const Vec3d& d, const Vec3d& axis, double taper, double t) const {
     const Vec3d normal = across + across_rate * t - axis * ((radius + radius_rate * t) * taper);
     return dot(d, normal) > 0.0;
+  }
+  /// Whether an eye, which is there at this t, is on the surface.
+  bool has_eye(const CurvedValues& cone, double t) const {
+    const Vec3d at = across + across_rate * t;
+    const double there = radius + radius_rate * t,
+                 farthest = std::max(largest_component(cone.vector(0)), largest_component(cone.apex()));
+    return is_on(cone, dot(at, at), there, farthest + std::fabs(there));
   }
 };
 
@@ -301,14 +328,20 @@ bool solve(double a, double b, double c, double& first, double& second) {
 
 }  // namespace
 
+/// About the ray's nearest point to the base; a flat cone is all but a plane, and so is its twin beyond the apex, which only
+/// where the ray crosses that plane can be told apart.
 double cone_distance(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane) {
   const CurvedValues cone(PrimitiveKind::cone, rows, stride, lane);
-  const Vec3d base = cone.vector(0), axis = cone.vector(4) - base;
-  const double signed_radius = cone.value(3), base_radius = std::fabs(signed_radius);
-  const double widening = std::fabs(cone.value(7)) - base_radius;
-  const bool inside_only = signed_radius < 0.0 || rows[7 * stride + lane] < 0.0F;
+  const auto [base, signed_base_radius] = cone.four(0);
+  const auto [apex, signed_apex_radius] = cone.four(4);
+  const Vec3d axis = cone.is_flat() ? apex : apex - base;
+  const double base_radius = std::fabs(signed_base_radius), apex_radius = std::fabs(signed_apex_radius);
+  const double widening = apex_radius - base_radius;
+  const bool inside_only = cone.is_inside_visible_only();
   const Vec3d d = ray.full_direction(), from_base = ray.full_origin() - base;
-  const double shift = -dot(from_base, d) / dot(d, d), axis_squared = dot(axis, axis);
+  const double axis_squared = dot(axis, axis);
+  const bool crosses_flat = cone.is_flat() && std::fabs(dot(d, axis)) * std::max(base_radius, apex_radius) > axis_squared;
+  const double shift = crosses_flat ? -dot(from_base, axis) / dot(d, axis) : -dot(from_base, d) / dot(d, d);
   const Vec3d start = from_base + d * shift;
 
   ConeLine line;
@@ -324,6 +357,9 @@ double cone_distance(const Ray& ray, const float* rows, std::size_t stride, std:
              dot(line.across, line.across_rate) - line.radius * line.radius_rate,
              dot(line.across, line.across) - line.radius * line.radius, roots[0], roots[1])) {
     return double{missed};
+  }
+  if (may_start_on(ray, roots[0] + shift, roots[1] + shift) && line.has_eye(cone, -shift)) {
+    roots[std::fabs(roots[0] + shift) < std::fabs(roots[1] + shift) ? 0 : 1] = -std::numeric_limits<double>::infinity();
   }
   for (const double root : roots) {
     const double height = line.height + line.height_rate * root;

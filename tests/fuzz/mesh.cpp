@@ -61,7 +61,7 @@ void compare(const Ray& ray, const apps::OwnAnswers& answers) {
 }
 
 void judge(const Subject& subject, const Ray& ray, const apps::OwnAnswers& answers) {
-  const apps::Hearing nearest(subject.database, subject.referee, apps::of_kind(ray, RayKind::primary)),
+  const apps::Hearing nearest(subject.database, subject.referee, apps::of_kind(ray, RayKind::reflected)),
       any(subject.database, subject.referee, apps::of_kind(ray, RayKind::shadow));
   const auto& [grid, scalar, plain, resumed, bundle, any_hit] = answers;
   expect(apps::same_hit(plain, grid), "skipping empty space changes no bit");

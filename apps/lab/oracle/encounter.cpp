@@ -248,7 +248,7 @@ Curved see_sphere(const Ray& ray, const core::PrimitiveValues& values) {
 Curved see_cone(const Ray& ray, const core::PrimitiveValues& values) {
   Curved curved;
   const core::CurvedValues cone = values.curved();
-  const Vec3l base(cone.vector(0)), to_apex = Vec3l(cone.vector(4)) - base;
+  const Vec3l base(cone.vector(0)), to_apex = cone.is_flat() ? Vec3l(cone.vector(4)) : Vec3l(cone.vector(4)) - base;
   const Long apex_radius = std::fabs(Long{cone.value(7)});
   curved.direction = full_direction(ray);
   curved.from_center = full_origin(ray) - base;
@@ -256,7 +256,7 @@ Curved see_cone(const Ray& ray, const core::PrimitiveValues& values) {
   curved.axis = to_apex * (1 / curved.height);
   curved.base_radius = std::fabs(Long{cone.value(3)});
   curved.slope = (apex_radius - curved.base_radius) / curved.height;
-  curved.inside_only = values.value[3] < 0 || values.value[7] < 0;
+  curved.inside_only = cone.is_inside_visible_only();
   const Long along = dot(curved.from_center, curved.axis), along_rate = dot(curved.direction, curved.axis);
   const Vec3l across = curved.from_center - curved.axis * along, across_rate = curved.direction - curved.axis * along_rate;
   const Long radius = curved.base_radius + curved.slope * along, radius_rate = curved.slope * along_rate;
@@ -287,6 +287,24 @@ Encounter meet_curved(const Curved& curved, Long t) {
   encounter.t_error = static_cast<double>(error + static_cast<Long>(unit_rounding) * std::fabs(t)) + denormal_rounding;
   encounter.margin.fill(static_cast<double>(margin));
   encounter.exact = margin >= 0;
+  return encounter;
+}
+
+/// Whether `t` is where an eye starts that lies on the body, as far as its rounded numbers tell: there it sees nothing of it.
+bool is_of_eye_on(const Ray& ray, const Curved& curved, Long t) {
+  const Quadratic& quadratic = curved.quadratic;
+  constexpr Long moved = 0x1p-30L;
+  const Long other = quadratic.a != 0 ? -2 * quadratic.b / quadratic.a - t : t;
+  return ray.kind == core::RayKind::primary && std::fabs(quadratic.c) <= moved * quadratic.size * quadratic.size &&
+         std::fabs(t) <= std::fabs(other);
+}
+
+/// The same of a curve that `ray` may start on.
+Encounter meet_curved(const Ray& ray, const Curved& curved, Long t) {
+  Encounter encounter = meet_curved(curved, t);
+  if (is_of_eye_on(ray, curved, t)) {
+    encounter.t_error = std::max(encounter.t_error, std::fabs(encounter.t));
+  }
   return encounter;
 }
 
@@ -326,7 +344,7 @@ void add_encounters(const Ray& ray, const core::PrimitiveValues& values, std::ui
   std::array<Long, 2> root{};
   const std::size_t count = curved.quadratic.roots(root);
   for (std::size_t k = 0; k < count; ++k) {
-    add(meet_curved(curved, root[k]));
+    add(meet_curved(ray, curved, root[k]));
   }
 }
 
@@ -343,7 +361,7 @@ Encounter examine(const Ray& ray, const core::PrimitiveValues& values, std::uint
   best.margin.fill(-std::numeric_limits<double>::infinity());
   const std::size_t count = curved.quadratic.roots(root);
   for (std::size_t k = 0; k < count; ++k) {
-    Encounter encounter = meet_curved(curved, root[k]);
+    Encounter encounter = meet_curved(ray, curved, root[k]);
     const bool counts = within_ends(ray, primitive, encounter);
     if (encounter.margin[0] > best.margin[0] && (counts || best.margin[0] < 0)) {
       best = encounter;

@@ -133,7 +133,8 @@ Fault fault_of_sphere(const Ray& ray, const core::PrimitiveValues& values, float
 struct ExactCone {
   ExactCone(const Ray& ray, const core::PrimitiveValues& values) {
     const core::CurvedValues cone = values.curved();
-    const Exact base(cone.vector(0)), axis = Exact(cone.vector(4)) - base, from_base = origin_of(ray) - base;
+    const Exact base(cone.vector(0)), from_base = origin_of(ray) - base;
+    const Exact axis = cone.is_flat() ? Exact(cone.vector(4)) : Exact(cone.vector(4)) - base;
     const Exact direction = direction_of(ray), across = cross(from_base, axis), across_rate = cross(direction, axis);
     axis_squared = dot(axis, axis);
     height = dot(from_base, axis);
@@ -143,7 +144,7 @@ struct ExactCone {
     a = axis_squared * dot(across_rate, across_rate) - wide_rate * wide_rate;
     b = axis_squared * dot(across, across_rate) - wide * wide_rate;
     c = axis_squared * dot(across, across) - wide * wide;
-    is_inside_visible_only = cone.value(3) < 0 || values.value[7] < 0;
+    is_inside_visible_only = cone.is_inside_visible_only();
   }
 
   mpq_class at(const mpq_class& t) const { return (a * t + 2 * b) * t + c; }

@@ -4,12 +4,13 @@
 
 #include <string>
 
+#include "tests/support/large_bodies.h"
 #include "tests/support/small_scenes.h"
 
 namespace rounding_loss_test {
 
 using namespace dmpc::core;
-using dmpc::tests::built_in;
+using namespace dmpc::tests;
 
 namespace {
 
@@ -75,6 +76,29 @@ TEST_CASE("a large plane that leans is off, even next to local zero") {
   scene.objects.pop_back();
   builder.polygon({{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}});
   CHECK(loss_of(scene).is_none());
+}
+
+TEST_CASE("a large body that passes by the detail is right until doubles cannot tell it, and then it is said") {
+  for (const LargeBody body : {LargeBody::planet, LargeBody::pipe, LargeBody::mountain}) {
+    CAPTURE(static_cast<int>(body));
+    CHECK(loss_of(beside_large(body, 1e7), 96).is_none());
+    const RoundingLoss loss = loss_of(beside_large(body, 1e12), 96);
+    CHECK(loss.moved_pixels > 1);
+  }
+}
+
+TEST_CASE("one that has detail on two sides is off where it is far from local zero, by so many pixels as it is large") {
+  const auto two_sides = [](double radius) {
+    Scene scene = beside_large(LargeBody::planet, radius);
+    const Vec3d other_side = scene.spheres.back().center * 2.0;
+    for (int i = 0; i < 8; ++i) {
+      SceneBuilder(scene).sphere(other_side + Vec3d{0.7 * i, 0, 0}, 0.3);
+    }
+    return loss_of(scene, 96);
+  };
+  CHECK(two_sides(1e3).is_none());
+  CHECK(two_sides(1e6).moved_pixels > 0.1);
+  CHECK(two_sides(1e6).moved_pixels < 5);
 }
 
 TEST_CASE("what rounding leaves nothing of is counted, with its size in pixels") {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -49,6 +50,33 @@ TEST_CASE("a value scaled by a power of two has the same rest") {
   for (const double value : {0.1, -1.0 / 3, 123.456, 7e-9}) {
     const double scaled = value * 0x1p20;
     CHECK(rest_of(scaled, static_cast<float>(scaled)) == rest_of(value, static_cast<float>(value)));
+  }
+}
+
+TEST_CASE("of what passes by local zero a coordinate is exact to 2^-28, a radius to 2^-44") {
+  Random random(2);
+  for (int i = 0; i < 10'000; ++i) {
+    const std::array<double, 4> values{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1),
+                                       random.between(-1, 1)};
+    std::array<float, 4> rounded{};
+    std::transform(values.begin(), values.end(), rounded.begin(), [](double value) { return static_cast<float>(value); });
+    const std::uint32_t rests = passing_rests_of(values, rounded.data());
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double off = std::fabs(with_passing_rest(rounded[k], rests, k) - values[k]);
+      REQUIRE(off <= (k < 3 ? 0x1p-27 : 0x1p-43) * std::fabs(values[k]));
+    }
+  }
+}
+
+TEST_CASE("four values at once are those one by one, whichever way their rests are told") {
+  Random random(3);
+  for (const bool passes_by : {false, true}) {
+    const auto radius = static_cast<float>(random.between(0.3, 0.4));
+    std::array<float, 5> rows{0.003F, -0.002F, passes_by ? -radius * 1.001F : 0.1F, radius, std::bit_cast<float>(0x12f38177U)};
+    const CurvedValues sphere(PrimitiveKind::sphere, rows.data(), 1, 0);
+    CHECK(sphere.passes_by() == passes_by);
+    CHECK(sphere.four(0).place == sphere.vector(0));
+    CHECK(sphere.four(0).radius == sphere.value(3));
   }
 }
 

@@ -12,7 +12,9 @@
 #include "apps/lab/bench/stability/judge.h"
 #include "apps/lab/bench/stability/rays.h"
 #include "apps/lab/bench/stability/targets.h"
+#include "apps/oracle/curved.h"
 #include "core/families/scenes.h"
+#include "core/record/curved_values.h"
 #include "core/scene/frame.h"
 
 namespace dmpc::apps {
@@ -26,9 +28,12 @@ using core::Scene;
 using core::Vec3d;
 using Must = StabilityExpectation::Must;
 
-/// Surfaces are no flatter than float makes them: what reaches less than this in front of one cannot be in the way of its
-/// children.
-constexpr double reach_in_front = 0x1p-22;
+/// What reaches less than this in front of a surface cannot be in the way of its children: triangles are no flatter than float
+/// makes them, and start their children as far off; what is curved is known, and solved, in double.
+double reach_in_front(PrimitiveKind surface, PrimitiveKind met) {
+  constexpr double flat = 0x1p-22, curved = 0x1p-32;
+  return surface == PrimitiveKind::triangle && met == PrimitiveKind::triangle ? flat : curved;
+}
 
 /// The plane that touches a hit's surface, with the side that a child starts on in front.
 struct Tangent {
@@ -37,26 +42,28 @@ struct Tangent {
   double height(const Vec3d& at) const { return dot(at - point, normal); }
 };
 
-/// Where the ray meets the sphere or cone, and its normal there, by the implicit function's gradient, not normalised.
-Vec3d curved_normal(const PrimitiveValues& body, const Vec3d& at) {
+/// The normal of a sphere or cone there, by the implicit function's gradient, not normalised.
+Vec3d curved_normal(const core::CurvedValues& body, PrimitiveKind kind, const Vec3d& at) {
   const Vec3d from = at - body.vector(0);
-  if (body.kind == PrimitiveKind::sphere) {
+  if (kind == PrimitiveKind::sphere) {
     return from;
   }
-  const Vec3d axis = body.vector(4) - body.vector(0);
-  const double height = dot(from, axis) / dot(axis, axis), low = std::fabs(double{body.value[3]});
-  const double widening = std::fabs(double{body.value[7]}) - low, radius = low + widening * height;
+  const Vec3d axis = body.axis();
+  const double low = std::fabs(body.value(3)), widening = std::fabs(body.value(7)) - low;
+  const double height = dot(from, axis) / dot(axis, axis), radius = low + widening * height;
   return from - axis * height - axis * (radius * widening / dot(axis, axis));
 }
 
+/// A curved body's point is the referee's, not the kernels', which round its distance.
 Tangent tangent_at(const PrimitiveValues& body, const Ray& parent, const Hit& hit, const Ray& child) {
   Tangent tangent;
   if (body.kind == PrimitiveKind::triangle) {
     tangent.point = body.vector(0);
     tangent.normal = cross(body.vector(3) - tangent.point, body.vector(6) - tangent.point);
   } else {
-    tangent.point = parent.full_origin() + parent.full_direction() * double{hit.t};
-    tangent.normal = curved_normal(body, tangent.point);
+    const double t = nearest_on_curved(body, parent).value_or(double{hit.t});
+    tangent.point = parent.full_origin() + parent.full_direction() * t;
+    tangent.normal = curved_normal(body.curved(), body.kind, tangent.point);
   }
   tangent.normal = normalize(tangent.normal);
   if (dot(tangent.normal, child.full_direction()) < 0) {
@@ -67,20 +74,22 @@ Tangent tangent_at(const PrimitiveValues& body, const Ray& parent, const Hit& hi
 
 /// How far the body reaches in front, at most: exact for triangles and spheres, an upper bound for cones.
 double reach_of(const PrimitiveValues& body, const Tangent& tangent) {
-  const double first = tangent.height(body.vector(0));
-  switch (body.kind) {
-    case PrimitiveKind::triangle:
-      return std::max({first, tangent.height(body.vector(3)), tangent.height(body.vector(6))});
-    case PrimitiveKind::sphere:
-      return first + std::fabs(double{body.value[3]});
-    case PrimitiveKind::cone:
-      break;
+  if (body.kind == PrimitiveKind::triangle) {
+    return std::max({tangent.height(body.vector(0)), tangent.height(body.vector(3)), tangent.height(body.vector(6))});
   }
-  const Vec3d axis = normalize(body.vector(4) - body.vector(0));
+  const core::CurvedValues curved = body.curved();
+  const double first = tangent.height(curved.vector(0)), radius = std::fabs(curved.value(3));
+  if (body.kind == PrimitiveKind::sphere) {
+    return first + radius;
+  }
+  const Vec3d axis = normalize(curved.axis());
   const double slant = std::sqrt(std::max(0.0, 1 - dot(axis, tangent.normal) * dot(axis, tangent.normal)));
-  return std::max(first + slant * std::fabs(double{body.value[3]}),
-                  tangent.height(body.vector(4)) + slant * std::fabs(double{body.value[7]}));
+  return std::max(first + slant * radius, tangent.height(curved.apex()) + slant * std::fabs(curved.value(7)));
 }
+
+/// A child that leaves its surface by less all but stays in it: a normal between those of vertices may send it so. Near an edge
+/// it starts no farther off than the way there allows, so rounding decides whether it meets the neighbour that begins there.
+constexpr double grazing_cosine = 0x1p-14;
 
 /// Counts the kernels' answers to a child ray: a hit on something behind its surface is acne.
 class ChildJudge {
@@ -90,20 +99,31 @@ class ChildJudge {
   void judge_children(const Ray& parent) {
     const Hit hit = shoot(subject_.database, parent);
     for (const Ray& child : children_of(subject_.database, parent, hit)) {
-      judge_child(child, tangent_at(subject_.database.primitives()[hit.primitive], parent, hit, child));
+      const PrimitiveValues& surface = subject_.database.primitives()[hit.primitive];
+      judge_child(child, surface.kind, tangent_at(surface, parent, hit, child));
     }
   }
 
  private:
-  void judge_child(const Ray& child, const Tangent& tangent) {
+  bool lies_behind(const Hit& hit, PrimitiveKind surface, const Tangent& tangent) const {
+    const PrimitiveValues& met = subject_.database.primitives()[hit.primitive];
+    return reach_of(met, tangent) < reach_in_front(surface, met.kind);
+  }
+
+  bool is_by_rounding(const Ray& child, const Hit& hit, const Tangent& tangent, StabilityKernel kernel) const {
+    return dot(child.full_direction(), tangent.normal) < grazing_cosine &&
+           subject_.referee.examine(child, hit.primitive).possible(is_embree(kernel) ? Renderer::embree : Renderer::grid);
+  }
+
+  void judge_child(const Ray& child, PrimitiveKind surface, const Tangent& tangent) {
     const StabilityAnswers answers = ask_kernels(subject_, child);
     const Hit& grid = answers[index_of(StabilityKernel::grid)];
     for (std::size_t k = 0; k < answers.size(); ++k) {
       const auto kernel = static_cast<StabilityKernel>(k);
       const bool any_hit = kernel == StabilityKernel::any_hit;
       ++counts_[k].tried;
-      if (answers[k].found() && reach_of(subject_.database.primitives()[answers[k].primitive], tangent) < reach_in_front) {
-        ++counts_[k].wrong_hits;
+      if (answers[k].found() && lies_behind(answers[k], surface, tangent)) {
+        ++(is_by_rounding(child, answers[k], tangent, kernel) ? counts_[k].explained : counts_[k].wrong_hits);
       } else if (!is_embree(kernel) && !(any_hit ? answers[k].found() == grid.found() : same_hit(answers[k], grid))) {
         ++counts_[k].unexplained;
       } else if (is_embree(kernel) && answers[k].primitive != grid.primitive) {
@@ -122,7 +142,7 @@ Ray ray_onto(const core::Database& database, Random& random) {
   const Vec3d at = surface_point(body, random);
   const Vec3d normal = body.kind == PrimitiveKind::triangle
                            ? cross(body.vector(3) - body.vector(0), body.vector(6) - body.vector(0))
-                           : curved_normal(body, at);
+                           : curved_normal(body.curved(), body.kind, at);
   const Vec3d up = normalize(normal), along = normalize(cross(up, random.direction()));
   const double rise = std::pow(10.0, random.between(-4, 0));
   return ray_through(at + normalize(along + up * rise) * random.between(0.05, 1.0), at);

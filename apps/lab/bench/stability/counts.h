@@ -18,6 +18,10 @@ struct StabilityCounts {
   std::uint64_t explained = 0;       ///< another answer than the grid's, within rounding: no failure
   std::uint64_t error_milliulp = 0;  ///< the worst error of a distance, in thousandths of a float's last place; 0: not measured
 
+  // What was known of the rays before, or asked of them after: a claim about rays of which there were none says nothing.
+  std::uint64_t sure_hits = 0, sure_misses = 0;  ///< that must hit, must miss, by geometry
+  std::uint64_t heard = 0;                       ///< that the referee was asked about
+
   std::uint64_t failures() const { return leaks + wrong_hits + double_claims + unexplained; }
   bool operator==(const StabilityCounts&) const = default;
 };

@@ -45,7 +45,7 @@ bool same_bits(Kernel kernel, const Hit& hit, const Hit& expected) {
 
 void judge(const StabilitySubject& subject, const Ray& ray, const StabilityAnswers& answers,
            const StabilityExpectation& expectation, KernelCounts& counts) {
-  const Hearing nearest(subject.database, subject.referee, of_kind(ray, core::RayKind::primary)),
+  const Hearing nearest(subject.database, subject.referee, of_kind(ray, core::RayKind::reflected)),
       any(subject.database, subject.referee, of_kind(ray, core::RayKind::shadow));
   const Hit& grid = answers[index_of(Kernel::grid)];
   const Hit& expected = expectation.bits != nullptr ? *expectation.bits : grid;
@@ -55,6 +55,9 @@ void judge(const StabilitySubject& subject, const Ray& ray, const StabilityAnswe
     const Hit& hit = answers[k];
     StabilityCounts& count = counts[k];
     ++count.tried;
+    count.sure_hits += expectation.must == Must::hit ? 1 : 0;
+    count.sure_misses += expectation.must == Must::miss ? 1 : 0;
+    count.heard += heard ? 1 : 0;
     if (!hit.found() && expectation.must == Must::hit) {
       ++count.leaks;
     } else if (hit.found() && expectation.must == Must::miss) {

@@ -30,7 +30,7 @@ StabilityAnswers ask_kernels(const StabilitySubject& subject, const core::Ray& r
   const OwnAnswers own = ask_own_kernels(subject.database, ray);
   std::copy(own.begin(), own.end(), answers.begin());
   if (embree_takes(ray)) {
-    const core::Ray nearest = of_kind(ray, core::RayKind::primary);
+    const core::Ray nearest = of_kind(ray, core::RayKind::reflected);
     answers[index_of(StabilityKernel::embree_fast)] = subject.embree_fast.closest(nearest);
     answers[index_of(StabilityKernel::embree_robust)] = subject.embree_robust.closest(nearest);
   }

@@ -62,7 +62,7 @@ core::Hit shoot_in_bundle(const core::Database& database, const core::Ray& ray) 
 }  // namespace
 
 OwnAnswers ask_own_kernels(const core::Database& database, const core::Ray& ray) {
-  const core::Ray nearest = of_kind(ray, core::RayKind::primary);
+  const core::Ray nearest = of_kind(ray, core::RayKind::reflected);
   return {shoot(database, nearest),           shoot_scalar(database, nearest),
           shoot(database, nearest, false),    shoot_resumed(database, nearest),
           shoot_in_bundle(database, nearest), shoot(database, of_kind(ray, core::RayKind::shadow))};

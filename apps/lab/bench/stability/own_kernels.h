@@ -22,7 +22,8 @@ inline core::Ray of_kind(core::Ray ray, core::RayKind kind) {
   return ray;
 }
 
-/// One ray through each of them. Closest hits for all but `any_hit`, whatever the ray's kind. Thread-safe.
+/// One ray through each of them. Closest hits for all but `any_hit`, whatever the ray's kind, as of a mirrored ray: the eye's
+/// alone may start on a curved surface without meeting it there. Thread-safe.
 OwnAnswers ask_own_kernels(const core::Database& database, const core::Ray& ray);
 
 }  // namespace dmpc::apps

@@ -42,6 +42,16 @@ std::uint64_t StabilityState::own_failures() const {
   return sum;
 }
 
+std::vector<std::string> StabilityState::blind_cases() const {
+  std::vector<std::string> blind;
+  for (std::size_t i = 0; i < std::min(case_index, trials.size()); ++i) {
+    if (trials[i].counts.tried == 0) {
+      blind.push_back(trials[i].row + ", " + trials[i].name);
+    }
+  }
+  return blind;
+}
+
 StabilityRun::StabilityRun(StabilityCases cases, std::uint64_t seed) : cases_(std::move(cases)), seed_(seed) {}
 
 StabilityState StabilityRun::start() const {
@@ -50,6 +60,7 @@ StabilityState StabilityRun::start() const {
     if (std::none_of(state.rows.begin(), state.rows.end(), [&](const StabilityRow& row) { return row.name == one.row; })) {
       state.rows.push_back({one.row});
     }
+    state.trials.push_back({one.row, one.name});
   }
   return state;
 }
@@ -74,6 +85,9 @@ void StabilityRun::run_case(const StabilityCase& one, StabilityState& state, con
     const KernelCounts counts = shoot_rays(random, first, count);
     return [&state, &sum, &after_batch, counts, count] {
       sum += counts;
+      for (const StabilityCounts& of_kernel : counts) {
+        state.trials[state.case_index].counts += of_kernel;
+      }
       state.rays_done += count;
       after_batch();
     };

@@ -17,14 +17,23 @@ struct StabilityRow {
   KernelCounts counts{};
 };
 
+/// What a case came to, of all kernels together.
+struct StabilityTrial {
+  std::string row, name;
+  StabilityCounts counts{};
+};
+
 /// How far a run is: what it has counted in all batches before.
 struct StabilityState {
   std::size_t case_index = 0;   ///< cases before are done
   std::uint64_t rays_done = 0;  ///< of this case
   std::vector<StabilityRow> rows;
+  std::vector<StabilityTrial> trials;  ///< by case
 
   /// Rays of all rows that our own kernels failed, each kernel for itself.
   std::uint64_t own_failures() const;
+  /// Of the cases that are done, those that have tried nothing: what they claim is not known.
+  std::vector<std::string> blind_cases() const;
 };
 
 class StabilityRun {

@@ -10,16 +10,17 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr const char* first_line = "dmpc bench stability, state 1";
+constexpr const char* first_line = "dmpc bench stability, state 2";
 
 std::ostream& operator<<(std::ostream& text, const StabilityCounts& counts) {
   return text << counts.tried << ' ' << counts.leaks << ' ' << counts.wrong_hits << ' ' << counts.double_claims << ' '
-              << counts.unexplained << ' ' << counts.explained << ' ' << counts.error_milliulp;
+              << counts.unexplained << ' ' << counts.explained << ' ' << counts.error_milliulp << ' ' << counts.sure_hits << ' '
+              << counts.sure_misses << ' ' << counts.heard;
 }
 
 std::istream& operator>>(std::istream& text, StabilityCounts& counts) {
   return text >> counts.tried >> counts.leaks >> counts.wrong_hits >> counts.double_claims >> counts.unexplained >>
-         counts.explained >> counts.error_milliulp;
+         counts.explained >> counts.error_milliulp >> counts.sure_hits >> counts.sure_misses >> counts.heard;
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
@@ -39,6 +40,15 @@ std::string whole_text(const std::filesystem::path& path, Files& files) {
   return text;
 }
 
+/// The counts of a line: those of a row and kernel or, behind all rows, of a case; null if there are none.
+StabilityCounts* counts_at(StabilityState& state, std::size_t row, std::size_t kernel) {
+  if (row < state.rows.size()) {
+    return kernel < stability_kernel_count ? &state.rows[row].counts[kernel] : nullptr;
+  }
+  const std::size_t trial = row - state.rows.size();
+  return trial < state.trials.size() && kernel == 0 ? &state.trials[trial].counts : nullptr;
+}
+
 /// Reads the lines behind the first two; false if they are damaged.
 bool read_counts(std::istream& text, StabilityState& state) {
   std::size_t lines = 0;
@@ -47,8 +57,8 @@ bool read_counts(std::istream& text, StabilityState& state) {
   }
   for (; lines > 0; --lines) {
     std::size_t row = 0, kernel = 0;
-    if (!(text >> row >> kernel) || row >= state.rows.size() || kernel >= stability_kernel_count ||
-        !(text >> state.rows[row].counts[kernel])) {
+    StabilityCounts* const counts = text >> row >> kernel ? counts_at(state, row, kernel) : nullptr;
+    if (counts == nullptr || !(text >> *counts)) {
       return false;
     }
   }
@@ -61,14 +71,19 @@ bool read_counts(std::istream& text, StabilityState& state) {
 std::string text_of(const StabilityState& state, const std::string& options) {
   std::ostringstream lines;
   std::size_t count = 0;
+  const auto add = [&](std::size_t row, std::size_t kernel, const StabilityCounts& counts) {
+    if (counts.tried > 0) {
+      lines << row << ' ' << kernel << ' ' << counts << '\n';
+      ++count;
+    }
+  };
   for (std::size_t row = 0; row < state.rows.size(); ++row) {
     for (std::size_t kernel = 0; kernel < stability_kernel_count; ++kernel) {
-      const StabilityCounts& counts = state.rows[row].counts[kernel];
-      if (counts.tried > 0) {
-        lines << row << ' ' << kernel << ' ' << counts << '\n';
-        ++count;
-      }
+      add(row, kernel, state.rows[row].counts[kernel]);
     }
+  }
+  for (std::size_t trial = 0; trial < state.trials.size(); ++trial) {
+    add(state.rows.size() + trial, 0, state.trials[trial].counts);
   }
   std::ostringstream text;
   text << first_line << '\n' << options << '\n' << state.case_index << ' ' << state.rays_done << ' ' << count << '\n';

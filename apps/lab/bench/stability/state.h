@@ -10,7 +10,7 @@
 namespace dmpc::apps {
 
 /// `state` as text: a line that says what the file is, one with `options` (which tests, how many rays, which seed), one with how
-/// far the run is, and one of counts for each row and kernel that was tried.
+/// far the run is, and one of counts for each row and kernel that was tried, and for each case.
 std::string text_of(const StabilityState& state, const std::string& options);
 
 /// Writes it whole or not at all. Throws core::InputError if that fails.

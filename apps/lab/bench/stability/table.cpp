@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/edge/table/filled_columns.h"
 #include "apps/oracle/oracle.h"
 #include "core/trace/kernel.h"
@@ -40,9 +41,26 @@ const FilledColumns<KernelRow>& stability_columns() {
   return columns;
 }
 
+/// What a row's cases have tried, and of how many answers something was known.
+void add_tried(Table& table, const StabilityState& state, const std::string& row) {
+  StabilityCounts sum;
+  std::string names;
+  for (const StabilityTrial& trial : state.trials) {
+    if (trial.row == row) {
+      sum += trial.counts;
+      names += (names.empty() ? "" : ", ") + trial.name + " " + grouped(trial.counts.tried);
+    }
+  }
+  table.add_note("Tried of " + row + ", answers of all kernels: " + names + ". Sure to hit " + grouped(sum.sure_hits) +
+                 ", sure to miss " + grouped(sum.sure_misses) + ", heard by the referee " + grouped(sum.heard) + ".");
+}
+
 void add_notes(Table& table, const StabilityState& state) {
   const std::uint64_t failures = state.own_failures();
   table.add_note(failures == 0 ? "Our grid: no failure." : "OUR GRID FAILS: " + std::to_string(failures) + " times.");
+  for (const std::string& blind : state.blind_cases()) {
+    table.add_note("BLIND: nothing was tried of " + blind + ".");
+  }
   table.add_note(
       "Leak: missed what rounding cannot make a ray miss. Wrong hit: hit what rounding cannot make it hit. Unexplained: "
       "other bits than the grid's, or a distance farther off than rounding moves it. Within rounding: another answer "
@@ -53,6 +71,9 @@ void add_notes(Table& table, const StabilityState& state) {
   table.add_note("Embree is judged by bounds for its robust mode. Its spheres and cones are ours, in double precision.");
   table.add_note(
       "R13, messages out of order: tests/chaos and tests/whole/chaos_test.cpp. R15, known bugs put back: tests/mutation.");
+  for (const StabilityRow& row : state.rows) {
+    add_tried(table, state, row.name);
+  }
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace dmpc::apps {
 
-/// A row for each test and each kernel that it tried, in the order of the tests; notes say what the columns mean and where the
-/// tests are that do not run inside the program.
+/// A row for each test and each kernel that it tried, in the order of the tests; notes say what the columns mean, where the
+/// tests are that do not run inside the program, and what each case has tried.
 Table table_of(const StabilityState& state, std::uint64_t seed);
 
 }  // namespace dmpc::apps

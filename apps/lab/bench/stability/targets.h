@@ -8,6 +8,7 @@
 #include "apps/lab/bench/stability/random.h"
 #include "apps/lab/bench/stability/rays.h"
 #include "core/database/database.h"
+#include "core/record/cone_floats.h"
 
 namespace dmpc::apps {
 
@@ -49,11 +50,11 @@ inline core::Vec3d surface_point(const core::PrimitiveValues& primitive, Random&
     case core::PrimitiveKind::cone:
       break;
   }
-  const core::Vec3d base = primitive.vector(0), axis = primitive.vector(4) - base;
+  const core::ConeFloats cone({primitive.value.data(), 1, 0});
+  const core::Vec3d &base = cone.base, &axis = cone.axis;
   const core::Vec3d radial = normalize(cross(axis, random.direction()));
   const double height = random.below(8) == 0 ? 1.0 : random.unit();
-  const double low = std::fabs(double{primitive.value[3]}), high = std::fabs(double{primitive.value[7]});
-  return base + axis * height + radial * (low + (high - low) * height);
+  return base + axis * height + radial * cone.radius_at(height);
 }
 
 }  // namespace dmpc::apps

@@ -99,12 +99,18 @@ struct Axial {
   double base_radius, slope;
 };
 
+constexpr double thin_share = 0.01;
+
 std::optional<double> to_cone(const AccurateBody& body, const AccurateRay& ray) {
   const Axial cone(body);
   const Vec3d middle = cone.base + cone.axis * (cone.height / 2);
-  const double shift = dot(middle - ray.origin, ray.direction) / squared(ray.direction);
+  const double rise = dot(ray.direction, cone.axis), widest = std::max(cone.base_radius, std::fabs(body.radius[1]));
+  // One that is thin all but lies in a plane. Off where the ray crosses that, its two sheets would be one to doubles.
+  const bool is_crossed = cone.height < thin_share * std::fabs(rise) * widest;
+  const double shift =
+      is_crossed ? dot(middle - ray.origin, cone.axis) / rise : dot(middle - ray.origin, ray.direction) / squared(ray.direction);
   const Vec3d start = ray.origin + ray.direction * shift - cone.base;
-  const double rise = dot(ray.direction, cone.axis), up = dot(start, cone.axis);
+  const double up = is_crossed ? cone.height / 2 : dot(start, cone.axis);
   const Vec3d off = start - cone.axis * up, going = ray.direction - cone.axis * rise;
   const double radius = cone.base_radius + cone.slope * up, widening = cone.slope * rise;
   const double a = squared(going) - widening * widening, b = dot(off, going) - radius * widening;
@@ -147,6 +153,37 @@ bool is_usable(const AccurateBody& body) {
   }
   return is_usable(place[0]) && is_usable(place[1]) && place[0] != place[1] && (body.radius[0] != 0 || body.radius[1] != 0) &&
          std::fabs(body.radius[0]) < coordinate_max && std::fabs(body.radius[1]) < coordinate_max;
+}
+
+namespace {
+
+/// The other root, once one is where the ray starts.
+std::optional<double> if_ahead(double other, const AccurateRay& ray) {
+  return other > 0 && other < ray.t_max ? std::optional(other) : std::nullopt;
+}
+
+std::optional<double> across_sphere(const AccurateBody& body, const AccurateRay& ray) {
+  return if_ahead(2 * dot(body.place[0] - ray.origin, ray.direction) / squared(ray.direction), ray);
+}
+
+std::optional<double> across_cone(const AccurateBody& body, const AccurateRay& ray) {
+  const Axial cone(body);
+  const Vec3d start = ray.origin - cone.base;
+  const double up = dot(start, cone.axis), rise = dot(ray.direction, cone.axis), widening = cone.slope * rise;
+  const Vec3d off = start - cone.axis * up, going = ray.direction - cone.axis * rise;
+  const double b = dot(off, going) - (cone.base_radius + cone.slope * up) * widening;
+  const std::optional<double> t = if_ahead(-2 * b / (squared(going) - widening * widening), ray);
+  const double at = t ? up + rise * *t : -1;
+  const bool is_inside_only = body.radius[0] < 0 || body.radius[1] < 0;
+  return at >= 0 && at <= cone.height && (!is_inside_only || b < 0) ? t : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> distance_across(const AccurateBody& body, const AccurateRay& ray) {
+  return body.kind == PrimitiveKind::triangle ? std::nullopt
+         : body.kind == PrimitiveKind::sphere ? across_sphere(body, ray)
+                                              : across_cone(body, ray);
 }
 
 std::optional<double> distance_to(const AccurateBody& body, const AccurateRay& ray) {

@@ -48,6 +48,10 @@ bool is_usable(const AccurateBody& body);
 /// roots of the quadratic about the point of the ray that is nearest to the body.
 std::optional<double> distance_to(const AccurateBody& body, const AccurateRay& ray);
 
+/// The same of a ray that starts on `body`, but for what keeps it off there: where it meets what is curved again. Never outside,
+/// as all bodies bulge outwards, and never a triangle.
+std::optional<double> distance_across(const AccurateBody& body, const AccurateRay& ray);
+
 /// The surface where `ray` meets `body` at `t`, which distance_to() gave.
 AccurateSurface surface_at(const AccurateBody& body, const AccurateRay& ray, double t);
 

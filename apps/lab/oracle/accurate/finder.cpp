@@ -89,10 +89,8 @@ RTCRay AccurateFinder::Parts::embree_ray(const AccurateRay& ray) const {
 
 bool AccurateFinder::Parts::test(unsigned body, Query& query) const {
   const AccurateBody& tested = scene->bodies[body];
-  if (body == query.ray->ignored_body && tested.kind == core::PrimitiveKind::triangle) {
-    return false;
-  }
-  const std::optional<double> t = distance_to(tested, *query.ray);
+  const bool starts_there = body == query.ray->ignored_body;
+  const std::optional<double> t = starts_there ? distance_across(tested, *query.ray) : distance_to(tested, *query.ray);
   AccurateHit& best = query.best;
   if (!t || *t > best.t + reach() || starts_on(body, *t, *query.ray)) {
     return false;

@@ -15,7 +15,7 @@ struct AccurateRay {
   core::Vec3d origin;
   core::Vec3d direction;                                   ///< of unit length
   double t_max = std::numeric_limits<double>::infinity();  ///< hits count in (0, t_max)
-  std::uint32_t ignored_body = core::no_primitive;         ///< the triangle it starts on, which it cannot hit again
+  std::uint32_t ignored_body = core::no_primitive;         ///< the body it starts on, which it hits only across
   core::Vec3d weight{1, 1, 1};  ///< factor of the light it finds; for a shadow ray the light that it brings if nothing blocks it
   int depth = 1;
   core::RayKind kind = core::RayKind::primary;

@@ -9,9 +9,9 @@ namespace {
 using core::RayKind;
 using core::Vec3d;
 
-/// How far a secondary ray starts from its surface: of the body's coordinates, as a point is computed to some 1e-16 of them, and
-/// of its radius, next to which a ray that grazes it meets it again. Nothing else in the scene, however large, moves a shadow.
-constexpr double flat_gap = 1e-13, curved_gap = 1e-9;
+/// How far a secondary ray starts from its surface: of the body's coordinates and radius, as a point is computed to some 1e-16 of
+/// them. Nothing else in the scene, however large, moves a shadow.
+constexpr double gap = 1e-13;
 /// A shadow ray ends this share of its length before the light, so that a surface through the light does not hide it.
 constexpr double light_gap = 1e-9;
 
@@ -23,7 +23,7 @@ double start_gap(const AccurateBody& body) {
     coordinate = std::max(coordinate, largest_component(place));
   }
   const double radius = std::max(std::fabs(body.radius[0]), std::fabs(body.radius[1]));
-  return flat_gap * (coordinate + radius) + curved_gap * radius;
+  return gap * (coordinate + radius);
 }
 
 /// In single precision, as the product judges it.

@@ -37,6 +37,7 @@ TEST_CASE("bench stability prints a row for each kernel, and where the other tes
   CHECK(contains(table, "Our grid: no failure."));
   CHECK(contains(table, "tests/chaos"));
   CHECK_FALSE(contains(table, "R1 "));
+  CHECK(contains(table, "Tried of R5 sequence of cells"));
 }
 
 TEST_CASE("bench stability writes its table and its state, and goes on from the state") {

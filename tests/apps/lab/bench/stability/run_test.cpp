@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <vector>
 
 #include "core/base/expect.h"
 
@@ -84,6 +85,19 @@ TEST_CASE("what our kernels fail counts and what Embree fails does not") {
   const StabilityState state = finished(StabilityRun(three_cases(), 1));
   CHECK(state.own_failures() == state.rows[0].counts[index_of(StabilityKernel::grid)].leaks +
                                     state.rows[1].counts[index_of(StabilityKernel::grid)].leaks);
+}
+
+TEST_CASE("a stability run says what each case has tried, and which has tried nothing") {
+  StabilityCases cases = three_cases();
+  cases.push_back({"R3 three", "misses all", 10,
+                   [] { return apps::ShootRays([](Random&, std::uint64_t, std::uint64_t) { return KernelCounts{}; }); }});
+  const StabilityRun run(cases, 1);
+  CHECK(run.start().blind_cases().empty());
+  const StabilityState state = finished(run);
+  REQUIRE(state.trials.size() == 4);
+  CHECK(state.trials[1].counts.tried == 1);
+  CHECK(state.trials[2].counts.tried == 3000);
+  CHECK(state.blind_cases() == std::vector<std::string>{"R3 three, misses all"});
 }
 
 TEST_CASE("the long run has a billion rays from inside, and every test can be asked for alone") {

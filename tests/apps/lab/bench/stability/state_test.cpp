@@ -16,6 +16,7 @@ namespace {
 StabilityState two_rows() {
   StabilityState state;
   state.rows = {{"R1 one"}, {"R2 two"}};
+  state.trials = {{"R1 one", "a"}, {"R2 two", "b"}};
   return state;
 }
 
@@ -24,7 +25,8 @@ StabilityState half_done() {
   state.case_index = 3;
   state.rays_done = 2048;
   state.rows[0].counts[2] = {1, 2, 3, 4, 5, 6, 7};
-  state.rows[1].counts[9] = {10, 0, 0, 0, 0, 0, 1};
+  state.rows[1].counts[9] = {10, 0, 0, 0, 0, 0, 1, 3, 4, 5};
+  state.trials[1].counts = {11, 0, 0, 0, 0, 0, 1, 3, 4, 5};
   return state;
 }
 

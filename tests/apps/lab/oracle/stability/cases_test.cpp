@@ -1,6 +1,7 @@
 // Every stress test of `bench stability`, at a small size: our grid fails none.
 #include <doctest/doctest.h>
 
+#include "apps/lab/bench/stability/command.h"
 #include "apps/lab/bench/stability/run.h"
 #include "tests/support/scaled.h"
 
@@ -10,6 +11,7 @@ TEST_CASE("our grid fails no stress test of numerical stability") {
   const apps::StabilityRun run(apps::stability_cases({ray_count(500)}, {}), 7);
   apps::StabilityState state = run.start();
   run.go_on(state, [] {});
+  CHECK(state.blind_cases().empty());
   for (const apps::StabilityRow& row : state.rows) {
     for (std::size_t k = 0; k < row.counts.size(); ++k) {
       const auto kernel = static_cast<apps::StabilityKernel>(k);
@@ -18,6 +20,14 @@ TEST_CASE("our grid fails no stress test of numerical stability") {
       CHECK((apps::is_embree(kernel) || row.counts[k].failures() == 0));
     }
   }
+}
+
+TEST_CASE("nor as many rays as the command shoots by itself" * doctest::test_suite("slow")) {
+  const apps::StabilityRun run(apps::stability_cases({apps::StabilityOptions::standard_rays}, {}), 1);
+  apps::StabilityState state = run.start();
+  run.go_on(state, [] {});
+  CHECK(state.own_failures() == 0);
+  CHECK(state.blind_cases().empty());
 }
 
 }  // namespace dmpc::tests::cases_test
