@@ -62,7 +62,7 @@ int with_usage_told(const std::function<int()>& act) {
 
 int run_on_ranks(ProgramOptions& options, const ProgramCall& call, const std::function<RankNeeds()>& needs,
                  const std::function<int(RankRounds&)>& act) {
-  const RankStart start = {.own = likeness_of(call), .module_place = ModulePlace::companion_or_linked};
+  const RankStart start = {.own = likeness_of(call), .module_of = CompanionOf::own_program};
   return run_as_rank(start, [&](RankGroup& group) {
     choose_nodes(options, group);
     if (group.rank_count() == 1 && !options.quiet) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -146,8 +147,10 @@ std::vector<float> spread(const std::vector<float>& gray) {
 
 }  // namespace
 
-/// The first reader of a kind that is made has the library look round for others.
+/// The first reader of a kind that is made has the library look round for others, and load what lies where these variables say.
 void prepare_decoders() {
+  ::unsetenv("OIIO_LIBRARY_PATH");
+  ::unsetenv("LD_LIBRARY_PATH");
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);
   for (const char* format : {"png", "jpeg", "openexr", "tiff", "targa", "bmp", "hdr", "webp", "gif", "pnm", "dds"}) {

@@ -98,7 +98,7 @@ nodes::Fabric& RankGroup::connect(std::size_t payload_bytes_max, Likeness more) 
 }
 
 int run_as_rank(const RankStart& start, const std::function<int(RankGroup&)>& run) {
-  const MpiLibrary& library = mpi_library(start.module_place);
+  const MpiLibrary& library = mpi_library(start.module_of);
   expect_to_be_told(library);
   library.start();
   started = &library;

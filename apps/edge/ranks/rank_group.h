@@ -19,7 +19,7 @@ struct MpiLibrary;
 /// What a program brings along to be a rank.
 struct RankStart {
   Likeness own;  ///< what it must have in common with all others
-  ModulePlace module_place = ModulePlace::companion;
+  CompanionOf module_of = CompanionOf::dmpc;
 };
 
 /// One rank's part in it. All ranks make the same calls in the same order: what is said to wait for all would wait for ever else.
