@@ -1,10 +1,9 @@
 #include "apps/edge/system/companion_path.h"
 
-#include <dlfcn.h>
 #include <link.h>
-#include <unistd.h>
 
 #include <cstddef>
+#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -16,21 +15,36 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Of the program itself, which comes first: the text of its run path, as its dynamic section has it.
+int take_run_path(dl_phdr_info* info, std::size_t /*bytes*/, void* text) {
+  for (std::size_t i = 0; i < info->dlpi_phnum; ++i) {
+    const ElfW(Phdr)& header = info->dlpi_phdr[i];
+    if (header.p_type != PT_DYNAMIC) {
+      continue;
+    }
+    ElfW(Addr) names = 0, offset = 0;
+    for (const auto* entry = reinterpret_cast<const ElfW(Dyn)*>(info->dlpi_addr + header.p_vaddr); entry->d_tag != DT_NULL;
+         ++entry) {
+      names = entry->d_tag == DT_STRTAB ? entry->d_un.d_ptr : names;
+      offset = entry->d_tag == DT_RUNPATH || entry->d_tag == DT_RPATH ? entry->d_un.d_val : offset;
+    }
+    if (names != 0 && offset != 0) {
+      names += names < info->dlpi_addr ? info->dlpi_addr : 0;  // not every loader has put the program's place before it
+      *static_cast<std::string*>(text) = reinterpret_cast<const char*>(names + offset);
+    }
+  }
+  return 1;
+}
+
 /// The run path that the running program was linked with, as far as it is absolute.
 std::vector<fs::path> run_path() {
+  std::string text;
+  ::dl_iterate_phdr(take_run_path, &text);
   std::vector<fs::path> folders;
-  void* const program = ::dlopen(nullptr, RTLD_NOW);
-  Dl_serinfo size{};
-  if (program != nullptr && ::dlinfo(program, RTLD_DI_SERINFOSIZE, &size) == 0) {
-    std::vector<std::max_align_t> memory(size.dls_size / sizeof(std::max_align_t) + 1);
-    auto* const all = reinterpret_cast<Dl_serinfo*>(memory.data());
-    *all = size;
-    const bool is_known = ::dlinfo(program, RTLD_DI_SERINFO, all) == 0;
-    const Dl_serpath* const first = all->dls_serpath;
-    for (unsigned i = 0; is_known && i < all->dls_cnt; ++i) {
-      if ((first[i].dls_flags & LA_SER_RUNPATH) != 0 && fs::path(first[i].dls_name).is_absolute()) {
-        folders.emplace_back(first[i].dls_name);
-      }
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ':');) {
+    if (fs::path(word).is_absolute()) {
+      folders.emplace_back(word);
     }
   }
   return folders;
