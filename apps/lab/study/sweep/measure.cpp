@@ -8,6 +8,7 @@
 #include "apps/lab/study/engine/measure_each.h"
 #include "apps/lab/study/render_process.h"
 #include "apps/lab/study/sweep/kept_runs.h"
+#include "apps/lab/study/sweep/table.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -15,10 +16,11 @@ namespace {
 
 class SweepBench {
  public:
-  SweepBench(const SweepSettings& settings, const OpenedFiles& scene, const Interrupt& interrupt)
+  SweepBench(const SweepSettings& settings, const std::vector<SweepRun>& runs, const OpenedFiles& scene,
+             const Interrupt& interrupt)
       : settings_(settings), interrupt_(interrupt) {
     if (settings.kept) {
-      kept_.emplace(*settings.kept, settings.program, scene);
+      kept_.emplace(*settings.kept, settings.program, scene, figures_of(settings, runs));
     }
   }
 
@@ -29,15 +31,18 @@ class SweepBench {
       return {.run = run, .figures = std::move(figures), .misfit = {}, .is_kept = true};
     }
     const std::string name = std::to_string(number);
-    const std::filesystem::path stats = kept_ ? kept_->file_of(run) : folder_ / (name + ".json");
-    const std::filesystem::path picture = folder_ / (name + ".exr");
+    const std::filesystem::path stats = folder_ / (name + ".json"), picture = folder_ / (name + ".exr");
     const WatchedProcess process = watch_process(settings_.program, render_words(run, stats, picture), interrupt_);
     std::error_code ignored;
     std::filesystem::remove(picture, ignored);
     if (const std::optional<std::string> misfit = misfit_or_throw(run, process)) {
       return {.run = run, .figures = {}, .misfit = *misfit};
     }
-    return {.run = run, .figures = read_figures(stats), .misfit = {}};
+    std::vector<Figure> figures = read_figures(stats);
+    if (kept_) {
+      kept_->keep(run, stats);
+    }
+    return {.run = run, .figures = std::move(figures), .misfit = {}};
   }
 
  private:
@@ -59,7 +64,7 @@ class SweepBench {
 
 void measure_sweep(const SweepSettings& settings, const std::vector<SweepRun>& runs, const OpenedFiles& scene,
                    const Interrupt& interrupt, const std::function<void(SweepResult)>& take) {
-  const SweepBench bench(settings, scene, interrupt);
+  const SweepBench bench(settings, runs, scene, interrupt);
   const bool is_timed =
       std::any_of(runs.begin(), runs.end(), [](const SweepRun& run) { return is_timed_by_the_wall(run.options); });
   measure_each(
