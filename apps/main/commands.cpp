@@ -20,6 +20,7 @@
 #include "apps/edge/machine/machine_command.h"
 #include "apps/edge/machine/machines.h"
 #include "apps/edge/ranks/launcher.h"
+#include "apps/edge/ranks/rank_group.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/help/choices.h"
@@ -147,7 +148,7 @@ class Commands {
     rows_[(group_ ? group_->first : "") + name] = [options, run] {
       return Command(*options, is_quiet(*options), [options, run](Interrupt& interrupt, std::ostream& output) {
         if (!runs_on_ranks(*options)) {
-          expect_one_process("render together: dmpc render --runner=mpi");
+          with_words_agreed([] { expect_one_process("render together: dmpc render --runner=mpi"); });
         }
         if constexpr (std::is_invocable_v<Run, const Options&, std::ostream&>) {
           return run(*options, output);

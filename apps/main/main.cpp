@@ -14,7 +14,6 @@
 
 #include "apps/edge/line/exit_status.h"
 #include "apps/edge/line/shown_text.h"
-#include "apps/edge/ranks/launcher.h"
 #include "apps/edge/ranks/rank_group.h"
 #include "apps/edge/system/companion_path.h"
 #include "apps/edge/system/interrupt.h"
@@ -56,19 +55,10 @@ int complain_of_bug(const std::exception& error) {
   return complain(std::string("this is a bug in dmpc, please report it: ") + error.what(), internal_status);
 }
 
-Command command_of(const std::vector<std::string>& arguments) {
-  try {
-    return parse_command_line(arguments);
-  } catch (const core::UsageError&) {
-    leave_errors_to_first();
-    throw;
-  }
-}
-
 /// `has_broken_pipe` becomes true if nobody reads any more what was to be said.
 int run(const std::vector<std::string>& arguments, Interrupt& interrupt, bool& has_broken_pipe) {
   try {
-    const Command command = command_of(arguments);
+    const Command command = with_words_agreed([&] { return parse_command_line(arguments); });
     if (command.is_quiet()) {
       silence_progress();
     }
