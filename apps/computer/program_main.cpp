@@ -40,7 +40,7 @@ int read_and_act(const ProgramCall& call, const ProgramMain& program, Interrupt&
 }
 
 int complain(const std::string& name, const std::string& message, int status) {
-  std::cerr << name + ": " + message + "\n" << std::flush;  // whole, where several processes share it
+  std::cerr << name + ": " + with_words_clipped(message) + "\n" << std::flush;  // whole, where several processes share it
   return status;
 }
 

@@ -31,7 +31,7 @@ namespace dmpc::apps {
 namespace {
 
 int complain(const std::string& message, int status) {
-  std::cerr << "dmpc: " << message << std::endl;
+  std::cerr << "dmpc: " << with_words_clipped(message) << std::endl;
   return status;
 }
 
