@@ -1,97 +1,56 @@
-// The program: reads the command line, calls one command, and turns what went wrong into an exit status.
-//   0 done    1 bad input    2 wrong usage    3 an internal check failed    4 no room    5 differs    130 interrupted
+// dmpc: renders by itself, and hands on to the laboratory's program, which takes all commands, what it is told else.
 
 #include <unistd.h>
 
 #include <exception>
-#include <iostream>
-#include <new>
-#include <optional>
+#include <filesystem>
 #include <string>
-#include <string_view>
-#include <system_error>
 #include <vector>
 
-#include "apps/edge/line/exit_status.h"
-#include "apps/edge/line/shown_text.h"
-#include "apps/edge/ranks/rank_group.h"
 #include "apps/edge/system/companion_path.h"
-#include "apps/edge/system/interrupt.h"
-#include "apps/edge/system/last_words.h"
-#include "apps/edge/system/memory_room.h"
-#include "apps/edge/system/output_file.h"
-#include "apps/edge/system/progress.h"
-#include "apps/edge/system/surroundings.h"
 #include "apps/main/allocation.h"
-#include "apps/main/commands.h"
+#include "apps/program/run_program.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 
 namespace {
 
-int complain(const std::string& message, int status) {
-  std::cerr << "dmpc: " << with_words_clipped(message) << std::endl;
-  return status;
+/// Throws InstallationError if it is not there.
+std::filesystem::path laboratory() {
+  return companion_path("dmpc_lab", "../libexec/dmpc", "the program dmpc_lab, which has the laboratory's commands,");
 }
 
-/// As the standard library tells it, or oneTBB.
-bool is_lack_of_threads(const std::exception& error) {
-  const auto* const system = dynamic_cast<const std::system_error*>(&error);
-  return system != nullptr ? system->code() == std::errc::resource_unavailable_try_again
-                           : std::string_view(error.what()).starts_with("pthread_create has failed");
-}
-
-int complain_of_bug(const std::exception& error) {
-  if (memory_has_run_out()) {
-    return complain_of_memory();
-  }
-  if (is_lack_of_threads(error)) {
-    return complain(
-        "building and reading take a thread for each processor, and this computer lets dmpc start no further one: ask for "
-        "a higher limit (ulimit -u, pids.max of a container)",
-        no_room_status);
-  }
-  return complain(std::string("this is a bug in dmpc, please report it: ") + error.what(), internal_status);
-}
-
-/// `has_broken_pipe` becomes true if nobody reads any more what was to be said.
-int run(const std::vector<std::string>& arguments, Interrupt& interrupt, bool& has_broken_pipe) {
+Command parse_renderer_line(std::span<const std::string> arguments) {
   try {
-    const Command command = with_words_agreed([&] { return parse_command_line(arguments); });
-    if (command.is_quiet()) {
-      silence_progress();
-    }
-    return command.run(interrupt, std::cout);
-  } catch (const Interrupted&) {
-    return complain(std::string("interrupted, ") + interrupt.consequence(), interrupted_status);
-  } catch (const BrokenPipe&) {
-    has_broken_pipe = true;
-    return input_status;
-  } catch (const core::RoomError& error) {
-    return complain(error.what(), no_room_status);
-  } catch (const core::InputError& error) {
-    return complain(error.what(), input_status);
+    return parse_command_line(declare_renderer, arguments);
   } catch (const core::UsageError& error) {
-    return complain(error.what(), usage_status);
-  } catch (const std::bad_alloc&) {
-    return complain_of_memory();
-  } catch (const InstallationError& error) {
-    return complain(error.what(), internal_status);
-  } catch (const nodes::FabricError& error) {
-    return complain(error.what(), internal_status);
-  } catch (const std::exception& error) {
-    return complain_of_bug(error);
+    try {
+      static_cast<void>(laboratory());
+    } catch (const InstallationError& missing) {  // it might have understood
+      throw core::UsageError(std::string(error.what()) + "\n" + missing.what());
+    }
+    throw;
   }
 }
 
-/// Where not even a complaint may find memory.
-int run_within_memory(int count, char** values, bool& has_broken_pipe) {
-#if !defined(__SANITIZE_ADDRESS__)  // whose shadow is larger than any memory
-  bound_memory();
-#endif
-  Interrupt interrupt;
-  return run(std::vector<std::string>(values + 1, values + count), interrupt, has_broken_pipe);
+/// Help tells of all commands, and what is wrong may be meant for another.
+bool is_for_renderer(std::span<const std::string> arguments) {
+  try {
+    return !parse_command_line(declare_renderer, arguments).asks_for_help();
+  } catch (const core::UsageError&) {
+    return false;
+  }
+}
+
+/// Returns if there is nothing to hand on, or nobody. What fails here fails again where it can be told.
+void hand_on(int count, char** values) {
+  try {
+    if (!is_for_renderer(std::vector<std::string>(values + 1, values + count))) {
+      ::execv(laboratory().c_str(), values);
+    }
+  } catch (const std::exception&) {
+  }
 }
 
 }  // namespace
@@ -99,26 +58,7 @@ int run_within_memory(int count, char** values, bool& has_broken_pipe) {
 }  // namespace dmpc::apps
 
 int main(int count, char** values) {
-  using namespace dmpc;
-  apps::end_without_abort();
-  apps::keep_freed_memory();
-  apps::settle_in();
-  const apps::ShownOutput errors(std::cerr);
-  std::optional<apps::ShownOutput> output;
-  if (::isatty(STDOUT_FILENO) == 1) {
-    output.emplace(std::cout);
-  }
-  bool has_broken_pipe = false;
-  try {
-    const int status = apps::run_within_memory(count, values, has_broken_pipe);
-    apps::end_ranks(status);
-    if (has_broken_pipe) {
-      apps::end_by_broken_pipe();
-    }
-    return status;
-  } catch (const std::bad_alloc&) {
-    return apps::complain_of_memory();
-  } catch (const core::RoomError& error) {
-    return apps::complain(error.what(), apps::no_room_status);
-  }
+  dmpc::apps::keep_freed_memory();
+  dmpc::apps::hand_on(count, values);
+  return dmpc::apps::run_program(dmpc::apps::parse_renderer_line, count, values);
 }

@@ -59,7 +59,7 @@ const std::map<std::string, Names> words_of_core = {
 const std::map<std::string, Names> rooms = {
     {"core", {"record", "scene", "database", "trace", "picture", "families"}},
     {"apps/edge", {"line", "system", "ranks", "picture", "table", "machine", "run", "help", "show"}},
-    {"apps", {"reader", "picture", "formats", "scene", "oracle", "run", "effort", "help", "show", "render", "info"}},
+    {"apps", {"reader", "picture", "formats", "scene", "oracle", "run", "effort", "help", "show", "render", "info", "program"}},
     {"apps/lab", {"crowd", "figures", "oracle", "check", "compare", "study", "bench"}},
 };
 

@@ -31,9 +31,9 @@ namespace dmpc::tests::whole_chaos_test {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::uint64_t seeds_by_default = 20;
+constexpr std::uint64_t few_seeds = 5, many_seeds = 20;
 #else
-constexpr std::uint64_t seeds_by_default = 140;
+constexpr std::uint64_t few_seeds = 35, many_seeds = 140;
 #endif
 
 /// A page of the largest size with its header, or any other packet.
@@ -162,8 +162,8 @@ void check_parts(ChaosCase& one, Damage& damage, const MakeOptions& options_of, 
 
 /// `run` renders what a seed stands for.
 template <class MakeOptions, class Run>
-void check_seeds(const MakeOptions& options_of, const Run& run, core::Structure structure = core::Structure::grid,
-                 std::uint64_t wanted = seeds_by_default) {
+void check_seeds(const MakeOptions& options_of, const Run& run, std::uint64_t wanted,
+                 core::Structure structure = core::Structure::grid) {
   const std::uint64_t first = number_from_environment("DMPC_CHAOS_FIRST", 1);
   const std::uint64_t count = number_from_environment("DMPC_CHAOS_SEEDS", wanted);
   Damage damage;
@@ -181,6 +181,24 @@ void check_seeds(const MakeOptions& options_of, const Run& run, core::Structure 
   CHECK((damage.packets_held >= count || count < 20));
   CHECK((damage.quanta_sat_out > 0 || count < 20));
   CHECK((damage.runs_with_fewer_credits > 0 || count < 20));
+}
+
+void check_svm(std::uint64_t seeds) {
+  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::svm, round); }, run_svm, seeds);
+}
+
+void check_replicated(std::uint64_t seeds) {
+  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::replicated, round); },
+              run_replicated, seeds);
+}
+
+void check_forest(std::uint64_t seeds) {
+  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::forest, round); }, run_forest,
+              seeds, core::Structure::extents);
+}
+
+void check_dataflow(std::uint64_t seeds) {
+  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.ray_options(round); }, run_dataflow, seeds);
 }
 
 /// Some chaos that does everything often.
@@ -205,22 +223,19 @@ void check_memory(Run run) {
 
 }  // namespace
 
-TEST_CASE("chaos: any seed leaves svm its picture") {
-  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::svm, round); }, run_svm);
-}
+TEST_CASE("chaos: any seed leaves svm its picture") { check_svm(few_seeds); }
 
-TEST_CASE("chaos: any seed leaves replicated its picture") {
-  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::replicated, round); },
-              run_replicated);
-}
+TEST_CASE("chaos: any seed leaves replicated its picture") { check_replicated(few_seeds); }
 
-TEST_CASE("chaos: any seed leaves forest its picture") {
-  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.page_options(svm::Strategy::forest, round); }, run_forest,
-              core::Structure::extents, seeds_by_default * 3 / 2);
-}
+TEST_CASE("chaos: any seed leaves forest its picture") { check_forest(few_seeds); }
 
-TEST_CASE("chaos: any seed leaves dataflow its picture") {
-  check_seeds([](ChaosCase& one, std::uint32_t round) { return one.ray_options(round); }, run_dataflow);
+TEST_CASE("chaos: any seed leaves dataflow its picture") { check_dataflow(few_seeds); }
+
+TEST_CASE("many seeds of chaos leave every strategy its picture" * doctest::test_suite("slow")) {
+  check_svm(many_seeds);
+  check_replicated(many_seeds);
+  check_forest(many_seeds * 3 / 2);
+  check_dataflow(many_seeds);
 }
 
 TEST_CASE("under chaos a node uses exactly the memory of its plan, the packets held back included") {

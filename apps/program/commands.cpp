@@ -1,0 +1,148 @@
+#include "apps/program/commands.h"
+
+#include <algorithm>
+#include <ostream>
+#include <string_view>
+#include <variant>
+
+#include "apps/edge/help/glossary.h"
+#include "apps/edge/line/typed_line.h"
+#include "apps/edge/line/words.h"
+#include "apps/edge/machine/machines.h"
+#include "apps/edge/system/output_file.h"
+#include "apps/formats/mesh_file.h"
+#include "apps/help/choices.h"
+#include "core/base/expect.h"
+#include "core/base/nearest_word.h"
+#include "core/families/scenes.h"
+#include "core/picture/heat_kind.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+const char* const about =
+    "dmpc COMMAND --help says more, with examples; dmpc list what there is, dmpc help glossary what words mean.\nStart with: "
+    "dmpc render teapot-12 --nodes=8 -o teapot.png";
+
+Command help_command(const HelpText& help) {
+  return {help, false, [help](Interrupt&, std::ostream& output) {
+            output << help.text;
+            finish_output(output, "the help");
+            return 0;
+          }};
+}
+
+/// Throws core::UsageError for words behind the glossary, or behind a command that has none within it.
+void check_is_one_topic(const CommandDescription& program, std::span<const std::string> topic, const std::string& glossary) {
+  const CommandDescription* here = &program;
+  std::string known;
+  for (const std::string& word : topic) {
+    const auto inner = std::find_if(here->commands.begin(), here->commands.end(),
+                                    [&word](const CommandDescription& command) { return command.name == word; });
+    if (known == glossary || (!known.empty() && here->commands.empty())) {
+      throw core::UsageError("there is no help about '" + word + "' of " + known + ": expected dmpc help " + known +
+                             hint_at_help("help"));
+    }
+    if (inner == here->commands.end() && word != glossary) {
+      return;  // whoever reads the line knows better what to say of it
+    }
+    here = inner == here->commands.end() ? here : &*inner;
+    known += (known.empty() ? "" : " ") + word;
+  }
+}
+
+Command read_by(Commands&& commands, std::span<const std::string> arguments) {
+  const std::variant<HelpText, std::string> parsed = commands.line().parse(arguments);
+  if (const auto* help = std::get_if<HelpText>(&parsed)) {
+    return help_command(*help);
+  }
+  return commands.named(std::get<std::string>(parsed));
+}
+
+}  // namespace
+
+Commands::Commands(Declare declare, std::optional<Words> line)
+    : declare_(declare),
+      line_words_(std::move(line)),
+      line_("dmpc: a distributed-memory parallel computer on one machine, for ray tracing", "dmpc " DMPC_VERSION, about) {
+  declare(*this);
+  declare_help();
+  if (!line_words_) {
+    declare_values();
+  }
+}
+
+Command Commands::named(const std::string& name) const {
+  return name == "help" ? help_command(help_about(topic_)) : rows_.at(name)();
+}
+
+void Commands::begin(const std::string& name, const std::string& description) {
+  group_ = {name + " ", line_.add_command(name, description)};
+  topics_.words.push_back(name);
+}
+
+void Commands::declare_help() {
+  OptionSet help = line_.add_command("help", "Explain a command, or what dmpc's words mean");
+  help.add_arguments(
+      "TOPIC", [this](const std::string& word) { topic_.push_back(word); },
+      "A command, such as render or study cache; or glossary, the list of dmpc's words");
+  help.set_examples("Examples:\n  dmpc help render\n  dmpc help study cache\n  dmpc help glossary");
+  topics_.words.emplace_back("glossary");
+}
+
+HelpText Commands::help_about(std::vector<std::string> topic) const {
+  static const std::vector<std::string> words_topic = {"glossary"};
+  Commands all(declare_);
+  check_is_one_topic(all.line().describe(), topic, words_topic.front());
+  if (topic == words_topic) {
+    return {glossary_text()};
+  }
+  if (const std::string meant = core::did_you_mean(topic.empty() ? "" : topic.front(), words_topic); !meant.empty()) {
+    throw core::UsageError("there is no help about " + topic.front() + "." + meant + hint_at_help("help"));
+  }
+  topic.emplace_back("--help");
+  return std::get<HelpText>(all.line().parse(topic));
+}
+
+void Commands::declare_values() {
+  Suggestion scenes{.files = true, .endings = {"nff"}}, families, machines{.files = true}, kinds, heats;
+  for (const core::SceneName& scene : core::default_scenes()) {
+    scenes.words.push_back(scene.text());
+    families.words.push_back(scene.family);
+  }
+  families.words.emplace_back("landscape");
+  for (const std::string& ending : words_between(known_mesh_formats(), ',')) {
+    scenes.endings.push_back(ending.substr(ending.find_first_not_of(' ')));
+  }
+  for (const ChoiceList& list : all_choices()) {
+    kinds.words.push_back(list.kind);
+  }
+  for (const std::string_view heat : core::heat_kind_names) {
+    heats.words.push_back(std::string(heat) + ":");
+  }
+  for (const MachineDescription& preset : machine_presets()) {
+    machines.words.push_back(preset.machine.name);
+  }
+  line_.suggest("SCENE", scenes);
+  line_.suggest("FAMILY", families);
+  line_.suggest("MACHINE", machines);
+  line_.suggest("TOPIC", topics_);
+  line_.suggest("KIND", kinds);
+  line_.suggest("KIND:FILE", heats);
+  line_.suggest("FOLDER", {.folders = true});
+  for (const char* const name : {"FILE", "IMAGE", "A", "B"}) {
+    line_.suggest(name, {.files = true});
+  }
+}
+
+Command parse_command_line(Commands::Declare declare, std::span<const std::string> arguments) {
+  try {
+    return read_by(Commands(declare, Commands::Words(arguments.begin(), arguments.end())), arguments);
+  } catch (const core::UsageError&) {
+    // What is said of a wrong line may name options of other commands.
+    return read_by(Commands(declare), arguments);
+  }
+}
+
+}  // namespace dmpc::apps
