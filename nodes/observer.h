@@ -33,7 +33,7 @@ struct Span {
   Activity activity = Activity::work;
   PacketKind packet = 0;  ///< of receive, serve and take_over
   /// Calls of the node's program are numbered. Of send it is that whose packets are sent, of take_over the last one before.
-  std::uint32_t call = 0;
+  std::uint64_t call = 0;
   std::uint64_t begin_ns = 0, end_ns = 0;
   std::uint64_t own_ns = 0;  ///< what it takes by itself, without interrupts and packets that came meanwhile
   Charges before, after;     ///< operations charged until its begin and its end; equal but for calls of the program
@@ -58,7 +58,7 @@ struct Passing {
   NodeId node{};  ///< the node that tells: the sender of what is sent, the receiver of what is received
   NodeId peer{};  ///< the other
   PacketKind kind = 0;
-  std::uint32_t call = 0;  ///< of the node's program, in which it is sent or received
+  std::uint64_t call = 0;  ///< of the node's program, in which it is sent or received
   std::span<const std::byte> payload;
   /// When it is sent, the first two; on a modelled machine all when it is received, else only the last.
   MessageTimes times;

@@ -2,6 +2,9 @@
 
 #include <array>
 
+#include "apps/computer/bounded_charge.h"
+#include "apps/computer/own_name.h"
+
 namespace dmpc::apps {
 namespace {
 
@@ -71,7 +74,7 @@ void HostedNode::charge(Index operation, std::uint64_t count) {
     throw ProgramError("operation " + std::to_string(operation) +
                        " is charged: " + std::to_string(plan_.needs().operations.size()) + " are declared");
   }
-  charges_.count[operation] += count;
+  charge_within_bounds(charges_.count[operation], count, own_name(plan_.needs().operations[operation].name));
 }
 
 void HostedNode::take_note(const nodes::Packet& packet) {
@@ -128,11 +131,21 @@ std::byte* HostedNode::allocate_bytes(Index memory, std::size_t bytes) {
 }
 
 HostedProgram::HostedProgram(nodes::Node& node, const ProgramPlan& plan, const Make& make)
-    : node_(node, plan), program_(make(node_)) {}
+    : node_(node, plan), program_(call_program(node_.id(), "make()", [&] { return made(make, node_); })) {}
+
+std::unique_ptr<dmpc::Program> HostedProgram::made(const Make& make, Node& node) {
+  std::unique_ptr<dmpc::Program> program = make(node);
+  if (program == nullptr) {
+    throw ProgramError("what it returned is no program");
+  }
+  return program;
+}
 
 void HostedProgram::receive(const nodes::Packet& packet) {
   node_.take_note(packet);
-  program_->receive({.source = nodes::index_of(packet.source), .kind = packet.kind, .payload = packet.payload});
+  call_program(node_.id(), "receive()", [&] {
+    program_->receive({.source = nodes::index_of(packet.source), .kind = packet.kind, .payload = packet.payload});
+  });
 }
 
 }  // namespace dmpc::apps

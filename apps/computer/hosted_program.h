@@ -10,6 +10,7 @@
 
 #include "apps/computer/dmpc/computer.h"
 #include "apps/computer/plan.h"
+#include "apps/computer/program_call.h"
 #include "apps/computer/waiting.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
@@ -59,15 +60,28 @@ class HostedProgram final : public nodes::Program {
   HostedProgram(nodes::Node& node, const ProgramPlan& plan, const Make& make);
 
   void receive(const nodes::Packet& packet) override;
-  bool work() override { return program_->work(); }
-  bool finished() const override { return program_->finished(); }
+  bool work() override {
+    return call_program(node_.id(), "work()", [this] { return program_->work(); });
+  }
+  bool finished() const override {
+    return call_program(node_.id(), "finished()", [this] { return program_->finished(); });
+  }
   nodes::Charges charges() const override { return node_.charges(); }
-  std::string describe() const override { return program_->describe() + waiting_text(node_.awaited(), node_.owed()); }
+  std::string describe() const override {
+    return call_program(node_.id(), "describe()", [this] { return program_->describe(); }) +
+           waiting_text(node_.awaited(), node_.owed());
+  }
+  /// What outcome(program) returns.
+  template <class Outcome>
+  std::string outcome(const Outcome& outcome) const {
+    return call_program(node_.id(), "outcome()", [&] { return outcome(*program_); });
+  }
 
-  const dmpc::Program& program() const { return *program_; }
   const HostedNode& node() const { return node_; }
 
  private:
+  static std::unique_ptr<dmpc::Program> made(const Make& make, Node& node);
+
   HostedNode node_;
   std::unique_ptr<dmpc::Program> program_;
 };

@@ -28,14 +28,9 @@ std::uint64_t program_digest() {
   return digest.value();
 }
 
-Likeness likeness_of(const ProgramCall& call) {
-  Likeness likeness = build_likeness();
-  std::string words;
-  for (const std::string& word : call.words) {
-    words += (words.empty() ? "" : " ") + word;
-  }
+Likeness program_likeness() {
+  Likeness likeness = call_likeness();
   likeness.emplace_back("the program", hash_text(program_digest()));
-  likeness.emplace_back("the words", words.empty() ? "(none)" : words);
   return likeness;
 }
 
@@ -62,7 +57,7 @@ int with_usage_told(const std::function<int()>& act) {
 
 int run_on_ranks(ProgramOptions& options, const ProgramCall& call, const std::function<RankNeeds()>& needs,
                  const std::function<int(RankRounds&)>& act) {
-  const RankStart start = {.own = likeness_of(call), .module_place = ModulePlace::companion_or_linked};
+  const RankStart start = {.own = program_likeness(), .module_of = CompanionOf::own_program};
   return run_as_rank(start, [&](RankGroup& group) {
     choose_nodes(options, group);
     if (group.rank_count() == 1 && !options.quiet) {

@@ -1,14 +1,19 @@
 #include "apps/computer/program_main.h"
 
+#include <unistd.h>
+
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "apps/computer/program_call.h"
 #include "apps/edge/line/exit_status.h"
+#include "apps/edge/line/shown_text.h"
 #include "apps/edge/ranks/launcher.h"
 #include "apps/edge/ranks/rank_group.h"
 #include "apps/edge/system/memory_room.h"
@@ -18,39 +23,31 @@
 namespace dmpc::apps {
 namespace {
 
-std::variant<HelpText, std::string> read(CommandLine& line, const std::vector<std::string>& words) {
-  try {
-    return line.parse(words);
-  } catch (const core::UsageError&) {
-    leave_errors_to_first();
-    throw;
-  }
-}
-
 /// What to do, from the line; nothing if help was printed.
 int read_and_act(const ProgramCall& call, const ProgramMain& program, Interrupt& interrupt) {
   CommandLine line(program.description, DMPC_VERSION, "", call.name);
   program.declare(line.own_options());
-  const auto what = read(line, call.words);
+  const auto what = with_words_agreed([&] { return line.parse(call.words); }, CompanionOf::own_program);
   if (const HelpText* const help = std::get_if<HelpText>(&what)) {
     std::cout << help->text;
     finish_output(std::cout, "the help");
     return 0;
   }
   if (program.runner != RunnerKind::mpi) {
-    expect_one_process("run it together: --runner=mpi");
+    with_words_agreed([] { expect_one_process("run it together: --runner=mpi"); }, CompanionOf::own_program);
   }
   return program.act(call, interrupt);
 }
 
 int complain(const std::string& name, const std::string& message, int status) {
-  std::cerr << name + ": " + message + "\n" << std::flush;  // whole, where several processes share it
+  std::cerr << name + ": " + with_words_clipped(message) + "\n" << std::flush;  // whole, where several processes share it
   return status;
 }
 
 int status_of(const ProgramCall& call, const ProgramMain& program) {
   const std::string& name = call.name;
-  Interrupt interrupt;
+  const ProgramEnds ends(name);
+  Interrupt interrupt(ends.look());
   try {
     return read_and_act(call, program, interrupt);
   } catch (const Interrupted&) {
@@ -78,6 +75,11 @@ int status_of(const ProgramCall& call, const ProgramMain& program) {
 
 int run_main(int count, const char* const* words, const ProgramMain& program) {
   const std::string name = count > 0 ? std::filesystem::path(words[0]).filename().string() : "program";
+  const ShownOutput errors(std::cerr);  // programs' own words, too
+  std::optional<ShownOutput> output;
+  if (::isatty(STDOUT_FILENO) == 1) {
+    output.emplace(std::cout);
+  }
   const int status = status_of({name, {words + (count > 0 ? 1 : 0), words + count}}, program);
   end_ranks(status);
   return status;

@@ -101,7 +101,7 @@ std::vector<std::string> gather_outcomes(ProgramRecord& record, nodes::Runner& r
         told.put(runner.node(index).counters());
         told.put(program.charges());
         told.put_all(program.node().used_bytes());
-        told.put_bytes(application.outcome(program.program()));
+        told.put_bytes(program.outcome(application.outcome));
       },
       [&](std::uint32_t node, nodes::FlatReader& told) {
         ProgramNode& own = record.nodes.emplace_back();

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/computer/bounded_charge.h"
 #include "apps/computer/dmpc/pages.h"
 #include "apps/computer/on_ranks.h"
 #include "apps/computer/program_main.h"
@@ -55,7 +56,7 @@ class PagesOf final : public Pages {
       throw ProgramError("operation " + std::to_string(operation) + " is charged: " + std::to_string(bounds_.operation_count) +
                          " are declared");
     }
-    charges_[charge_of(operation)] += count;
+    charge_within_bounds(charges_[charge_of(operation)], count, std::to_string(operation));
   }
   /// The last place that was not here.
   core::Address absent() const {

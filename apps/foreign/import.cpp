@@ -132,10 +132,16 @@ class Files final : public Assimp::IOSystem {
     }
     return ending_of(path) == "mtl" ? materials(path) : files_.open(path);
   }
+  /// One that is named again at once says nothing new.
   std::unique_ptr<FileBytes> materials(const std::string& path) {
+    if (path == last_library_) {
+      return std::make_unique<TextBytes>("");
+    }
+    last_library_.clear();
     const std::unique_ptr<FileBytes> file = library(path);
     PlainMtl plain = plain_mtl(path, text_of(*file), textures_);
     note_once(result_.notes, plain.note);
+    last_library_ = path;
     return std::make_unique<TextBytes>(std::move(plain.text));
   }
   /// A library of materials, which may be called otherwise than the scene says.
@@ -166,6 +172,7 @@ class Files final : public Assimp::IOSystem {
   SceneFiles& files_;
   ImportedFile& result_;
   MtlTextures& textures_;
+  std::string last_library_;  ///< of materials, as it was named
 };
 
 class LoadProgress final : public Assimp::ProgressHandler {

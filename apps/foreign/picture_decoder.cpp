@@ -4,7 +4,10 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -53,8 +56,32 @@ void check_declared(const EncodedPicture& picture, const OIIO::ImageSpec& spec) 
   }
 }
 
+/// OpenImageIO 2.4.7 looks for the lowest bit of each mask of a DDS of plain pixels, for ever if there is none.
+void check_masks(const EncodedPicture& picture) {
+  constexpr std::size_t flags_at = 80, masks_at = 92, header_bytes = 128;
+  constexpr std::uint32_t has_alpha = 0x1, is_packed = 0x4, has_colors = 0x40;
+  const auto word_at = [&](std::size_t place) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, picture.bytes.data() + place, sizeof(word));
+    return word;
+  };
+  if (picture.format != "dds" || picture.bytes.size() < header_bytes) {
+    return;
+  }
+  const std::uint32_t flags = word_at(flags_at);
+  constexpr std::array names{"red", "green", "blue", "alpha"};
+  const std::size_t masks = (flags & (is_packed | has_colors)) != has_colors ? 0 : (flags & has_alpha) != 0 ? 4 : 3;
+  for (std::size_t mask = 0; mask < masks; ++mask) {
+    if (word_at(masks_at + mask * sizeof(std::uint32_t)) == 0) {
+      fail_to_read(picture.name, std::string("its pixels have no bits of ") + names[mask] +
+                                     ", and those of its kind have: write it anew, or as another format");
+    }
+  }
+}
+
 /// Where `unassociated`, colours come as they are, and not multiplied by alpha.
 Input open(const EncodedPicture& picture, bool unassociated) {
+  check_masks(picture);
   Input input;
   void* const begin = const_cast<std::byte*>(picture.bytes.data());
   input.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(begin, picture.bytes.size());
@@ -146,8 +173,10 @@ std::vector<float> spread(const std::vector<float>& gray) {
 
 }  // namespace
 
-/// The first reader of a kind that is made has the library look round for others.
+/// The first reader of a kind that is made has the library look round for others, and load what lies where these variables say.
 void prepare_decoders() {
+  ::unsetenv("OIIO_LIBRARY_PATH");
+  ::unsetenv("LD_LIBRARY_PATH");
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);
   for (const char* format : {"png", "jpeg", "openexr", "tiff", "targa", "bmp", "hdr", "webp", "gif", "pnm", "dds"}) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "apps/edge/system/input_memory.h"
+#include "apps/edge/system/stopwatch.h"
 #include "apps/formats/named_file.h"
 #include "apps/picture/texture_size.h"
 #include "core/base/expect.h"
@@ -59,12 +61,12 @@ TextureEdges take_edges(Unpacker& fields) {
 MeshSession::MeshSession(const std::string& path, const MeshOptions& options, bool shows_progress, const ReaderLimits& limits)
     : path_(path),
       options_(options),
-      limits_(limits),
       access_(path, options.opens_anywhere),
       file_bytes_(bytes_of(path)),
       progress_(std::cerr, shows_progress, "Reading " + path + ":", "bytes"),
       pictures_(limits),
-      process_("dmpc_mesh_reader", memory_bytes_for(bytes_around(path)), limits),
+      budget_(limits),
+      process_("dmpc_mesh_reader", memory_bytes_for(bytes_around(path)), budget_),
       current_(path) {}
 
 MeshFile MeshSession::read() {
@@ -114,13 +116,9 @@ bool MeshSession::answer(const Message& message) {
   Unpacker fields(message.bytes);
   switch (message.saying) {
     case Saying::open:
-      answer_open(fields.take_text());
-      return false;
     case Saying::exists:
-      process_.send(access_.has(fields.take_text()) ? Saying::yes : Saying::no);
-      return false;
     case Saying::meant:
-      answer_meant(fields);
+      answer_question(message);
       return false;
     case Saying::progress:
       show(fields);
@@ -147,12 +145,27 @@ bool MeshSession::answer(const Message& message) {
   }
 }
 
+/// Looking for files takes time of dmpc's own, which hundreds of thousands of names would have for nothing.
+void MeshSession::answer_question(const Message& message) {
+  ProcessorStopwatch stopwatch(CLOCK_THREAD_CPUTIME_ID);
+  Unpacker fields(message.bytes);
+  if (message.saying == Saying::open) {
+    answer_open(fields.take_text());
+  } else if (message.saying == Saying::exists) {
+    process_.send(access_.has(fields.take_text()) ? Saying::yes : Saying::no);
+  } else {
+    answer_meant(fields);
+  }
+  budget_.spend(std::chrono::duration_cast<ReadingBudget::Time>(std::chrono::duration<double>(stopwatch.lap())));
+}
+
 void MeshSession::answer_open(const std::string& path) {
   try {
     const std::size_t known = access_.opened().paths().size();
     const InputFile file = access_.open(path);
     const bool is_new = access_.opened().paths().size() > known;  // else it would get time for each of a thousand mentions
     current_ = path;
+    pictures_.add_bytes(is_new ? file.bytes : 0);
     process_.send(Saying::file, Packer().add(file.bytes), &file.descriptor, is_new ? file.bytes : 0);
   } catch (const ReaderDeath&) {
     throw;
@@ -200,16 +213,21 @@ core::Texture MeshSession::texture_of(const Message& message) {
 core::Texture MeshSession::texture_of_file(Unpacker fields) {
   const std::string path = fields.take_text();
   const TextureEdges edges = take_edges(fields);
+  const std::size_t known = access_.opened().paths().size();
   InputFile file = access_.open(path);
+  const bool is_new = access_.opened().paths().size() > known;
+  budget_.add_bytes(is_new ? file.bytes : 0);
   std::string ending = fs::path(path).extension().string();
   ending.erase(0, 1);
-  return pictures_.read_texture({std::move(file.descriptor), file.bytes, path, ending}, edges);
+  return pictures_.read_texture({std::move(file.descriptor), file.bytes, path, ending, is_new}, edges);
 }
 
 core::Texture MeshSession::texture_of_bytes(Unpacker fields) {
   const std::string name = fields.take_text(), hint = fields.take_text();
   const TextureEdges edges = take_edges(fields);
-  return pictures_.read_texture(picture_of(std::as_bytes(std::span(bytes_)), name, hint), edges);
+  PictureFile file = picture_of(std::as_bytes(std::span(bytes_)), name, hint);
+  file.is_new = false;  // it lies in a file that has renewed the time
+  return pictures_.read_texture(file, edges);
 }
 
 core::Texture MeshSession::texture_of_texels(Unpacker fields) {

@@ -26,6 +26,8 @@ class MeshSession {
   void ask();
   /// Whether it was the last message.
   bool answer(const Message& message);
+  /// About files, on the budget.
+  void answer_question(const Message& message);
   void answer_open(const std::string& path);
   void answer_meant(Unpacker fields);
   void answer_texture(const Message& message);
@@ -39,11 +41,11 @@ class MeshSession {
 
   std::string path_;
   MeshOptions options_;
-  ReaderLimits limits_;
   FileAccess access_;
   std::uint64_t file_bytes_ = 0;  ///< the scene's own
   Progress progress_;
   PictureReader pictures_;
+  ReadingBudget budget_;  ///< of the scene's own files, and of all questions about others
   ReaderProcess process_;
   SceneReceiver receiver_;
   std::string bytes_;  ///< of the texture that is sent

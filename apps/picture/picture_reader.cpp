@@ -8,6 +8,7 @@
 #include <cstring>
 #include <vector>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/edge/system/input_memory.h"
 #include "apps/edge/system/shortage.h"
 #include "apps/picture/picture_format.h"
@@ -51,7 +52,7 @@ PictureFile open_picture(const std::filesystem::path& path) {
     open_input_file(file);
     std::string ending = path.extension().string();
     ending.erase(0, 1);
-    return {std::move(file.descriptor), file.bytes, path.string(), ending};
+    return {std::move(file.descriptor), file.bytes, path.string(), ending, true};
   } catch (const ComputerRoomError&) {
     throw;
   } catch (const core::InputError& error) {
@@ -60,7 +61,7 @@ PictureFile open_picture(const std::filesystem::path& path) {
 }
 
 PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name, const std::string& ending) {
-  PictureFile file{Descriptor(::memfd_create("picture", MFD_CLOEXEC)), bytes.size(), name, ending};
+  PictureFile file{Descriptor(::memfd_create("picture", MFD_CLOEXEC)), bytes.size(), name, ending, true};
   if (!file.descriptor.is_open()) {
     fail_to_copy(name, errno);
   }
@@ -131,13 +132,23 @@ void PictureReader::read(const PictureFile& file, Saying request, const Take& ta
 
 void PictureReader::ask(const PictureFile& file, Saying request) {
   const std::uint64_t memory = memory_bytes_for(file.bytes);
+  budget_.add_bytes(file.is_new ? file.bytes : 0);
+  check_time();
   if (!process_ || memory > memory_bytes_) {
     process_.reset();
-    process_.emplace("dmpc_picture_reader", memory, limits_);
+    process_.emplace("dmpc_picture_reader", memory, budget_);
     memory_bytes_ = memory;
   }
   const Packer fields = Packer().add_text(file.name).add_text(format_text(file)).add(static_cast<std::uint64_t>(file.bytes));
-  process_->send(request, fields, &file.descriptor, file.bytes);
+  process_->send(request, fields, &file.descriptor);
+}
+
+/// Without it no process is started.
+void PictureReader::check_time() const {
+  if (!process_ && budget_.left() <= ReadingBudget::Time{}) {
+    throw core::InputError("is not read: pictures before it have taken the " + counted(budget_.seconds(), "second") +
+                           " of processor time that there is for all together: mend or leave out those");
+  }
 }
 
 Message PictureReader::receive() {

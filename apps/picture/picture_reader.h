@@ -20,6 +20,7 @@ struct PictureFile {
   std::uint64_t bytes = 0;
   std::string name;
   std::string ending;  ///< "tga": tells what the content does not
+  bool is_new = true;  ///< its bytes have renewed no time yet
 };
 
 /// The ordinary file at `path`. Throws core::InputError "PATH: ..." if there is none.
@@ -27,12 +28,15 @@ PictureFile open_picture(const std::filesystem::path& path);
 /// A copy in memory of what lies there.
 PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name, const std::string& ending);
 
-/// Keeps its process from one picture to the next, as long as that lives. All throw core::InputError "NAME: ...", and
-/// core::RoomError, which says so, if this computer has no room for the process or for the picture.
+/// Keeps its process from one picture to the next, as long as that lives. All pictures together have one budget of time, which
+/// their bytes alone renew. All throw core::InputError "NAME: ...", and core::RoomError, which says so, if this computer has no
+/// room for the process or for the picture.
 class PictureReader {
  public:
-  /// Each picture has its own time, whatever `limits` say.
-  explicit PictureReader(const ReaderLimits& limits = {}) : limits_(limits) { limits_.each_file = true; }
+  explicit PictureReader(const ReaderLimits& limits = {}) : budget_(limits) {}
+
+  /// Of files that pictures lie in: time for these.
+  void add_bytes(std::uint64_t bytes) { budget_.add_bytes(bytes); }
 
   /// As apps/picture/texture_file.h says.
   core::Texture read_texture(const PictureFile& file, const TextureEdges& edges);
@@ -48,12 +52,13 @@ class PictureReader {
   template <class Take>
   void read(const PictureFile& file, Saying request, const Take& take);
   void ask(const PictureFile& file, Saying request);
+  void check_time() const;
   Head receive_head(const PictureFile& file);
   template <class T>
   std::vector<T> receive_values(std::uint64_t count);
   Message receive();
 
-  ReaderLimits limits_;
+  ReadingBudget budget_;
   std::optional<ReaderProcess> process_;
   std::uint64_t memory_bytes_ = 0;
 };

@@ -17,6 +17,7 @@
 
 #include "apps/edge/line/command_line.h"
 #include "apps/edge/ranks/launcher.h"
+#include "apps/edge/ranks/rank_group.h"
 #include "apps/edge/run/runner_kind.h"
 #include "apps/edge/system/interrupt.h"
 
@@ -115,7 +116,7 @@ void Commands::add(const std::string& name, const std::string& description, Opti
   rows_[(group_ ? group_->first : "") + name] = [options, run] {
     return Command(*options, is_quiet(*options), [options, run](Interrupt& interrupt, std::ostream& output) {
       if (!runs_on_ranks(*options)) {
-        expect_one_process("render together: dmpc render --runner=mpi");
+        with_words_agreed([] { expect_one_process("render together: dmpc render --runner=mpi"); });
       }
       if constexpr (std::is_invocable_v<Run, const Options&, std::ostream&>) {
         return run(*options, output);

@@ -13,7 +13,6 @@
 
 #include "apps/edge/line/exit_status.h"
 #include "apps/edge/line/shown_text.h"
-#include "apps/edge/ranks/launcher.h"
 #include "apps/edge/ranks/rank_group.h"
 #include "apps/edge/system/companion_path.h"
 #include "apps/edge/system/interrupt.h"
@@ -29,7 +28,7 @@ namespace dmpc::apps {
 namespace {
 
 int complain(const std::string& message, int status) {
-  std::cerr << "dmpc: " << message << std::endl;
+  std::cerr << "dmpc: " << with_words_clipped(message) << std::endl;
   return status;
 }
 
@@ -53,19 +52,10 @@ int complain_of_bug(const std::exception& error) {
   return complain(std::string("this is a bug in dmpc, please report it: ") + error.what(), internal_status);
 }
 
-Command command_of(Parse parse, const std::vector<std::string>& arguments) {
-  try {
-    return parse(arguments);
-  } catch (const core::UsageError&) {
-    leave_errors_to_first();
-    throw;
-  }
-}
-
 /// `has_broken_pipe` becomes true if nobody reads any more what was to be said.
 int run(Parse parse, const std::vector<std::string>& arguments, Interrupt& interrupt, bool& has_broken_pipe) {
   try {
-    const Command command = command_of(parse, arguments);
+    const Command command = with_words_agreed([&] { return parse(arguments); });
     if (command.is_quiet()) {
       silence_progress();
     }

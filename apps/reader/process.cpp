@@ -29,6 +29,8 @@ namespace {
 
 /// Where a reader finds its end of the line.
 constexpr int line_number = 3;
+/// Why one is ended that might go on.
+constexpr const char* out_of_time = "has no time left";
 
 /// The terminal's signals are for dmpc, whose end is its reader's end, too.
 void set_signals(posix_spawnattr_t& attributes) {
@@ -79,7 +81,7 @@ int spawn(pid_t& id, const std::string& program, int line, int errors) {
 
 }  // namespace
 
-ReaderProcess::ReaderProcess(const std::string& program, std::uint64_t memory_bytes, const ReaderLimits& limits)
+ReaderProcess::ReaderProcess(const std::string& program, std::uint64_t memory_bytes, ReadingBudget& budget)
     : memory_bytes_(memory_bytes), line_(Descriptor()) {
   const std::string path =
       companion_path(program, "../libexec/dmpc", "the program " + program + ", which reads foreign files for dmpc,").string();
@@ -88,20 +90,21 @@ ReaderProcess::ReaderProcess(const std::string& program, std::uint64_t memory_by
   const MemoryFile errors;
   start(path, its, errors.descriptor());
   its = Descriptor();  // else its death would not close the line
-  allow(0);
+  allow();
   try {
     send(Saying::limits, Packer().add(memory_bytes));
     hear_that_it_is_ready();
   } catch (const core::InputError& error) {
     fail_to_start(path, error.what(), errors.bytes());
   }
-  limits_ = limits;  // to get ready takes as long as the computer is busy, whatever the files may take
-  waited_ = {};
-  allow(0);
+  taken_to_start_ = taken();
+  budget_ = &budget;
+  allow();
 }
 
 ReaderProcess::~ReaderProcess() {
   if (id_ > 0) {
+    budget_->spend(taken() - taken_to_start_);
     ::kill(id_, SIGKILL);
     ::waitpid(id_, nullptr, 0);
   }
@@ -127,45 +130,45 @@ void ReaderProcess::hear_that_it_is_ready() {
 #endif
 }
 
-std::uint64_t ReaderProcess::seconds_taken() const {
+ReadingBudget::Time ReaderProcess::taken() const {
   clockid_t clock{};
   timespec taken{};
   const bool is_known = ::clock_getcpuclockid(id_, &clock) == 0 && ::clock_gettime(clock, &taken) == 0;
-  return is_known ? static_cast<std::uint64_t>(taken.tv_sec) + 1 : 0;
+  return is_known ? std::chrono::seconds(taken.tv_sec) + std::chrono::nanoseconds(taken.tv_nsec) : ReadingBudget::Time{};
 }
 
-void ReaderProcess::allow(std::uint64_t file_bytes) {
-  if (limits_.each_file && file_bytes > 0) {
-    file_bytes_ = 0;
-    waited_ = {};
-    seconds_before_ = seconds_taken();
-  }
-  file_bytes_ += file_bytes;
-  seconds_ = limits_.seconds + file_bytes_ / std::max<std::uint64_t>(limits_.bytes_a_second, 1);
+void ReaderProcess::allow() {
+  const auto most = std::chrono::ceil<std::chrono::seconds>(taken_to_start_ + budget_->left()).count();
   rlimit limit{};
   ::prlimit(id_, RLIMIT_CPU, nullptr, &limit);
-  limit.rlim_cur = std::min<rlim_t>(seconds_before_ + seconds_, limit.rlim_max);
+  limit.rlim_cur = std::min(static_cast<rlim_t>(std::max<std::int64_t>(most, 1)), limit.rlim_max);
   ::prlimit(id_, RLIMIT_CPU, &limit, nullptr);  // where that is refused, the wall's clock is left
 }
 
 void ReaderProcess::send(Saying saying, const Packer& fields, const Descriptor* file, std::uint64_t file_bytes) {
-  allow(file_bytes);
+  budget_->add_bytes(file_bytes);
+  if (budget_->left() <= taken() - taken_to_start_) {
+    end(out_of_time);
+  }
+  allow();
   if (!line_.send(saying, fields, file == nullptr ? -1 : file->number(), false)) {
     end("does not listen");
   }
 }
 
-/// All waiting together is bounded: messages, however many, renew nothing.
+/// All waiting together is bounded: messages, however many, renew nothing. Who looks up much later than it wanted to was stopped,
+/// and so was the reader, perhaps.
 void ReaderProcess::wait_for_message() {
+  constexpr std::chrono::milliseconds look{1000};
   pollfd entry{.fd = line_.descriptor(), .events = POLLIN, .revents = 0};
   for (int ready = 0; ready <= 0;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(wall_time() - waited_).count();
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(budget_->wall_left()).count();
     if (left <= 0) {
       end("took too long");
     }
-    const Clock::time_point begin = Clock::now();
-    ready = ::poll(&entry, 1, static_cast<int>(std::min<std::int64_t>(left, 1'000'000)));
-    waited_ += Clock::now() - begin;
+    const auto begin = std::chrono::steady_clock::now();
+    ready = ::poll(&entry, 1, static_cast<int>(std::min<std::int64_t>(left, look.count())));
+    budget_->wait(std::min<ReadingBudget::Time>(std::chrono::steady_clock::now() - begin, 2 * look));
   }
 }
 
@@ -184,10 +187,13 @@ Message ReaderProcess::receive() {
 void ReaderProcess::end(const char* unless_by_signal) {
   ::kill(id_, SIGKILL);  // changes nothing of an end that has begun
   int status = 0;
-  ::waitpid(std::exchange(id_, -1), &status, 0);
-  const bool is_over = wall_time() - waited_ < std::chrono::milliseconds(1);
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
-    throw ReaderDeath("took more than " + counted(seconds_, "second") + " of processor time");
+  rusage used{};
+  ::wait4(std::exchange(id_, -1), &status, 0, &used);
+  for (const timeval& time : {used.ru_utime, used.ru_stime}) {  // the start included: one that dies has to be started anew
+    budget_->spend(std::chrono::seconds(time.tv_sec) + std::chrono::microseconds(time.tv_usec));
+  }
+  if ((WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) || unless_by_signal == out_of_time) {
+    throw ReaderDeath("took more than " + counted(budget_->seconds(), "second") + " of processor time");
   }
   if (WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL) {
     throw ReaderDeath("crashed (signal " + std::to_string(WTERMSIG(status)) + ", " + ::strsignal(WTERMSIG(status)) + ")");
@@ -195,7 +201,8 @@ void ReaderProcess::end(const char* unless_by_signal) {
   if (WIFEXITED(status) && WEXITSTATUS(status) != 0) {
     throw ReaderDeath("ended with status " + std::to_string(WEXITSTATUS(status)));
   }
-  throw ReaderDeath(is_over ? "took more than " + counted(seconds_ * limits_.wall_factor, "second") : unless_by_signal);
+  const bool is_over = budget_->wall_left() < std::chrono::milliseconds(1);
+  throw ReaderDeath(is_over ? "took more than " + counted(budget_->wall_seconds(), "second") : unless_by_signal);
 }
 
 }  // namespace dmpc::apps

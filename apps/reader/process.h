@@ -3,21 +3,13 @@
 
 #include <sys/types.h>
 
-#include <chrono>
 #include <cstdint>
 #include <string>
 
+#include "apps/reader/budget.h"
 #include "apps/reader/line.h"
 
 namespace dmpc::apps {
-
-/// What it may take. Grows with the bytes of the files that it is given.
-struct ReaderLimits {
-  std::uint64_t seconds = 10;              ///< of processor time
-  std::uint64_t bytes_a_second = 500'000;  ///< so many more bytes of files, one more second
-  bool each_file = false;                  ///< all that is for each file anew, else for all files together
-  std::uint64_t wall_factor = 30;  ///< so many times the processor time may pass on the wall: others want the processor, too
-};
 
 /// It has ended before its time: by a signal, by a limit, or by saying nonsense. The text goes on "the reader of PLY files ...".
 struct ReaderDeath : core::InputError {
@@ -27,14 +19,15 @@ struct ReaderDeath : core::InputError {
 /// Ended and waited for in the end.
 class ReaderProcess {
  public:
-  /// Starts the program and waits until it is ready; it may take so much memory beside what it has at the start. Throws
-  /// core::InternalError if there is no such program or if it does not get ready, ComputerRoomError if this computer lets it not.
-  ReaderProcess(const std::string& program, std::uint64_t memory_bytes, const ReaderLimits& limits);
+  /// Starts the program and waits until it is ready; it may take so much memory beside what it has at the start, and from then on
+  /// the time that `budget` has, which outlives it. Throws core::InternalError if there is no such program or if it does not get
+  /// ready, ComputerRoomError if this computer lets it not.
+  ReaderProcess(const std::string& program, std::uint64_t memory_bytes, ReadingBudget& budget);
   ~ReaderProcess();
   ReaderProcess(const ReaderProcess&) = delete;
   ReaderProcess& operator=(const ReaderProcess&) = delete;
 
-  /// With a file, its bytes give it more time.
+  /// With a file, its bytes give it more time. Throws ReaderDeath if it has ended, or if no time is left.
   void send(Saying saying, const Packer& fields = {}, const Descriptor* file = nullptr, std::uint64_t file_bytes = 0);
   /// The next message. Throws ReaderDeath if it has ended or takes too long, core::RoomError if its memory ended.
   Message receive();
@@ -43,24 +36,21 @@ class ReaderProcess {
   bool is_filtered() const { return is_filtered_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  Clock::duration wall_time() const { return std::chrono::seconds(seconds_ * limits_.wall_factor); }
-
   void start(const std::string& program, const Descriptor& its_end, int errors);
   void hear_that_it_is_ready();
-  void allow(std::uint64_t file_bytes);
-  /// Seconds of processor time, rounded up.
-  std::uint64_t seconds_taken() const;
+  /// Has the system end it where its time ends.
+  void allow();
+  /// Of the processor, since its start.
+  ReadingBudget::Time taken() const;
   void wait_for_message();
   [[noreturn]] void end(const char* unless_by_signal);
 
-  ReaderLimits limits_;
+  ReadingBudget starting_{ReaderLimits{}};  ///< to get ready takes as long as the computer is busy, whatever the files may take
+  ReadingBudget* budget_ = &starting_;
   std::uint64_t memory_bytes_;
   pid_t id_ = -1;
   Line line_;
-  std::uint64_t seconds_ = 0, file_bytes_ = 0, seconds_before_ = 0;
-  Clock::duration waited_{};  ///< for its messages; what dmpc does meanwhile is not its time
+  ReadingBudget::Time taken_to_start_{};
   bool is_filtered_ = false;
 };
 

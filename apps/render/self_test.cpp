@@ -65,7 +65,7 @@ SelfTest self_test() {
 
 Likeness renderer_likeness() {
   const SelfTest test = self_test();
-  Likeness likeness = build_likeness();
+  Likeness likeness = call_likeness();
   likeness.emplace_back("digest of databases", hash_text(test.databases));
   likeness.emplace_back("digest of self-test rays", hash_text(test.pictures));
   return likeness;

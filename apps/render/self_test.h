@@ -14,7 +14,7 @@ struct SelfTest {
 };
 SelfTest self_test();
 
-/// What ranks that render must have in common: the build, and what the test came to.
+/// What ranks that render must have in common: the build, the words, and what the test came to.
 Likeness renderer_likeness();
 
 }  // namespace dmpc::apps

@@ -399,4 +399,30 @@ Conversion convert(const Scene& scene, const GridFrame& frame, const Parallel& p
   return all;
 }
 
+void rearrange(Conversion& conversion, const std::vector<std::uint32_t>& from) {
+  const auto taken = [&](auto& list) {
+    auto before = list;
+    list.resize(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      list[i] = before[from[i]];
+    }
+  };
+  constexpr std::uint32_t nowhere = 0xffffffffU;
+  std::vector<std::uint32_t> to(conversion.primitives.size(), nowhere);
+  for (std::uint32_t i = 0; i < from.size(); ++i) {
+    to[from[i]] = i;
+  }
+  taken(conversion.primitives);
+  taken(conversion.sources);
+  taken(conversion.shading);
+  const auto follow = [&](auto& list) {
+    for (auto& item : list) {
+      item.primitive = to[item.primitive];
+    }
+    std::erase_if(list, [](const auto& item) { return item.primitive == nowhere; });
+  };
+  follow(conversion.smooth);
+  follow(conversion.textured);
+}
+
 }  // namespace dmpc::core

@@ -32,7 +32,7 @@ struct Conversion {
   std::vector<Textured> textured;
   std::vector<CollapsedPrimitive> collapsed;  ///< of those, what was not degenerate before it was rounded
   std::uint32_t dropped = 0;                  ///< degenerate: zero area or length, radius 0, not finite
-  // What settle_coplanar() adds:
+  // What settle_coplanar() adds, and drop_twins():
   std::vector<FacePlane> planes;    ///< by PrimitiveValues::plane() - 1
   std::uint32_t shared_planes = 0;  ///< in all: `planes`, and those that a coordinate tells
   std::uint32_t duplicates = 0;     ///< triangles left out
@@ -43,5 +43,8 @@ Box bounds_of(const Scene& scene, const GridAxes& axes, const Parallel& parallel
 
 /// Triangulates and brings all into the grid's coordinates. The same whatever the number of threads.
 Conversion convert(const Scene& scene, const GridFrame& frame, const Parallel& parallel);
+
+/// Gives primitives other places: at `i` comes what is at `from[i]`, which may be shorter than the lists.
+void rearrange(Conversion& conversion, const std::vector<std::uint32_t>& from);
 
 }  // namespace dmpc::core

@@ -8,6 +8,7 @@
 #include "core/database/cover_finder.h"
 #include "core/database/face.h"
 #include "core/database/plane_buckets.h"
+#include "core/database/twins.h"
 
 namespace dmpc::core {
 namespace {
@@ -181,13 +182,9 @@ void sort_by_precedence(Ids& set, const Conversion& conversion, std::span<const 
 
 /// Takes out of a set, which comes by precedence, what has the corners of one before it.
 void take_duplicates(const Conversion& conversion, Ids& set, Ids& duplicates) {
-  using Corners = std::array<std::array<float, 3>, 3>;
-  std::vector<std::pair<Corners, std::size_t>> sorted;
+  std::vector<std::pair<SortedCorners, std::size_t>> sorted;
   for (std::size_t place = 0; place < set.size(); ++place) {
-    const auto& value = conversion.primitives[set[place]].value;
-    Corners corners{{{value[0], value[1], value[2]}, {value[3], value[4], value[5]}, {value[6], value[7], value[8]}}};
-    std::sort(corners.begin(), corners.end());
-    sorted.emplace_back(corners, place);
+    sorted.emplace_back(sorted_corners(conversion.primitives[set[place]]), place);
   }
   std::sort(sorted.begin(), sorted.end());
   std::vector<bool> is_double(set.size());
@@ -199,33 +196,6 @@ void take_duplicates(const Conversion& conversion, Ids& set, Ids& duplicates) {
     (is_double[place] ? duplicates : kept).push_back(set[place]);
   }
   set = std::move(kept);
-}
-
-/// Gives primitives other places: at `i` comes what is at `from[i]`, which may be shorter than the lists.
-void rearrange(Conversion& conversion, const Ids& from) {
-  const auto taken = [&](auto& list) {
-    auto before = list;
-    list.resize(from.size());
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      list[i] = before[from[i]];
-    }
-  };
-  constexpr std::uint32_t nowhere = 0xffffffffU;
-  Ids to(conversion.primitives.size(), nowhere);
-  for (std::uint32_t i = 0; i < from.size(); ++i) {
-    to[from[i]] = i;
-  }
-  taken(conversion.primitives);
-  taken(conversion.sources);
-  taken(conversion.shading);
-  const auto follow = [&](auto& list) {
-    for (auto& item : list) {
-      item.primitive = to[item.primitive];
-    }
-    std::erase_if(list, [](const auto& item) { return item.primitive == nowhere; });
-  };
-  follow(conversion.smooth);
-  follow(conversion.textured);
 }
 
 }  // namespace
@@ -251,7 +221,7 @@ bool settle_coplanar(Conversion& conversion, const TopCells& cells, std::span<co
   std::sort(duplicates.begin(), duplicates.end());
   std::erase_if(from, [&](std::uint32_t id) { return std::binary_search(duplicates.begin(), duplicates.end(), id); });
   conversion.shared_planes = planes.level_count() + static_cast<std::uint32_t>(conversion.planes.size());
-  conversion.duplicates = static_cast<std::uint32_t>(duplicates.size());
+  conversion.duplicates += static_cast<std::uint32_t>(duplicates.size());
   rearrange(conversion, from);
   return true;
 }

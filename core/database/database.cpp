@@ -15,6 +15,7 @@
 #include "core/database/record_writer.h"
 #include "core/database/texture_records.h"
 #include "core/database/top_cells.h"
+#include "core/database/twins.h"
 #include "core/record/directory.h"
 #include "core/record/records.h"
 #include "core/record/texture_layout.h"
@@ -117,14 +118,18 @@ class DatabaseBuilder {
   Vec3d local(const Vec3d& point) const { return to_local(result_.header_.frame, point); }
 
   /// Lists the primitives of every top cell. Where they are so large, so long, so far from the view or so much in one place that
-  /// the lists would be long, cells of twice the size are tried, at last a single one.
+  /// the lists would be long, those go that are there many times over; then cells of twice the size are tried, at last a single
+  /// one.
   TopCells sort_into_top_cells() {
     for (;;) {
       auto cells = TopCells::list(conversion_.primitives, header().frame, result_.pad_, parallel_);
       if (cells) {
         return std::move(*cells);
       }
-      coarsen();
+      const bool is_first_try = !std::exchange(has_looked_for_twins_, true);
+      if (!is_first_try || !drop_twins(conversion_, scene_.materials)) {
+        coarsen();
+      }
     }
   }
 
@@ -261,6 +266,7 @@ class DatabaseBuilder {
   RecordWriter writer_;
   Database result_;
   double view_distance_ = 0;  ///< from the scene's middle, in extents
+  bool has_looked_for_twins_ = false;
   Conversion conversion_;
   std::vector<TextureReference> textures_;  ///< of the scene's, in order
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/morton.h"
 #include "core/base/units.h"
@@ -15,6 +16,8 @@ namespace {
 constexpr std::size_t top_cells_max = 3;
 /// Primitives that one thread lists at a time.
 constexpr std::size_t chunk_size = 8192;
+/// So few cells are not halved.
+constexpr std::int64_t cells_one_by_one = 16;
 
 }  // namespace
 
@@ -27,15 +30,22 @@ class TopCells::Lister {
         edge_(double{frame.finest_cell} * finest_per_top),
         pad_(pad) {}
 
-  /// Lists the primitives of a chunk until there are more than `bound`.
-  std::vector<Touch> touches_of(std::size_t chunk, std::size_t bound) const {
-    std::vector<Touch> touches;
-    touches.reserve(chunk_size * 5 / 4);
+  std::size_t chunk_count() const { return ceil_divide(primitives_.size(), chunk_size); }
+
+  /// Lists primitives of a chunk, from where it stopped; stops before one with which there would be more than `bound` touches.
+  void list(std::size_t chunk, std::size_t bound, Listed& listed) const {
     const std::size_t end = std::min(primitives_.size(), (chunk + 1) * chunk_size);
-    for (std::size_t id = chunk * chunk_size; id < end && touches.size() <= bound; ++id) {
-      add(static_cast<std::uint32_t>(id), touches);
+    listed.next = std::max(listed.next, chunk * chunk_size);
+    for (; listed.next < end; ++listed.next) {
+      const std::size_t before = listed.touches.size();
+      add(static_cast<std::uint32_t>(listed.next), bound, listed.touches);
+      if (listed.touches.size() > bound) {
+        listed.touches.resize(before);
+        listed.is_cut_off = true;
+        return;
+      }
     }
-    return touches;
+    listed.is_cut_off = false;
   }
 
  private:
@@ -46,7 +56,8 @@ class TopCells::Lister {
         directory_index(size_, {place[0] * finest_per_top, place[1] * finest_per_top, place[2] * finest_per_top}));
   }
 
-  void add(std::uint32_t id, std::vector<Touch>& touches) const {
+  /// Ends as soon as there are more than `bound` touches.
+  void add(std::uint32_t id, std::size_t bound, std::vector<Touch>& touches) const {
     const Box box = bounds_of(primitives_[id]).padded({pad_, pad_, pad_});
     Place first{}, last{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -59,22 +70,55 @@ class TopCells::Lister {
     if (first == last) {
       touches.push_back({index_of(first), id});
     } else {
-      add_touched(id, first, last, touches);
+      add_touched(id, Overlap(primitives_[id]), first, last, bound, touches);
     }
   }
 
-  void add_touched(std::uint32_t id, const Place& first, const Place& last, std::vector<Touch>& touches) const {
-    const Overlap overlap(primitives_[id]);
+  /// Where many cells are between `first` and `last`, halves that it does not touch are left out at once: a long primitive lies
+  /// in few of them.
+  void add_touched(std::uint32_t id, const Overlap& overlap, const Place& first, const Place& last, std::size_t bound,
+                   std::vector<Touch>& touches) const {
+    std::size_t longest = 0;
+    std::int64_t count = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      longest = last[axis] - first[axis] > last[longest] - first[longest] ? axis : longest;
+      count *= last[axis] - first[axis] + 1;
+    }
+    if (count <= cells_one_by_one) {
+      return add_touched_of_few(id, overlap, first, last, bound, touches);
+    }
+    Place end = last, begin = first;
+    end[longest] = first[longest] + (last[longest] - first[longest]) / 2;
+    begin[longest] = end[longest] + 1;
+    for (const auto& [low, high] : {std::pair(first, end), std::pair(begin, last)}) {
+      if (touches.size() <= bound && may_touch(overlap, low, high)) {
+        add_touched(id, overlap, low, high, bound, touches);
+      }
+    }
+  }
+
+  void add_touched_of_few(std::uint32_t id, const Overlap& overlap, const Place& first, const Place& last, std::size_t bound,
+                          std::vector<Touch>& touches) const {
     const Vec3d half{edge_ / 2 + pad_, edge_ / 2 + pad_, edge_ / 2 + pad_};
     for (std::int32_t z = first[2]; z <= last[2]; ++z) {
       for (std::int32_t y = first[1]; y <= last[1]; ++y) {
-        for (std::int32_t x = first[0]; x <= last[0]; ++x) {
+        for (std::int32_t x = first[0]; x <= last[0] && touches.size() <= bound; ++x) {
           if (overlap.touches(low_ + Vec3d{x + 0.5, y + 0.5, z + 0.5} * edge_, half)) {
             touches.push_back({index_of({x, y, z}), id});
           }
         }
       }
     }
+  }
+
+  /// Whether it may touch one of the cells: never a false no, so a little larger than they are.
+  bool may_touch(const Overlap& overlap, const Place& first, const Place& last) const {
+    Vec3d middle, half;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      middle[axis] = low_[axis] + (first[axis] + last[axis] + 1) * 0.5 * edge_;
+      half[axis] = ((last[axis] - first[axis] + 1) * 0.5 + 0x1p-20) * edge_ + pad_;
+    }
+    return overlap.touches(middle, half);
   }
 
   std::span<const PrimitiveValues> primitives_;
@@ -84,25 +128,40 @@ class TopCells::Lister {
   double pad_;
 };
 
+/// No chunk goes on beyond four times its share of the bound before all have come so far, so that hopeless lists end early:
+/// after four times the bound, whatever the number of chunks.
 std::optional<TopCells> TopCells::list(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
                                        const Parallel& parallel) {
   const std::size_t bound = top_cells_max * (primitives.size() + 8);
   const Lister lister(primitives, frame, pad);
-  std::vector<std::vector<Touch>> touches(ceil_divide(primitives.size(), chunk_size));
-  parallel.for_each(touches.size(), [&](std::size_t chunk) { touches[chunk] = lister.touches_of(chunk, bound); });
+  std::vector<Listed> chunks(lister.chunk_count());
+  parallel.for_each(chunks.size(), [&](std::size_t chunk) {
+    chunks[chunk].touches.reserve(chunk_size * 5 / 4);
+    lister.list(chunk, std::min(bound, 4 * top_cells_max * chunk_size), chunks[chunk]);
+  });
   std::size_t count = 0;
-  for (const auto& some : touches) {
-    count += some.size();
+  for (const Listed& chunk : chunks) {
+    count += chunk.touches.size();
   }
-  return count > bound ? std::nullopt : std::optional(TopCells(frame, touches));
+  for (std::size_t chunk = 0; chunk < chunks.size() && count <= bound; ++chunk) {
+    if (chunks[chunk].is_cut_off) {
+      const std::size_t before = chunks[chunk].touches.size();
+      lister.list(chunk, before + bound - count, chunks[chunk]);
+      if (chunks[chunk].is_cut_off) {
+        return std::nullopt;
+      }
+      count += chunks[chunk].touches.size() - before;
+    }
+  }
+  return count > bound ? std::nullopt : std::optional(TopCells(frame, chunks));
 }
 
 /// Sorts by counting.
-TopCells::TopCells(const GridFrame& frame, const std::vector<std::vector<Touch>>& touches) {
+TopCells::TopCells(const GridFrame& frame, const std::vector<Listed>& chunks) {
   const auto size = top_cells(frame);
   std::vector<std::uint32_t> counts(directory_entry_count(size));
-  for (const auto& some : touches) {
-    for (const Touch& touch : some) {
+  for (const Listed& chunk : chunks) {
+    for (const Touch& touch : chunk.touches) {
       ++counts[touch.cell];
     }
   }
@@ -125,8 +184,8 @@ TopCells::TopCells(const GridFrame& frame, const std::vector<std::vector<Touch>>
     end += cell.count;
   }
   ids_.resize(end);
-  for (const auto& some : touches) {
-    for (const Touch& touch : some) {
+  for (const Listed& chunk : chunks) {
+    for (const Touch& touch : chunk.touches) {
       ids_[next[touch.cell]++] = touch.id;
     }
   }

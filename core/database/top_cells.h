@@ -35,6 +35,12 @@ class TopCells {
   struct Touch {
     std::uint32_t cell, id;
   };
+  /// What is known of a chunk of primitives.
+  struct Listed {
+    std::vector<Touch> touches;
+    std::size_t next = 0;     ///< the primitive that comes next
+    bool is_cut_off = false;  ///< there are more touches than it was to list
+  };
   struct Cell {
     std::uint64_t code;
     Corner corner;
@@ -42,7 +48,7 @@ class TopCells {
   };
   class Lister;
 
-  TopCells(const GridFrame& frame, const std::vector<std::vector<Touch>>& touches);
+  TopCells(const GridFrame& frame, const std::vector<Listed>& chunks);
 
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> ids_;

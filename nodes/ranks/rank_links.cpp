@@ -1,13 +1,14 @@
 #include "nodes/ranks/rank_links.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dmpc::nodes {
 
 RankLinks::RankLinks(Fabric& fabric, const RankSilence& silence, Idle idle) : fabric_(&fabric), silence_(silence), idle_(idle) {
   for (std::uint32_t rank = 0; rank < fabric.rank_count(); ++rank) {
     ways_.emplace_back(fabric, rank);
-    peers_.push_back({.heard = Clock::now(), .spoken_to = Clock::now()});
+    peers_.push_back({.spoken_to = Clock::now()});
   }
 }
 
@@ -45,7 +46,7 @@ bool RankLinks::has_said_all() const {
 
 FrameNumber RankLinks::note(const Arrival& arrival) {
   Peer& peer = peers_[arrival.rank];
-  peer.heard = Clock::now();
+  peer.heard = time_run();
   const FrameNumber expected = peer.frames_taken;
   peer.frames_taken = number_of(arrival.frame) + 1;
   return expected;
@@ -58,8 +59,15 @@ void RankLinks::expect_number(FrameNumber expected, const Arrival& arrival) cons
   }
 }
 
-void RankLinks::look_after() {
+RankLinks::Clock::duration RankLinks::time_run() {
   const Clock::time_point now = Clock::now();
+  time_run_ += std::min<Clock::duration>(now - std::exchange(last_look_, now), silence_.look_max());
+  return time_run_;
+}
+
+void RankLinks::look_after() {
+  const Clock::duration run = time_run();
+  const Clock::time_point now = last_look_;
   for (std::uint32_t rank = 0; rank < ways_.size(); ++rank) {
     if (!is_other(rank)) {
       continue;
@@ -68,7 +76,7 @@ void RankLinks::look_after() {
       ways_[rank].show_life();
       peers_[rank].spoken_to = now;
     }
-    if (now - peers_[rank].heard > silence_.longest) {
+    if (run - peers_[rank].heard > silence_.longest) {
       throw LostRank(name_of(rank) + " is lost: nothing has been heard of it for " + std::to_string(silence_.longest.count()) +
                      " ms");
     }

@@ -16,10 +16,13 @@
 
 namespace dmpc::nodes {
 
-/// When ranks are taken for lost.
+/// When ranks are taken for lost. A silence is reckoned by the time in which this rank itself ran: where all were stopped, as
+/// clusters stop what has to wait for others, nobody was silent.
 struct RankSilence {
   std::chrono::milliseconds life_sign{2'000};  ///< a rank with nothing to say says so after so long
   std::chrono::milliseconds longest{30'000};   ///< one that says nothing for so long is lost
+  /// Who looks up after a longer time than this did not run in between, and counts no more than this.
+  std::chrono::milliseconds look_max() const { return longest / 8; }
 };
 
 /// Thread safety: belongs to the communicating thread.
@@ -81,8 +84,12 @@ class RankLinks {
 
   struct Peer {
     FrameNumber frames_taken = 0;
-    Clock::time_point heard, spoken_to;
+    Clock::duration heard{};  ///< by the time in which this rank ran
+    Clock::time_point spoken_to;
   };
+
+  /// Counts what has passed since it was called last as time in which this rank ran, as far as it did, and returns all of that.
+  Clock::duration time_run();
 
   bool is_other(std::size_t rank) const { return rank != fabric_->rank(); }
   /// Returns the number that it should have.
@@ -94,6 +101,8 @@ class RankLinks {
   Idle idle_;
   std::vector<RankWay> ways_;  ///< by rank, this one included
   std::vector<Peer> peers_;    ///< likewise
+  Clock::time_point last_look_ = Clock::now();
+  Clock::duration time_run_{};
 };
 
 }  // namespace dmpc::nodes

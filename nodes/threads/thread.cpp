@@ -4,6 +4,7 @@
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "nodes/signal_stack.h"
 
 namespace dmpc::nodes {
 namespace {
@@ -42,6 +43,7 @@ void Thread::join() {
 }
 
 void* Thread::enter(void* self) {
+  const SignalStack signal_stack;
   const Thread& thread = *static_cast<Thread*>(self);
   thread.body_(thread.argument_);
   return nullptr;

@@ -52,7 +52,7 @@ struct ThreadComputer {
 class Telling final : public Network {
  public:
   /// `call` is the number of the program's. All outlive this.
-  Telling(Observer& observer, const std::uint64_t& start_ns, const std::uint32_t& call, Network& next)
+  Telling(Observer& observer, const std::uint64_t& start_ns, const std::uint64_t& call, Network& next)
       : observer_(&observer), start_ns_(&start_ns), call_(&call), next_(&next) {}
 
   void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override {
@@ -69,7 +69,7 @@ class Telling final : public Network {
  private:
   Observer* observer_;
   const std::uint64_t* start_ns_;
-  const std::uint32_t* call_;
+  const std::uint64_t* call_;
   Network* next_;
 };
 
@@ -140,7 +140,7 @@ struct alignas(cache_line_bytes) ThreadProcessor {
   std::unique_ptr<Program> program;
   std::optional<ChaosPauses> pauses;
   std::uint32_t quanta_idle = 0;
-  std::uint32_t call = 0;           ///< number of the program's call, if somebody looks on
+  std::uint64_t call = 0;           ///< number of the program's call, if somebody looks on
   Charges charged;                  ///< until the last one's end, likewise
   std::uint32_t quanta_to_run = 0;  ///< this many quanta from now the node runs one
   Thread thread;

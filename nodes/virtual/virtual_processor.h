@@ -165,7 +165,7 @@ struct alignas(64) VirtualProcessor final : Network {
   MailboxCapacity mailbox;
   std::uint32_t interrupt_kinds;
   std::vector<Way> ways;    ///< by target
-  std::uint32_t calls = 0;  ///< of the program, if somebody looks on
+  std::uint64_t calls = 0;  ///< of the program, if somebody looks on
   Charges charged;          ///< likewise
   Span span, service;       ///< what it is doing and what it interrupted that for, likewise
   LocalMemory memory;

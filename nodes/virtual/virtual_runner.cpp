@@ -92,7 +92,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   /// A processor has sent a message, which enters the network after its latency, behind those to the same target.
-  void leave(VirtualProcessor& self, std::uint32_t number, std::uint64_t time_ns, std::uint32_t call) {
+  void leave(VirtualProcessor& self, std::uint32_t number, std::uint64_t time_ns, std::uint64_t call) {
     const Message& message = computer.messages[number];
     if constexpr (is_watched) {
       tell_sent(number, time_ns, call);
@@ -274,13 +274,13 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   /// A message whose sender's processor is done with it at `time_ns`.
-  void tell_sent(std::uint32_t number, std::uint64_t time_ns, std::uint32_t call) {
+  void tell_sent(std::uint32_t number, std::uint64_t time_ns, std::uint64_t call) {
     Message& message = computer.messages[number];
     message.times = {.sending_ns = time_ns - machine.cost_of_message(message.bytes()).send_ns, .left_ns = time_ns};
     observer->sent(passing(message, NodeId{message.header.source}, message.target, call));
   }
 
-  static Passing passing(const Message& message, NodeId node, NodeId peer, std::uint32_t call) {
+  static Passing passing(const Message& message, NodeId node, NodeId peer, std::uint64_t call) {
     return {node, peer, message.header.kind, call, message.payload, message.times, message.lasting.size()};
   }
 

@@ -38,7 +38,7 @@ bool is_before(const TraceSpan& a, const TraceSpan& b) {
 }
 
 /// The numbers of some of its program's calls, by node.
-using Calls = std::vector<std::unordered_set<std::uint32_t>>;
+using Calls = std::vector<std::unordered_set<std::uint64_t>>;
 
 /// Calls for an item that was not chosen are not among the spans, nor are their messages' ends kept.
 void split_calls(const std::vector<TraceNode>& nodes, Calls& chosen, Calls& undecided) {
@@ -83,7 +83,8 @@ void keep_chosen(Trace& trace) {
 struct TraceRecorder::End {
   std::uint64_t time_ns = 0;
   std::uint32_t peer = 0, ordinal = 0;
-  std::uint32_t call = 0, bytes = 0, first_word = 0;
+  std::uint64_t call = 0;
+  std::uint32_t bytes = 0, first_word = 0;
   PacketKind kind = 0;
 
   /// What both ends of a message have in common, and no others.
@@ -235,7 +236,7 @@ bool TraceRecorder::decide(Log& log, const TraceSpan& span) {
 }
 
 /// A call's messages stand and fall with it.
-void TraceRecorder::settle(Log& log, Ends& ends, std::uint32_t call, bool is_wanted) {
+void TraceRecorder::settle(Log& log, Ends& ends, std::uint64_t call, bool is_wanted) {
   std::erase_if(ends.undecided, [&](const End& end) {
     if (end.call == call && is_wanted) {
       keep(log, ends, end);

@@ -33,7 +33,7 @@ struct TraceSpan {
 
   std::uint64_t begin_ns = 0, end_ns = 0;
   std::uint64_t own_ns = 0;  ///< as a Span's, of the whole
-  std::uint32_t call = 0;
+  std::uint64_t call = 0;
   std::uint32_t item = no_item;  ///< that was worked on, of several the first chosen
   std::uint32_t depth = 0;       ///< of a Worked
   Activity activity = Activity::work;
@@ -49,7 +49,7 @@ struct TraceMessage {
   PacketKind kind = 0;
   std::uint32_t bytes = 0;       ///< of the payload
   std::uint32_t first_word = 0;  ///< of the payload: what many protocols say first, a number
-  std::uint32_t sent_call = 0, received_call = 0;
+  std::uint64_t sent_call = 0, received_call = 0;
   std::uint64_t sent_ns = 0, received_ns = 0;
 };
 
@@ -105,7 +105,7 @@ class TraceRecorder final : public Observer {
   bool is_chosen_node(NodeId node) const { return choice_.nodes.empty() || choice_.nodes[index_of(node)]; }
   bool is_chosen_item(std::uint32_t item) const;
   bool decide(Log& log, const TraceSpan& span);
-  void settle(Log& log, Ends& ends, std::uint32_t call, bool is_wanted);
+  void settle(Log& log, Ends& ends, std::uint64_t call, bool is_wanted);
   void keep(Log& log, Ends& ends, const End& end);
   bool overlaps_window(const Span& span) const;
   TraceSpan cut(Log& log, const Span& span) const;

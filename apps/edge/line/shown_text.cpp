@@ -124,6 +124,19 @@ std::string clipped(std::string_view text, std::size_t bytes_max) {
   return line + (text.size() > bytes_max ? " ... (" + std::to_string(text.size()) + " bytes)" : "");
 }
 
+std::string with_words_clipped(std::string_view text) {
+  constexpr std::size_t word_bytes_max = 4096, kept_bytes = 200;
+  std::string clipped_text;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \n"), text.size()), next = std::min(end + 1, text.size());
+    clipped_text += end <= word_bytes_max ? std::string(text.substr(0, end))
+                                          : std::string(text.substr(0, kept_bytes)) + "...(" + std::to_string(end) + " bytes)";
+    clipped_text += text.substr(end, next - end);
+    text.remove_prefix(next);
+  }
+  return clipped_text;
+}
+
 std::ostream& clear_line(std::ostream& stream) {
   constexpr const char* words = "\r\x1b[K";
   if (auto* const buffer = dynamic_cast<ShownBuffer*>(stream.rdbuf())) {

@@ -58,6 +58,10 @@ std::string shown(std::string_view text);
 /// A text of strangers as a part of a line: what is longer is cut off, which is said, and all is shown so, line ends too.
 std::string clipped(std::string_view text, std::size_t bytes_max = 300);
 
+/// A text whose words of strangers, however long, leave the rest to be read: of one that no path could be, the begin and its
+/// number of bytes.
+std::string with_words_clipped(std::string_view text);
+
 /// A manipulator: back to the begin of the line, which is cleared.
 std::ostream& clear_line(std::ostream& stream);
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <fstream>
 #include <sstream>
 
 #include "core/base/expect.h"
@@ -29,12 +30,31 @@ std::string first_difference(const std::string& text, const std::string& other) 
   return place == lines.end() ? "nothing" : *place;
 }
 
+/// As the system has them, on one line; a word with a blank in it cannot be told from two, which is no great loss.
+std::string words_of_call() {
+  std::ostringstream text;
+  text << std::ifstream("/proc/self/cmdline", std::ios::binary).rdbuf();
+  std::string words = text.str();
+  words.erase(0, words.find('\0'));  // what the program is called, whose place may be another on each computer
+  words.erase(0, 1);
+  words.erase(words.find_last_not_of('\0') + 1);
+  std::replace_if(
+      words.begin(), words.end(), [](char letter) { return letter == '\0' || letter == '\n'; }, ' ');
+  return words.empty() ? "(none)" : words;
+}
+
 }  // namespace
 
 Likeness build_likeness() {
   return {{"version of dmpc", DMPC_VERSION},
           {"build", DMPC_MODULES_BUILD},
           {"byte order", std::endian::native == std::endian::little ? "little" : "big"}};
+}
+
+Likeness call_likeness() {
+  Likeness likeness = build_likeness();
+  likeness.emplace_back("the words", words_of_call());
+  return likeness;
 }
 
 std::string text_of(const Likeness& likeness) {

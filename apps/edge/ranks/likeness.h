@@ -14,6 +14,9 @@ using Likeness = std::vector<std::pair<std::string, std::string>>;
 /// This process's, whatever it runs: version, build, byte order.
 Likeness build_likeness();
 
+/// That, and the words that this process was called with.
+Likeness call_likeness();
+
 /// As it travels: a line for each.
 std::string text_of(const Likeness& likeness);
 

@@ -35,6 +35,6 @@ struct MpiLibrary {
 };
 
 /// Opened at the first call, whose place counts, as open_module() says.
-const MpiLibrary& mpi_library(ModulePlace place = ModulePlace::companion);
+const MpiLibrary& mpi_library(CompanionOf whose = CompanionOf::dmpc);
 
 }  // namespace dmpc::apps

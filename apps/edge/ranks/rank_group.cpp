@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <optional>
 
@@ -60,6 +61,9 @@ void expect_to_be_told(const MpiLibrary& library) {
   }
 }
 
+/// Thrown where words are alike, to end as an error does that all come to.
+struct AreAlike {};
+
 /// Whether this is the first of those that were started together.
 bool is_first(const MpiLibrary& library) {
   const std::optional<Launcher> launched = launcher();
@@ -98,7 +102,7 @@ nodes::Fabric& RankGroup::connect(std::size_t payload_bytes_max, Likeness more) 
 }
 
 int run_as_rank(const RankStart& start, const std::function<int(RankGroup&)>& run) {
-  const MpiLibrary& library = mpi_library(start.module_place);
+  const MpiLibrary& library = mpi_library(start.module_of);
   expect_to_be_told(library);
   library.start();
   started = &library;
@@ -122,6 +126,26 @@ int run_as_rank(const RankStart& start, const std::function<int(RankGroup&)>& ru
       leave_time_to_say_it();
     }
     throw;
+  }
+}
+
+void agree_on_words(CompanionOf whose) {
+  const std::optional<Launcher> launched = launcher();
+  if (!launched || launched->rank_count < 2) {
+    return;
+  }
+  if (!launched->tells_mpi) {
+    return leave_errors_to_first();
+  }
+  try {
+    run_as_rank({.own = call_likeness(), .module_of = whose}, [](RankGroup&) -> int { throw AreAlike{}; });
+  } catch (const AreAlike&) {
+  } catch (const core::RoomError&) {
+    leave_errors_to_first();
+  } catch (const core::InputError&) {
+    throw;
+  } catch (const std::exception&) {  // no MPI, or another one
+    leave_errors_to_first();
   }
 }
 

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "apps/edge/ranks/likeness.h"
 #include "apps/edge/ranks/processors.h"
 #include "apps/edge/system/module.h"
+#include "core/base/expect.h"
 #include "nodes/ranks/fabric.h"
 
 namespace dmpc::apps {
@@ -19,7 +21,7 @@ struct MpiLibrary;
 /// What a program brings along to be a rank.
 struct RankStart {
   Likeness own;  ///< what it must have in common with all others
-  ModulePlace module_place = ModulePlace::companion;
+  CompanionOf module_of = CompanionOf::dmpc;
 };
 
 /// One rank's part in it. All ranks make the same calls in the same order: what is said to wait for all would wait for ever else.
@@ -64,6 +66,22 @@ class RankGroup {
 /// What all ranks throw, each for itself or by agreement, rank 0 is to say: on the others nothing more is said on stderr. What
 /// only some throw, each of them says, and end_ranks() then ends the others.
 int run_as_rank(const RankStart& start, const std::function<int(RankGroup&)>& run);
+
+/// Before an error of the words that a process was called with: where it was started together with others, makes sure that these
+/// have the same, so that rank 0 alone need say it. Throws core::InputError with both words, on all ranks, if they have others.
+/// Where the processes cannot talk to each other the first is left to say it.
+void agree_on_words(CompanionOf whose = CompanionOf::dmpc);
+
+/// What act() returns or throws; before a core::UsageError that agree_on_words().
+template <class Act>
+std::invoke_result_t<const Act&> with_words_agreed(const Act& act, CompanionOf whose = CompanionOf::dmpc) {
+  try {
+    return act();
+  } catch (const core::UsageError&) {
+    agree_on_words(whose);
+    throw;
+  }
+}
 
 /// To be called last: where MPI could not be ended, as not all ranks have come to that, it is aborted, and all of them end.
 void end_ranks(int status);

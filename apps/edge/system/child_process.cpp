@@ -1,71 +1,102 @@
 #include "apps/edge/system/child_process.h"
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <iterator>
-#include <utility>
 
+#include "apps/edge/system/descriptor.h"
 #include "apps/edge/system/shortage.h"
 #include "core/base/expect.h"
-
-// NOLINTNEXTLINE(readability-redundant-declaration): POSIX leaves its declaration to the program
-extern char** environ;
 
 namespace dmpc::apps {
 namespace {
 
-/// What the child is given.
-class Surroundings {
- public:
-  Surroundings(const ChildSettings& settings, int errors) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawnattr_init(&attributes_);
-    posix_spawn_file_actions_addchdir_np(&actions_, settings.folder.c_str());
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
-    sigset_t signals;
-    sigemptyset(&signals);
-    posix_spawnattr_setsigmask(&attributes_, &signals);
-    sigaddset(&signals, SIGPIPE);
-    sigaddset(&signals, SIGXFSZ);
-    posix_spawnattr_setsigdefault(&attributes_, &signals);
-    const int group = settings.gets_ctrl_c ? 0 : POSIX_SPAWN_SETPGROUP;
-    posix_spawnattr_setflags(&attributes_, static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | group));
-  }
-  ~Surroundings() {
-    posix_spawnattr_destroy(&attributes_);
-    posix_spawn_file_actions_destroy(&actions_);
-  }
-  Surroundings(const Surroundings&) = delete;
-  Surroundings& operator=(const Surroundings&) = delete;
+/// A pipe that no program inherits, by which a child says why it could not become the program: nothing if it did.
+struct Complaint {
+  Descriptor its, ours;
 
+  Complaint() {
+    std::array<int, 2> ends{-1, -1};
+    if (::pipe2(ends.data(), O_CLOEXEC) == 0) {
+      ours = Descriptor(ends[0]);
+      its = Descriptor(ends[1]);
+    }
+  }
   /// An error's number, or 0.
-  int spawn(pid_t& id, std::vector<std::string> words) const {
-    std::vector<char*> pointers;
+  int hear() {
+    its = Descriptor();
+    int error = 0;
+    while (::read(ours.number(), &error, sizeof(error)) < 0 && errno == EINTR) {
+    }
+    return error;
+  }
+};
+
+/// What a child has before it is the program: made before the fork, since it may take no memory between.
+struct Start {
+  std::vector<std::string> words;
+  std::vector<char*> pointers;
+  const char* folder;
+  int errors;
+  bool has_own_group;
+  pid_t parent = ::getpid();
+
+  Start(const ChildSettings& settings, int its_errors)
+      : words{settings.program}, folder(settings.folder.c_str()), errors(its_errors), has_own_group(!settings.gets_ctrl_c) {
+    words.insert(words.end(), settings.arguments.begin(), settings.arguments.end());
     std::transform(words.begin(), words.end(), std::back_inserter(pointers), [](std::string& word) { return word.data(); });
     pointers.push_back(nullptr);
-    return ::posix_spawnp(&id, pointers.front(), &actions_, &attributes_, pointers.data(), environ);
   }
-
- private:
-  posix_spawn_file_actions_t actions_{};
-  posix_spawnattr_t attributes_{};
 };
+
+bool opens_as(int number, int mode) {
+  const int opened = ::open("/dev/null", mode);
+  return opened >= 0 && ::dup2(opened, number) >= 0 && (opened <= STDERR_FILENO || ::close(opened) == 0);
+}
+
+bool unblocks_signals() {
+  sigset_t none;
+  sigemptyset(&none);
+  ::signal(SIGPIPE, SIG_DFL);
+  ::signal(SIGXFSZ, SIG_DFL);
+  return ::sigprocmask(SIG_SETMASK, &none, nullptr) == 0;
+}
+
+/// In the child. The thread that started it waits for it, and ends no sooner: what the child gets is the parent's death.
+[[noreturn]] void become(const Start& start, int complaint) {
+  const bool is_tied = ::prctl(PR_SET_PDEATHSIG, SIGTERM) == 0;
+  if (::getppid() != start.parent) {
+    ::_exit(0);  // it has died before
+  }
+  if (is_tied && ::chdir(start.folder) == 0 && opens_as(STDIN_FILENO, O_RDONLY) && opens_as(STDOUT_FILENO, O_WRONLY) &&
+      ::dup2(start.errors, STDERR_FILENO) >= 0 && (!start.has_own_group || ::setpgid(0, 0) == 0) && unblocks_signals()) {
+    ::execvp(start.pointers.front(), start.pointers.data());
+  }
+  const int error = errno;
+  static_cast<void>(!::write(complaint, &error, sizeof(error)));
+  ::_exit(127);
+}
 
 }  // namespace
 
 ChildProcess::ChildProcess(const ChildSettings& settings) {
-  std::vector<std::string> words{settings.program};
-  words.insert(words.end(), settings.arguments.begin(), settings.arguments.end());
-  if (const int error = Surroundings(settings, errors_.descriptor()).spawn(id_, std::move(words)); error != 0) {
+  const Start start(settings, errors_.descriptor());
+  Complaint complaint;
+  int error = complaint.ours.is_open() ? 0 : errno;
+  if (error == 0 && (id_ = ::fork()) == 0) {
+    become(start, complaint.its.number());
+  }
+  error = error != 0 ? error : id_ < 0 ? errno : complaint.hear();
+  if (error != 0) {
+    wait_for_end();
     throw_if_short(error, settings.program + " cannot be started");
     throw core::InputError(settings.program + " cannot be started: " + std::strerror(error));
   }
@@ -74,7 +105,12 @@ ChildProcess::ChildProcess(const ChildSettings& settings) {
 ChildProcess::~ChildProcess() {
   if (!status_) {
     ::kill(id_, SIGKILL);
-    ::waitpid(id_, nullptr, 0);
+    wait_for_end();
+  }
+}
+
+void ChildProcess::wait_for_end() const {
+  while (id_ > 0 && ::waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
   }
 }
 

@@ -20,7 +20,8 @@ struct ChildSettings {
   bool gets_ctrl_c = true;             ///< the terminal's Ctrl-C reaches it, too
 };
 
-/// Killed and waited for in the end, unless it has ended before. Signals that are blocked or ignored here are neither there.
+/// Killed and waited for in the end, unless it has ended before; ended (SIGTERM) where the thread that made it ends before, by
+/// whatever: nobody would take what it does. Signals that are blocked or ignored here are neither there.
 class ChildProcess {
  public:
   /// Throws core::InputError "PROGRAM cannot be started: ...", as ComputerRoomError if this computer has no room for it.
@@ -38,6 +39,7 @@ class ChildProcess {
   std::string errors() const { return errors_.bytes(); }
 
  private:
+  void wait_for_end() const;
   int take(int status);
 
   MemoryFile errors_;

@@ -3,12 +3,15 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <memory>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "core/base/expect.h"
 
@@ -90,7 +93,9 @@ RemovedAtOnce::RemovedAtOnce(const std::filesystem::path& path, Kind kind) : slo
 
 RemovedAtOnce::~RemovedAtOnce() { std::unique_ptr<UnderWay>(to_remove[slot_].exchange(nullptr)).reset(); }
 
-Interrupt::Interrupt() {
+Interrupt::Interrupt() : Interrupt(std::function<void()>()) {}
+
+Interrupt::Interrupt(std::function<void()> look) : look_(std::move(look)) {
   change_mask(SIG_BLOCK);
   try {
     waiter_ = std::jthread([this](const std::stop_token& closing) { wait_for_signals(closing); });
@@ -122,11 +127,21 @@ Interrupt::EndAtOnce::EndAtOnce(Interrupt& interrupt, Before before) : interrupt
   }
 }
 
-void Interrupt::wait_for_signals(const std::stop_token& closing) {
+int Interrupt::next_signal() const {
   const sigset_t set = stop_signals();
+  const timespec second{.tv_sec = 1, .tv_nsec = 0};
   int signal = 0;
-  while (sigwait(&set, &signal) == 0 && !closing.stop_requested()) {
-    if (signal == SIGUSR1 && takes_usr1_for_keep_) {
+  do {
+    signal = look_ ? ::sigtimedwait(&set, nullptr, &second) : ::sigwaitinfo(&set, nullptr);
+  } while (signal < 0 && errno == EINTR);
+  return std::max(signal, 0);
+}
+
+void Interrupt::wait_for_signals(const std::stop_token& closing) {
+  for (int signal = next_signal(); !closing.stop_requested(); signal = next_signal()) {
+    if (signal == 0) {
+      look_();
+    } else if (signal == SIGUSR1 && takes_usr1_for_keep_) {
       is_keep_requested_ = true;
     } else if (!is_ignored(signal) && (!source_.request_stop() || end_at_once_)) {
       end_now();

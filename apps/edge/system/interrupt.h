@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <stop_token>
 #include <thread>
 
@@ -23,6 +24,8 @@ struct Interrupted {};
 class Interrupt {
  public:
   Interrupt();
+  /// The thread that waits for signals calls look(), if there is one, about once a second. It must not throw.
+  explicit Interrupt(std::function<void()> look);
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
@@ -60,12 +63,15 @@ class Interrupt {
 
  private:
   void wait_for_signals(const std::stop_token& closing);
+  /// 0 if there was none, and a look was due.
+  int next_signal() const;
   [[noreturn]] void end_now() const;
 
   std::stop_source source_;
   std::atomic<const char*> consequence_ = "nothing was written";
   std::atomic<bool> end_at_once_ = false;
   std::atomic<bool> takes_usr1_for_keep_ = false, is_keep_requested_ = false;
+  std::function<void()> look_;
   std::jthread waiter_;
 };
 

@@ -3,6 +3,7 @@
 #include <execinfo.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -10,6 +11,7 @@
 #include <exception>
 #include <initializer_list>
 #include <new>
+#include <string>
 
 #include "apps/edge/line/exit_status.h"
 #include "apps/edge/system/interrupt.h"
@@ -19,6 +21,9 @@ namespace dmpc::apps {
 namespace {
 
 std::atomic<bool> has_run_out = false, is_loading = false;
+
+/// "; the limit of its control group (/sys/fs/cgroup/memory.max) is 512 MiB": written before it is needed, and by no stream.
+std::array<char, 512> memory_limit{};
 
 /// As without a handler, but noted.
 void note_end_of_memory() {
@@ -84,8 +89,15 @@ LoadsLibrary::~LoadsLibrary() { is_loading = false; }
 int complain_of_memory() {
   say(
       {"dmpc: this computer has not enough memory for that: ask for less of it (a smaller scene or picture, fewer nodes), or run "
-       "it where there is more\n"});
+       "it where there is more",
+       memory_limit.data(), "\n"});
   return no_room_status;
+}
+
+void name_memory_limit(std::string_view source, std::string_view bytes) {
+  std::string text = source.empty() ? "" : "; " + std::string(source) + " is " + std::string(bytes);
+  memory_limit.fill('\0');
+  text.copy(memory_limit.data(), memory_limit.size() - 1);
 }
 
 void end_without_abort() {

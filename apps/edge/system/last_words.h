@@ -1,10 +1,15 @@
 // How the program ends where nothing can be allocated any more, or nobody is left to catch what was thrown.
 #pragma once
 
+#include <string_view>
+
 namespace dmpc::apps {
 
 /// Says that memory has run out, which takes none; returns the exit status.
 int complain_of_memory();
+
+/// From now on it says, too, who grants no more: `source` is a container or a shell, as a part of a sentence, or empty.
+void name_memory_limit(std::string_view source, std::string_view bytes);
 
 /// An allocation has failed since end_without_abort(): what seems to be a bug may come of that.
 bool memory_has_run_out();

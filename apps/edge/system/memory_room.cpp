@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/system/last_words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -32,7 +33,7 @@ class Least {
 
   void add(std::uint64_t bytes, const std::string& source) {
     if (bytes < room_.bytes) {
-      room_ = {bytes, source};
+      room_ = {bytes, source, true};
     }
   }
   const MemoryRoom& room() const { return room_; }
@@ -123,6 +124,7 @@ void check_memory_room(std::uint64_t bytes, const std::string& what, const Memor
 
 void bound_memory(const MemoryRoom& room) {
   struct rlimit limit {};
+  name_memory_limit(room.is_limit ? room.source : "", bytes_text(room.bytes));
   if (::getrlimit(RLIMIT_DATA, &limit) == 0 && room.bytes < limit.rlim_cur) {
     limit.rlim_cur = room.bytes;
     ::setrlimit(RLIMIT_DATA, &limit);  // fails only where it would forbid what is there already

@@ -10,7 +10,8 @@ namespace dmpc::apps {
 
 struct MemoryRoom {
   std::uint64_t bytes = 0;
-  std::string source;  ///< who says so, as a part of a sentence: "this computer's memory"
+  std::string source;     ///< who says so, as a part of a sentence: "this computer's memory"
+  bool is_limit = false;  ///< of a container or a shell, where the computer may have more
 };
 
 /// The least of this computer's memory, the limits of this process's address space and data (ulimit -v, -d), and those of its

@@ -8,7 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "apps/edge/system/companion_path.h"
 #include "apps/edge/system/last_words.h"
 #include "apps/edge/system/shortage.h"
 #include "core/base/usual_arithmetic.h"
@@ -48,18 +47,6 @@ void check_thread_room(const std::string& what, std::size_t count) {
   over.count_down();
 }
 
-/// A file name alone is looked for by the dynamic loader.
-std::string path_of(const std::string& file, const std::string& what, ModulePlace place) {
-  try {
-    return companion_path(file, "../lib/dmpc", what).lexically_normal().string();
-  } catch (const InstallationError&) {
-    if (place == ModulePlace::companion) {
-      throw;
-    }
-    return file;
-  }
-}
-
 /// Its libraries may start threads as they are loaded, and change the arithmetic.
 void* load(const std::string& path) {
   const LoadsLibrary loads_library;
@@ -73,9 +60,9 @@ void* load(const std::string& path) {
 
 }  // namespace
 
-const void* open_module(const std::string& name, const std::string& purpose, std::size_t threads_at_once, ModulePlace place) {
+const void* open_module(const std::string& name, const std::string& purpose, std::size_t threads_at_once, CompanionOf whose) {
   const std::string file = "dmpc_" + name + ".so", what = "the module " + file + ", with which dmpc " + purpose + ",";
-  const std::string path = path_of(file, what, place);
+  const std::string path = companion_path(file, "../lib/dmpc", what, whose).string();
   check_thread_room(what, threads_at_once);
   void* const opened = load(path);
   if (opened == nullptr) {

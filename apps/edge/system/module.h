@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "apps/edge/system/companion_path.h"
+
 namespace dmpc::apps {
 
 /// What a module exports, as the C symbol dmpc_module.
@@ -13,16 +15,11 @@ struct Module {
   const void* interface;  ///< what its header says it is
 };
 
-/// Where a module is looked for.
-enum class ModulePlace : std::uint8_t {
-  companion,           ///< as companion_path() says
-  companion_or_linked  ///< else where the dynamic loader looks for what the program is linked with: its run path
-};
-
-/// The interface of apps/modules/NAME.cpp, whose file is never closed again. `purpose` goes on "the module dmpc_NAME.so, with
-/// which dmpc ...". Throws InstallationError if it is missing, cannot be opened or is of another build, ComputerRoomError if this
-/// computer has no room for it, or for `threads_at_once`: more than its libraries start as they are loaded. Thread-safe.
+/// The interface of apps/modules/NAME.cpp, whose file, found as companion_path() says, is never closed again. `purpose` goes on
+/// "the module dmpc_NAME.so, with which dmpc ...". Throws InstallationError if it is missing, cannot be opened or is of another
+/// build, ComputerRoomError if this computer has no room for it, or for `threads_at_once`: more than its libraries start as they
+/// are loaded. Thread-safe.
 const void* open_module(const std::string& name, const std::string& purpose, std::size_t threads_at_once,
-                        ModulePlace place = ModulePlace::companion);
+                        CompanionOf whose = CompanionOf::dmpc);
 
 }  // namespace dmpc::apps

@@ -179,7 +179,9 @@ void OutputFile::open() {
     file_ = open_patiently(files_, target_, O_WRONLY | O_NOCTTY);
   } else {
     for (int tries = 0; file_ < 0 && (tries == 0 || (errno == EEXIST && tries < tries_max)); ++tries) {
-      make(settings_.name == TemporaryName::random ? folder_of(target_) / (".dmpc-" + random_word()) : next_name(target_));
+      // The name that the target has may be somebody else's, who may not be removed: one file more, then, but not none.
+      const bool is_random = settings_.name == TemporaryName::random || tries > 0;
+      make(is_random ? folder_of(target_) / (".dmpc-" + random_word()) : next_name(target_));
     }
   }
   if (file_ < 0) {

@@ -7,14 +7,14 @@
 #include <optional>
 #include <string>
 
+#include "apps/edge/system/folder_heir.h"
 #include "apps/edge/system/interrupt.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 
-/// Made where the system keeps temporary files; gone with everything in it in the end, an
-/// Interrupt's end at once included. Throws core::InputError if none can be
-/// made.
+/// Made where the system keeps temporary files; gone with everything in it in the end, whatever ends the process. Throws
+/// core::InputError if none can be made.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -26,6 +26,7 @@ class ScratchFolder {
     }
     path_ = name;
     removed_at_once_.emplace(path_, RemovedAtOnce::Kind::folder);
+    heir_.emplace(path_);
   }
   ~ScratchFolder() {
     std::error_code ignored;
@@ -39,6 +40,7 @@ class ScratchFolder {
  private:
   std::filesystem::path path_;
   std::optional<RemovedAtOnce> removed_at_once_;
+  std::optional<FolderHeir> heir_;
 };
 
 }  // namespace dmpc::apps

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 
 #include "core/base/usual_arithmetic.h"
 
@@ -12,6 +13,7 @@ namespace dmpc::apps {
 
 void settle_in() {
   core::use_usual_arithmetic();
+  ::unsetenv("OIIO_LIBRARY_PATH");
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {

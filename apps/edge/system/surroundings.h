@@ -8,7 +8,7 @@ namespace dmpc::apps {
 /// To be called first. What nobody reads or takes any more becomes an error of the write, where a signal would have ended the
 /// process with its files half written; and a standard stream that is closed is one that gives and takes nothing, since the next
 /// file opened would get its number, and what is said would go into that. Whatever libraries were loaded, the calling thread has
-/// the usual arithmetic.
+/// the usual arithmetic. From folders that the environment names OpenImageIO loads no plugins.
 void settle_in();
 
 /// Thrown where it was the standard output that nobody reads any more.

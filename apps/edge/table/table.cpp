@@ -173,9 +173,19 @@ std::string markdown(const Table& table) {
   return text;
 }
 
+/// A name from a file may begin as what spreadsheets take for a formula, and run: an apostrophe makes it text to them. A sign
+/// alone, or before a digit, is none.
+std::string as_text(const std::string& text) {
+  const bool is_sign = !text.empty() && (text[0] == '+' || text[0] == '-');
+  const bool is_harmless = is_sign && (text.size() == 1 || text.find_first_not_of("0123456789.,eE+-%") == std::string::npos);
+  const bool begins_formula =
+      is_sign ? !is_harmless : !text.empty() && std::string_view("=@\t\r").find(text[0]) != std::string_view::npos;
+  return begins_formula ? "'" + text : text;
+}
+
 struct CsvCell {
   std::string operator()(std::monostate) const { return ""; }
-  std::string operator()(const std::string& text) const { return csv_text(text); }
+  std::string operator()(const std::string& text) const { return csv_text(as_text(text)); }
   std::string operator()(std::uint64_t number) const { return std::to_string(number); }
   std::string operator()(double number) const { return shortest(number); }
 };

@@ -22,7 +22,10 @@ struct Figure {
 /// this dmpc's json_format.
 std::vector<Figure> parse_figures(std::string_view text, const std::string& file);
 
-/// Reads those of a file. Throws core::InputError if it cannot be read, too.
+/// More bytes than any file of ours has: that of the most nodes takes a few thousand a node.
+inline constexpr std::uint64_t figures_bytes_max = std::uint64_t{128} << 20U;
+
+/// Reads those of a file, or a pipe. Throws core::InputError if it cannot be read, too, or has more than figures_bytes_max.
 std::vector<Figure> read_figures(const std::filesystem::path& file);
 
 /// As JSON has it, but a text without quotes: "null", "812", "svm".

@@ -1,7 +1,9 @@
 """The program dmpc: found, called, and what it says when it fails."""
 
+import ctypes
 import os
 import shutil
+import signal
 import subprocess
 
 FORMAT = 1  # of its JSON files
@@ -71,13 +73,47 @@ def words(options):
     return line
 
 
+_PR_SET_PDEATHSIG = 1
+_prctl = getattr(ctypes.CDLL(None), "prctl", None)  # none but on Linux
+
+
+def _end_with_parent():
+    """In the child: a Python that is killed leaves no dmpc behind."""
+    if _prctl is not None:
+        _prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+
+
+_PATIENCE_SECONDS = 10  # for dmpc to end on an interruption; it cleans up what it has begun
+
+
+def _interrupt(process):
+    """Ends dmpc as Ctrl-C does, so that it takes its own children and scratch files with it; a second Ctrl-C ends it at once."""
+    process.send_signal(signal.SIGINT)
+    try:
+        process.communicate(timeout=_PATIENCE_SECONDS)
+    finally:
+        if process.poll() is None:
+            process.kill()
+            process.communicate()
+
+
 def run(line):
-    """What dmpc prints. Raises an Error with what it says on stderr."""
-    done = subprocess.run([path(), *line], stdin=subprocess.DEVNULL, capture_output=True, check=False)
-    if done.returncode != 0:
-        said = done.stderr.decode(errors="replace").strip().removeprefix("dmpc: ")
-        raise _ERRORS.get(done.returncode, Error)(said or f"dmpc ended with status {done.returncode}")
-    return done.stdout.decode()
+    """What dmpc prints. Raises an Error with what it says on stderr. An exception, such as KeyboardInterrupt, ends dmpc before it
+    goes on."""
+    process = subprocess.Popen([path(), *line], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               start_new_session=True, preexec_fn=_end_with_parent)
+    try:
+        output, errors = process.communicate()
+    except BaseException:
+        try:
+            _interrupt(process)
+        except subprocess.TimeoutExpired:
+            pass
+        raise
+    if process.returncode != 0:
+        said = errors.decode(errors="replace").strip().removeprefix("dmpc: ")
+        raise _ERRORS.get(process.returncode, Error)(said or f"dmpc ended with status {process.returncode}")
+    return output.decode()
 
 
 def check_format(json, what):

@@ -2,9 +2,12 @@
 
 import os
 import pathlib
+import signal
 import struct
+import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PROGRAM, MODULES = sys.argv[1:3]
@@ -100,6 +103,59 @@ class FailureTest(unittest.TestCase):
     def test_a_picture_that_cannot_be_read_is_an_error_with_its_name(self):
         with self.assertRaisesRegex(dmpc.Error, "none.exr"):
             pictures.read("none.exr")
+
+
+class InterruptedTest(unittest.TestCase):
+    CALLS = {"render": "dmpc.render('balls-4', resolution='4096x4096', nodes=2)",
+             "sweep": "dmpc.sweep('balls-4', resolution='4096x4096', runner='virtual', nodes=[2, 4])"}
+
+    def test_an_interrupted_call_ends_dmpc_with_its_children_and_files_and_is_raised(self):
+        for call in self.CALLS.values():
+            with tempfile.TemporaryDirectory() as folder:
+                python = self._start(call, folder)
+                python.send_signal(signal.SIGINT)
+                output, _ = python.communicate(timeout=60)
+                self.assertEqual(output, b"interrupted\n")
+                self._expect_nothing_left(folder)
+
+    def test_a_python_that_is_killed_leaves_no_dmpc(self):
+        for call in self.CALLS.values():
+            with tempfile.TemporaryDirectory() as folder:
+                python = self._start(call, folder)
+                python.kill()
+                python.communicate()
+                self._wait_until(lambda folder=folder: not self._running(folder))
+
+    def _start(self, call, folder):
+        code = f"import dmpc\ntry:\n  {call}\nexcept KeyboardInterrupt:\n  print('interrupted')"
+        python = subprocess.Popen([sys.executable, "-c", code], env={**os.environ, "TMPDIR": folder}, stdout=subprocess.PIPE,
+                                  preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        self._wait_until(lambda: self._running(folder))
+        return python
+
+    def _running(self, folder):
+        """Renders that write there, which have set their signals up."""
+        running = []
+        for process in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                words = (process / "cmdline").read_bytes()
+                blocked = int((process / "status").read_text().split("SigBlk:")[1].split()[0], 16)
+            except (OSError, IndexError):
+                continue
+            if b"--output=" + folder.encode() in words and blocked & 1 << signal.SIGINT - 1:
+                running.append(process)
+        return running
+
+    def _wait_until(self, holds):
+        for _ in range(6000):
+            if holds():
+                return
+            time.sleep(0.01)
+        self.fail("waited in vain")
+
+    def _expect_nothing_left(self, folder):
+        self.assertEqual(self._running(folder), [])
+        self.assertEqual(os.listdir(folder), [])
 
 
 class SweepTest(unittest.TestCase):

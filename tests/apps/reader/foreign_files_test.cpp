@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <filesystem>
@@ -202,7 +203,7 @@ int processor_seconds_of(int process) {
   return std::stoi(limits.substr(limits.find(name) + name.size()));
 }
 
-TEST_CASE("a reader gets so much processor time, and a picture its own") {
+TEST_CASE("a reader gets so much processor time, and all pictures together theirs") {
   const TemporaryFolder folder;
   write_wood(folder / "a.png");
   apps::PictureReader reader({.seconds = 7});
@@ -216,6 +217,78 @@ TEST_CASE("a reader gets so much processor time, and a picture its own") {
   ::kill(process, SIGXCPU);
   CHECK(says(complaint_of([&] { reader.read_image(apps::open_picture(folder / "a.png")); }),
              "took more than 7 seconds of processor time"));
+}
+
+/// A DDS of plain pixels, with these masks of red, green, blue and alpha: OpenImageIO looks for the lowest bit of each.
+std::string dds_with_masks(std::uint32_t flags, const std::array<std::uint32_t, 4>& masks) {
+  std::string bytes = "DDS ";
+  const auto add = [&bytes](std::uint32_t word) {
+    for (int shift = 0; shift < 32; shift += 8) {
+      bytes += static_cast<char>(word >> shift & 0xffU);
+    }
+  };
+  for (const std::uint32_t word : {124U, 0x1007U, 4U, 4U, 16U}) {
+    add(word);
+  }
+  for (int i = 0; i < 13; ++i) {
+    add(0);
+  }
+  for (const std::uint32_t word : {32U, flags, 0U, 32U}) {
+    add(word);
+  }
+  for (const std::uint32_t mask : masks) {
+    add(mask);
+  }
+  for (const std::uint32_t word : {0x1000U, 0U, 0U, 0U, 0U}) {
+    add(word);
+  }
+  return bytes + std::string(64, 'x');
+}
+
+TEST_CASE("a DDS whose pixels have no bits of a colour is refused before it is read for ever") {
+  const TemporaryFolder folder;
+  constexpr std::uint32_t colors = 0x40, alpha = 0x1;
+  const auto complaint = [&](std::uint32_t flags, const std::array<std::uint32_t, 4>& masks) {
+    write_text(folder / "a.dds", dds_with_masks(flags, masks));
+    return complaint_of([&] { apps::PictureReader({.seconds = 2}).read_image(apps::open_picture(folder / "a.dds")); });
+  };
+  CHECK(complaint(colors, {0xff0000, 0xff00, 0xff, 0}) == "");
+  CHECK(says(complaint(colors, {0xff0000, 0xff00, 0, 0}), "a.dds: cannot be read as a picture: its pixels have no bits of blue"));
+  CHECK(says(complaint(colors, {0, 0xff00, 0xff, 0}), "no bits of red"));
+  CHECK(says(complaint(colors | alpha, {0xff0000, 0xff00, 0xff, 0}), "no bits of alpha"));
+}
+
+TEST_CASE("where pictures have taken the time of all, further ones are not begun, and each is told") {
+  const TemporaryFolder folder;
+  write_wood(folder / "a.png");
+  apps::PictureReader reader({.seconds = 0, .bytes_a_second = std::uint64_t{1} << 40U});
+  const std::string text = complaint_of([&] { reader.read_image(apps::open_picture(folder / "a.png")); });
+  CHECK(says(text, "a.png: is not read: pictures before it have taken the 0 seconds of processor time"));
+}
+
+TEST_CASE("questions about files are on the scene's budget, however many there are") {
+  const TemporaryFolder folder;
+  const std::string scene = write_textured_triangle(folder, "");
+  std::string libraries;
+  for (int i = 0; i < 60'000; ++i) {
+    libraries += "mtllib nowhere" + std::to_string(i) + ".mtl\n";
+  }
+  write_text(scene, libraries + file_text(scene));
+  const apps::ReaderLimits limits{.seconds = 1, .bytes_a_second = std::uint64_t{1} << 40U, .wall_factor = 1000};
+  CHECK(says(complaint_of([&] { read_mesh_file(scene, {}, false, limits); }),
+             "the reader of OBJ files took more than 1 second of processor time"));
+}
+
+TEST_CASE("a file of materials that is named again at once is asked for once") {
+  const TemporaryFolder folder;
+  const std::string scene = write_textured_triangle(folder, "t.png");
+  write_wood(folder / "t.png");
+  std::string libraries;
+  for (int i = 0; i < 20'000; ++i) {
+    libraries += "mtllib a.mtl\n";
+  }
+  write_text(scene, libraries + file_text(scene));
+  CHECK(mesh_complaint(scene, {}, 2) == "");
 }
 
 TEST_CASE("a crash of the reader of pictures is an error of the picture, which is named with its format") {

@@ -89,6 +89,39 @@ TEST_CASE("a computer without room for its nodes ends all before the run, and is
   CHECK(folder.entry_count() == 0);
 }
 
+TEST_CASE("ranks with other words are named with both, whatever they make of them") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> words = {"render", "tetra-1", "--resolution=8x8", "--nodes=3", "-o", folder / "a.png"};
+  for (const std::string other : {"--runner=mpi --depth=3", "--runner=mpi --dept=3", ""}) {
+    std::vector<std::string> command = mpirun(1, words);
+    command.insert(command.end(), {"--runner=mpi", ":", "-n", "1", "/bin/sh", "-c", "exec \"$0\" \"$@\" " + other, DMPC_PROGRAM});
+    command.insert(command.end(), words.begin(), words.end());
+    const Ended ended = end_of(command);
+    CHECK(ended.status != 0);
+    CHECK_MESSAGE(count(ended.errors, "dmpc: ") == 1, ended.errors);
+    CHECK_MESSAGE(contains(ended.errors, "rank 1 on host "), ended.errors);
+    CHECK_MESSAGE(contains(ended.errors, " has the words render tetra-1 "), ended.errors);
+    CHECK_MESSAGE(contains(ended.errors, other.empty() ? "a.png, rank 0" : other), ended.errors);
+    CHECK(folder.entry_count() == 0);
+  }
+}
+
+TEST_CASE("ranks that are all stopped for longer than a silence may last go on when they wake" * doctest::test_suite("slow")) {
+  const TemporaryFolder folder;
+  ChildProcess process(mpirun(3, {"render", "rings-3-t1", "--resolution=512x512", "--samples=64", "--quiet", "--runner=mpi",
+                                  "--nodes=3", "-o", folder / "a.png"}));
+  CHECK(comes_true([&] { return process_of_rank(process.id(), 2) > 0; }));
+  std::this_thread::sleep_for(std::chrono::seconds(2));  // they have begun
+  for (const int signal : {SIGSTOP, SIGCONT}) {
+    for (const int rank : {0, 1, 2}) {
+      ::kill(process_of_rank(process.id(), rank), signal);
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(signal == SIGSTOP ? 35 : 0));
+  }
+  CHECK(process.status() == 0);
+  CHECK(fs::exists(folder / "a.png"));
+}
+
 TEST_CASE("srun that tells MPI nothing of its ranks is said by the first of them, and none renders") {
   const TemporaryFolder folder;
   for (const std::string rank : {"0", "2"}) {

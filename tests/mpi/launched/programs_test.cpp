@@ -1,6 +1,7 @@
 // Programs of one's own on ranks: what comes to the same as in one process, and what goes wrong.
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -220,6 +221,20 @@ TEST_CASE("what does not go with ranks is refused") {
     CHECK_MESSAGE(contains(ended.errors, " does not go with --runner=mpi: what ranks run on is no model"), ended.errors);
   }
   CHECK(contains(alone("asker", {"--idle=spin"}).errors, "--idle does not go with --runner=threads"));
+}
+
+TEST_CASE("a program of one's own takes no module from around it, but from where it was linked to take it") {
+  const TemporaryFolder folder;
+  namespace fs = std::filesystem;
+  const fs::path program = folder / "bin/asker", module = fs::path(DMPC_PROGRAM).parent_path() / "dmpc_mpi.so";
+  for (const std::string place : {"bin", "apps", "lib/dmpc"}) {
+    fs::create_directories(folder / place);
+    fs::copy_file(module, folder / place / "dmpc_mpi.so");
+  }
+  fs::copy_file(program_named("asker"), program);
+  const Ended ended = end_of({program, "--nodes=2", "--runner=mpi"});
+  CHECK(ended.status == 3);
+  CHECK_MESSAGE(contains(ended.errors, "is in none of its places"), ended.errors);
 }
 
 }  // namespace dmpc::tests::programs_test

@@ -32,10 +32,10 @@ struct Told {
   explicit Told(const TraceChoice& choice = {}) : recorder(3, choice) {}
 
   void span(std::uint32_t node, std::uint64_t begin_ns, std::uint64_t end_ns, Activity activity = Activity::work,
-            std::uint32_t call = 0) {
+            std::uint64_t call = 0) {
     recorder.ended({.node = NodeId{node}, .activity = activity, .call = call, .begin_ns = begin_ns, .end_ns = end_ns}, gauge);
   }
-  void sends(std::uint32_t from, std::uint32_t to, std::uint64_t time_ns, std::uint32_t call = 0, PacketKind kind = 1) {
+  void sends(std::uint32_t from, std::uint32_t to, std::uint64_t time_ns, std::uint64_t call = 0, PacketKind kind = 1) {
     recorder.sent({.node = NodeId{from},
                    .peer = NodeId{to},
                    .kind = kind,
@@ -43,7 +43,7 @@ struct Told {
                    .payload = payload(),
                    .times = {.sending_ns = time_ns}});
   }
-  void receives(std::uint32_t at, std::uint32_t from, std::uint64_t time_ns, std::uint32_t call = 0, PacketKind kind = 1) {
+  void receives(std::uint32_t at, std::uint32_t from, std::uint64_t time_ns, std::uint64_t call = 0, PacketKind kind = 1) {
     recorder.received({.node = NodeId{at},
                        .peer = NodeId{from},
                        .kind = kind,
@@ -382,6 +382,22 @@ TEST_CASE("a node that has told something on two ranks is an error") {
   here.span(1, 0, 1);
   elsewhere.span(1, 2, 3);
   CHECK_THROWS_AS(here.recorder.add(elsewhere.recorder.bytes(), {}), core::InternalError);
+}
+
+TEST_CASE("a call beyond the 2^32nd has a number of its own") {
+  constexpr std::uint64_t late = (std::uint64_t{1} << 32U) + 5;
+  Told told;
+  told.span(0, 0, 10, Activity::work, 5);
+  told.sends(0, 1, 20, late);
+  told.span(0, 20, 30, Activity::work, late);
+  told.receives(1, 0, 40, late + 1);
+  told.span(1, 40, 50, Activity::receive, late + 1);
+  const Trace trace = told.recorder.take();
+  REQUIRE(trace.nodes[0].spans.size() == 2);
+  CHECK(trace.nodes[0].spans[1].call == late);
+  REQUIRE(trace.messages.size() == 1);
+  CHECK(trace.messages[0].sent_call == late);
+  CHECK(trace.messages[0].received_call == late + 1);
 }
 
 }  // namespace dmpc::nodes::watch_trace_test

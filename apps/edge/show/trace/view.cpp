@@ -76,7 +76,7 @@ std::vector<PageWait> page_waits(const TraceView& view) {
 
 std::vector<TraceItem> items_of(const nodes::Trace& trace, std::span<const PageWait> waits) {
   std::vector<TraceItem> items;
-  const auto add = [&items](std::uint64_t time_ns, std::uint32_t node, std::uint32_t call, TraceMoment moment,
+  const auto add = [&items](std::uint64_t time_ns, std::uint32_t node, std::uint64_t call, TraceMoment moment,
                             std::size_t index) {
     items.push_back({time_ns, node, call, moment, static_cast<std::uint32_t>(index)});
   };

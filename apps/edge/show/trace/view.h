@@ -59,7 +59,8 @@ enum class TraceMoment : std::uint8_t { span_end, received, span_begin, sent, wa
 
 struct TraceItem {
   std::uint64_t time_ns = 0;
-  std::uint32_t node = 0, call = 0;
+  std::uint32_t node = 0;
+  std::uint64_t call = 0;
   TraceMoment moment = TraceMoment::span_begin;
   std::uint32_t index = 0;  ///< of the node's span or level, the message or the wait
 };

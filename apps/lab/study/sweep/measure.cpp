@@ -6,6 +6,7 @@
 #include "apps/lab/study/engine/measure_each.h"
 #include "apps/lab/study/engine/render_process.h"
 #include "apps/lab/study/sweep/kept_runs.h"
+#include "apps/lab/study/sweep/table.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -14,14 +15,18 @@ void measure_sweep(const SweepSettings& settings, const std::vector<SweepRun>& r
                    const Interrupt& interrupt, const std::function<void(SweepResult)>& take) {
   const RenderProcesses renders(settings.program, interrupt);
   const std::optional<KeptRuns> kept =
-      settings.kept ? std::optional(KeptRuns(*settings.kept, settings.program, scene)) : std::nullopt;
+      settings.kept ? std::optional(KeptRuns(*settings.kept, settings.program, scene, figures_of(settings, runs))) : std::nullopt;
   const auto measure = [&](std::size_t i) -> SweepResult {
     interrupt.check();
     if (auto figures = kept ? kept->find(runs[i]) : std::nullopt) {
       return {.run = runs[i], .figures = std::move(figures), .misfit = {}, .is_kept = true};
     }
     try {
-      RenderEnd end = renders.run(runs[i].words, std::to_string(i), kept ? std::optional(kept->file_of(runs[i])) : std::nullopt);
+      RenderEnd end = renders.run(runs[i].words, std::to_string(i), [&](const std::filesystem::path& stats) {
+        if (kept) {
+          kept->keep(runs[i], stats);
+        }
+      });
       return {.run = runs[i], .figures = std::move(end.figures), .misfit = std::move(end.misfit)};
     } catch (const core::InputError& error) {
       throw core::InputError("the run with " + text_of(settings.variations, runs[i]) + " failed: " + error.what());

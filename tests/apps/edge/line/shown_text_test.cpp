@@ -70,4 +70,11 @@ TEST_CASE("a text of strangers becomes a part of a line of a length that one can
   CHECK(apps::clipped("\xc3\xa4\xc3\xa4", 3) == "\xc3\xa4\\xc3 ... (4 bytes)");
 }
 
+TEST_CASE("a word longer than any path leaves the rest of a message to be read") {
+  CHECK(apps::with_words_clipped("plain words\n  of two lines") == "plain words\n  of two lines");
+  const std::string path(4000, 'p'), word(100'000, 'w');
+  CHECK(apps::with_words_clipped(path + ": is no scene") == path + ": is no scene");
+  CHECK(apps::with_words_clipped("no " + word + " here") == "no " + word.substr(0, 200) + "...(100000 bytes) here");
+}
+
 }  // namespace dmpc::apps::shown_text_test

@@ -107,4 +107,12 @@ TEST_CASE("a render with less memory than its nodes take is refused before it be
 }
 #endif
 
+#if !defined(__SANITIZE_ADDRESS__)
+TEST_CASE("where memory ends within a limit, who has set it is named") {
+  tests::ChildProcess process({"/bin/sh", "-c", "ulimit -s 256; ulimit -d 120000; exec " DMPC_PROGRAM " info tetra-10"});
+  CHECK(process.status() == 4);
+  CHECK_MESSAGE(contains(process.errors(), "; this shell's limit (ulimit -d) is 117.19 MiB"), process.errors());
+}
+#endif
+
 }  // namespace dmpc::apps::memory_room_test

@@ -48,6 +48,16 @@ TEST_CASE("a file that is not committed leaves nothing behind") {
   CHECK(folder.entry_count() == 0);
 }
 
+TEST_CASE("what lies under the name of a file that is not whole yet, and cannot be removed, keeps nothing from being written") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(next_name(folder / "a"));  // as a file of somebody else's in a folder for all
+  OutputFile file(folder / "a", {.name = TemporaryName::of_target});
+  file.write("text");
+  file.commit();
+  CHECK(file_text(folder / "a") == "text");
+  CHECK(folder.entry_count() == 2);
+}
+
 TEST_CASE("an older file stays whole until the new one is committed") {
   const TemporaryFolder folder;
   write_text(folder / "a.txt", "old");

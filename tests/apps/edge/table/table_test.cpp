@@ -104,6 +104,16 @@ TEST_CASE("CSV quotes what would be taken for its own signs") {
   CHECK(text_of(table, TableFormat::csv) == "\"a, b\",c\n\"he said \"\"no\"\"\",\"two\nlines\"\n");
 }
 
+TEST_CASE("a text that spreadsheets would take for a formula is text in CSV, and a number stays one") {
+  Table table("title", {{"name"}, {"change", "%"}});
+  table.add_row({"=1+1", -2.5});
+  table.add_row({"@SUM(A1)", 2.5});
+  table.add_row({"-2+3+cmd", {}});
+  table.add_row({"-", {}});
+  table.add_row({"+5 %", {}});
+  CHECK(text_of(table, TableFormat::csv) == "name,change (%)\n'=1+1,-2.5\n'@SUM(A1),2.5\n'-2+3+cmd,\n-,\n'+5 %,\n");
+}
+
 TEST_CASE("JSON lines are the rows alone, each an object") {
   Table table = small_table();
   table.add_note("A note.");

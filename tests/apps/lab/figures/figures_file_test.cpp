@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "core/base/expect.h"
@@ -61,6 +62,16 @@ TEST_CASE("a file that cannot be read is told by its name, once") {
   const std::string name = folder / "bad.json";
   CHECK_THROWS_WITH_AS(read_figures(name), (name + ": this is no JSON; expected what dmpc render --stats writes").c_str(),
                        core::InputError);
+}
+
+TEST_CASE("a file with more bytes than any of ours has is refused") {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "large.json", "{");
+  std::filesystem::resize_file(folder / "large.json", apps::figures_bytes_max + 1);
+  CHECK_THROWS_WITH_AS(
+      apps::read_figures(folder / "large.json"),
+      ((folder / "large.json").string() + ": has more than 128 MiB, expected what dmpc render --stats writes").c_str(),
+      core::InputError);
 }
 
 TEST_CASE("a figure stands within its own key, within one above it, and within one with a star for any name") {

@@ -1,6 +1,7 @@
 #include "apps/lab/study/sweep/command.h"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <sstream>
@@ -124,6 +125,33 @@ TEST_CASE("a damaged file among those that are kept is run again") {
     write_text(entry.path(), "{\"format\": 1, ");
   }
   CHECK(swept(options) == table);
+}
+
+TEST_CASE("what is kept is taken only if it is an ordinary file of counters with the figures asked for") {
+  const TemporaryFolder folder;
+  const StudySweepOptions options =
+      tiny_sweep({"--vary=nodes:2", "--columns=faults,packets.bytes", "--runs=" + (folder / "runs").string()});
+  const std::string table = swept(options);
+  const std::filesystem::path entry = std::filesystem::directory_iterator(folder / "runs")->path(), victim = folder / "victim";
+  const std::string whole = file_text(entry);
+  const auto is_whole = [&] { return contains(file_text(entry), "\"film_hash\""); };
+  write_text(entry, "{\"format\": 1, \"packets\": {\"bytes\": 7}}");
+  CHECK(swept(options) == table);
+  CHECK(is_whole());
+  for (const std::string& text : {std::string("mine"), whole}) {
+    write_text(victim, text);
+    std::filesystem::remove(entry);
+    std::filesystem::create_symlink(victim, entry);
+    CHECK(swept(options) == table);
+    CHECK(file_text(victim) == text);
+    CHECK_FALSE(std::filesystem::is_symlink(entry));
+  }
+  std::filesystem::remove(entry);
+  REQUIRE(::mkfifo(entry.c_str(), 0600) == 0);
+  CHECK(swept(options) == table);
+  std::filesystem::resize_file(entry, std::uintmax_t{3} << 30U);
+  CHECK(swept(options) == table);
+  CHECK(is_whole());
 }
 
 TEST_CASE("a combination without room has an empty row, and where none has room that is the error") {

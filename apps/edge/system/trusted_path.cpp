@@ -1,0 +1,109 @@
+#include "apps/edge/system/trusted_path.h"
+
+#include <grp.h>
+#include <pwd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+namespace dmpc::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As whom files look that belong to nobody whom this user namespace knows; nothing if it knows all.
+std::optional<uid_t> unknown_owner() {
+  std::uint64_t inside = 0, outside = 0, count = 0;
+  std::ifstream("/proc/self/uid_map") >> inside >> outside >> count;
+  uid_t owner = 65534;
+  std::ifstream("/proc/sys/kernel/overflowuid") >> owner;
+  constexpr std::uint64_t all = 0xffffffff;
+  return count >= all ? std::nullopt : std::optional(owner);
+}
+
+/// Whether it has the user's name and no other members, as many systems give each user a group.
+bool is_own_group(gid_t id) {
+  std::array<char, 16384> user_text{}, group_text{};
+  passwd user{};
+  group members{};
+  passwd* user_found = nullptr;
+  group* group_found = nullptr;
+  if (::getpwuid_r(::geteuid(), &user, user_text.data(), user_text.size(), &user_found) != 0 || user_found == nullptr ||
+      ::getgrgid_r(id, &members, group_text.data(), group_text.size(), &group_found) != 0 || group_found == nullptr) {
+    return false;
+  }
+  const std::string_view name = user.pw_name;
+  for (char** member = members.gr_mem; *member != nullptr; ++member) {
+    if (name != *member) {
+      return false;
+    }
+  }
+  return name == members.gr_name;
+}
+
+/// Of one file or folder.
+class Trust {
+ public:
+  Trust() {
+    std::error_code unknown;
+    program_ = fs::read_symlink("/proc/self/exe", unknown);
+    struct stat found {};
+    if (::stat("/proc/self/exe", &found) == 0) {
+      program_owner_ = found.st_uid;
+    }
+  }
+
+  std::optional<std::string> why_not(const fs::path& place) const {
+    struct stat found {};
+    if (::lstat(place.c_str(), &found) != 0) {
+      return std::string("whose it is cannot be told (") + std::strerror(errno) + ")";
+    }
+    const bool is_folder = S_ISDIR(found.st_mode), holds_program = is_folder && is_above_program(place);
+    const bool keeps_apart = is_folder && (found.st_mode & S_ISVTX) != 0;
+    if (!holds_program && !is_trusted(found.st_uid)) {
+      return "it belongs to user " + std::to_string(found.st_uid);
+    }
+    if ((found.st_mode & S_IWOTH) != 0 && !keeps_apart) {
+      return std::string("everybody may write to it");
+    }
+    if ((found.st_mode & S_IWGRP) != 0 && !keeps_apart && !holds_program && found.st_gid != 0 && !is_own_group(found.st_gid)) {
+      return "group " + std::to_string(found.st_gid) + " may write to it";
+    }
+    return std::nullopt;
+  }
+
+ private:
+  bool is_trusted(uid_t owner) const {
+    return owner == 0 || owner == ::geteuid() || owner == program_owner_ || owner == unknown_owner_;
+  }
+  bool is_above_program(const fs::path& folder) const {
+    const std::string above = folder.string() + (folder == folder.root_path() ? "" : "/");
+    return program_.string().starts_with(above);
+  }
+
+  fs::path program_;
+  std::optional<uid_t> program_owner_, unknown_owner_ = unknown_owner();
+};
+
+}  // namespace
+
+std::optional<std::string> why_untrusted(const fs::path& path) {
+  const Trust trust;
+  for (fs::path place = path;; place = place.parent_path()) {
+    if (const auto why = trust.why_not(place)) {
+      return place == path ? *why : "of " + place.string() + ", where it lies: " + *why;
+    }
+    if (place == place.parent_path()) {
+      return std::nullopt;
+    }
+  }
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,44 @@
+// What reading may take: of a scene, or of its pictures.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+
+namespace dmpc::apps {
+
+/// So much at first, and more for each byte of the files that are read.
+struct ReaderLimits {
+  std::uint64_t seconds = 10;              ///< of processor time
+  std::uint64_t bytes_a_second = 500'000;  ///< so many more bytes of files, one more second
+  std::uint64_t wall_factor = 30;  ///< so many times the processor time may pass on the wall: others want the processor, too
+};
+
+/// One for all processes that read one after the other or beside each other, and for what dmpc does to answer them. Bytes of
+/// files renew it, each file's once; questions, further files that are small, and further processes do not. Not thread-safe.
+class ReadingBudget {
+ public:
+  using Time = std::chrono::nanoseconds;
+
+  explicit ReadingBudget(const ReaderLimits& limits) : limits_(limits) {}
+
+  void add_bytes(std::uint64_t bytes) { bytes_ += bytes; }
+  /// Of the processor: what a process took that is no more, or dmpc itself.
+  void spend(Time time) { spent_ += time; }
+  /// Passed on the wall.
+  void wait(Time time) { waited_ += time; }
+
+  /// All that there is, in whole seconds of processor time.
+  std::uint64_t seconds() const { return limits_.seconds + bytes_ / std::max<std::uint64_t>(limits_.bytes_a_second, 1); }
+  std::uint64_t wall_seconds() const { return seconds() * limits_.wall_factor; }
+  /// None, or less, where it is used up.
+  Time left() const { return std::chrono::seconds(seconds()) - spent_; }
+  Time wall_left() const { return std::chrono::seconds(wall_seconds()) - waited_; }
+
+ private:
+  ReaderLimits limits_;
+  std::uint64_t bytes_ = 0;
+  Time spent_{}, waited_{};
+};
+
+}  // namespace dmpc::apps
