@@ -56,9 +56,8 @@ std::vector<std::string> RenderProcesses::with_outputs(std::vector<std::string> 
   return words;
 }
 
-RenderEnd RenderProcesses::run(std::vector<std::string> words, const std::string& name,
-                               const std::optional<std::filesystem::path>& stats) const {
-  const std::filesystem::path counters = stats.value_or(folder_ / (name + ".json")), picture = folder_ / (name + ".exr");
+RenderEnd RenderProcesses::run(std::vector<std::string> words, const std::string& name, const Keep& keep) const {
+  const std::filesystem::path counters = folder_ / (name + ".json"), picture = folder_ / (name + ".exr");
   const WatchedProcess process =
       watch_process(program_, with_outputs(std::move(words), counters.string(), picture.string()), interrupt_);
   std::error_code ignored;
@@ -66,7 +65,11 @@ RenderEnd RenderProcesses::run(std::vector<std::string> words, const std::string
   if (std::optional<std::string> misfit = misfit_of(process)) {
     return {{}, std::move(*misfit), process.peak_anonymous_bytes};
   }
-  return {figures_in(counters), {}, process.peak_anonymous_bytes};
+  RenderEnd end{figures_in(counters), {}, process.peak_anonymous_bytes};
+  if (keep) {
+    keep(counters);
+  }
+  return end;
 }
 
 const FigureValue* find_value(const std::vector<Figure>& figures, const std::string& name) {

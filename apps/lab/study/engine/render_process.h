@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,12 +30,13 @@ class RenderProcesses {
   /// Both outlive it.
   RenderProcesses(const std::filesystem::path& program, const Interrupt& interrupt) : program_(program), interrupt_(interrupt) {}
 
-  /// Runs `words`, of a line of `render` but for its outputs, to its end. Its counters go to `stats`, else to a scratch file, its
-  /// picture nowhere. A computer out of memory ends a process by the signal that cannot be caught: that is no room, too. Throws
+  using Keep = std::function<void(const std::filesystem::path& stats)>;
+
+  /// Runs `words`, of a line of `render` but for its outputs, to its end. Its counters go to a scratch file, which `keep` may copy
+  /// once they are read, its picture nowhere. A computer out of memory ends a process by the signal that cannot be caught: that is no room, too. Throws
   /// Interrupted after a signal, core::InputError if the program cannot be started or its input is bad, core::InternalError for
   /// any other end.
-  RenderEnd run(std::vector<std::string> words, const std::string& name,
-                const std::optional<std::filesystem::path>& stats = {}) const;
+  RenderEnd run(std::vector<std::string> words, const std::string& name, const Keep& keep = {}) const;
 
   /// With the words that say where counters and picture go.
   static std::vector<std::string> with_outputs(std::vector<std::string> words, const std::string& stats,
