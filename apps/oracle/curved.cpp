@@ -37,6 +37,19 @@ std::optional<double> first_of(const std::array<double, 2>& candidates, double s
   return std::nullopt;
 }
 
+/// Without the root of an eye that lies on the surface, as far as rounding may have moved that: it sees what lies around it
+/// (core/trace/primitive.cpp, is_on). `c`: of the quadratic; `size`: the largest coordinate and radius; `start`: as of
+/// first_of().
+std::array<double, 2> without_start(std::array<double, 2> candidates, double start, const core::Ray& ray,
+                                    const core::CurvedValues& value, double c, double size, double radius) {
+  const double moved = value.passes_by() ? 0x1p-46 : 0x1p-30;
+  if (ray.kind == core::RayKind::primary && std::fabs(c) <= moved * size * std::fabs(radius)) {
+    const bool is_first = std::fabs(start + candidates[0]) < std::fabs(start + candidates[1]);
+    candidates[is_first ? 0 : 1] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return candidates;
+}
+
 std::optional<double> nearest_on_sphere(const core::CurvedValues& value, const core::Ray& ray) {
   const Vec3d center = value.vector(0);
   const double radius = value.value(3);
@@ -48,7 +61,8 @@ std::optional<double> nearest_on_sphere(const core::CurvedValues& value, const c
   const Vec3d across = from_center - direction * (b / a);
   const double distance = length(from_center);
   const double c = (distance - std::fabs(radius)) * (distance + std::fabs(radius));
-  return first_of(roots(a, b, c, a * (radius * radius - dot(across, across))), 0, ray.t_max,
+  const std::array<double, 2> both = roots(a, b, c, a * (radius * radius - dot(across, across)));
+  return first_of(without_start(both, 0, ray, value, c, largest_component(center) + std::fabs(radius), radius), 0, ray.t_max,
                   [&](double t) { return radius > 0 || dot(from_center + direction * t, direction) > 0; });
 }
 

@@ -20,8 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view first_words = "dmpc checkpoint ";
-/// Which are read; the latter is written. Films of the former had no scale.
-constexpr char format_without_scale = '2', format = '3';
+constexpr char format = '3';
 
 struct PixelRecord {
   core::PixelSums sums;
@@ -107,9 +106,9 @@ class Reader {
     if (!stream_ || !head.starts_with(first_words) || !head.ends_with('\n')) {
       fail(path_, "this is no checkpoint of dmpc");
     }
-    if (found != format_without_scale && found != format) {
-      fail(path_, std::string("this is no checkpoint of this version of dmpc: its format is ") + found + ", here " +
-                      format_without_scale + " and " + format + " are read");
+    if (found != format) {
+      fail(path_, std::string("this is no checkpoint of this version of dmpc: its format is ") + found + ", here " + format +
+                      " is read");
     }
     std::vector<PictureFact> facts;
     for (std::string line = take_line(head); !line.empty(); line = take_line(head)) {
@@ -118,9 +117,6 @@ class Reader {
       facts.push_back({line.substr(0, sign), line.substr(sign + 1)});
     }
     digest_.add(std::as_bytes(std::span(head)));
-    if (found == format_without_scale) {
-      facts.push_back({film_scale_fact, apps::text_of(core::FilmScale{})});
-    }
     return facts;
   }
   template <class T>

@@ -8,6 +8,7 @@
 #include "core/base/expect.h"
 #include "core/picture/background.h"
 #include "core/picture/film_scale.h"
+#include "core/picture/ray_crowd.h"
 
 namespace dmpc::apps {
 
@@ -130,18 +131,21 @@ core::FilmScale film_scale_of(const PictureOptions& options, const core::Scene& 
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
   const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
   const core::Camera camera(scene.view, database.header().frame, size.width, size.height, options.samples);
-  return {.header = database.header(),
-          .camera = camera,
-          .shade = {.convention = options.convention,
-                    .depth_max = options.depth,
-                    .cutoff = options.cutoff,
-                    .radiance_bound = core::radiance_bound(scene, options.depth),
-                    .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
-                    .first_samples = static_cast<std::uint32_t>(options.samples),
-                    .film_scale = film_scale_of(options, scene)},
-          .refinement = options.refinement,
-          .skips = options.skips,
-          .background = options.skips.background ? core::find_background(database, camera) : core::BackgroundTiles()};
+  core::RenderSettings settings{
+      .header = database.header(),
+      .camera = camera,
+      .shade = {.convention = options.convention,
+                .depth_max = options.depth,
+                .cutoff = options.cutoff,
+                .radiance_bound = core::radiance_bound(scene, options.depth),
+                .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
+                .first_samples = static_cast<std::uint32_t>(options.samples),
+                .film_scale = film_scale_of(options, scene)},
+      .refinement = options.refinement,
+      .skips = options.skips,
+      .background = options.skips.background ? core::find_background(database, camera) : core::BackgroundTiles()};
+  settings.shade.one_child_from = core::find_one_child_depth(database, settings);
+  return settings;
 }
 
 Resolution parse_resolution(std::string_view text) {

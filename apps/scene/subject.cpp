@@ -5,7 +5,6 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
-#include "core/picture/ray_crowd.h"
 #include "core/scene/frame.h"
 
 namespace dmpc::apps {
@@ -19,8 +18,7 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
   build.axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
   build.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
   core::Database database = core::build_database(std::move(scene), build);
-  core::RenderSettings settings = render_settings(picture, scene, database);
-  settings.shade.one_child_from = core::find_one_child_depth(database, settings);
+  const core::RenderSettings settings = render_settings(picture, scene, database);
   const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
   return {std::move(database), settings, loss};
 }

@@ -15,8 +15,9 @@ using SortedCorners = std::array<std::array<float, 3>, 3>;
 SortedCorners sorted_corners(const PrimitiveValues& triangle);
 
 /// Leaves out each triangle with the corners of an earlier one, if both let light through or neither does, and counts it as a
-/// duplicate; that is what settle_coplanar() would make of them in the end. Takes time and memory in proportion to the triangles,
-/// but for sorting: for where lists of all of them would be long. Returns whether there were any: then ids are others.
+/// duplicate: what settle_coplanar() would make of them in the end, and also those of one object, which it leaves. Takes time and
+/// memory in proportion to the triangles, but for sorting: for where lists of all of them would be long. Returns whether there
+/// were any: then ids are others.
 bool drop_twins(Conversion& conversion, std::span<const Material> materials);
 
 }  // namespace dmpc::core

@@ -12,7 +12,7 @@ constexpr double multiplied_max = 0x1p20;
 /// A sum saturates from 2 to the power of this on.
 constexpr int sum_exponent = 31;
 
-/// The least whole number of which the power of 2 is not less.
+/// The least whole number of which the power of 2 is more.
 int exponent_above(double value) {
   int exponent = 0;
   std::frexp(value, &exponent);

@@ -31,7 +31,9 @@ std::uint64_t rays_in(const Operations& operations) {
 
 }  // namespace
 
-std::uint8_t find_one_child_depth(const Database& database, const RenderSettings& settings) {
+std::uint8_t find_one_child_depth(const Database& database, const RenderSettings& given) {
+  RenderSettings settings = given;
+  settings.skips = {};  // what is left out changes no film, so neither may what is counted
   if (settings.shade.depth_max <= crowd_depth || !can_send_two(database)) {
     return 0;
   }

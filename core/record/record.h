@@ -110,7 +110,8 @@ inline constexpr std::size_t block_lanes = 8;
 ///   triangle rows: v0.x v0.y v0.z v1.x .. v2.z
 ///   sphere rows:   centre.x .y .z radius, rests
 ///   cone rows:     base.x .y .z radius, apex (or axis: cone_floats.h) .x .y .z radius, rests of the first four, of the last four
-/// Rests: what rounding left of four values, a byte each, the first lowest, or of the radius alone (core/record/curved_values.h).
+/// Rests: what rounding left of four values, the first lowest: a byte each or, of what passes by local zero, 4 bits a coordinate and
+/// 20 of the radius (core/record/curved_values.h).
 /// Behind the rows of a block that has_plane: the FacePlane of all its triangles.
 struct BlockHeader {
   PrimitiveKind kind{};

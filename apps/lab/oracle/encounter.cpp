@@ -294,8 +294,9 @@ Encounter meet_curved(const Curved& curved, Long t) {
 bool is_of_eye_on(const Ray& ray, const Curved& curved, Long t) {
   const Quadratic& quadratic = curved.quadratic;
   constexpr Long moved = 0x1p-30L;
+  const Long place = core::largest_component(ray.full_origin());  // the eye is a radius from centre or axis
   const Long other = quadratic.a != 0 ? -2 * quadratic.b / quadratic.a - t : t;
-  return ray.kind == core::RayKind::primary && std::fabs(quadratic.c) <= moved * quadratic.size * quadratic.size &&
+  return ray.kind == core::RayKind::primary && std::fabs(quadratic.c) <= moved * (place + quadratic.size) * quadratic.size &&
          std::fabs(t) <= std::fabs(other);
 }
 

@@ -2,12 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
 #include <string>
 
-#include "apps/edge/system/digest.h"
 #include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -39,22 +35,6 @@ struct SmallPicture {
   core::Refinement pass{{}, 4, 100, 50};
   core::PixelMask done{5000};
 };
-
-/// As format 2 had it, whose head did not tell of a scale; the digest goes over the head, too, and over parts as they are
-/// written.
-std::string without_scale(std::string text) {
-  const std::string fact = std::string(film_scale_fact) + "=1\n";
-  text.replace(text.find("checkpoint 3"), 12, "checkpoint 2").erase(text.find(fact), fact.size());
-  text.resize(text.size() - sizeof(std::uint64_t));
-  auto bytes = std::as_bytes(std::span(text));
-  Digest digest;
-  for (const std::size_t part : {text.find("\n\n") + 2, 8UL, 5000UL, 79 * 8UL, 4096 * 56UL, 904 * 56UL}) {
-    digest.add(bytes.first(part));
-    bytes = bytes.subspan(part);
-  }
-  const std::uint64_t value = digest.value();
-  return text.append(reinterpret_cast<const char*>(&value), sizeof(value));
-}
 
 std::string file_complaint(const std::filesystem::path& path, const PictureIdentity& of = identity) {
   try {
@@ -113,18 +93,6 @@ TEST_CASE("wherever a byte of a checkpoint is changed, it is refused") {
   }
 }
 
-TEST_CASE("a checkpoint of the format without a scale is gone on with where the scale is 1, and else refused") {
-  const TemporaryFolder folder;
-  const SmallPicture small;
-  small.write(folder / "a");
-  write_text(folder / "b", without_scale(file_text(folder / "a")));
-  CHECK(read_checkpoint(folder / "b", identity).film.hash() == small.film.hash());
-  PictureIdentity scaled = identity;
-  scaled.facts.back().value = "2^34";
-  scaled.terms.film_scale = {34};
-  CHECK(contains(file_complaint(folder / "b", scaled), "film-scale is 1, here 2^34"));
-}
-
 TEST_CASE("a checkpoint's film has the scale of the picture") {
   const TemporaryFolder folder;
   PictureIdentity scaled = identity;
@@ -150,22 +118,25 @@ TEST_CASE("what is no checkpoint is refused") {
   const TemporaryFolder folder;
   write_text(folder / "a", "");
   CHECK(contains(file_complaint(folder / "a"), "no checkpoint"));
-  write_text(folder / "a", "dmpc checkpoint 1\n\n");
-  CHECK(contains(file_complaint(folder / "a"), "no checkpoint of this version of dmpc: its format is 1, here 2 and 3 are read"));
+  write_text(folder / "a", "dmpc checkpoint 2\n\n");
+  CHECK(contains(file_complaint(folder / "a"), "no checkpoint of this version of dmpc: its format is 2, here 3 is read"));
   CHECK(contains(file_complaint(folder / "none"), "cannot be read"));
-  write_text(folder / "a", "dmpc checkpoint 2\n" + std::string(100'000, 'x') + "=\n");
+  write_text(folder / "a", "dmpc checkpoint 3\n" + std::string(100'000, 'x') + "=\n");
   CHECK(contains(file_complaint(folder / "a"), "is damaged"));
   CHECK(contains(file_complaint("/dev/zero"), "no checkpoint"));
 }
 
-TEST_CASE("where there is no room for a checkpoint that is said, and the old one stays") {
-  const SmallPicture small;
-  CHECK_THROWS_WITH_AS(small.write("/dev/full"), "--checkpoint /dev/full: cannot be written: No space left on device",
+TEST_CASE("where there is no room for a checkpoint that is said") {
+  CHECK_THROWS_WITH_AS(SmallPicture().write("/dev/full"), "--checkpoint /dev/full: cannot be written: No space left on device",
                        core::InputError);
+}
+
+TEST_CASE("what somebody else has put where the next checkpoint would be made keeps none from being written") {
+  const SmallPicture small;
   const TemporaryFolder folder;
   small.write(folder / "a");
   std::filesystem::create_directory(next_name(folder / "a"));
-  CHECK_THROWS_AS(small.write(folder / "a"), core::InputError);
+  small.write(folder / "a");
   CHECK(read_checkpoint(folder / "a", identity).done == small.done);
 }
 

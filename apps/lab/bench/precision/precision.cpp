@@ -8,6 +8,7 @@
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
+#include "core/picture/ray_crowd.h"
 #include "core/picture/render.h"
 #include "core/record/records.h"
 
@@ -82,6 +83,11 @@ void count(const Judgement& judgement, std::uint32_t pixel, std::uint32_t width,
 Precision measure_precision(const core::Scene& scene, const PictureOptions& picture, const Attendance& attendance) {
   core::expect(picture.samples == 1, "precision is measured with one sample a pixel");
   const Subject subject = build_subject(scene, picture);
+  if (subject.settings.shade.one_child_from > 0) {
+    throw core::UsageError("--depth=" + std::to_string(picture.depth) +
+                           ": so deep, this picture's hits choose a ray of two, which the " +
+                           "renderer in double does not: expected a depth of at most " + std::to_string(core::crowd_depth));
+  }
   const core::Camera& product_camera = subject.settings.camera;
   const AccurateScene accurate = accurate_scene(scene);
   const AccurateFinder finder(accurate, scene.view.from);

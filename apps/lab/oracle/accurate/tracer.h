@@ -30,9 +30,9 @@ class RayWatcher {
 /// Not thread-safe: one a thread.
 class AccurateTracer {
  public:
-  /// All outlive the tracer; `watcher` may be null. Secondary rays start 1e-9 of the scene's size off their surface. Rays look at
-  /// textures as the product's first samples do, by what the ray's own camera says that a pixel covers; where the options give
-  /// them no share of it, at points.
+  /// All outlive the tracer; `watcher` may be null. Secondary rays start 1e-13 of their body's coordinates and radius off it.
+  /// Rays look at textures as the product's first samples do, by what the ray's own camera says that a pixel covers; where the
+  /// options give them no share of it, at points.
   AccurateTracer(const AccurateScene& scene, const AccurateFinder& finder, const core::ShadeOptions& options,
                  RayWatcher* watcher = nullptr)
       : scene_(scene), finder_(finder), options_(options), watcher_(watcher) {}

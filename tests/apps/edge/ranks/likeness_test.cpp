@@ -38,7 +38,7 @@ TEST_CASE("ranks that are alike, or one alone, are let pass") {
   CHECK(complaint_of({usual}) == "");
   CHECK(complaint_of({usual, usual, usual}) == "");
   const Likeness own = apps::renderer_likeness();
-  CHECK(own.size() == 5);
+  CHECK(own.size() == 6);
   CHECK(complaint_of({own, apps::renderer_likeness()}) == "");
 }
 
