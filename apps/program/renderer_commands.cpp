@@ -9,9 +9,9 @@ namespace dmpc::apps {
 
 void declare_renderer(Commands& commands) {
   commands.add("render", "Render a scene on N nodes", RenderOptions(),
-      [](const RenderOptions& options, Interrupt& interrupt, std::ostream& output) {
-        return render_command(options, interrupt, output);
-      });
+               [](const RenderOptions& options, Interrupt& interrupt, std::ostream& output) {
+                 return render_command(options, interrupt, output);
+               });
   commands.add("info", "Tell what a scene is, and what a render of it would take", InfoOptions(), info_command);
   commands.add("scene", "Write a built-in scene as an NFF file, or a landscape as glTF", SceneOptions(), scene_command);
   commands.add("machine", "Print a machine's figures as JSON, to read or to start from", MachineOptions(), machine_command);

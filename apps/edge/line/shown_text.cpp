@@ -38,17 +38,20 @@ void ShownBuffer::put(std::string_view text) {
 }
 
 void ShownBuffer::put_unchanged(std::string_view text) {
+  const std::lock_guard lock(one_at_a_time_);
   end();
   put(text);
 }
 
 void ShownBuffer::end() {
+  const std::lock_guard lock(one_at_a_time_);
   while (kept_bytes_ > 0) {
     put_kept();
   }
 }
 
 ShownBuffer::int_type ShownBuffer::overflow(int_type character) {
+  const std::lock_guard lock(one_at_a_time_);
   if (traits_type::eq_int_type(character, traits_type::eof())) {
     return traits_type::not_eof(character);
   }
@@ -61,6 +64,7 @@ ShownBuffer::int_type ShownBuffer::overflow(int_type character) {
 
 /// In pieces as long as can be, since a terminal's stream hands on each at once.
 std::streamsize ShownBuffer::xsputn(const char* text, std::streamsize size) {
+  const std::lock_guard lock(one_at_a_time_);
   std::string_view left(text, static_cast<std::size_t>(size));
   while (!left.empty()) {
     const std::size_t plain = kept_bytes_ == 0 ? plain_bytes(left) : 0;
@@ -74,7 +78,10 @@ std::streamsize ShownBuffer::xsputn(const char* text, std::streamsize size) {
   return is_whole_ ? size : 0;
 }
 
-int ShownBuffer::sync() { return target_.pubsync() == 0 && is_whole_ ? 0 : -1; }
+int ShownBuffer::sync() {
+  const std::lock_guard lock(one_at_a_time_);
+  return target_.pubsync() == 0 && is_whole_ ? 0 : -1;
+}
 
 /// The first character that is kept, or if there is none, the first byte.
 void ShownBuffer::put_kept() {

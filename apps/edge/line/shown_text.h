@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <mutex>
 #include <ostream>
 #include <streambuf>
 #include <string>
@@ -11,7 +12,8 @@
 namespace dmpc::apps {
 
 /// A stream's end that hands on lines, tabs and all characters that are only seen. What would move the cursor, change colours or
-/// turn the direction of the text becomes \x1b or \u202e, and so does what is no UTF-8. It allocates nothing. Not thread-safe.
+/// turn the direction of the text becomes \x1b or \u202e, and so does what is no UTF-8. It allocates nothing. Thread-safe, as the
+/// standard streams are that it stands behind.
 class ShownBuffer : public std::streambuf {
  public:
   /// `target` outlives it.
@@ -33,7 +35,8 @@ class ShownBuffer : public std::streambuf {
   void put_escaped(char letter, char32_t code, int digits);
 
   std::streambuf& target_;
-  std::array<char, 4> kept_{};  ///< the beginning of a character
+  std::recursive_mutex one_at_a_time_;  ///< of threads; what hands on a text calls what hands on a character
+  std::array<char, 4> kept_{};          ///< the beginning of a character
   std::size_t kept_bytes_ = 0;
   bool is_whole_ = true;  ///< all has been taken by the target
 };

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <fstream>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace dmpc::apps {
 namespace {
@@ -54,9 +56,14 @@ class Trust {
   Trust() {
     std::error_code unknown;
     program_ = fs::read_symlink("/proc/self/exe", unknown);
-    struct stat found {};
-    if (::stat("/proc/self/exe", &found) == 0) {
-      program_owner_ = found.st_uid;
+    for (const fs::path& place : {fs::path("/proc/self/exe"), program_.parent_path()}) {
+      struct stat found {};
+      if (::stat(place.c_str(), &found) == 0) {
+        program_owner_ = program_owner_.value_or(found.st_uid);
+        if ((found.st_mode & S_IWGRP) != 0 && (found.st_mode & S_ISVTX) == 0) {
+          program_groups_.push_back(found.st_gid);
+        }
+      }
     }
   }
 
@@ -70,10 +77,11 @@ class Trust {
     if (!holds_program && !is_trusted(found.st_uid)) {
       return "it belongs to user " + std::to_string(found.st_uid);
     }
-    if ((found.st_mode & S_IWOTH) != 0 && !keeps_apart) {
+    if ((found.st_mode & S_IWOTH) != 0 && !keeps_apart && !holds_program) {
       return std::string("everybody may write to it");
     }
-    if ((found.st_mode & S_IWGRP) != 0 && !keeps_apart && !holds_program && found.st_gid != 0 && !is_own_group(found.st_gid)) {
+    if ((found.st_mode & S_IWGRP) != 0 && !keeps_apart && !holds_program && found.st_gid != 0 && !writes_program(found.st_gid) &&
+        !is_own_group(found.st_gid)) {
       return "group " + std::to_string(found.st_gid) + " may write to it";
     }
     return std::nullopt;
@@ -83,6 +91,9 @@ class Trust {
   bool is_trusted(uid_t owner) const {
     return owner == 0 || owner == ::geteuid() || owner == program_owner_ || owner == unknown_owner_;
   }
+  bool writes_program(gid_t group) const {
+    return std::find(program_groups_.begin(), program_groups_.end(), group) != program_groups_.end();
+  }
   bool is_above_program(const fs::path& folder) const {
     const std::string above = folder.string() + (folder == folder.root_path() ? "" : "/");
     return program_.string().starts_with(above);
@@ -90,6 +101,7 @@ class Trust {
 
   fs::path program_;
   std::optional<uid_t> program_owner_, unknown_owner_ = unknown_owner();
+  std::vector<gid_t> program_groups_;  ///< that may replace the program
 };
 
 }  // namespace

@@ -77,10 +77,14 @@ _PR_SET_PDEATHSIG = 1
 _prctl = getattr(ctypes.CDLL(None), "prctl", None)  # none but on Linux
 
 
-def _end_with_parent():
-    """In the child: a Python that is killed leaves no dmpc behind."""
-    if _prctl is not None:
-        _prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+def _end_with(parent):
+    """What the child is to do first, so that a Python that is killed leaves no dmpc behind."""
+    def end_with_parent():
+        if _prctl is not None:
+            _prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+            if os.getppid() != parent:  # it has ended meanwhile
+                os._exit(0)
+    return end_with_parent
 
 
 _PATIENCE_SECONDS = 10  # for dmpc to end on an interruption; it cleans up what it has begun
@@ -101,7 +105,7 @@ def run(line):
     """What dmpc prints. Raises an Error with what it says on stderr. An exception, such as KeyboardInterrupt, ends dmpc before it
     goes on."""
     process = subprocess.Popen([path(), *line], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                               start_new_session=True, preexec_fn=_end_with_parent)
+                               start_new_session=True, preexec_fn=_end_with(os.getpid()))
     try:
         output, errors = process.communicate()
     except BaseException:

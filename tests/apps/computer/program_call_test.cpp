@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -152,6 +153,8 @@ End end_of_process(bool is_virtual) {
   errors = folder / "errors";
   runner = is_virtual ? "virtual" : "threads";
   const ForkedProcess process([] {
+    const rlimit stack{8U << 20U, 8U << 20U};  // whatever the shell has: some have no limit
+    ::setrlimit(RLIMIT_STACK, &stack);
     if (::open(errors.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600) != STDERR_FILENO) {
       return 200;
     }

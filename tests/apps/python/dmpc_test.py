@@ -154,8 +154,7 @@ class InterruptedTest(unittest.TestCase):
         self.fail("waited in vain")
 
     def _expect_nothing_left(self, folder):
-        self.assertEqual(self._running(folder), [])
-        self.assertEqual(os.listdir(folder), [])
+        self._wait_until(lambda: not self._running(folder) and not os.listdir(folder))
 
 
 class SweepTest(unittest.TestCase):

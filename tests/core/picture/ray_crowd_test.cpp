@@ -77,6 +77,19 @@ TEST_CASE("a picture that ends anyway is no crowd: few depths, few balls, mirror
   CHECK(depth_of(Picture(built_in("balls-1"), 30)) == 0);
 }
 
+TEST_CASE("whatever is left out, a picture is as much a crowd") {
+  Picture mirrors(built_in("balls-3"), 30);
+  for (const Skip& skip : all_skips) {
+    CAPTURE(skip.name);
+    mirrors.settings.skips = {};
+    mirrors.settings.skips.*skip.is_on = false;
+    CHECK(find_one_child_depth(mirrors.database, mirrors.settings) == 0);
+    Picture glass(nested_glass(20), 20);
+    glass.settings.skips.*skip.is_on = false;
+    CHECK(find_one_child_depth(glass.database, glass.settings) == crowd_depth);
+  }
+}
+
 TEST_CASE("where a hit sends one of two rays the picture is right on average") {
   Picture picture(nested_glass(4), 9, 64);
   const auto [both, rays] = picture.rendered();

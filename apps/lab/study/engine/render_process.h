@@ -32,10 +32,10 @@ class RenderProcesses {
 
   using Keep = std::function<void(const std::filesystem::path& stats)>;
 
-  /// Runs `words`, of a line of `render` but for its outputs, to its end. Its counters go to a scratch file, which `keep` may copy
-  /// once they are read, its picture nowhere. A computer out of memory ends a process by the signal that cannot be caught: that is no room, too. Throws
-  /// Interrupted after a signal, core::InputError if the program cannot be started or its input is bad, core::InternalError for
-  /// any other end.
+  /// Runs `words`, of a line of `render` but for its outputs, to its end. Its counters go to a scratch file, which `keep` may
+  /// copy once they are read, its picture nowhere. A computer out of memory ends a process by the signal that cannot be caught:
+  /// that is no room, too. Throws Interrupted after a signal, core::InputError if the program cannot be started or its input is
+  /// bad, core::InternalError for any other end.
   RenderEnd run(std::vector<std::string> words, const std::string& name, const Keep& keep = {}) const;
 
   /// With the words that say where counters and picture go.

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -79,10 +80,13 @@ bool takes_all(const Descriptor& file, std::string_view text) {
 }
 
 /// Whether a figure is there, or said to be none: "pages" is null where no pages travel.
+/// What each strategy calls by names of its own is there if others of its kind are.
 bool has(const std::vector<Figure>& figures, const std::string& column) {
+  const std::size_t kinds = std::min(column.find(".by_kind."), column.find(".waiting."));
+  const std::string kin = kinds == std::string::npos ? column : column.substr(0, column.find('.', kinds + 1) + 1);
   return std::any_of(figures.begin(), figures.end(), [&](const Figure& figure) {
     const bool is_above = column.starts_with(figure.name + ".") && std::holds_alternative<std::monostate>(figure.value);
-    return figure.name == column || is_above;
+    return figure.name == column || is_above || (kinds != std::string::npos && figure.name.starts_with(kin));
   });
 }
 
@@ -138,6 +142,8 @@ std::optional<std::vector<Figure>> KeptRuns::find(const SweepRun& run) const {
 
 /// Under a name of its own first, which then replaces whatever is there, a link itself and not what it leads to.
 void KeptRuns::keep(const SweepRun& run, const fs::path& stats) const {
+  static std::mutex one_at_a_time;  // there are few places for files under way
+  const std::lock_guard lock(one_at_a_time);
   std::ostringstream text;
   text << std::ifstream(stats, std::ios::binary).rdbuf();
   const std::string name = hidden_name(file_of(run), std::to_string(::getpid())).string();
