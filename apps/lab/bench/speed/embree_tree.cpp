@@ -8,6 +8,13 @@ namespace dmpc::apps {
 
 namespace {
 
+/// How far along a ray hits begin to count. Rays start so near to the curved surface that they leave that floats, which Embree has
+/// of them, cannot tell on which side.
+float start_of(const core::Ray& ray) {
+  constexpr float share = 0x1p-16F;
+  return share * core::largest_component(ray.origin) / core::largest_component(ray.direction);
+}
+
 /// Within the ray, whose components Embree keeps one by one.
 std::optional<float> distance(const embree::CurvedQuery& query) {
   RTCRayN* const ray = query.ray;
@@ -15,9 +22,11 @@ std::optional<float> distance(const embree::CurvedQuery& query) {
   core::Ray asked;
   asked.origin = {RTCRayN_org_x(ray, count, i), RTCRayN_org_y(ray, count, i), RTCRayN_org_z(ray, count, i)};
   asked.direction = {RTCRayN_dir_x(ray, count, i), RTCRayN_dir_y(ray, count, i), RTCRayN_dir_z(ray, count, i)};
-  asked.t_max = RTCRayN_tfar(ray, count, i);
+  const float start = start_of(asked);
+  asked.origin = asked.origin + asked.direction * start;
+  asked.t_max = RTCRayN_tfar(ray, count, i) - start;
   const std::optional<double> t = nearest_on_curved(query.shapes.primitives[query.id], asked);
-  return t ? std::optional(static_cast<float>(*t)) : std::nullopt;
+  return t ? std::optional(static_cast<float>(*t) + start) : std::nullopt;
 }
 
 }  // namespace
