@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/program/commands.h"
+#include "apps/main/commands.h"
 #include "core/base/expect.h"
 
 namespace dmpc::tests {
@@ -12,7 +12,7 @@ namespace dmpc::tests {
 /// The message of the UsageError; empty if the words are taken.
 inline std::string usage_complaint(const std::vector<std::string>& words) {
   try {
-    apps::parse_command_line(apps::declare_renderer, words);
+    apps::parse_command_line(words);
   } catch (const core::UsageError& error) {
     return error.what();
   }
