@@ -60,13 +60,4 @@ TEST_CASE("light that a bound did not tell of is cut with a word, and light far 
   CHECK(contains(dim.render(), "the picture is black, though 64 shadow rays reached a light"));
 }
 
-TEST_CASE("a picture of little light goes on from its checkpoint with the same scale") {
-  const Wall whole("1e-10");
-  whole.render({"--samples=16"});
-  ChildProcess({DMPC_PROGRAM, "render", whole.folder / "a.nff", "--samples=16", "--checkpoint=" + (whole.folder / "c").string(),
-                "--keep-checkpoint", "-o", whole.folder / "b.exr"})
-      .status();
-  CHECK(contains(file_text(whole.folder / "c"), "film-scale=2^34"));
-}
-
 }  // namespace dmpc::tests::light_range_test
