@@ -37,6 +37,7 @@ Scene stacked(std::size_t count, double shrinking, std::size_t elsewhere = 0) {
   return scene;
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow is larger than any memory
 /// From now on this process gets so many bytes more.
 void limit_memory(std::size_t bytes) {
   std::uint64_t pages = 0;
@@ -57,10 +58,11 @@ int build_within(std::size_t bytes, const Scene& scene) {
 }
 
 constexpr std::size_t many = 300'000, room_bytes = std::size_t{350} << 20U;
+#endif
 
 }  // namespace
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow is larger than any memory
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE("triangles that coincide take memory in proportion to their number, equal or not, and wherever they are in the file") {
   CHECK(ForkedProcess([] { return build_within(room_bytes, stacked(many, 0)); }).status() == 0);
   CHECK(ForkedProcess([] { return build_within(room_bytes, stacked(many, 1e-7)); }).status() == 0);
