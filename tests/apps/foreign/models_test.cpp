@@ -126,14 +126,6 @@ TEST_CASE("models give one film in every strategy") {
   }
 }
 
-TEST_CASE("Embree explains every ray on models") {
-  for (const char* path : {"OBJ/spider.obj", "glTF2/ClearCoat-glTF/ClearCoatTest.gltf"}) {
-    tests::ChildProcess check({DMPC_PROGRAM, "check", model(path), "--resolution=64x64"});
-    CHECK(check.status() == 0);
-    CHECK(contains(check.output(), "Every ray is explained."));
-  }
-}
-
 TEST_CASE("nothing but the closing lines reaches the standard output") {
   tests::ChildProcess quiet({DMPC_PROGRAM, "render", model("OBJ/spider.obj"), "--resolution=8x8", "--quiet", "-o", "/dev/null"});
   CHECK(quiet.status() != 3);
