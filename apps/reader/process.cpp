@@ -132,7 +132,7 @@ Confinement ReaderProcess::hear_that_it_is_ready() {
 }
 
 void ReaderProcess::check(const Confinement& confinement) {
-  if (budget_->sandbox() == Sandbox::none) {
+  if (budget_->limits().sandbox == Sandbox::none) {
     return;
   }
   add_reader(confinement);
@@ -140,7 +140,7 @@ void ReaderProcess::check(const Confinement& confinement) {
     return;
   }
   const std::string missing = missing_text(confinement);
-  if (budget_->sandbox() == Sandbox::required) {
+  if (budget_->limits().sandbox == Sandbox::required) {
     stop();
     throw core::InputError(missing + ": nothing is read, as --sandbox=required asks");
   }

@@ -375,6 +375,16 @@ TEST_CASE("a whole sandbox is there, is read in, and is told of all readers toge
 }
 #endif
 
+TEST_CASE("textures have a budget of memory that is all of theirs, and the one that is too much is named") {
+  const TemporaryFolder folder;
+  apps::write_image(folder / "a.png", apps::Image(100, 10));
+  apps::PictureReader reader({.texture_bytes_max = 12'000});  // of 1000 texels and a third more
+  CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().width == 100);
+  CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().width == 100);
+  CHECK_THROWS_WITH_AS(reader.read_texture(apps::open_picture(folder / "a.png"), {}),
+                       doctest::Contains("a.png: with it the scene's textures take"), core::RoomError);
+}
+
 TEST_CASE("a texture without a name and one with an endless one are said") {
   const TemporaryFolder folder;
   const std::string scene = write_textured_triangle(folder, "\nmap_kd");
