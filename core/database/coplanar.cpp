@@ -41,13 +41,11 @@ struct CoveringPairs {
   }
 };
 
-/// What doubles know of the triangles of a scene.
+/// Where doubles know of triangles.
 struct Exactly {
   const Conversion& conversion;
   const Scene& scene;
   const GridFrame& frame;
-
-  FaceStack stack_of(std::span<const std::uint32_t> set) const { return stack_faces(exact_faces(scene, frame, conversion, set)); }
 };
 
 /// Those of a top cell.
@@ -124,6 +122,33 @@ CoveringSets covering_sets(const Exactly& exactly, const TopCells& cells, const 
   }
   return sets;
 }
+
+/// Sets of triangles as doubles have them, each polygon of which is divided once.
+class ExactSets {
+ public:
+  ExactSets(const Exactly& exactly, std::vector<Ids> sets) : sets_(std::move(sets)) {
+    for (const Ids& set : sets_) {
+      ids_.insert(ids_.end(), set.begin(), set.end());
+    }
+    std::sort(ids_.begin(), ids_.end());
+    faces_ = exact_faces(exactly.scene, exactly.frame, exactly.conversion, ids_);
+  }
+
+  const std::vector<Ids>& sets() const { return sets_; }
+  FaceStack stack_of(const Ids& set) const {
+    std::vector<Face> faces;
+    faces.reserve(set.size());
+    for (const std::uint32_t id : set) {
+      faces.push_back(faces_[static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin())]);
+    }
+    return stack_faces(faces);
+  }
+
+ private:
+  std::vector<Ids> sets_;
+  Ids ids_;
+  std::vector<Face> faces_;
+};
 
 /// Adds the other triangles of a triangle's polygon, which come one behind the other.
 void add_polygon(const Conversion& conversion, std::uint32_t id, FaceSets& sets) {
@@ -318,6 +343,23 @@ class Settler {
   std::uint32_t stacked_shared_ = 0;
 };
 
+/// Adds to sets that doubles take apart the other triangles of their polygons, and to `merged` what they cannot. Returns whether
+/// there are any of the former.
+bool add_polygons(const Exactly& exactly, FaceSets& close, std::vector<CloseFaces>& merged) {
+  const ExactSets exact(exactly, close.sets());
+  bool found = false;
+  for (const Ids& set : exact.sets()) {
+    const FaceStack stack = exact.stack_of(set);
+    if (stack.layers.size() > 1) {
+      std::for_each(set.begin(), set.end(), [&](std::uint32_t id) { add_polygon(exactly.conversion, id, close); });
+      found = true;
+    } else {
+      merged.insert(merged.end(), stack.blurred.begin(), stack.blurred.end());
+    }
+  }
+  return found;
+}
+
 /// Returns whether there are any.
 bool settle(Conversion& conversion, std::span<const Material> materials, std::vector<Ids> sets, std::vector<FaceStack> stacks) {
   if (sets.empty() && stacks.empty()) {
@@ -340,19 +382,17 @@ bool settle_coplanar(Conversion& conversion, const TopCells& cells, const Scene&
                      const Parallel& parallel) {
   const Exactly exactly{conversion, scene, frame};
   CoveringSets found = covering_sets(exactly, cells, parallel);
-  for (const Ids& set : found.close.sets()) {
-    if (exactly.stack_of(set).layers.size() > 1) {
-      std::for_each(set.begin(), set.end(), [&](std::uint32_t id) { add_polygon(conversion, id, found.close); });
-    }
-  }
   std::vector<FaceStack> stacks;
   std::vector<bool> is_stacked(conversion.primitives.size());
-  for (const Ids& set : found.close.sets()) {
-    FaceStack stack = exactly.stack_of(set);
-    conversion.close_faces.insert(conversion.close_faces.end(), stack.blurred.begin(), stack.blurred.end());
-    if (stack.layers.size() > 1) {
-      stacks.push_back(std::move(stack));
-      std::for_each(set.begin(), set.end(), [&](std::uint32_t id) { is_stacked[id] = true; });
+  if (add_polygons(exactly, found.close, conversion.close_faces)) {
+    const ExactSets exact(exactly, found.close.sets());
+    for (const Ids& set : exact.sets()) {
+      FaceStack stack = exact.stack_of(set);
+      if (stack.layers.size() > 1) {
+        conversion.close_faces.insert(conversion.close_faces.end(), stack.blurred.begin(), stack.blurred.end());
+        stacks.push_back(std::move(stack));
+        std::for_each(set.begin(), set.end(), [&](std::uint32_t id) { is_stacked[id] = true; });
+      }
     }
   }
   std::vector<Ids> sets = found.coplanar.sets();

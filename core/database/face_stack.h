@@ -10,7 +10,14 @@
 
 namespace dmpc::core {
 
-/// Planes that are one after the other along `up`, or nearly so, and the faces in each.
+/// Planes that are one after the other, or nearly so, and the faces in each.
+///
+/// Floats would make one of them, or they are nearer to each other than rays start off a triangle. So their planes come from the
+/// corners as the file has them, and stand in the blocks. Edges stay those of the floats, since along a plane rounding shifts a
+/// face and swaps nothing; across it t, points and starts of rays are right to 2^-47 of the coordinates. Where a float t is the
+/// same for two planes, in_layer() (core/trace/primitive.h) moves it by a unit in the last place for each layer, in the order in
+/// which the ray comes to them. So (t, id) decides as ever, whatever box, node or kernel a face is met in. Near faces of one layer
+/// may be swapped where t is too coarse to tell them apart: RoundingLoss::swapped.
 struct FaceStack {
   /// Of one plane, as far as doubles tell.
   struct Layer {
