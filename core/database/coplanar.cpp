@@ -11,6 +11,7 @@
 #include "core/database/face_stack.h"
 #include "core/database/plane_buckets.h"
 #include "core/database/twins.h"
+#include "core/scene/frame.h"
 
 namespace dmpc::core {
 namespace {
@@ -343,10 +344,32 @@ class Settler {
   std::uint32_t stacked_shared_ = 0;
 };
 
+/// For certain, and without dividing polygons: the corners of all polygons of a set have a coordinate in common, as doubles have
+/// it.
+bool is_level(const Exactly& exactly, const Ids& set) {
+  const auto corners_of = [&](std::uint32_t id) {
+    const Object& object = exactly.scene.objects[exactly.conversion.sources[id].object];
+    return std::span(exactly.scene.vertices).subspan(object.first, object.vertex_count);
+  };
+  const auto local = [&](const Vec3d& corner) { return to_local(exactly.frame, corner); };
+  const Vec3d first = local(corners_of(set[0])[0]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::all_of(set.begin(), set.end(), [&](std::uint32_t id) {
+          const auto corners = corners_of(id);
+          return std::all_of(corners.begin(), corners.end(), [&](const Vec3d& at) { return local(at)[axis] == first[axis]; });
+        })) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Adds to sets that doubles take apart the other triangles of their polygons, and to `merged` what they cannot. Returns whether
 /// there are any of the former.
 bool add_polygons(const Exactly& exactly, FaceSets& close, std::vector<CloseFaces>& merged) {
-  const ExactSets exact(exactly, close.sets());
+  std::vector<Ids> doubtful = close.sets();
+  std::erase_if(doubtful, [&](const Ids& set) { return is_level(exactly, set); });
+  const ExactSets exact(exactly, std::move(doubtful));
   bool found = false;
   for (const Ids& set : exact.sets()) {
     const FaceStack stack = exact.stack_of(set);
