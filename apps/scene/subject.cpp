@@ -56,6 +56,12 @@ std::string loss_text(const core::RoundingLoss& loss) {
     text += (text.empty() ? "" : "; ") + counted(loss.moved, "primitive") + " may be off by up to " + rounded(loss.moved_pixels) +
             " pixels, as coordinates are rounded beside something so large";
   }
+  if (loss.swapped > 0) {
+    text += (text.empty() ? "" : "; ") + counted(loss.swapped, "face") +
+            (loss.swapped == 1 ? " may show where another is" : " may show where others are") +
+            " nearer, or be hidden, as they lie too close together to be told apart: up to " + rounded(loss.swapped_pixels) +
+            " pixels across";
+  }
   return text.empty() ? ""
                       : text + ": bring the scene's parts nearer to each other or nearer in size, or view it from farther away";
 }

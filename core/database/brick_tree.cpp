@@ -92,7 +92,7 @@ void count_below(const BrickDraft& draft, RecordCounts& records) {
 class TreeWriter {
  public:
   TreeWriter(const BrickTree& tree, std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
-             std::span<const FacePlane> planes, RecordWriter& writer)
+             std::span<const KeptPlane> planes, RecordWriter& writer)
       : tree_(tree), primitives_(primitives), shading_(shading), planes_(planes), writer_(writer) {}
 
   void write(const BrickDraft& draft, Address address) const {
@@ -110,7 +110,8 @@ class TreeWriter {
  private:
   void write_block(const BrickDraft::Block& block, Address address) const {
     std::array<std::byte, record_bytes_max> record;
-    BlockHeader header{.kind = block.kind, .count = block.count, .has_plane = block.plane != 0};
+    BlockHeader header{.kind = block.kind, .count = block.count};
+    header.plane = block.plane != 0 ? planes_[block.plane - 1].kept_as : std::uint8_t{0};
     const std::size_t rows = value_count(block.kind);
     for (std::size_t lane = 0; lane < block.count; ++lane) {
       const std::uint32_t id = tree_.ids[block.first + lane];
@@ -126,8 +127,9 @@ class TreeWriter {
       put(rows + 1, shading_[id]);
     }
     std::memcpy(record.data(), &header, sizeof(header));
-    if (header.has_plane) {
-      std::memcpy(record.data() + block_bytes(block.kind, block.count), &planes_[block.plane - 1], sizeof(FacePlane));
+    if (header.has_plane()) {
+      const FacePlane& plane = planes_[block.plane - 1];
+      std::memcpy(record.data() + block_bytes(block.kind, block.count), &plane, sizeof(FacePlane));
     }
     writer_.write(address, 0, std::as_bytes(std::span(record)).first(block.bytes()));
   }
@@ -135,7 +137,7 @@ class TreeWriter {
   const BrickTree& tree_;
   std::span<const PrimitiveValues> primitives_;
   std::span<const ShadingReference> shading_;
-  std::span<const FacePlane> planes_;
+  std::span<const KeptPlane> planes_;
   RecordWriter& writer_;
 };
 
@@ -153,7 +155,7 @@ void BrickTree::take_forest_room(RecordWriter& writer, std::size_t page_size) {
 }
 
 void BrickTree::write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
-                      std::span<const FacePlane> planes, RecordWriter& writer) const {
+                      std::span<const KeptPlane> planes, RecordWriter& writer) const {
   TreeWriter(*this, primitives, shading, planes, writer).write(top, address);
 }
 

@@ -21,7 +21,9 @@ struct BrickDraft {
     PrimitiveKind kind{};
     std::uint32_t plane = 0;  ///< PrimitiveValues::plane() of all of them, if they need it
 
-    std::size_t bytes() const { return block_bytes({.kind = kind, .count = count, .has_plane = plane != 0}); }
+    std::size_t bytes() const {
+      return block_bytes({.kind = kind, .count = count, .plane = plane != 0 ? BlockHeader::shared_plane : std::uint8_t{0}});
+    }
   };
   Brick brick;                   ///< without the addresses of its children
   Address address = no_address;  ///< of a brick of the forest, once there is room
@@ -46,7 +48,7 @@ struct BrickTree {
   void take_forest_room(RecordWriter& writer, std::size_t page_size);
   /// Writes the records, for which room has been taken and made.
   void write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
-             std::span<const FacePlane> planes, RecordWriter& writer) const;
+             std::span<const KeptPlane> planes, RecordWriter& writer) const;
 };
 
 }  // namespace dmpc::core

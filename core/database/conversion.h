@@ -33,9 +33,10 @@ struct Conversion {
   std::vector<CollapsedPrimitive> collapsed;  ///< of those, what was not degenerate before it was rounded
   std::uint32_t dropped = 0;                  ///< degenerate: zero area or length, radius 0, not finite
   // What settle_coplanar() adds, and drop_twins():
-  std::vector<FacePlane> planes;    ///< by PrimitiveValues::plane() - 1
+  std::vector<KeptPlane> planes;    ///< by PrimitiveValues::plane() - 1
   std::uint32_t shared_planes = 0;  ///< in all: `planes`, and those that a coordinate tells
   std::uint32_t duplicates = 0;     ///< triangles left out
+  std::vector<CloseFaces> close_faces;
 };
 
 /// The bounds of what is finite in the scene, in the directions of `axes`.

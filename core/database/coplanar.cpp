@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "core/database/cover_finder.h"
+#include "core/database/exact_corners.h"
 #include "core/database/face.h"
+#include "core/database/face_stack.h"
 #include "core/database/plane_buckets.h"
 #include "core/database/twins.h"
+#include "core/scene/frame.h"
 
 namespace dmpc::core {
 namespace {
@@ -20,8 +23,35 @@ constexpr int rounds_max = 16;
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Pairs of a top cell's triangles that cover each other, or lead from one to the other of such.
-Pairs covering_pairs(const Conversion& conversion, std::span<const std::uint32_t> ids) {
+/// Pairs of triangles that cover each other, or lead from one to the other of such.
+struct CoveringPairs {
+  Pairs coplanar;  ///< in one plane, by what records say of them
+  Pairs close;     ///< these, and what is near
+
+  void look_at(std::span<const Face> faces, const BucketSize& size) {
+    const PlaneBuckets buckets = fill_plane_buckets(faces, size);
+    if (buckets.buckets.empty()) {
+      return;
+    }
+    CoverFinder finder(faces);
+    for (const PlaneBucket& bucket : buckets.buckets) {
+      finder.look_at(buckets.faces_of(bucket), bucket.axis);
+    }
+    coplanar.insert(coplanar.end(), finder.coplanar().begin(), finder.coplanar().end());
+    close.insert(close.end(), finder.close().begin(), finder.close().end());
+  }
+};
+
+/// Where doubles know of triangles.
+struct Exactly {
+  const Conversion& conversion;
+  const Scene& scene;
+  const GridFrame& frame;
+};
+
+/// Those of a top cell.
+CoveringPairs covering_pairs(const Exactly& exactly, std::span<const std::uint32_t> ids) {
+  const Conversion& conversion = exactly.conversion;
   std::vector<Face> faces;
   faces.reserve(ids.size());
   for (const std::uint32_t id : ids) {
@@ -29,47 +59,107 @@ Pairs covering_pairs(const Conversion& conversion, std::span<const std::uint32_t
       faces.emplace_back(conversion.primitives[id], id, conversion.sources[id].object);
     }
   }
-  const PlaneBuckets buckets = fill_plane_buckets(faces);
-  if (buckets.buckets.empty()) {
-    return {};
+  CoveringPairs pairs;
+  pairs.look_at(faces, fine_buckets);
+  if (put_exact_corners(exactly.scene, exactly.frame, conversion, faces)) {
+    CoveringPairs by_doubles;
+    by_doubles.look_at(faces, coarse_buckets);
+    pairs.close.insert(pairs.close.end(), by_doubles.close.begin(), by_doubles.close.end());
   }
-  CoverFinder finder(faces);
-  for (const PlaneBucket& bucket : buckets.buckets) {
-    finder.look_at(buckets.faces_of(bucket), bucket.axis);
-  }
-  return finder.found();
+  return pairs;
 }
 
-/// Triangles that cover each other, in sets of two or more.
-std::vector<Ids> covering_sets(const Conversion& conversion, const TopCells& cells, const Parallel& parallel) {
-  std::vector<Pairs> pairs(cells.size());
-  parallel.for_each(cells.size(), [&](std::size_t cell) { pairs[cell] = covering_pairs(conversion, cells.ids(cell)); });
-  if (std::all_of(pairs.begin(), pairs.end(), [](const Pairs& some) { return some.empty(); })) {
-    return {};
+/// Sets of ids, of two or more each.
+class FaceSets {
+ public:
+  explicit FaceSets(std::size_t primitive_count) : sets_(primitive_count) {}
+
+  void add(std::uint32_t a, std::uint32_t b) {
+    sets_.merge(a, b);
+    ids_.insert(ids_.end(), {a, b});
   }
-  MergedSets sets(conversion.primitives.size());
-  Ids ids;
-  for (const Pairs& some : pairs) {
-    for (const auto& [a, b] : some) {
-      sets.merge(a, b);
-      ids.insert(ids.end(), {a, b});
+  void add_all(const Pairs& pairs) {
+    for (const auto& [a, b] : pairs) {
+      add(a, b);
     }
   }
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_set;
-  for (const std::uint32_t id : ids) {
-    by_set.emplace_back(sets.least_with(id), id);
-  }
-  std::sort(by_set.begin(), by_set.end());
-  std::vector<Ids> result;
-  for (std::size_t first = 0, last = 0; first < by_set.size(); first = last) {
-    result.emplace_back();
-    for (last = first; last < by_set.size() && by_set[last].first == by_set[first].first; ++last) {
-      result.back().push_back(by_set[last].second);
+  std::vector<Ids> sets() {
+    std::sort(ids_.begin(), ids_.end());
+    ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> by_set;
+    for (const std::uint32_t id : ids_) {
+      by_set.emplace_back(sets_.least_with(id), id);
     }
+    std::sort(by_set.begin(), by_set.end());
+    std::vector<Ids> result;
+    for (std::size_t first = 0, last = 0; first < by_set.size(); first = last) {
+      result.emplace_back();
+      for (last = first; last < by_set.size() && by_set[last].first == by_set[first].first; ++last) {
+        result.back().push_back(by_set[last].second);
+      }
+    }
+    return result;
   }
-  return result;
+
+ private:
+  MergedSets sets_;
+  Ids ids_;
+};
+
+/// Triangles that cover each other.
+struct CoveringSets {
+  FaceSets coplanar, close;
+};
+
+CoveringSets covering_sets(const Exactly& exactly, const TopCells& cells, const Parallel& parallel) {
+  std::vector<CoveringPairs> pairs(cells.size());
+  parallel.for_each(cells.size(), [&](std::size_t cell) { pairs[cell] = covering_pairs(exactly, cells.ids(cell)); });
+  const bool is_none = std::all_of(pairs.begin(), pairs.end(), [](const CoveringPairs& some) { return some.close.empty(); });
+  const std::size_t count = is_none ? 0 : exactly.conversion.primitives.size();
+  CoveringSets sets{FaceSets(count), FaceSets(count)};
+  for (const CoveringPairs& some : pairs) {
+    sets.coplanar.add_all(some.coplanar);
+    sets.close.add_all(some.close);
+  }
+  return sets;
+}
+
+/// Sets of triangles as doubles have them, each polygon of which is divided once.
+class ExactSets {
+ public:
+  ExactSets(const Exactly& exactly, std::vector<Ids> sets) : sets_(std::move(sets)) {
+    for (const Ids& set : sets_) {
+      ids_.insert(ids_.end(), set.begin(), set.end());
+    }
+    std::sort(ids_.begin(), ids_.end());
+    faces_ = exact_faces(exactly.scene, exactly.frame, exactly.conversion, ids_);
+  }
+
+  const std::vector<Ids>& sets() const { return sets_; }
+  FaceStack stack_of(const Ids& set) const {
+    std::vector<Face> faces;
+    faces.reserve(set.size());
+    for (const std::uint32_t id : set) {
+      faces.push_back(faces_[static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin())]);
+    }
+    return stack_faces(faces);
+  }
+
+ private:
+  std::vector<Ids> sets_;
+  Ids ids_;
+  std::vector<Face> faces_;
+};
+
+/// Adds the other triangles of a triangle's polygon, which come one behind the other.
+void add_polygon(const Conversion& conversion, std::uint32_t id, FaceSets& sets) {
+  const auto is_of_it = [&](std::uint32_t other) { return conversion.sources[other].object == conversion.sources[id].object; };
+  for (std::uint32_t other = id; other > 0 && is_of_it(other - 1); --other) {
+    sets.add(other - 1, other);
+  }
+  for (std::uint32_t other = id + 1; other < conversion.sources.size() && is_of_it(other); ++other) {
+    sets.add(other - 1, other);
+  }
 }
 
 /// The plane nearest to all corners, in the direction of `axis`, by least squares.
@@ -113,8 +203,9 @@ class Planes {
  public:
   explicit Planes(Conversion& conversion) : conversion_(conversion) {}
 
-  /// How many sets have a coordinate in common, by which their plane is known.
+  /// How many sets have a coordinate in common, by which their plane is known, and how many share another one.
   std::uint32_t level_count() const { return level_count_; }
+  std::uint32_t count() const { return count_; }
 
   /// Gives a set its plane: that of its largest triangle if all lie in it, which keeps planes along the axes exact, else the one
   /// nearest to all. Those that lie in neither get planes of their own.
@@ -162,7 +253,8 @@ class Planes {
       (lies_in(faces[i], plane) ? members : others).push_back(ids[i]);
     }
     if (members.size() > 1) {
-      conversion_.planes.push_back(plane);
+      conversion_.planes.push_back({plane});
+      ++count_;
     }
     for (const std::uint32_t id : members) {
       conversion_.primitives[id].lie_in(members.size() > 1 ? static_cast<std::uint32_t>(conversion_.planes.size()) : 0);
@@ -171,7 +263,7 @@ class Planes {
   }
 
   Conversion& conversion_;
-  std::uint32_t level_count_ = 0;
+  std::uint32_t level_count_ = 0, count_ = 0;
 };
 
 /// By who shows where triangles cover each other: what transmits comes after what does not.
@@ -198,32 +290,137 @@ void take_duplicates(const Conversion& conversion, Ids& set, Ids& duplicates) {
   set = std::move(kept);
 }
 
-}  // namespace
+/// Gives the faces of a conversion that cover each other their planes and their places.
+class Settler {
+ public:
+  Settler(Conversion& conversion, std::span<const Material> materials)
+      : conversion_(conversion), materials_(materials), planes_(conversion), from_(conversion.primitives.size()) {
+    std::iota(from_.begin(), from_.end(), 0U);
+  }
 
-bool settle_coplanar(Conversion& conversion, const TopCells& cells, std::span<const Material> materials,
-                     const Parallel& parallel) {
-  std::vector<Ids> sets = covering_sets(conversion, cells, parallel);
-  if (sets.empty()) {
+  /// Of a set that lies in one plane, for doubles as for floats.
+  void share(Ids set) {
+    settle(set);
+    planes_.share(set);
+  }
+  void stack(FaceStack stack) {
+    for (FaceStack::Layer& layer : stack.layers) {
+      settle(layer.ids);
+      stacked_shared_ += is_shared(layer.ids) ? 1 : 0;
+      conversion_.planes.push_back(layer.plane);
+      for (const std::uint32_t id : layer.ids) {
+        conversion_.primitives[id].lie_in(static_cast<std::uint32_t>(conversion_.planes.size()));
+      }
+    }
+  }
+  void finish() {
+    std::sort(duplicates_.begin(), duplicates_.end());
+    std::erase_if(from_, [&](std::uint32_t id) { return std::binary_search(duplicates_.begin(), duplicates_.end(), id); });
+    conversion_.shared_planes = planes_.level_count() + planes_.count() + stacked_shared_;
+    conversion_.duplicates += static_cast<std::uint32_t>(duplicates_.size());
+    rearrange(conversion_, from_);
+  }
+
+ private:
+  /// By several objects.
+  bool is_shared(const Ids& layer) const {
+    const auto object_of = [&](std::uint32_t id) { return conversion_.sources[id].object; };
+    return std::any_of(layer.begin(), layer.end(), [&](std::uint32_t id) { return object_of(id) != object_of(layer[0]); });
+  }
+  /// Brings faces of one plane into the order by which they show, and takes out which are there twice.
+  void settle(Ids& set) {
+    const Ids places = set;
+    sort_by_precedence(set, conversion_, materials_);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      from_[places[i]] = set[i];
+    }
+    take_duplicates(conversion_, set, duplicates_);
+  }
+
+  Conversion& conversion_;
+  std::span<const Material> materials_;
+  Planes planes_;
+  Ids from_, duplicates_;
+  std::uint32_t stacked_shared_ = 0;
+};
+
+/// For certain, and without dividing polygons: the corners of all polygons of a set have a coordinate in common, as doubles have
+/// it.
+bool is_level(const Exactly& exactly, const Ids& set) {
+  const auto corners_of = [&](std::uint32_t id) {
+    const Object& object = exactly.scene.objects[exactly.conversion.sources[id].object];
+    return std::span(exactly.scene.vertices).subspan(object.first, object.vertex_count);
+  };
+  const auto local = [&](const Vec3d& corner) { return to_local(exactly.frame, corner); };
+  const Vec3d first = local(corners_of(set[0])[0]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::all_of(set.begin(), set.end(), [&](std::uint32_t id) {
+          const auto corners = corners_of(id);
+          return std::all_of(corners.begin(), corners.end(), [&](const Vec3d& at) { return local(at)[axis] == first[axis]; });
+        })) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Adds to sets that doubles take apart the other triangles of their polygons, and to `merged` what they cannot. Returns whether
+/// there are any of the former.
+bool add_polygons(const Exactly& exactly, FaceSets& close, std::vector<CloseFaces>& merged) {
+  std::vector<Ids> doubtful = close.sets();
+  std::erase_if(doubtful, [&](const Ids& set) { return is_level(exactly, set); });
+  const ExactSets exact(exactly, std::move(doubtful));
+  bool found = false;
+  for (const Ids& set : exact.sets()) {
+    const FaceStack stack = exact.stack_of(set);
+    if (stack.layers.size() > 1) {
+      std::for_each(set.begin(), set.end(), [&](std::uint32_t id) { add_polygon(exactly.conversion, id, close); });
+      found = true;
+    } else {
+      merged.insert(merged.end(), stack.blurred.begin(), stack.blurred.end());
+    }
+  }
+  return found;
+}
+
+/// Returns whether there are any.
+bool settle(Conversion& conversion, std::span<const Material> materials, std::vector<Ids> sets, std::vector<FaceStack> stacks) {
+  if (sets.empty() && stacks.empty()) {
     return false;
   }
-  Planes planes(conversion);
-  Ids from(conversion.primitives.size()), duplicates;
-  std::iota(from.begin(), from.end(), 0U);
+  Settler settler(conversion, materials);
   for (Ids& set : sets) {
-    Ids places = set;
-    sort_by_precedence(set, conversion, materials);
-    for (std::size_t i = 0; i < set.size(); ++i) {
-      from[places[i]] = set[i];
-    }
-    take_duplicates(conversion, set, duplicates);
-    planes.share(set);
+    settler.share(std::move(set));
   }
-  std::sort(duplicates.begin(), duplicates.end());
-  std::erase_if(from, [&](std::uint32_t id) { return std::binary_search(duplicates.begin(), duplicates.end(), id); });
-  conversion.shared_planes = planes.level_count() + static_cast<std::uint32_t>(conversion.planes.size());
-  conversion.duplicates += static_cast<std::uint32_t>(duplicates.size());
-  rearrange(conversion, from);
+  for (FaceStack& stack : stacks) {
+    settler.stack(std::move(stack));
+  }
+  settler.finish();
   return true;
+}
+
+}  // namespace
+
+bool settle_coplanar(Conversion& conversion, const TopCells& cells, const Scene& scene, const GridFrame& frame,
+                     const Parallel& parallel) {
+  const Exactly exactly{conversion, scene, frame};
+  CoveringSets found = covering_sets(exactly, cells, parallel);
+  std::vector<FaceStack> stacks;
+  std::vector<bool> is_stacked(conversion.primitives.size());
+  if (add_polygons(exactly, found.close, conversion.close_faces)) {
+    const ExactSets exact(exactly, found.close.sets());
+    for (const Ids& set : exact.sets()) {
+      FaceStack stack = exact.stack_of(set);
+      if (stack.layers.size() > 1) {
+        conversion.close_faces.insert(conversion.close_faces.end(), stack.blurred.begin(), stack.blurred.end());
+        stacks.push_back(std::move(stack));
+        std::for_each(set.begin(), set.end(), [&](std::uint32_t id) { is_stacked[id] = true; });
+      }
+    }
+  }
+  std::vector<Ids> sets = found.coplanar.sets();
+  std::erase_if(sets, [&](const Ids& set) { return is_stacked[set[0]]; });
+  return settle(conversion, scene.materials, std::move(sets), std::move(stacks));
 }
 
 }  // namespace dmpc::core

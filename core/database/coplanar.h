@@ -17,12 +17,17 @@ namespace dmpc::core {
 /// it lies on, whose place in the file it takes: whoever looks through a glass box at the floor below it sees the floor. Of
 /// triangles with the same three corners only the first is kept.
 ///
+/// What the file's doubles tell apart stays apart, a poster before a wall, the two sides of a pane: where faces that cover each
+/// other are not in one plane for doubles, but for floats, or nearer than rays start off a triangle, they and all triangles of
+/// their polygons get the planes that doubles say (core/database/face_stack.h); those in each are settled by themselves, as
+/// above.
+///
 /// What shares an edge or a corner does not cover. Without triangles that cover each other nothing changes. Not judged are
 /// triangles lower than a 2^13th of the scene, unless a coordinate is the same at all their corners: rounding turns them too far.
 /// Where very many lie in a plane, those are taken to cover each other. Takes time in proportion to the triangles.
 ///
-/// Returns whether there are any: then ids are no longer those of `cells`, which listed the triangles.
-bool settle_coplanar(Conversion& conversion, const TopCells& cells, std::span<const Material> materials,
+/// `cells` lists the triangles of `scene`, which still has its objects. Returns whether there are any: then ids are others.
+bool settle_coplanar(Conversion& conversion, const TopCells& cells, const Scene& scene, const GridFrame& frame,
                      const Parallel& parallel);
 
 }  // namespace dmpc::core

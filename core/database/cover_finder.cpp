@@ -164,13 +164,24 @@ bool CoverFinder::look_at_square(std::size_t axis, std::span<const Entry> square
     };
     for (const Entry& other : square.subspan(others)) {
       const Seen& b = seen_[other.place];
-      if (meets(b) && sets_.least_with(a.face) != sets_.least_with(b.face) && cover(faces_[a.face], faces_[b.face], axis) &&
-          are_coplanar(faces_[a.face], faces_[b.face])) {
-        merge(a.face, b.face);
+      if (meets(b)) {
+        judge(a.face, b.face, axis);
       }
     }
   }
   return true;
+}
+
+void CoverFinder::judge(std::uint32_t a, std::uint32_t b, std::size_t axis) {
+  const bool is_known = close_.leads(a, b);
+  if ((is_known && coplanar_.leads(a, b)) || !cover(faces_[a], faces_[b], axis)) {
+    return;
+  }
+  if (are_coplanar(faces_[a], faces_[b])) {
+    merge(a, b, true);
+  } else if (!is_known && are_near(faces_[a], faces_[b])) {
+    merge(a, b, false);
+  }
 }
 
 /// Takes the largest, all that lie in its plane, the largest of the others, and so on.
@@ -182,15 +193,23 @@ void CoverFinder::look_at_planes(std::span<const std::uint32_t> some) {
     const auto others = std::partition(rest.begin(), rest.end(), [&](std::uint32_t face) {
       return face != largest && !are_coplanar(faces_[face], faces_[largest]);
     });
-    std::for_each(others, rest.end(), [&](std::uint32_t face) { merge(face, largest); });
+    std::for_each(others, rest.end(), [&](std::uint32_t face) { merge(face, largest, true); });
     rest.erase(others, rest.end());
   }
 }
 
-void CoverFinder::merge(std::uint32_t a, std::uint32_t b) {
-  if (sets_.least_with(a) != sets_.least_with(b)) {
-    sets_.merge(a, b);
-    found_.emplace_back(faces_[a].id, faces_[b].id);
+/// By doubles what is coplanar is merely close.
+void CoverFinder::merge(std::uint32_t a, std::uint32_t b, bool are_coplanar) {
+  merge_in(close_, a, b);
+  if (are_coplanar && !faces_[a].is_by_doubles && !faces_[b].is_by_doubles) {
+    merge_in(coplanar_, a, b);
+  }
+}
+
+void CoverFinder::merge_in(Found& found, std::uint32_t a, std::uint32_t b) {
+  if (!found.leads(a, b)) {
+    found.sets.merge(a, b);
+    found.pairs.emplace_back(faces_[a].id, faces_[b].id);
   }
 }
 

@@ -24,18 +24,20 @@ class MergedSets {
   std::vector<std::uint32_t> parents_;  ///< none above its child
 };
 
-/// Finds faces of different objects that lie in one plane and cover each other. Looks at those alone that share a square of a
-/// raster, as many as a number in proportion to the faces allows; beyond that it takes all that lie in the plane of the largest
-/// for covering it.
+/// Finds faces of different objects that lie in one plane, or in two that are near, and cover each other. Looks at those alone
+/// that share a square of a raster, as many as a number in proportion to the faces allows; beyond that it takes all that lie in
+/// the plane of the largest for covering it.
 class CoverFinder {
  public:
   /// The faces, of ascending ids, outlive the finder.
-  explicit CoverFinder(std::span<const Face> faces) : faces_(faces), sets_(faces.size()) {}
+  explicit CoverFinder(std::span<const Face> faces) : faces_(faces), coplanar_(faces), close_(faces) {}
 
   /// Looks at some of the faces, ascending, which can be looked at along `axis`.
   void look_at(std::span<const std::uint32_t> some, std::size_t axis);
-  /// Pairs of ids: what they lead from one to the other is all that covers each other.
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& found() const { return found_; }
+  /// Pairs of ids: what they lead from one to the other is all that covers each other in one plane, by what records say.
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& coplanar() const { return coplanar_.pairs; }
+  /// The same of all that covers each other in one plane or near to it.
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& close() const { return close_.pairs; }
 
  private:
   /// A face as seen along the axis.
@@ -48,6 +50,15 @@ class CoverFinder {
     std::uint32_t square, place;
   };
   class Raster;
+  /// What is found.
+  struct Found {
+    explicit Found(std::span<const Face> faces) : sets(faces.size()) {}
+
+    bool leads(std::uint32_t a, std::uint32_t b) { return sets.least_with(a) == sets.least_with(b); }
+
+    MergedSets sets;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  };
 
   void see(std::span<const std::uint32_t> some, std::size_t axis);
   void list_squares();
@@ -56,11 +67,12 @@ class CoverFinder {
   bool look_at_pairs(std::size_t axis);
   bool look_at_square(std::size_t axis, std::span<const Entry> square);
   void look_at_planes(std::span<const std::uint32_t> some);
-  void merge(std::uint32_t a, std::uint32_t b);
+  void judge(std::uint32_t a, std::uint32_t b, std::size_t axis);
+  void merge(std::uint32_t a, std::uint32_t b, bool are_coplanar);
+  void merge_in(Found& found, std::uint32_t a, std::uint32_t b);
 
   std::span<const Face> faces_;
-  MergedSets sets_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> found_;
+  Found coplanar_, close_;
   std::vector<Seen> seen_;
   std::vector<Entry> entries_, sorted_;
   std::vector<std::uint32_t> next_;  ///< by square: where its next entry goes

@@ -64,11 +64,12 @@ class DatabaseBuilder {
   Database build() {
     fit();
     conversion_ = convert(scene_, header().frame, parallel_);
+    TopCells cells = sort_into_top_cells();
+    const bool is_rearranged = settle_coplanar(conversion_, cells, scene_, header().frame, parallel_);
     if (expendable_ != nullptr) {
       forget_objects(*expendable_);
     }
-    TopCells cells = sort_into_top_cells();
-    if (settle_coplanar(conversion_, cells, scene_.materials, parallel_)) {
+    if (is_rearranged) {
       cells = sort_into_top_cells();
     }
     if (options_.structure == Structure::extents) {
@@ -84,6 +85,7 @@ class DatabaseBuilder {
     result_.primitives_ = std::move(conversion_.primitives);
     result_.sources_ = std::move(conversion_.sources);
     result_.collapsed_ = std::move(conversion_.collapsed);
+    result_.close_faces_ = std::move(conversion_.close_faces);
     result_.planes_ = std::move(conversion_.planes);
     result_.bytes_ = std::move(writer_).finish();
     result_.page_count_ = (result_.bytes_.size() - overread_bytes) / result_.page_size_;
@@ -127,7 +129,7 @@ class DatabaseBuilder {
         return std::move(*cells);
       }
       const bool is_first_try = !std::exchange(has_looked_for_twins_, true);
-      if (!is_first_try || !drop_twins(conversion_, scene_.materials)) {
+      if (!is_first_try || !drop_twins(conversion_, scene_, header().frame)) {
         coarsen();
       }
     }

@@ -42,6 +42,19 @@ struct CollapsedPrimitive {
   float size = 0;  ///< what it would have across, grid-local
 };
 
+/// Two faces that cover each other in planes of which neither is before the other everywhere, or next to which too many others
+/// lie, or that not even doubles tell apart on a ray: where t is the same for both, the first in the file shows.
+struct CloseFaces {
+  Vec3f place;                ///< of the smaller one, grid-local
+  float size = 0;             ///< its longest edge
+  float least = 0, most = 0;  ///< how far one is from the plane of the other
+};
+
+/// A plane that blocks tell, and what their headers say of it.
+struct KeptPlane : FacePlane {
+  std::uint8_t kept_as = BlockHeader::shared_plane;  ///< BlockHeader::plane
+};
+
 /// One primitive as its records hold it, for the oracle and the referee. Rows as in BlockHeader.
 struct PrimitiveValues {
   PrimitiveKind kind{};
@@ -89,7 +102,7 @@ class Database {
   std::span<const PrimitiveValues> primitives() const { return primitives_; }
   std::span<const PrimitiveSource> sources() const { return sources_; }
   /// By PrimitiveValues::plane() - 1.
-  std::span<const FacePlane> planes() const { return planes_; }
+  std::span<const KeptPlane> planes() const { return planes_; }
   /// Where some copy of primitive `id` lies: what Hit::block and Hit::lane of a hit on it may be.
   struct Place {
     Address block = no_address;
@@ -105,6 +118,7 @@ class Database {
   }
   /// Those of dropped() that have a size in the scene.
   std::span<const CollapsedPrimitive> collapsed() const { return collapsed_; }
+  std::span<const CloseFaces> close_faces() const { return close_faces_; }
 
   /// Frees primitives(), sources() and planes(): for when no oracle, no referee and no message will ask.
   void forget_primitives() {
@@ -136,7 +150,8 @@ class Database {
   std::vector<PrimitiveValues> primitives_;
   std::vector<PrimitiveSource> sources_;
   std::vector<CollapsedPrimitive> collapsed_;
-  std::vector<FacePlane> planes_;
+  std::vector<CloseFaces> close_faces_;
+  std::vector<KeptPlane> planes_;
   std::uint32_t dropped_ = 0, duplicates_ = 0, shared_planes_ = 0;
   std::uint64_t references_ = 0;
   RecordCounts records_;

@@ -30,20 +30,42 @@ bool edge_separates(const std::array<Flat, 3>& a, const std::array<Flat, 3>& b) 
   return false;
 }
 
-}  // namespace
+/// How high a corner of a triangle is above the plane of another one, and how far rounding may have moved it there.
+struct Height {
+  double height, moved;
+};
 
-bool are_coplanar(const Face& a, const Face& b) {
+/// Of the corners of the smaller one above the larger one.
+std::array<Height, 3> heights_between(const Face& a, const Face& b) {
   const Face& large = a.altitude >= b.altitude ? a : b;
   const Face& small = a.altitude >= b.altitude ? b : a;
   const Vec3d middle = large.middle();
-  for (const Vec3d& corner : small.corner) {
+  std::array<Height, 3> heights{};
+  for (std::size_t i = 0; i < 3; ++i) {
     // The larger one's own plane is turned by what rounding does to its corners.
-    const double turned = 2 * length(corner - middle) / large.altitude;
-    if (std::fabs(large.plane.height_of(corner)) > small.moved + large.moved * (1 + turned)) {
-      return false;
-    }
+    const double turned = 2 * length(small.corner[i] - middle) / large.altitude;
+    heights[i] = {large.plane.height_of(small.corner[i]), small.moved + large.moved * (1 + turned)};
   }
-  return true;
+  return heights;
+}
+
+}  // namespace
+
+bool are_coplanar(const Face& a, const Face& b) {
+  const std::array<Height, 3> heights = heights_between(a, b);
+  return std::all_of(heights.begin(), heights.end(),
+                     [](const Height& corner) { return std::fabs(corner.height) <= corner.moved; });
+}
+
+bool are_near(const Face& a, const Face& b) {
+  const std::array<Height, 3> heights = heights_between(a, b);
+  const double tie = tie_share * std::min(a.longest(), b.longest());
+  const auto near = [&](const Height& corner) { return near_roundings * corner.moved + tie; };
+  const auto leans = [&](const Height& corner) { return std::fabs(corner.height) > leaning_nears * near(corner); };
+  const auto is_above = [&](const Height& corner) { return corner.height > near(corner); };
+  const auto is_below = [&](const Height& corner) { return corner.height < -near(corner); };
+  return std::none_of(heights.begin(), heights.end(), leans) && !std::all_of(heights.begin(), heights.end(), is_above) &&
+         !std::all_of(heights.begin(), heights.end(), is_below);
 }
 
 bool cover(const Face& a, const Face& b, std::size_t axis) {

@@ -19,16 +19,19 @@ inline constexpr double corner_rounding = 0x1p-25;
 
 /// `id`: of the primitive; `object`: that it is of.
 struct Face {
-  Face(const PrimitiveValues& triangle, std::uint32_t primitive, std::uint32_t of_object) : id(primitive), object(of_object) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      corner[i] = triangle.vector(3 * i);
-    }
+  /// As records have it.
+  Face(const PrimitiveValues& triangle, std::uint32_t primitive, std::uint32_t of_object)
+      : Face({triangle.vector(0), triangle.vector(3), triangle.vector(6)}, {}, corner_rounding, primitive, of_object) {}
+  /// Its coordinates, and those `beside` them that they were reckoned with, are off by this share.
+  Face(const std::array<Vec3d, 3>& corners, const Vec3d& beside, double rounding, std::uint32_t primitive,
+       std::uint32_t of_object)
+      : corner(corners), id(primitive), object(of_object) {
     const Vec3d area = cross(corner[1] - corner[0], corner[2] - corner[0]);
     const double twice = length(area);
     plane.normal = area * (1.0 / twice);
     plane.offset = dot(plane.normal, corner[0]);
     for (const Vec3d& at : corner) {
-      moved = std::max(moved, corner_rounding * dot_of_magnitudes(plane.normal, at));
+      moved = std::max(moved, rounding * (dot_of_magnitudes(plane.normal, at) + dot_of_magnitudes(plane.normal, beside)));
     }
     altitude = least_altitude(corner[1] - corner[0], corner[2] - corner[1], corner[0] - corner[2], twice);
   }
@@ -39,6 +42,15 @@ struct Face {
     const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
     return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
   }
+  /// Whether all of it has one coordinate along its main axis.
+  bool is_level() const {
+    const std::size_t main = main_axis();
+    return corner[0][main] == corner[1][main] && corner[0][main] == corner[2][main];
+  }
+  /// The length of its longest edge.
+  double longest() const {
+    return std::max({length(corner[1] - corner[0]), length(corner[2] - corner[1]), length(corner[0] - corner[2])});
+  }
   Vec3d middle() const { return (corner[0] + corner[1] + corner[2]) * (1.0 / 3); }
 
   std::array<Vec3d, 3> corner;
@@ -46,6 +58,7 @@ struct Face {
   double altitude = 0;  ///< the least of the three
   double moved = 0;     ///< how far rounding moves a corner across the plane at most
   std::uint32_t id, object;
+  bool is_by_doubles = false;  ///< its corners are not rounded, so that its slopes are known, though `moved` is what floats do
 };
 
 /// Triangles that lie side by side may cover each other by so much.
@@ -53,6 +66,16 @@ inline constexpr double sliver = 0x1p-22;
 
 /// Whether two triangles lie in one plane but for rounding.
 bool are_coplanar(const Face& a, const Face& b);
+
+/// Planes that are apart, but no farther than so many times what rounding moves them by, are near: a ray that starts on one
+/// starts behind the other (core/picture/triangle_hit.h).
+inline constexpr double near_roundings = 16;
+/// And no farther than this share of a face: whoever sees it from some sizes of it away meets both at one t, in float.
+inline constexpr double tie_share = 0x1p-20;
+/// Whether some corner of the smaller of two triangles is near to the plane of the other, or they lie on both of its sides, and
+/// none is `leaning_nears` times as far.
+bool are_near(const Face& a, const Face& b);
+inline constexpr double leaning_nears = 64;
 
 /// Whether two triangles of one plane cover each other, seen along an axis, by more than rounding does to triangles side by side.
 bool cover(const Face& a, const Face& b, std::size_t axis);

@@ -12,9 +12,6 @@
 namespace dmpc::core {
 namespace {
 
-/// A bucket's edge in slopes, and in heights as a share of the space that the faces take.
-constexpr double bucket_edge = 0x1p-9;
-
 /// A bucket that a face is in. Two buckets have one key by chance alone, and then lose nothing by it.
 struct Filing {
   std::uint64_t key;  ///< the lowest bits: the axis
@@ -41,9 +38,10 @@ struct Surroundings {
 
 /// Buckets along one of the space's dimensions.
 struct Range {
-  Range(double value, double error)
-      : first(static_cast<std::int32_t>(std::floor((value - error) / bucket_edge))),
-        last(static_cast<std::int32_t>(std::floor((value + error) / bucket_edge))) {}
+  Range(double value, double error, double edge) : first(bucket_of(value - error, edge)), last(bucket_of(value + error, edge)) {}
+
+  /// Planes along an axis, which many are, lie in the middle of one.
+  static std::int32_t bucket_of(double value, double edge) { return static_cast<std::int32_t>(std::floor(value / edge + 0.5)); }
 
   std::int32_t first, last;
 };
@@ -57,7 +55,9 @@ std::uint64_t key_of(std::size_t axis, std::int32_t slope, std::int32_t other_sl
 /// Finds the buckets of faces, and sorts out what is alone in its bucket, or with others of its object: that is most of a scene.
 class BucketFiller {
  public:
-  explicit BucketFiller(std::span<const Face> faces) : faces_(faces), around_(faces) { filings_.reserve(2 * faces.size()); }
+  BucketFiller(std::span<const Face> faces, const BucketSize& size) : faces_(faces), size_(size), around_(faces) {
+    filings_.reserve(2 * faces.size());
+  }
 
   std::vector<Filing> fill() {
     for (std::uint32_t i = 0; i < faces_.size(); ++i) {
@@ -71,10 +71,11 @@ class BucketFiller {
 
   void add(const Face& face, std::uint32_t index) {
     const std::size_t main = face.main_axis();
-    const bool is_level = face.corner[0][main] == face.corner[1][main] && face.corner[0][main] == face.corner[2][main];
+    const bool is_level = face.is_level();
     // Corners that move across the plane turn the normal; slopes change by up to three times as much.
-    const double error = is_level ? 0.0 : 8 * face.moved / face.altitude;
-    if (!(error < bucket_edge)) {
+    const double turned = 8 * face.moved / face.altitude, by_rounding = is_level || face.is_by_doubles ? 0.0 : turned;
+    const double error = is_level ? 0.0 : std::max(by_rounding, std::min(near_roundings * turned, size_.leaning));
+    if (!(error < size_.edge)) {
       return;
     }
     // A plane between two axes may face either, for another triangle.
@@ -92,9 +93,12 @@ class BucketFiller {
     const double one_over = 1 / normal[axis], slope = -normal[next] * one_over, other_slope = -normal[last] * one_over;
     const Vec3d away = around_.middle - face.corner[0];
     const double height = (slope * away[next] + other_slope * away[last] - away[axis]) / around_.size;
-    const double height_error =
-        std::min((8 * face.moved + error * (std::fabs(away[next]) + std::fabs(away[last]))) / around_.size, bucket_edge);
-    const Range slopes(slope, error), other_slopes(other_slope, error), heights(height, height_error);
+    const double height_error = std::min((8 * (near_roundings * face.moved + tie_share * face.altitude) +
+                                          error * (std::fabs(away[next]) + std::fabs(away[last]))) /
+                                             around_.size,
+                                         size_.edge);
+    const Range slopes(slope, error, size_.edge), other_slopes(other_slope, error, size_.edge),
+        heights(height, height_error, size_.edge);
     for (std::int32_t i = slopes.first; i <= slopes.last; ++i) {
       for (std::int32_t j = other_slopes.first; j <= other_slopes.last; ++j) {
         for (std::int32_t k = heights.first; k <= heights.last; ++k) {
@@ -148,15 +152,16 @@ class BucketFiller {
   }
 
   std::span<const Face> faces_;
+  BucketSize size_;
   Surroundings around_;
   std::vector<Filing> filings_;
 };
 
 }  // namespace
 
-PlaneBuckets fill_plane_buckets(std::span<const Face> faces) {
+PlaneBuckets fill_plane_buckets(std::span<const Face> faces, const BucketSize& size) {
   PlaneBuckets result;
-  const std::vector<Filing> filings = BucketFiller(faces).fill();
+  const std::vector<Filing> filings = BucketFiller(faces, size).fill();
   for (std::size_t first = 0, last = 0; first < filings.size(); first = last) {
     bool has_several = false;
     for (last = first; last < filings.size() && filings[last].key == filings[first].key; ++last) {

@@ -33,6 +33,23 @@ void triangle_geometry(HitState& state, const BlockLane& lane, const FacePlane* 
   state.clearance = Clearance::of_flat(clearance_of(corner, edge1, edge2, state.geometric_normal, state.u, state.v, t));
 }
 
+/// In an exact plane, which lies next to others: the corners are brought there first, so that rays that slant to it meet it where
+/// they do, and rays start off it by what doubles are off.
+void exact_geometry(HitState& state, const BlockLane& lane, const FacePlane& plane) {
+  const auto in_plane = [&](const Vec3d& point) { return point - plane.normal * plane.height_of(point); };
+  const Vec3d corner = in_plane(lane.vector(0)), edge1 = in_plane(lane.vector(3)) - corner,
+              edge2 = in_plane(lane.vector(6)) - corner;
+  const Vec3d origin = state.ray.full_origin(), direction = state.ray.full_direction();
+  find_weights(edge1, edge2, origin - corner, direction, place_of(origin, direction, double{state.hit.t}),
+               [&](double u, double v) {
+                 state.u = u;
+                 state.v = v;
+               });
+  state.point = in_plane(point_at(corner, edge1, edge2, state.u, state.v));
+  state.geometric_normal = dot(plane.normal, cross(edge1, edge2)) < 0.0 ? -plane.normal : plane.normal;
+  state.clearance = Clearance::of_flat(exact_clearance_of(edge1, edge2, plane.normal, state.point, state.u, state.v));
+}
+
 void sphere_geometry(HitState& state, const BlockLane& lane) {
   const CurvedValues sphere(PrimitiveKind::sphere, lane.rows, lane.stride, lane.lane);
   const Vec3d center = sphere.vector(0);
@@ -92,9 +109,9 @@ void read_geometry(HitState& state, const std::byte* record) {
   const BlockLane lane = lane_of(state, record);
   switch (header.kind) {
     case PrimitiveKind::triangle:
-      if (header.has_plane) {
+      if (header.has_plane()) {
         const FacePlane plane = plane_of(header, record);
-        triangle_geometry(state, lane, &plane);
+        header.has_exact_plane() ? exact_geometry(state, lane, plane) : triangle_geometry(state, lane, &plane);
       } else {
         triangle_geometry(state, lane, nullptr);
       }

@@ -17,6 +17,8 @@ namespace {
 constexpr double float_rounding = 0x1p-24, rest_rounding = 0x1p-32;
 /// The same of the place and the radius of one that passes by local zero.
 constexpr double passing_rounding = 0x1p-28, passing_radius_rounding = 0x1p-44;
+/// A unit in the last place of a hit's t, of its value at most.
+constexpr double tie_rounding = 0x1p-23;
 /// The eye counts as no nearer to a curved surface than this share of its radius, or of one that passes by local zero.
 constexpr double curve_nearest = 0x1p-20, passing_nearest = 0x1p-36;
 /// Triangles of one polygon among which its inner edges are looked for.
@@ -88,6 +90,7 @@ class LossFinder {
 
   RoundingLoss find() {
     count_collapsed();
+    count_swapped();
     const GridFrame& frame = database_.header().frame;
     if (may_matter({frame.low, grid_high(frame)})) {
       for (std::size_t id = 0; id < database_.primitives().size(); ++id) {
@@ -107,6 +110,20 @@ class LossFinder {
       const Vec3d offset = Vec3d(one.place) - camera_.eye();
       if (camera_.on_film(offset).z > 0) {
         loss_.collapsed_pixels = std::max(loss_.collapsed_pixels, pixels(double{one.size}, length(offset)));
+      }
+    }
+  }
+
+  /// Of two planes that cut each other the faces are swapped where they are nearer to each other than t tells.
+  void count_swapped() {
+    for (const CloseFaces& faces : database_.close_faces()) {
+      const Vec3d offset = Vec3d(faces.place) - camera_.eye();
+      const double distance = length(offset), tie = tie_rounding * distance, least{faces.least}, most{faces.most};
+      const double share = tie >= most ? 1.0 : tie > least ? (tie - least) / (most - least) : 0.0;
+      const double across = share * pixels(double{faces.size}, distance);
+      if (camera_.on_film(offset).z > 0 && across > rounding_allowed_pixels) {
+        ++loss_.swapped;
+        loss_.swapped_pixels = std::max(loss_.swapped_pixels, across);
       }
     }
   }

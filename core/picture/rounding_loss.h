@@ -18,8 +18,10 @@ struct RoundingLoss {
   double moved_pixels = 0;      ///< how far any of them, at most
   std::uint64_t collapsed = 0;  ///< primitives that are left out since their corners or ends fell together
   double collapsed_pixels = 0;  ///< how large the largest of them would be; 0 if all are behind the eye
+  std::uint64_t swapped = 0;    ///< faces that may show where another one, which covers them, is nearer, or be hidden by it
+  double swapped_pixels = 0;    ///< how far across that is, at most
 
-  bool is_none() const { return moved == 0 && collapsed == 0; }
+  bool is_none() const { return moved == 0 && collapsed == 0 && swapped == 0; }
 };
 
 /// What rounding takes of a database that has its primitives. It takes next to no time if the eye is well outside the scene, else

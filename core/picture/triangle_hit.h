@@ -16,6 +16,8 @@ namespace dmpc::core {
 /// It starts off by so much of the largest coordinates, each by its share in the normal: vertices of triangles are rounded to
 /// float, by 2^-25, and planes through others that were one plane may be off by a few times that.
 inline constexpr double flat_clearance = 0x1p-22;
+/// From a plane that doubles tell: what they leave of a ray's start, and of its way to the plane.
+inline constexpr double exact_clearance = 0x1p-47;
 /// But by no more of the way to the triangle's own edge, behind which another may stand at a sharp angle: rays that start near it
 /// must not start behind that one. Triangles that share an edge agree about it however near it is.
 inline constexpr double edge_clearance = 0x1p-6;
@@ -60,14 +62,24 @@ inline Vec3d point_at(const Vec3d& corner, const Vec3d& edge1, const Vec3d& edge
   return corner + edge1 * u + edge2 * v;
 }
 
+/// How far it is to the nearest edge from where the triangle has these weights, or less.
+inline double way_to_edge(const Vec3d& edge1, const Vec3d& edge2, double u, double v) {
+  return std::max(std::min(std::min(u, v), 1.0 - u - v), 0.0) * height_of(edge1, edge2);
+}
+
 /// How far off a triangle rays start that leave it where it has these weights, hit at t; `normal`: of its plane.
 inline double clearance_of(const Vec3d& corner, const Vec3d& edge1, const Vec3d& edge2, const Vec3d& normal, double u, double v,
                            double t) {
   const double rounding =
       flat_clearance * std::max(std::max(dot_of_magnitudes(normal, corner), dot_of_magnitudes(normal, corner + edge1)),
                                 dot_of_magnitudes(normal, corner + edge2));
-  const double to_edge = std::max(std::min(std::min(u, v), 1.0 - u - v), 0.0) * height_of(edge1, edge2);
-  return std::min(rounding + tie_clearance * t, edge_clearance * to_edge);
+  return std::min(rounding + tie_clearance * t, edge_clearance * way_to_edge(edge1, edge2, u, v));
+}
+
+/// The same of one in an exact plane, at `point`.
+inline double exact_clearance_of(const Vec3d& edge1, const Vec3d& edge2, const Vec3d& normal, const Vec3d& point, double u,
+                                 double v) {
+  return std::min(exact_clearance * dot_of_magnitudes(normal, point), edge_clearance * way_to_edge(edge1, edge2, u, v));
 }
 
 }  // namespace dmpc::core

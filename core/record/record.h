@@ -110,19 +110,30 @@ inline constexpr std::size_t block_lanes = 8;
 ///   triangle rows: v0.x v0.y v0.z v1.x .. v2.z
 ///   sphere rows:   centre.x .y .z radius, rests
 ///   cone rows:     base.x .y .z radius, apex (or axis: cone_floats.h) .x .y .z radius, rests of the first four, of the last four
-/// Rests: what rounding left of four values, the first lowest: a byte each or, of what passes by local zero, 4 bits a coordinate and
-/// 20 of the radius (core/record/curved_values.h).
-/// Behind the rows of a block that has_plane: the FacePlane of all its triangles.
+/// Rests: what rounding left of four values, the first lowest: a byte each or, of what passes by local zero, 4 bits a coordinate
+/// and 20 of the radius (core/record/curved_values.h). Behind the rows of a block that has_plane(): the FacePlane of all its
+/// triangles.
 struct BlockHeader {
   PrimitiveKind kind{};
   std::uint8_t count = 0;
-  bool has_plane = false;         ///< all share a plane that no axis stands on
+  /// 0: none. 1: all share a plane that no axis stands on. From exact_plane on: they lie in a plane of their own, which the
+  /// file's doubles say and floats cannot tell from others next to it; what is more is its layer among those.
+  std::uint8_t plane = 0;
   std::uint8_t shared_lanes = 0;  ///< a bit for each triangle that shares its plane with others (core/database/coplanar.h)
   /// In a part of a database (core/database/extract.h) what names the block in all parts, if its box reaches beyond each of the
   /// part's regions; else 0.
   std::uint32_t shared_name = 0;
+
+  static constexpr std::uint8_t shared_plane = 1, exact_plane = 2;
+  constexpr bool has_plane() const { return plane != 0; }
+  constexpr bool has_exact_plane() const { return plane >= exact_plane; }
+  /// Of an exact plane.
+  constexpr std::int32_t layer() const { return plane - exact_plane; }
 };
 static_assert(sizeof(BlockHeader) == 8);
+
+/// Layers of planes that lie so near to each other that a float t may be the same for several.
+inline constexpr std::int32_t plane_layers_max = 8;
 
 /// A plane that several triangles lie in, whose distance is that of them all: points p with dot(normal, p) == offset, grid-local.
 struct FacePlane {
@@ -142,7 +153,7 @@ constexpr std::size_t block_bytes(PrimitiveKind kind, std::size_t count) {
   return sizeof(BlockHeader) + count * 4 * (value_count(kind) + 2);
 }
 constexpr std::size_t block_bytes(const BlockHeader& header) {
-  return block_bytes(header.kind, header.count) + (header.has_plane ? sizeof(FacePlane) : 0);
+  return block_bytes(header.kind, header.count) + (header.has_plane() ? sizeof(FacePlane) : 0);
 }
 static_assert(block_bytes(PrimitiveKind::triangle, block_lanes) + sizeof(FacePlane) <= record_bytes_max);
 

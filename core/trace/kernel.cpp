@@ -272,8 +272,9 @@ std::uint32_t hit_shared_faces(const ShearedRay& ray, const std::byte* record, s
   std::uint32_t hits = 0;
   for (std::uint32_t rest = header.shared_lanes; rest != 0; rest &= rest - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-    const FacePlane plane = header.has_plane ? plane_of(header, record) : level_plane_of(triangles.rows, triangles.count, lane);
-    times[lane] = intersect_shared_face(ray, depth_of(ray, plane), triangles.rows, triangles.count, lane);
+    const FacePlane plane = header.has_plane() ? plane_of(header, record) : level_plane_of(triangles.rows, triangles.count, lane);
+    const float t = intersect_shared_face(ray, depth_of(ray, plane), triangles.rows, triangles.count, lane);
+    times[lane] = header.has_exact_plane() ? in_layer(t, ray, plane, header.layer()) : t;
     const auto id = read<std::uint32_t>(triangles.ids() + lane * sizeof(std::uint32_t));
     hits |= bit_if(times[lane] > 0.0F && times[lane] <= t_most && id != ignored, lane);
   }

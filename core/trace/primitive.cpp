@@ -1,6 +1,7 @@
 #include "core/trace/primitive.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -182,11 +183,28 @@ float intersect_triangle(const ShearedRay& ray, const float* rows, std::size_t s
   return std::fabs(t) < near_start ? judged(t, SeenTriangle(ray, rows + lane, stride)) : t;
 }
 
+namespace {
+
+/// How fast the ray rises above a plane along the axis on which it is sheared.
+double approach_of(const ShearedRay& ray, const FacePlane& plane) {
+  return plane.normal[ray.axis_x] * double{ray.shear_x} + plane.normal[ray.axis_y] * double{ray.shear_y} +
+         plane.normal[ray.axis_z];
+}
+
+}  // namespace
+
 double depth_of(const ShearedRay& ray, const FacePlane& plane) {
   const Vec3d origin = Vec3d(ray.origin) + Vec3d(ray.origin_rest);
-  const double approach =
-      plane.normal[ray.axis_x] * double{ray.shear_x} + plane.normal[ray.axis_y] * double{ray.shear_y} + plane.normal[ray.axis_z];
-  return -plane.height_of(origin) / approach;
+  return -plane.height_of(origin) / approach_of(ray, plane);
+}
+
+float in_layer(float t, const ShearedRay& ray, const FacePlane& plane, std::int32_t layer) {
+  if (!(t > 0.0F)) {
+    return t;
+  }
+  const bool goes_up = (approach_of(ray, plane) > 0.0) == (ray.scale_z > 0.0F);
+  const auto place = std::bit_cast<std::int32_t>(t);
+  return std::bit_cast<float>(goes_up ? place + layer : std::max(place - layer, 1));
 }
 
 FacePlane level_plane_of(const float* rows, std::size_t stride, std::size_t lane) {

@@ -65,6 +65,10 @@ FacePlane level_plane_of(const float* rows, std::size_t stride, std::size_t lane
 /// where a ray enters the boxes around it.
 float intersect_shared_face(const ShearedRay& ray, double plane_depth, const float* rows, std::size_t stride, std::size_t lane);
 
+/// The t of a hit in an exact plane, moved by as many units in the last place as the plane's layer says, so that planes between
+/// which a float cannot tell are met in their order: away where the ray goes up through the layers, else towards its start.
+float in_layer(float t, const ShearedRay& ray, const FacePlane& plane, std::int32_t layer);
+
 /// Spheres and cones: solved in double about the point of the ray nearest to the centre (base), so that distance cancels nothing;
 /// t rounded to float once. A negative radius shows the inside only. Nearest root with t > 0.
 float intersect_sphere(const Ray& ray, const float* rows, std::size_t stride, std::size_t lane);

@@ -31,7 +31,7 @@ constexpr std::size_t rays_max = 16;
 
 struct Subject {
   core::Database database;
-  apps::Referee referee{database.primitives()};
+  apps::Referee referee{database};
 };
 
 bool is_valid(const Ray& ray, const Hit& hit) {

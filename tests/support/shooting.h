@@ -29,9 +29,11 @@ inline float intersect(const core::Database& database, const core::PrimitiveValu
   if (triangle.plane() == 0) {
     return core::intersect_triangle(sheared, rows, 1, 0);
   }
-  const core::FacePlane plane =
-      triangle.needs_plane() ? database.planes()[triangle.plane() - 1] : core::level_plane_of(rows, 1, 0);
-  return core::intersect_shared_face(sheared, core::depth_of(sheared, plane), rows, 1, 0);
+  const core::KeptPlane plane =
+      triangle.needs_plane() ? database.planes()[triangle.plane() - 1] : core::KeptPlane{core::level_plane_of(rows, 1, 0)};
+  const core::BlockHeader header{.plane = plane.kept_as};
+  const float t = core::intersect_shared_face(sheared, core::depth_of(sheared, plane), rows, 1, 0);
+  return header.has_exact_plane() ? core::in_layer(t, sheared, plane, header.layer()) : t;
 }
 
 /// Every primitive by the scalar routines, in order.

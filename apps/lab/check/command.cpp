@@ -202,7 +202,7 @@ std::uint64_t print_report(std::ostream& output, const CheckOptions& options, co
   const auto width = static_cast<std::uint32_t>(camera.width());
   output << options.picture.scene << ": " << database.primitives().size() << " primitives, " << width << "x" << camera.height()
          << " pixels, our grid against Embree " << embree_version() << " (robust)\n";
-  const Referee referee(database.primitives());
+  const Referee referee(database);
   std::uint64_t unexplained = print_table(output, inspection);
   print_list(output, referee, inspection.differences, options.list, width);
   print_pixels(output, inspection.differing_pixels, camera.pixel_count());

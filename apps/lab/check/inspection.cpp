@@ -220,7 +220,7 @@ Inspection inspect(const core::Database& database, const EmbreeScene& scene, con
     harvest.join(trace_band(database, scene, settings, options, first, first + std::min(band, pixel_count - first)));
   }
   options.progress(pixel_count, pixel_count);
-  const Referee referee(database.primitives());
+  const Referee referee(database);
   return {.operations = harvest.operations,
           .differences = settle(referee, harvest.differences),
           .differing_pixels = count_differing(database, scene, settings, pixels_of(harvest.differences)),

@@ -16,7 +16,7 @@ double last_place(float t) { return double{std::nextafter(t, std::numeric_limits
 
 CertifiedHit certified(const core::Ray& ray, const core::PrimitiveValues& values, float t) {
   if (values.needs_plane()) {
-    return {};  // hit where the plane is that others share (core/database/coplanar.h), not where its own corners say
+    return {};  // hit where the plane is that others share or doubles say (core/database/coplanar.h), not its own corners
   }
   const core::Certificate certificate = core::certify(ray, values.kind, values.value.data(), 1, 0);
   if (!certificate.is_decided()) {

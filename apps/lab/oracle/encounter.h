@@ -31,12 +31,14 @@ struct Encounter {
 };
 
 /// Appends the encounters of `ray` with `primitive` that rounding may make a hit for one of the renderers: none or one for a
-/// triangle, up to two for a sphere or a cone. The bounds are derived in encounter.cpp. Thread-safe.
+/// triangle, up to two for a sphere or a cone. `exact`: the plane of a triangle that doubles tell, none of any other. The bounds
+/// are derived in encounter.cpp. Thread-safe.
 void add_encounters(const core::Ray& ray, const core::PrimitiveValues& values, std::uint32_t primitive,
-                    std::vector<Encounter>& encounters);
+                    std::vector<Encounter>& encounters, const core::FacePlane* exact = nullptr);
 
 /// Answers for reports, whether or not it is a hit: the encounter with the greatest margin. A ray that does not meet a curved
 /// primitive's full surface at all has margins of minus infinity.
-Encounter examine(const core::Ray& ray, const core::PrimitiveValues& values, std::uint32_t primitive);
+Encounter examine(const core::Ray& ray, const core::PrimitiveValues& values, std::uint32_t primitive,
+                  const core::FacePlane* exact = nullptr);
 
 }  // namespace dmpc::apps

@@ -63,12 +63,20 @@ std::vector<Encounter> Referee::encounters(const Ray& ray) const {
   }
   for (std::uint32_t id = 0; id < primitives_.size(); ++id) {
     if (id != ray.ignored_primitive || primitives_[id].kind != core::PrimitiveKind::triangle) {
-      add_encounters(ray, primitives_[id], id, met);
+      add_encounters(ray, primitives_[id], id, met, plane_of(id));
     }
   }
   std::sort(met.begin(), met.end(),
             [](const Encounter& a, const Encounter& b) { return a.t < b.t || (a.t == b.t && a.primitive < b.primitive); });
   return met;
+}
+
+const core::FacePlane* Referee::plane_of(std::uint32_t id) const {
+  if (!primitives_[id].needs_plane() || primitives_[id].plane() > planes_.size()) {
+    return nullptr;
+  }
+  const core::KeptPlane& plane = planes_[primitives_[id].plane() - 1];
+  return plane.kept_as >= core::BlockHeader::exact_plane ? &plane : nullptr;
 }
 
 Answer Referee::exact(const Ray& ray) const { return exact_of(ray, encounters(ray)); }

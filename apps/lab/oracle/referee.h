@@ -42,11 +42,13 @@ struct Ruling {
   bool favours_oracle = false;
 };
 
-/// Brute force over primitives whose index is their id; they outlive the referee. Immutable, thread-safe; a ray costs some 10 ns
-/// a primitive.
+/// Brute force over primitives whose index is their id; they and their planes outlive the referee. Immutable, thread-safe; a ray
+/// costs some 10 ns a primitive.
 class Referee {
  public:
-  explicit Referee(std::span<const core::PrimitiveValues> primitives) : primitives_(primitives) {}
+  explicit Referee(std::span<const core::PrimitiveValues> primitives, std::span<const core::KeptPlane> planes = {})
+      : primitives_(primitives), planes_(planes) {}
+  explicit Referee(const core::Database& database) : Referee(database.primitives(), database.planes()) {}
 
   /// Every primitive that rounding may let `ray` hit (its ignored triangle left out), by distance and then id.
   std::vector<Encounter> encounters(const core::Ray& ray) const;
@@ -57,14 +59,20 @@ class Referee {
   /// Judges two answers; meant for different ones, but equal ones are judged as well.
   Ruling settle(const core::Ray& ray, const Answer& grid, const Answer& oracle) const;
   /// How near `ray` is to hitting primitive `id`, whether it does or not.
-  Encounter examine(const core::Ray& ray, std::uint32_t id) const { return apps::examine(ray, primitives_[id], id); }
+  Encounter examine(const core::Ray& ray, std::uint32_t id) const {
+    return apps::examine(ray, primitives_[id], id, plane_of(id));
+  }
 
  private:
   bool leaks(const core::Ray& ray, const std::vector<Encounter>& met, const Encounter& passed, const Answer& answer,
              const Encounter* hit, Renderer renderer) const;
   bool admissible(const core::Ray& ray, const std::vector<Encounter>& met, const Answer& answer, Renderer renderer) const;
 
+  /// None of a triangle that doubles do not tell from others.
+  const core::FacePlane* plane_of(std::uint32_t id) const;
+
   std::span<const core::PrimitiveValues> primitives_;
+  std::span<const core::KeptPlane> planes_;
 };
 
 }  // namespace dmpc::apps

@@ -38,6 +38,10 @@ TEST_CASE("what rounding takes is told in pixels") {
   CHECK(loss_text({.collapsed = 1, .collapsed_pixels = 3}).find("1 primitive is left out, too small") == 0);
   CHECK(loss_text({.moved = 1, .moved_pixels = 1, .collapsed = 2, .collapsed_pixels = 3})
             .find("up to 3 pixels across; 1 primitive may") != std::string::npos);
+  CHECK(
+      loss_text({.swapped = 2, .swapped_pixels = 20})
+          .find("2 faces may show where others are nearer, or be hidden, as they lie too close together to be told apart: up to "
+                "20 pixels across: bring") == 0);
 }
 
 TEST_CASE("what was left out is told in good grammar") {

@@ -96,4 +96,18 @@ TEST_CASE("of equal triangles one that lets light through is no other's that doe
   CHECK(database.sources().front().object == 4000);  // who looks through glass at what it lies on sees that
 }
 
+TEST_CASE("of triangles that are equal for floats those stay that doubles tell apart") {
+  Scene scene = stacked(3000, 0);
+  SceneBuilder builder(scene);
+  for (std::size_t i = 0; i < 3000; ++i) {
+    builder.polygon({{0, 0, 1e-9}, {1, 0, 1e-9}, {0, 1, 1e-9}});
+  }
+  builder.polygon({{0, 0, 3}, {1, 0, 3}, {0, 1, 3}});
+  builder.polygon({{-3, -3, -3}, {-2, -3, -3}, {-3, -2, -3}});
+  const Database database = build_database(scene, {.threads = 1});
+  CHECK(database.primitives().size() == 4);
+  CHECK(database.duplicates() == 5998);
+  CHECK(database.planes().size() == 2);
+}
+
 }  // namespace dmpc::core::twins_test

@@ -227,7 +227,7 @@ TEST_CASE("hits of what is curved, or whose plane is shared, or whose geometry i
   CHECK_FALSE(lanes.take(state, block.record.data()));
   state.stage = HitState::Stage::geometry;
   for (const BlockHeader& header :
-       {BlockHeader{.kind = PrimitiveKind::triangle, .count = block_triangles, .has_plane = true},
+       {BlockHeader{.kind = PrimitiveKind::triangle, .count = block_triangles, .plane = BlockHeader::shared_plane},
         BlockHeader{.kind = PrimitiveKind::sphere, .count = 1}, BlockHeader{.kind = PrimitiveKind::cone, .count = 1}}) {
     std::memcpy(block.record.data(), &header, sizeof(header));
     CHECK_FALSE(lanes.take(state, block.record.data()));

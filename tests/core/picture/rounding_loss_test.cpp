@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "tests/support/close_faces.h"
 #include "tests/support/large_bodies.h"
 #include "tests/support/small_scenes.h"
 
@@ -126,6 +127,17 @@ TEST_CASE(
   const Database database = build_database(scene_of(0x1p-41), {});
   CHECK(database.dropped() == 3);
   CHECK(database.collapsed().size() == 3);
+}
+
+TEST_CASE("faces whose order a ray cannot tell are counted, by how wide across they are; others next to each other are not") {
+  CHECK(loss_of(poster_scene(turned_round, 1e-3, 0, false)).swapped == 0);
+  CHECK(loss_of(poster_scene(turned_round, 1e-7, 0, false)).swapped == 0);
+  const RoundingLoss cut = loss_of(poster_scene(turned_round, -5e-10, 1e-9, false));
+  CHECK(cut.swapped > 0);
+  CHECK(cut.swapped_pixels > 10);
+  const RoundingLoss merged = loss_of(poster_scene(along_axes, 2e-12, 0, false));
+  CHECK(merged.swapped > 0);
+  CHECK(merged.swapped_pixels > 10);
 }
 
 }  // namespace rounding_loss_test

@@ -18,7 +18,7 @@ struct StabilitySubject {
   core::Database database;
   EmbreeScene embree_fast{database.primitives(), EmbreeMode::fast};
   EmbreeScene embree_robust{database.primitives(), EmbreeMode::robust};
-  Referee referee{database.primitives()};
+  Referee referee{database};
 
   const core::GridFrame& frame() const { return database.header().frame; }
 };

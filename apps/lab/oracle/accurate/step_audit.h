@@ -36,11 +36,7 @@ class StepAudit {
   /// All outlive the audit; `scene` is what `database` was built of, `finder` is made of it.
   StepAudit(const core::Database& database, const core::ShadeOptions& options, const AccurateScene& scene,
             const AccurateFinder& finder)
-      : unit_(1 / database.header().frame.scale),
-        options_(options),
-        scene_(scene),
-        finder_(finder),
-        referee_(database.primitives()) {}
+      : unit_(1 / database.header().frame.scale), options_(options), scene_(scene), finder_(finder), referee_(database) {}
 
   /// `primary` is the ray that the log should begin with.
   Audit of(const ProductLog& log, const AccurateRay& primary) const;

@@ -2,20 +2,24 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
+#include <utility>
 
 #include "apps/lab/bench/stability/cells.h"
 #include "core/families/scenes.h"
 #include "core/picture/render.h"
 #include "core/record/records.h"
+#include "tests/support/close_faces.h"
 
 namespace dmpc::tests::inspection_test {
 namespace {
 
 /// A built-in scene, its database and how it is looked at: `side` x `side` pixels.
 struct Looked {
-  explicit Looked(const std::string& name, int side)
-      : scene(core::built_in_scene(core::parse_scene_name(name))),
+  explicit Looked(const std::string& name, int side) : Looked(core::built_in_scene(core::parse_scene_name(name)), side) {}
+  Looked(core::Scene looked_at, int side)
+      : scene(std::move(looked_at)),
         database(core::build_database(scene, apps::several_top_cells(scene))),
         settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, 1), {}} {}
 
@@ -48,6 +52,20 @@ TEST_CASE("every ray of a small render of every family is explained") {
     CHECK(unexplained(inspection.differences) == 0);
     CHECK(inspection.brute_forced.size() == 40);
     CHECK(unexplained(inspection.brute_forced) == 0);
+  }
+}
+
+TEST_CASE("every ray is explained where faces lie so near to each other that doubles alone tell them apart") {
+  for (const bool is_tilted : {false, true}) {
+    for (const double off : {1e-3, -1e-3, 1e-7}) {
+      CAPTURE(is_tilted);
+      CAPTURE(off);
+      const Looked poster(poster_scene(is_tilted ? turned_round : along_axes, off, 0, is_tilted), 48);
+      CHECK(unexplained(poster.inspect({.brute_force = 200}).differences) == 0);
+      CHECK(unexplained(poster.inspect({.brute_force = 200}).brute_forced) == 0);
+      const Looked pane(pane_scene(std::fabs(off) * 1e-3, is_tilted), 32);
+      CHECK(unexplained(pane.inspect().differences) == 0);
+    }
   }
 }
 

@@ -1,0 +1,127 @@
+// Faces that floats would make one: what the file's doubles tell apart stays apart.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "apps/lab/bench/stability/random.h"
+#include "apps/lab/bench/stability/rays.h"
+#include "core/database/database.h"
+#include "core/picture/render.h"
+#include "tests/support/close_faces.h"
+#include "tests/support/scaled.h"
+#include "tests/support/shooting.h"
+#include "tests/support/small_scenes.h"
+
+namespace dmpc::tests::close_faces_test {
+namespace {
+
+using apps::Random;
+using core::Database;
+using core::Hit;
+using core::Ray;
+using core::Scene;
+using core::Vec3d;
+
+/// Rays towards the poster from before it and from behind, and those of them that are wrong: a ray that comes from the side where
+/// the poster is hits that, another one the wall.
+struct Wrong {
+  int rays = 0, order = 0, from_brute_force = 0;
+};
+
+Wrong shoot_at_poster(const Stand& stand, double off, double leaning, bool in_triangles, bool has_detail_elsewhere = true) {
+  const Database database = database_of(poster_scene(stand, off, leaning, in_triangles, has_detail_elsewhere));
+  const std::uint32_t first_of_poster = in_triangles ? 4 : 3;
+  Random random(1);
+  Wrong wrong;
+  for (std::size_t i = 0; i < scaled(500); ++i) {
+    const Vec3d place = random.in_box(-0.45, 0.45), away = random.in_box(-1, 1);
+    const double side = i % 2 == 0 ? 1 : -1, height = 1.5 + place.y;
+    const Vec3d target = stand.at(place.x, height, off + leaning * (height - 1));
+    const Vec3d from = stand.at(away.x, 1.5 + away.y, side * (1.5 + away.z));
+    const auto local = [&](const Vec3d& at) { return core::to_local(database.header().frame, at); };
+    const Ray ray = apps::ray_through(local(from), local(target));
+    const Hit hit = apps::shoot(database, ray);
+    const bool hits_poster = hit.found() && database.sources()[hit.primitive].object >= first_of_poster &&
+                             database.sources()[hit.primitive].object < first_of_poster + 2;
+    ++wrong.rays;
+    wrong.order += hits_poster == (side * off > 0) ? 0 : 1;
+    wrong.from_brute_force += apps::same_hit(hit, brute_force(database, ray)) ? 0 : 1;
+  }
+  return wrong;
+}
+
+TEST_CASE("a poster next to a wall in a wide terrain is seen from its side, and the wall from the other") {
+  for (const Stand& stand : {along_axes, turned_round}) {
+    for (const double off : {1e-3, -1e-3, 1e-4, 1e-6, 1e-8}) {
+      for (const bool in_triangles : {false, true}) {
+        CAPTURE(stand.out.x);
+        CAPTURE(off);
+        CAPTURE(in_triangles);
+        for (const bool has_detail_elsewhere : {false, true}) {
+          CAPTURE(has_detail_elsewhere);
+          const Wrong wrong = shoot_at_poster(stand, off, 0, in_triangles, has_detail_elsewhere);
+          CHECK(wrong.order == 0);
+          CHECK(wrong.from_brute_force == 0);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a poster that leans against a wall is seen as one that does not") {
+  for (const Stand& stand : {along_axes, turned_round}) {
+    for (const double leaning : {1e-4, 1e-3, 1e-2}) {
+      CAPTURE(stand.out.x);
+      CAPTURE(leaning);
+      const Wrong wrong = shoot_at_poster(stand, 1e-5, leaning, false);
+      CHECK(wrong.order == 0);
+      CHECK(wrong.from_brute_force == 0);
+    }
+  }
+}
+
+TEST_CASE("where doubles tell nothing apart records are as they were, and the first in the file shows") {
+  const Database equal = database_of(poster_scene(along_axes, 0, 0, false)),
+                 apart = database_of(poster_scene(along_axes, 1e-3, 0, false));
+  CHECK(equal.planes().empty());
+  CHECK(equal.shared_planes() == 1);
+  CHECK(apart.planes().size() == 2);
+  CHECK(apart.shared_planes() == 0);
+  CHECK(shoot_at_poster(along_axes, 0, 0, false).order == 0);
+}
+
+core::Film rendered(const Scene& scene) {
+  const Database database = database_of(scene);
+  core::LocalRecords records(database.bytes());
+  core::GridTracer<core::LocalRecords> tracer(records, database.header(), {});
+  core::Operations operations;
+  const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, 48, 48, 1), {}};
+  return render(tracer, settings, operations);
+}
+
+/// Pixels that differ by more than a 100th.
+int different_pixels(const core::Film& a, const core::Film& b) {
+  int count = 0;
+  for (std::uint32_t pixel = 0; pixel < 48 * 48; ++pixel) {
+    const Vec3d off = a.radiance(pixel) - b.radiance(pixel);
+    count += core::largest_component(off) > 0.01 ? 1 : 0;
+  }
+  return count;
+}
+
+TEST_CASE("a pane of glass bends light no more the thinner it is") {
+  for (const bool is_tilted : {false, true}) {
+    const core::Film thick = rendered(pane_scene(1e-4, is_tilted));
+    for (const double thickness : {1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 1e-8, 1e-9}) {
+      CAPTURE(is_tilted);
+      CAPTURE(thickness);
+      CHECK(different_pixels(rendered(pane_scene(thickness, is_tilted)), thick) <= 2);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dmpc::tests::close_faces_test
