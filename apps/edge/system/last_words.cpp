@@ -103,7 +103,7 @@ void name_memory_limit(std::string_view source, std::string_view bytes) {
 void end_without_abort() {
   [[maybe_unused]] struct sigaction action {};
   action.sa_sigaction = end_crash;
-  action.sa_flags = SA_RESETHAND | SA_SIGINFO;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_SIGINFO);
 #if !defined(__SANITIZE_ADDRESS__)  // which tells more of a crash
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS}) {
     ::sigaction(signal, &action, nullptr);

@@ -192,7 +192,7 @@ class Script {
   /// picture by itself.
   std::size_t name_step() const {
     for (std::size_t power = 1; is_small(); power *= 10) {
-      for (const std::size_t digit : {1, 2, 5}) {
+      for (const std::size_t digit : {1U, 2U, 5U}) {
         if (places_.size() <= digit * power * small_names_max) {
           return digit * power;
         }

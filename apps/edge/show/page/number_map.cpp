@@ -62,7 +62,7 @@ const std::vector<PaletteColor>& palette() {
       const core::Color color = color_map(static_cast<double>(i) / (color_count - 1));
       PaletteColor& bytes = all.emplace_back();
       for (std::size_t channel = 0; channel < bytes.size(); ++channel) {
-        bytes[channel] = core::srgb_byte(static_cast<float>(color[static_cast<int>(channel)]));
+        bytes[channel] = core::srgb_byte(static_cast<float>(color[channel]));
       }
     }
     return all;
@@ -80,7 +80,7 @@ std::string squares(std::span<const double> values, std::size_t rows, std::size_
 /// 1, 2 or 5 times a power of ten, so that `count` has no more than ticks_max of them.
 std::size_t tick_step(std::size_t count) {
   for (std::size_t power = 1;; power *= 10) {
-    for (const std::size_t digit : {1, 2, 5}) {
+    for (const std::size_t digit : {1U, 2U, 5U}) {
       if (count <= digit * power * ticks_max) {
         return digit * power;
       }
