@@ -91,10 +91,10 @@ Table empty_table(const PrecisionOptions& options) {
   table.add_note("Pixels are compared in 8 bits with the sRGB curve; RMSE and largest are of linear light.");
   table.add_note(
       "The pixels that differ stand under what comes first where the two renderers follow the same pixel: two surfaces that "
-      "all but touch, a silhouette seen or shadowing, a hit at the end of a shadow ray, a surface that turns away from its light, "
-      "total reflection, or nothing but the rounding of colours. Where a ray's answer is not exact, a ray beside it has that "
-      "answer, no farther off than 1/256 of a pixel; warned are pixels that are off by more, but no more than was said on stderr "
-      "before.");
+      "all but touch, a silhouette seen or shadowing, a hit at the end of a shadow ray, a surface that turns away from its "
+      "light, total reflection, or nothing but the rounding of colours. Where a ray's answer is not exact, a ray beside it has "
+      "that answer, no farther off than 1/256 of a pixel; warned are pixels that are off by more, but no more than was said on "
+      "stderr before.");
   table.add_note(
       "Every ray, hit and answer on the product's way was checked on its own: the largest step is the farthest that one was off, "
       "in "

@@ -27,8 +27,7 @@ class WitnessFinder {
   /// How `claimed`, which `ray` does not have itself, comes about:
   ///   silhouette   a ray that runs `reach` aside of it at most has that answer
   ///   end          of a shadow ray: one that ends so much earlier or later has it
-  ///   tie          of two surfaces no farther apart than `reach`: one that runs `crossing` aside at most, where the other one lies
-  ///                in front, has it
+  ///   tie          of two surfaces no farther apart than `reach`: one that runs `crossing` aside at most has it
   /// Nothing if no such ray is found: then the answer is wrong, not off. Lengths are the world's.
   std::optional<Verdict> find(const AccurateRay& ray, const ClaimedAnswer& claimed, double reach, double crossing) const;
   /// Whether a ray that runs `reach` aside of it at most has the answer.
