@@ -142,13 +142,21 @@ struct Outcome {
   }
 };
 
+/// Pictures that are larger, smaller or deeper than measured, or seen or lit otherwise, are as any other.
+Expectation expected_of(const std::string& scene, const PrecisionOptions& options) {
+  const bool is_as_measured = options.resolution.width == measured_side && options.resolution.height == measured_side &&
+                              options.depth == measured_depth && !options.staging.camera && options.staging.lights.empty();
+  return options.expected ? Expectation{*options.expected, "by --expect"}
+         : is_as_measured ? expectation_of(scene)
+                          : usual_expectation();
+}
+
 void measure_all(const PrecisionOptions& options, const std::vector<std::string>& scenes, const TableFiles& files,
                  Interrupt& interrupt, Table& table, Outcome& outcome) {
   for (const std::string& scene : scenes) {
     interrupt.check();
     const Precision precision = measure(options, scene, files, interrupt);
-    const Expectation expectation =
-        options.expected ? Expectation{*options.expected, "by --expect"} : expectation_of(scene, options.depth);
+    const Expectation expectation = expected_of(scene, options);
     const PrecisionRow row{scene, precision, expectation};
     table.add_row(row_of(precision_columns(), row));
     describe_errors(row, table);
@@ -176,7 +184,7 @@ void add_options(OptionSet set, PrecisionOptions& options) {
   set.add_number("--depth", options.depth, 1, 255, "5", "Longest chain of reflections and refractions");
   set.add_text(
       "--expect", "PERCENT", [&options](const std::string& text) { options.expected = parse_expectation(text); },
-      "End with status 3 if fewer pixels have the same 8 bits; without it 99, and of families what was measured");
+      "End with status 3 if fewer pixels have the same 8 bits; without it 99, and of families' own pictures what was measured");
   add_options(set, options.staging);
   add_options(set, options.table, TableExtras::none);
   set.add_quiet(options.quiet);

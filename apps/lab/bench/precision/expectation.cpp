@@ -18,8 +18,6 @@ struct FamilyExpectation {
 constexpr const char* by_mirrors = "mirrors multiply what rounding leaves at each bounce";
 constexpr const char* by_steps = "colours lie next to a step of 8 bits";
 constexpr const char* by_nothing = "nothing is rounded by a step of 8 bits";
-/// No deeper than they were measured.
-constexpr int depth_measured = 5;
 
 constexpr std::array<FamilyExpectation, 11> family_expectations = {{{"balls-4", 99.92, by_mirrors},
                                                                     {"gears-4", 99.99, by_steps},
@@ -33,8 +31,6 @@ constexpr std::array<FamilyExpectation, 11> family_expectations = {{{"balls-4", 
                                                                     {"tetra-6", 100, by_nothing},
                                                                     {"tree-11", 99.99, by_steps}}};
 
-constexpr double usual_percent = 99;
-
 }  // namespace
 
 double parse_expectation(const std::string& text) {
@@ -45,12 +41,12 @@ double parse_expectation(const std::string& text) {
   return percent;
 }
 
-Expectation expectation_of(const std::string& scene, int depth) {
+Expectation usual_expectation() { return {99, "what is expected of any scene"}; }
+
+Expectation expectation_of(const std::string& scene) {
   const auto* const found = std::find_if(family_expectations.begin(), family_expectations.end(),
                                          [&](const FamilyExpectation& family) { return family.scene == scene; });
-  return found == family_expectations.end() || depth > depth_measured
-             ? Expectation{usual_percent, "what is expected of any scene"}
-             : Expectation{found->percent, found->reason};
+  return found == family_expectations.end() ? usual_expectation() : Expectation{found->percent, found->reason};
 }
 
 }  // namespace dmpc::apps

@@ -50,11 +50,14 @@ TEST_CASE("bench precision expects a percentage of equal pixels") {
   }
 }
 
-TEST_CASE("bench precision expects of families what was measured, of what is deeper or else 99 percent") {
-  CHECK(apps::expectation_of("balls-4", 5).percent > 99.8);
-  CHECK(apps::expectation_of("balls-4", 6).percent == 99);
-  CHECK(apps::expectation_of("tetra-6", 1).percent == 100);
-  CHECK(apps::expectation_of("mine.nff", 5).percent == 99);
+TEST_CASE("bench precision expects of families what was measured, as it was measured, and of all else 99 percent") {
+  CHECK(apps::expectation_of("balls-4").percent == 99.92);
+  CHECK(apps::expectation_of("tetra-6").percent == 100);
+  CHECK(apps::expectation_of("mine.nff").percent == 99);
+  const auto row_of = [](const char* option) { return output_of(parse({"tetra-6", "--format=csv", option})); };
+  CHECK(contains(row_of("--depth=5"), ",100,explained"));
+  CHECK(contains(row_of("--depth=4"), ",99,explained"));
+  CHECK(contains(row_of("--resolution=32x32"), ",99,explained"));
 }
 
 TEST_CASE("bench precision fails where fewer pixels are equal than expected, though each is explained") {
