@@ -179,8 +179,8 @@ class Bench {
     }
     Progress progress(std::cerr, stderr_is_terminal(), result_.scene + " in double precision:", "rows");
     const AccurateScene scene = accurate_scene(scenes_.exact());
-    const AccurateFinder finder(scene, scenes_.exact().view.from);
-    const AccurateCamera camera(scenes_.exact().view, result_.width, result_.height);
+    const AccurateCamera camera(scenes_.exact().view, result_.width, result_.height, scene.bounds);
+    const AccurateFinder finder(scene, camera.start());
     const auto pattern = SamplePattern::of_product(static_cast<std::uint32_t>(result_.base.samples));
     const core::RenderSettings settings =
         render_settings(picture_of(options_.picture, result_.base), scenes_.exact(), scenes_.of(0).subject.database);

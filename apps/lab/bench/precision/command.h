@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,17 +17,18 @@ struct PrecisionOptions {
   std::vector<std::string> scenes;  ///< NFF files or built-in names; none: every family in its own size
   Resolution resolution{256, 256};
   int depth = 5;
-  Staging staging;     ///< of all scenes
-  TableOutput table;   ///< without a page and plots
-  bool quiet = false;  ///< no progress
+  std::optional<double> expected;  ///< percent of the pixels that have the same 8 bits; nothing: what is usual, or was measured
+  Staging staging;                 ///< of all scenes
+  TableOutput table;               ///< without a page and plots
+  bool quiet = false;              ///< no progress
 };
 
 /// Declares them.
 void add_options(OptionSet set, PrecisionOptions& options);
 
-/// Measures and writes as run_tabled() does. The exit status is 3 if a pixel that differs is not explained. Throws
-/// core::InputError for a scene that cannot be read or a table that cannot be made, core::UsageError for an output that is a file
-/// the scene is read from.
+/// Measures and writes as run_tabled() does. The exit status is 3 if a pixel that differs is not explained, or if fewer
+/// pixels than expected have the same 8 bits. Throws core::InputError for a scene that cannot be read or a table that cannot be
+/// made, core::UsageError for an output that is a file the scene is read from.
 int bench_precision_command(const PrecisionOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

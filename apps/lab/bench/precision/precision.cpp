@@ -90,13 +90,13 @@ Precision measure_precision(const core::Scene& scene, const PictureOptions& pict
   }
   const core::Camera& product_camera = subject.settings.camera;
   const AccurateScene accurate = accurate_scene(scene);
-  const AccurateFinder finder(accurate, scene.view.from);
-  const AccurateCamera camera(scene.view, product_camera.width(), product_camera.height());
+  const AccurateCamera camera(scene.view, product_camera.width(), product_camera.height(), accurate.bounds);
+  const AccurateFinder finder(accurate, camera.start());
   const AccuratePicture right =
       render_accurately(accurate, finder, camera, SamplePattern::of_product(1), subject.settings.shade, attendance);
   Precision precision{.primitives = subject.database.primitives().size(), .rays = right.rays};
   const std::vector<std::uint32_t> differing = compare(product_radiance(subject), right.radiance, precision);
-  const PixelJudge judge(subject.database, subject.settings, accurate, finder, camera);
+  const PixelJudge judge(subject.database, subject.settings, accurate, finder, camera, subject.loss);
   side_by_side(differing.size(), [&](std::size_t index) {
     if (attendance.stop.stop_requested()) {
       throw Interrupted();

@@ -18,11 +18,17 @@ bool is_usable(const Vec3d& v) {
 
 double squared(const Vec3d& v) { return dot(v, v); }
 
-/// Volumes of the ray's direction with each corner's opposite edge, as seen from the ray's origin. Swapping an edge's ends
-/// changes the sign and nothing else, in floating point as well.
+/// The volume of the ray's direction with an edge, as seen from the ray's origin: from the edge's middle, so that it loses no
+/// more than the ray's distance times the edge's length, which is little of a small triangle that is far away. Swapping the
+/// edge's ends changes the sign and nothing else, in floating point as well.
+double volume(const AccurateRay& ray, const Vec3d& from, const Vec3d& to) {
+  return dot((from + to) * 0.5 - ray.origin, cross(to - from, ray.direction));
+}
+
+/// With each corner's opposite edge.
 std::array<double, 3> volumes(const AccurateBody& body, const AccurateRay& ray) {
-  const Vec3d a = body.place[0] - ray.origin, b = body.place[1] - ray.origin, c = body.place[2] - ray.origin;
-  return {dot(ray.direction, cross(b, c)), dot(ray.direction, cross(c, a)), dot(ray.direction, cross(a, b))};
+  const auto& [a, b, c] = body.place;
+  return {volume(ray, b, c), volume(ray, c, a), volume(ray, a, b)};
 }
 
 std::optional<double> to_triangle(const AccurateBody& body, const AccurateRay& ray) {

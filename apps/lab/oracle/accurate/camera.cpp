@@ -7,29 +7,46 @@
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
+namespace {
 
-AccurateCamera::AccurateCamera(const core::View& view, int width, int height)
-    : eye_(view.from), forward_(normalize(view.at - view.from)), width_(width), height_(height) {
+/// In diagonals of what is seen: nearer eyes need no more than double.
+constexpr long double far_eye = 64;
+
+long double lead_to(const core::Box& bounds, const core::Vec3<long double>& eye) {
+  if (bounds.empty()) {
+    return 0;
+  }
+  const long double diagonal = length(bounds.high - bounds.low);
+  const long double distance = length(core::Vec3<long double>(bounds.center()) - eye);
+  return distance > far_eye * diagonal ? distance - diagonal : 0;
+}
+
+}  // namespace
+
+AccurateCamera::AccurateCamera(const core::View& view, int width, int height, const core::Box& bounds)
+    : eye_(view.from), forward_(normalize(Vec3l(view.at) - eye_)), lead_(lead_to(bounds, eye_)), width_(width), height_(height) {
   core::expect(width > 0 && height > 0, "a camera has pixels");
   // The angle spans the centres of the first and the last pixel of the shorter side; a single pixel spans all of it.
-  const double half_angle = view.angle_degrees / 2 * std::numbers::pi / 180;
-  const double step = 2 * std::tan(half_angle) / std::max(1, std::min(width, height) - 1);
-  const core::Vec3d right = normalize(cross(forward_, view.up));
+  const long double half_angle = view.angle_degrees / 2.0L * std::numbers::pi_v<long double> / 180;
+  const long double step = 2 * std::tan(half_angle) / std::max(1, std::min(width, height) - 1);
+  const Vec3l right = normalize(cross(forward_, Vec3l(view.up)));
   right_ = right * step;
   down_ = cross(forward_, right) * step;
 }
 
 AccurateRay AccurateCamera::ray_through(double column, double row) const {
-  const double x = column - (width_ - 1) / 2.0, y = row - (height_ - 1) / 2.0;
-  AccurateRay ray;
-  ray.origin = eye_;
-  const core::Vec3d towards = forward_ + right_ * x + down_ * y;
-  const double distance = length(towards);
-  ray.direction = towards * (1 / distance);
+  const long double x = column - (width_ - 1) / 2.0L, y = row - (height_ - 1) / 2.0L;
+  const Vec3l towards = forward_ + right_ * x + down_ * y;
+  const long double distance = length(towards);
+  const Vec3l direction = towards * (1 / distance);
   // The derivatives of the line above (H. Igehy, "Tracing Ray Differentials", SIGGRAPH 1999).
-  const auto turned_by = [&](const core::Vec3d& step) {
-    return (step - ray.direction * dot(step, ray.direction)) * (1 / distance);
+  const auto turned_by = [&](const Vec3l& step) {
+    return core::Vec3d((step - direction * dot(step, direction)) * (1 / distance));
   };
+  AccurateRay ray;
+  ray.origin = core::Vec3d(eye_ + direction * lead_);
+  ray.direction = core::Vec3d(direction);
+  ray.cone = static_cast<double>(lead_);
   ray.apart = {turned_by(right_), turned_by(down_)};
   return ray;
 }

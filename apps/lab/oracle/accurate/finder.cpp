@@ -19,8 +19,9 @@ using core::Vec3d;
 /// In sizes of the scene; float moves a ray that starts one size away by less than 1e-6.
 constexpr double box_margin = 1e-5;
 
-/// In sizes of the scene, along a ray: triangles of one plane are hit no farther from each other, however it grazes them.
-constexpr double level_reach = 1e-5;
+/// Of the scene's size and its distance from zero, along a ray: triangles of one plane are hit no farther from each other in
+/// double, however the ray grazes them.
+constexpr double level_reach = 1e-9;
 
 /// What the callbacks know of the query under way. Embree hands back the address of `context`, the first member.
 struct Query {
@@ -54,7 +55,7 @@ struct AccurateFinder::Parts {
   void note_level(const AccurateHit& hit, Query& query) const;
   /// Who shows of those that are level with the best in its plane.
   AccurateHit shown(const Query& query) const;
-  double reach() const { return level_reach * scene->size; }
+  double reach() const { return level_reach * (scene->size + length(middle)); }
 
   static const Parts& of(const void* user_data) { return *static_cast<const Parts*>(user_data); }
   static void bounds_callback(const RTCBoundsFunctionArguments* arguments);

@@ -1,5 +1,6 @@
 #include "apps/lab/oracle/accurate/pixel_judge.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -9,7 +10,7 @@ namespace {
 using core::RayKind;
 
 constexpr std::array<std::string_view, pixel_cause_count> cause_names{
-    "tie", "silhouette", "shadow silhouette", "ray end", "terminator", "critical angle", "rounding", "unexplained"};
+    "tie", "silhouette", "shadow silhouette", "ray end", "terminator", "critical angle", "rounding", "warned", "unexplained"};
 
 /// Two distances are level within so much of the farther one and of the grid-local unit: some roundings of each.
 constexpr double level = 64 * 0x1p-24;
@@ -25,9 +26,9 @@ PixelCause undecided(const LoggedRay& ray) {
 std::string_view name_of(PixelCause cause) { return cause_names[static_cast<std::size_t>(cause)]; }
 
 PixelJudge::PixelJudge(const core::Database& database, const core::RenderSettings& settings, const AccurateScene& scene,
-                       const AccurateFinder& finder, const AccurateCamera& camera)
+                       const AccurateFinder& finder, const AccurateCamera& camera, const core::RoundingLoss& loss)
     : logger_(database, settings, scene),
-      audit_(database, settings.shade, scene, finder),
+      audit_(database, settings.shade, scene, finder, std::max(loss.moved_pixels, loss.collapsed_pixels)),
       options_(settings.shade),
       scene_(scene),
       finder_(finder),
@@ -39,9 +40,9 @@ Judgement PixelJudge::judge(std::uint32_t pixel) const {
   const AccurateRay primary = camera_.ray_through(pixel % width, pixel / width);
   const ProductLog product = logger_.log_of(pixel);
   const Audit audit = audit_.of(product, primary);
-  const PixelCause cause = audit.error.empty()
-                               ? cause_of_parting(product, accurate_log(scene_, finder_, options_, primary), audit)
-                               : PixelCause::unexplained;
+  const PixelCause cause = !audit.error.empty() ? PixelCause::unexplained
+                           : audit.is_warned    ? PixelCause::warned
+                                             : cause_of_parting(product, accurate_log(scene_, finder_, options_, primary), audit);
   return {cause, audit.largest_step, audit.error};
 }
 

@@ -8,6 +8,7 @@
 #include "apps/lab/oracle/accurate/camera.h"
 #include "apps/lab/oracle/accurate/ray_log.h"
 #include "apps/lab/oracle/accurate/step_audit.h"
+#include "core/picture/rounding_loss.h"
 
 namespace dmpc::apps {
 
@@ -20,9 +21,10 @@ enum class PixelCause : std::uint8_t {
   terminator,         ///< the surface all but turns away from a light, and rounding decides whether it is asked
   critical_angle,     ///< rounding decides whether a ray still leaves glass
   rounding,           ///< the same surfaces all the way: the colours differ by rounding alone
+  warned,             ///< something lies farther off than pixels may be without a word, but no farther than was said
   unexplained         ///< none of these: an error of one of the renderers
 };
-inline constexpr std::size_t pixel_cause_count = 8;
+inline constexpr std::size_t pixel_cause_count = 9;
 std::string_view name_of(PixelCause cause);
 
 struct Judgement {
@@ -36,9 +38,9 @@ struct Judgement {
 /// Thread-safe.
 class PixelJudge {
  public:
-  /// All outlive the judge; `scene` is what `database` was built of, `finder` is made of it.
+  /// All outlive the judge; `scene` is what `database` was built of, `finder` is made of it; `loss` is what was said before.
   PixelJudge(const core::Database& database, const core::RenderSettings& settings, const AccurateScene& scene,
-             const AccurateFinder& finder, const AccurateCamera& camera);
+             const AccurateFinder& finder, const AccurateCamera& camera, const core::RoundingLoss& loss = {});
 
   /// Judges a pixel of a picture with one sample a pixel.
   Judgement judge(std::uint32_t pixel) const;

@@ -27,8 +27,8 @@ class Studio {
  public:
   Studio(const core::Scene& scene, const PictureOptions& picture, const Attendance& attendance)
       : scene_(accurate_scene(scene)),
-        finder_(scene_, scene.view.from),
-        camera_(scene.view, resolution_of(scene, picture).width, resolution_of(scene, picture).height),
+        camera_(scene.view, resolution_of(scene, picture).width, resolution_of(scene, picture).height, scene_.bounds),
+        finder_(scene_, camera_.start()),
         shade_{.convention = picture.convention, .depth_max = picture.depth},
         attendance_(attendance) {}
 
@@ -42,8 +42,8 @@ class Studio {
 
  private:
   AccurateScene scene_;
-  AccurateFinder finder_;
   AccurateCamera camera_;
+  AccurateFinder finder_;
   core::ShadeOptions shade_;
   const Attendance& attendance_;
 };

@@ -6,35 +6,29 @@
 namespace dmpc::apps {
 namespace {
 
-using core::Vec3d;
+using Vec3l = core::Vec3<long double>;
 
-constexpr double corner_rounding = 0x1p-24;
-/// The product's coordinates begin so far before the scene, in sizes of it.
-constexpr double margin_of_grid = 0.02;
+/// Of a coordinate: a double is off by 2^-53 of it, what was turned and moved some times as much.
+constexpr long double corner_rounding = 0x1p-51L;
 
 struct Leaf {
   explicit Leaf(const AccurateBody& body)
-      : corner(body.place), area(cross(corner[1] - corner[0], corner[2] - corner[0])), normal(normalize(area)) {
+      : corner{Vec3l(body.place[0]), Vec3l(body.place[1]), Vec3l(body.place[2])},
+        area(cross(corner[1] - corner[0], corner[2] - corner[0])),
+        normal(normalize(area)) {
     for (std::size_t k = 0; k < 3; ++k) {
       longest = std::max(longest, length(corner[(k + 1) % 3] - corner[k]));
+      moved = std::max(moved, corner_rounding * dot_of_magnitudes(normal, corner[k]));
     }
   }
 
-  double height() const { return length(area) / longest; }
+  long double height() const { return length(area) / longest; }
 
-  std::array<Vec3d, 3> corner;
-  Vec3d area, normal;
-  double longest = 0;
+  std::array<Vec3l, 3> corner;
+  Vec3l area, normal;
+  long double longest = 0;
+  long double moved = 0;  ///< how far rounding moves a corner across the plane
 };
-
-/// How far rounding moves a point of the scene across a plane.
-double moved(const AccurateScene& scene, const Vec3d& point, const Vec3d& normal) {
-  double sum = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    sum += std::fabs(normal[axis]) * (point[axis] - scene.bounds.low[axis] + margin_of_grid * scene.size);
-  }
-  return corner_rounding * sum;
-}
 
 }  // namespace
 
@@ -46,9 +40,10 @@ bool share_plane(const AccurateScene& scene, std::uint32_t a, std::uint32_t b) {
   const Leaf one(first), other(second);
   const Leaf& large = one.height() >= other.height() ? one : other;
   const Leaf& small = one.height() >= other.height() ? other : one;
-  return std::all_of(small.corner.begin(), small.corner.end(), [&](const Vec3d& corner) {
-    const Vec3d off = corner - large.corner[0];
-    return std::fabs(dot(off, large.normal)) <= moved(scene, corner, large.normal) * (1 + length(off) / large.height());
+  return std::all_of(small.corner.begin(), small.corner.end(), [&](const Vec3l& corner) {
+    const Vec3l off = corner - large.corner[0];
+    const long double moved = corner_rounding * dot_of_magnitudes(large.normal, corner);
+    return std::fabs(dot(off, large.normal)) <= moved + large.moved * (1 + length(off) / large.height());
   });
 }
 

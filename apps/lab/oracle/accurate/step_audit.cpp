@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "apps/lab/oracle/accurate/disturbance.h"
+#include "core/picture/rounding_loss.h"
 
 namespace dmpc::apps {
 namespace {
@@ -77,8 +78,9 @@ class StepAudit::Case {
 
   /// A ray of an eye that is far away starts nearer.
   void check_primary(AccurateRay primary) {
-    primary.cone = dot(log_.shots.front().world.origin - primary.origin, primary.direction);
-    primary.origin = primary.origin + primary.direction * primary.cone;
+    const double ahead = dot(log_.shots.front().world.origin - primary.origin, primary.direction);
+    primary.cone += ahead;
+    primary.origin = primary.origin + primary.direction * ahead;
     std::vector<Rays> trials;
     for (std::uint64_t seed = 0; seed < trial_count; ++seed) {
       trials.push_back({primary});
@@ -87,19 +89,54 @@ class StepAudit::Case {
     compare(log_.shots.front().world, primary, trials);
   }
 
+  AccurateHit answer_of(const AccurateRay& ray) const {
+    return ray.kind == RayKind::shadow ? audit_.finder_.any(ray) : audit_.finder_.closest(ray);
+  }
+  static bool is_same(const LoggedRay& logged, const AccurateHit& hit) {
+    return hit.found() == logged.hit && (logged.kind == RayKind::shadow || hit.body == logged.body);
+  }
+
   void check_answer(std::size_t index) {
-    const ProductLog::Shot& shot = log_.shots[index];
+    const AccurateRay& ray = log_.shots[index].world;
     const LoggedRay& logged = log_.rays[index];
-    const bool shadow = logged.kind == RayKind::shadow;
-    const AccurateHit hit = shadow ? audit_.finder_.any(shot.world) : audit_.finder_.closest(shot.world);
-    if (hit.found() == logged.hit && (shadow || hit.body == logged.body)) {
+    const AccurateHit hit = answer_of(ray);
+    if (is_same(logged, hit)) {
       return;
     }
-    const Ruling ruling = audit_.referee_.settle(shot.ray, shot.answer, shot.answer);
-    if (!explained(ruling.verdict)) {
-      complain(text_of(shot.world) + " whose answer the referee does not allow");
-    } else if (!ruling.favours_grid) {
-      result_.doubts[index] = ruling.verdict;
+    const double met = logged.hit ? logged.t : hit.found() ? hit.t : 0;
+    result_.doubts[index] = cause_of(ray, {logged.hit, logged.body}, ray.origin + ray.direction * met);
+    if (!result_.doubts[index]) {
+      complain(text_of(ray) + " whose answer no ray has that runs beside it");
+    }
+  }
+
+  /// Of a pixel at the place, or where the ray starts if that is farther, in world units.
+  double pixel_at(const Vec3d& place, const AccurateRay& ray) const {
+    const Vec3d eye = primary_.origin - primary_.direction * primary_.cone;
+    return narrow_angle(primary_) * std::max(length(place - eye), length(ray.origin - eye));
+  }
+
+  /// Why a ray got an answer, about a place that one of the two met.
+  std::optional<Verdict> cause_of(const AccurateRay& ray, const ClaimedAnswer& claimed, const Vec3d& place) {
+    const double pixel = pixel_at(place, ray);
+    std::optional<Verdict> why = audit_.witnesses_.find(ray, claimed, core::rounding_allowed_pixels * pixel, pixel);
+    if (!why && audit_.warned_pixels_ > core::rounding_allowed_pixels) {
+      why = audit_.witnesses_.find(ray, claimed, audit_.warned_pixels_ * pixel, std::max(audit_.warned_pixels_, 1.0) * pixel);
+      result_.is_warned = result_.is_warned || why;
+    }
+    return why;
+  }
+
+  /// What lies between a surface and the start of a ray that leaves it is not seen by that ray, which may miss it.
+  void check_start(std::size_t index, const AccurateRay& right) {
+    const AccurateRay& found = log_.shots[index].world;
+    const double ahead = dot(found.origin - right.origin, right.direction);
+    AccurateRay passed = right;
+    passed.kind = RayKind::shadow;
+    passed.t_max = std::min(ahead, right.t_max);
+    if (ahead > 0 && answer_of(passed).found() && !is_same(log_.rays[index], answer_of(right)) &&
+        !audit_.witnesses_.is_beside(passed, {}, core::rounding_allowed_pixels * pixel_at(right.origin, right))) {
+      complain(text_of(found) + " that starts behind something");
     }
   }
 
@@ -123,17 +160,23 @@ class StepAudit::Case {
     for (std::size_t child = index + 1; child < log_.rays.size(); ++child) {
       if (log_.rays[child].maker == log_.rays[index].path) {
         found.push_back(log_.shots[child].world);
+        check_child(child, find(exact, found.back()), trials);
       }
-    }
-    for (const AccurateRay& ray : found) {
-      const AccurateRay* const right = find(exact, ray);
-      right != nullptr ? compare(ray, *right, trials) : check_decision(ray, trials, true);
     }
     for (const AccurateRay& ray : exact) {
       if (find(found, ray) == nullptr) {
         check_decision(ray, trials, false);
       }
     }
+  }
+
+  /// `right`: the ray that it should be, or null.
+  void check_child(std::size_t child, const AccurateRay* right, const std::vector<Rays>& trials) {
+    if (right == nullptr) {
+      return check_decision(log_.shots[child].world, trials, true);
+    }
+    compare(log_.shots[child].world, *right, trials);
+    check_start(child, *right);
   }
 
   std::vector<Rays> disturbed(const AccurateRay& from, const AccurateHit& hit) const {

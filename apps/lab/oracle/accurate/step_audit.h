@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/lab/oracle/accurate/ray_log.h"
-#include "apps/lab/oracle/referee.h"
+#include "apps/lab/oracle/accurate/witness.h"
 
 namespace dmpc::apps {
 
@@ -16,27 +16,34 @@ struct Audit {
   std::vector<std::optional<Verdict>> doubts;
   /// The farthest that a ray lies from where it should, in units of what disturbances (disturbance.h) do to it.
   double largest_step = 0;
-  std::string error;  ///< what cannot be explained, in words; empty if all can
+  bool is_warned = false;  ///< an answer is farther off than pixels may be without a word, and no farther than was said
+  std::string error;       ///< what cannot be explained, in words; empty if all can
 };
 
-/// Takes the product's rays as they are, floats and all, and asks at each of them in double precision:
-///   - Is the answer right? If the accurate renderer answers the very same ray otherwise, the referee must allow the product's
-///   answer
-///     (brute force, margins in roundings).
+/// Takes the product's rays as they are, floats and all, and asks at each of them in double precision, of the scene as its file
+/// has it:
+///   - Is the answer right? If the accurate renderer answers the very same ray otherwise, a ray beside it must have the product's
+///     answer (witness.h), no farther off than core::rounding_allowed_pixels, as pixels are seen there from the eye; where it is
+///     farther off, but no more than the product said before it began, the pixel is warned.
 ///   - Do the right rays start from the hit: those towards lights, mirrored, refracted, with start, direction and weight? They
-///   may
-///     be off by `steps_allowed` times as much as disturbances move them; a ray may be there or missing only where a disturbance
-///     decides so, too.
-/// So nothing is left to how mirrors and glass multiply errors: a picture that passes is the exact picture of rays and surfaces
-/// that were rounded at each step. Immutable, thread-safe.
+///     may be off by `steps_allowed` times as much as disturbances move them; a ray may be there or missing only where a
+///     disturbance decides so, too. What a ray starts off its surface by must leave nothing out: between there and the surface is nothing.
+/// So nothing is left to how mirrors and glass multiply errors: a picture that passes is the exact picture of rays that were
+/// rounded at each step. Immutable, thread-safe.
 class StepAudit {
  public:
   static constexpr double steps_allowed = 4;
 
-  /// All outlive the audit; `scene` is what `database` was built of, `finder` is made of it.
+  /// All outlive the audit; `scene` is what `database` was built of, `finder` is made of it. `warned_pixels`: how far the product
+  /// said that anything may be off, or how large what it leaves out.
   StepAudit(const core::Database& database, const core::ShadeOptions& options, const AccurateScene& scene,
-            const AccurateFinder& finder)
-      : unit_(1 / database.header().frame.scale), options_(options), scene_(scene), finder_(finder), referee_(database) {}
+            const AccurateFinder& finder, double warned_pixels = 0)
+      : unit_(1 / database.header().frame.scale),
+        warned_pixels_(warned_pixels),
+        options_(options),
+        scene_(scene),
+        finder_(finder),
+        witnesses_(scene, finder) {}
 
   /// `primary` is the ray that the log should begin with.
   Audit of(const ProductLog& log, const AccurateRay& primary) const;
@@ -45,10 +52,11 @@ class StepAudit {
   class Case;
 
   double unit_;  ///< the product's grid-local unit in the world's
+  double warned_pixels_;
   core::ShadeOptions options_;
   const AccurateScene& scene_;
   const AccurateFinder& finder_;
-  Referee referee_;
+  WitnessFinder witnesses_;
 };
 
 }  // namespace dmpc::apps

@@ -36,6 +36,19 @@ TEST_CASE("rays are those of the product but for its rounding") {
   }
 }
 
+TEST_CASE("rays of an eye that is far from what it sees start before that, as near to their lines as double can tell there") {
+  const core::View far{.from = {7e8, 0, 0}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 1e-7};
+  const core::Box seen{{-1, -1, -1}, {1, 1, 1}};
+  const apps::AccurateCamera camera(far, 9, 9, seen);
+  const apps::AccurateRay ray = camera.ray_through(8, 4);
+  CHECK(ray.origin.x < 8);
+  CHECK(ray.cone == doctest::Approx(7e8).epsilon(1e-8));
+  const double across = std::tan(0.5e-7 * std::acos(-1.0) / 180) * (7e8 - ray.origin.x);
+  CHECK(std::fabs(std::fabs(ray.origin.y) - across) < 1e-15);
+  CHECK(length(camera.start()) < 8);
+  CHECK(apps::AccurateCamera(view, 9, 9, seen).ray_through(8, 4).origin == view.from);
+}
+
 TEST_CASE("a picture of one pixel looks straight ahead and one of none is refused") {
   CHECK(length(apps::AccurateCamera(view, 1, 1).ray_through(0, 0).direction - normalize(view.at - view.from)) < 1e-15);
   CHECK_THROWS_AS(apps::AccurateCamera(view, 0, 1), core::InternalError);

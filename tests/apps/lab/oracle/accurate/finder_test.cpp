@@ -116,6 +116,34 @@ TEST_CASE("of equal distances the lower body wins") {
   CHECK(finder.closest(ray).body == 1);
 }
 
+TEST_CASE("faces that doubles tell apart are two, however wide the scene is, and the nearer one shows") {
+  core::Scene scene;
+  core::SceneBuilder builder(scene);
+  builder.polygon({{-1e4, -1e4, 0}, {1e4, -1e4, 0}, {0, 1e4, 0}});
+  for (const double off : {1e-3, 1e-9, -1e-9, 1e-3}) {
+    builder.polygon({{-1, -1, off}, {1, -1, off}, {0, 1, off}});
+  }
+  const AccurateScene accurate = apps::accurate_scene(scene);
+  const AccurateFinder finder(accurate, {0, 0, 5});
+  AccurateRay ray{.origin = {0.01, 0.02, 5}, .direction = normalize(Vec3d{0, 0.1, -1})};
+  CHECK(finder.closest(ray).body == 1);
+  ray.origin.z = -5, ray.direction.z *= -1;
+  CHECK(finder.closest(ray).body == 3);
+}
+
+TEST_CASE("a ray that starts on a face meets what lies a hair before it, and nothing that lies in its plane") {
+  core::Scene scene;
+  core::SceneBuilder builder(scene);
+  for (const double height : {0.3, 0.3, 0.300001}) {
+    builder.polygon({{-1.5, -1, height}, {1.5, -1, height}, {0, 1.4, height}});
+  }
+  const AccurateScene accurate = apps::accurate_scene(scene);
+  const AccurateFinder finder(accurate, {0, 0, 5});
+  const AccurateRay ray{.origin = {0.1, 0.2, 0.3 + 1e-13}, .direction = {0, 0, 1}, .ignored_body = 0};
+  CHECK(finder.closest(ray).body == 2);
+  CHECK(finder.closest(ray).t == doctest::Approx(1e-6).epsilon(1e-5));
+}
+
 TEST_CASE("a ray ignores the triangle it starts on and no sphere") {
   core::Scene scene;
   core::SceneBuilder builder(scene);

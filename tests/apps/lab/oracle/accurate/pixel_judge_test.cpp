@@ -17,8 +17,8 @@ using apps::PixelCause;
 
 /// How many pixels have which cause, whether their bytes differ or not.
 struct Causes : std::array<std::uint32_t, apps::pixel_cause_count> {
-  explicit Causes(const Workbench& bench) : array{} {
-    const apps::PixelJudge judge(bench.database, bench.settings, bench.accurate, bench.finder, bench.camera);
+  explicit Causes(const Workbench& bench, const core::RoundingLoss& loss = {}) : array{} {
+    const apps::PixelJudge judge(bench.database, bench.settings, bench.accurate, bench.finder, bench.camera, loss);
     for (std::uint32_t pixel = 0; pixel < bench.pixel_count(); ++pixel) {
       const apps::Judgement judgement = judge.judge(pixel);
       ++at(static_cast<std::size_t>(judgement.cause));
@@ -42,17 +42,39 @@ TEST_CASE("mirrors that multiply rounding part the renderers at silhouettes and 
   CHECK(causes.of(PixelCause::unexplained) == 0);
 }
 
-TEST_CASE("two polygons all but in one place are a tie") {
+/// A smaller polygon in front of another one by so much, and rising from left to right.
+core::Scene two_polygons(double before, double rise) {
   core::Scene scene;
-  scene.view = {.from = {0.1, 0.2, 5}, .at = {0, 0, 0}, .up = {0, 1, 0}, .angle_degrees = 20};
+  scene.view = {.from = {0.1, 0.2, 6}, .at = {0, 0, 1}, .up = {0, 1, 0}, .angle_degrees = 20};
   core::SceneBuilder builder(scene);
-  builder.polygon({{-1, -1, 0.1}, {1, -1, 0.3}, {0.2, 1.3, -0.2}});
-  // Nearly the same plane, by the middles of the sides: too far off to share it, too near for floats to tell.
-  constexpr double off = 6e-7;
-  builder.polygon({{-0.4, 0.15, -0.05 + off}, {0, -1, 0.2 + off}, {0.6, 0.15, 0.05 + off}});
-  const Causes causes(Workbench(scene, 24));
+  builder.polygon({{-0.5, -0.7, 1 + before - 0.5 * rise}, {0.6, -0.7, 1 + before + 0.6 * rise}, {0, 0.8, 1 + before}});
+  builder.polygon({{-1, -1, 1}, {1, -1, 1}, {0.2, 1.3, 1}});
+  return scene;
+}
+
+TEST_CASE("two polygons that all but touch are a tie where they cross within a pixel") {
+  const Causes causes(Workbench(two_polygons(0, 1e-5), 24));
   CHECK(causes.of(PixelCause::tie) > 0);
   CHECK(causes.of(PixelCause::unexplained) == 0);
+}
+
+TEST_CASE("two polygons that do not cross are in the wrong order, and no tie, however near they are to each other") {
+  constexpr double hair = 1e-8;  // less than floats can tell
+  const Causes causes(Workbench(two_polygons(hair, 0), two_polygons(-hair, 0), 24));
+  CHECK(causes.of(PixelCause::tie) == 0);
+  CHECK(causes.of(PixelCause::unexplained) > 50);
+}
+
+TEST_CASE("what is farther off than pixels may be is unexplained without a warning, and warned with one that covers it") {
+  core::Scene scene = two_polygons(0.5, 0);
+  scene.background = {0.2, 0.3, 0.4};
+  scene.view.at = scene.vertices[0] * 0.43 + scene.vertices[2] * 0.57;
+  scene.view.angle_degrees = 2e-5;  // pixels are 7e-8 apart
+  const Workbench bench(scene, 24);
+  CHECK(Causes(bench).of(PixelCause::unexplained) > 0);
+  const Causes warned(bench, core::find_rounding_loss(bench.database, bench.settings.camera));
+  CHECK(warned.of(PixelCause::unexplained) == 0);
+  CHECK(warned.of(PixelCause::warned) > 0);
 }
 
 TEST_CASE("another surface than the scene's is unexplained") {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/lab/bench/precision/expectation.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/painted_square.h"
@@ -35,6 +36,61 @@ TEST_CASE("bench precision takes any number of scenes") {
   CHECK(parse({"--resolution=20x10"}).resolution.height == 10);
   CHECK_THROWS_AS(parse({"--resolution=20"}), core::UsageError);
   CHECK_THROWS_AS(parse({"--depth=0"}), core::UsageError);
+}
+
+TEST_CASE("bench precision expects a percentage of equal pixels") {
+  CHECK_FALSE(parse({}).expected);
+  CHECK(parse({"--expect=98.5"}).expected == 98.5);
+  CHECK(parse({"--expect=0"}).expected == 0);
+  for (const char* text : {"--expect=101", "--expect=-1", "--expect=most", "--expect=99%"}) {
+    CHECK_THROWS_WITH_AS(
+        parse({text}),
+        (std::string(text) + ": expected a percentage from 0 to 100, such as 99.5\nTry: dmpc bench precision --help").c_str(),
+        core::UsageError);
+  }
+}
+
+TEST_CASE("bench precision expects of families what was measured, as it was measured, and of all else 99 percent") {
+  CHECK(apps::expectation_of("balls-4").percent == 99.92);
+  CHECK(apps::expectation_of("tetra-6").percent == 100);
+  CHECK(apps::expectation_of("mine.nff").percent == 99);
+  const auto row_of = [](const char* option) { return output_of(parse({"tetra-6", "--format=csv", option})); };
+  CHECK(contains(row_of("--depth=5"), ",100,explained"));
+  CHECK(contains(row_of("--depth=4"), ",99,explained"));
+  CHECK(contains(row_of("--resolution=32x32"), ",99,explained"));
+}
+
+TEST_CASE("bench precision fails where fewer pixels are equal than expected, though each is explained") {
+  const std::vector<std::string> line{"balls-3", "--resolution=64x64", "--depth=16"};
+  const auto status_of = [&](std::vector<std::string> more, std::string& text) {
+    more.insert(more.begin(), line.begin(), line.end());
+    apps::Interrupt interrupt;
+    std::ostringstream output;
+    const int status = apps::bench_precision_command(parse(more), interrupt, output);
+    text = unfolded(output.str());
+    return status;
+  };
+  std::string text;
+  CHECK(status_of({"--expect=100"}, text) == 3);
+  CHECK(contains(text, "TOO FEW pixels of balls-3 have the same 8 bits"));
+  CHECK(contains(text, "expected 100.00 % (by --expect)"));
+  CHECK(contains(text, "| too few |"));
+  CHECK(status_of({"--expect=50"}, text) == 0);
+  CHECK(contains(text, "Every pixel is explained."));
+  CHECK(contains(text, "| explained |"));
+}
+
+TEST_CASE("bench precision calls a scene warned whose pixels are off by no more than was said before") {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "edge.nff").string();
+  // Seen so narrowly that rounding moves the edge by a part of a pixel.
+  write_text(file,
+             "v\nfrom 0.1 0.2 6\nat -0.215 0.155 1.5\nup 0 1 0\nangle 2e-5\nhither 1\nresolution 24 24\nl 0.5 3 9\n"
+             "f 0.2 0.3 0.9 1 0 0 0 0\np 3\n-0.5 -0.7 1.5\n0.6 -0.7 1.5\n0 0.8 1.5\n"
+             "f 0.8 0.3 0.1 1 0 0 0 0\np 3\n-1 -1 1\n1 -1 1\n0.2 1.3 1\n");
+  const std::string table = output_of(parse({file, "--resolution=24x24", "--expect=0"}));
+  CHECK(contains(table, "| warned |"));
+  CHECK(contains(table, "Every pixel is explained, or was warned of."));
 }
 
 TEST_CASE("bench precision prints a row a scene and that all is explained") {

@@ -121,6 +121,16 @@ TEST_CASE("an eye three thousand times the scene's extent away sees what double 
   CHECK(precision.errors.empty());
 }
 
+TEST_CASE("an eye hundreds of millions of sizes away sees what double sees, and double sees it") {
+  core::Scene scene = built_in("teapot-3");
+  scene.view.from = normalize(scene.view.from - scene.view.at) * 7e8 + scene.view.at;
+  scene.view.angle_degrees = 6e-7;
+  const apps::Precision precision = apps::measure_precision(scene, sized(64));
+  CHECK(precision.rays > 5000);
+  CHECK(precision.differing_pixels <= 20);
+  CHECK(precision.errors.empty());
+}
+
 TEST_CASE("every scene of the SPD is explained at a small size") {
   for (const char* name :
        {"gears-2", "jacks-2", "lattice-4", "mount-4", "rings-2", "shells-3", "sombrero-1", "teapot-5", "tree-6"}) {

@@ -1,0 +1,48 @@
+// A ray beside another one that has the answer which a renderer gave: it shows that the answer is off by a shift and no more.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "apps/lab/oracle/accurate/finder.h"
+#include "apps/lab/oracle/accurate/ray.h"
+#include "apps/lab/oracle/accurate/scene.h"
+#include "apps/lab/oracle/referee.h"
+
+namespace dmpc::apps {
+
+/// What a renderer says of a ray.
+struct ClaimedAnswer {
+  bool hit = false;
+  std::uint32_t body = core::no_primitive;  ///< of a hit; what hides a light may go unnamed
+};
+
+/// Asks rays about a ray, by the scene as its file has it: nothing of what the renderer makes of the scene is known here.
+/// Immutable, thread-safe.
+class WitnessFinder {
+ public:
+  /// Both outlive it; `finder` is made of `scene`.
+  WitnessFinder(const AccurateScene& scene, const AccurateFinder& finder) : scene_(scene), finder_(finder) {}
+
+  /// How `claimed`, which `ray` does not have itself, comes about:
+  ///   silhouette   a ray that runs `reach` aside of it at most has that answer
+  ///   end          of a shadow ray: one that ends so much earlier or later has it
+  ///   tie          of two surfaces no farther apart than `reach`: one that runs `crossing` aside at most has it
+  /// Nothing if no such ray is found: then the answer is wrong, not off. Lengths are the world's.
+  std::optional<Verdict> find(const AccurateRay& ray, const ClaimedAnswer& claimed, double reach, double crossing) const;
+  /// Whether a ray that runs `reach` aside of it at most has the answer.
+  bool is_beside(const AccurateRay& ray, const ClaimedAnswer& claimed, double reach) const;
+
+ private:
+  /// A ray moved across itself: it starts as far off the surface that it leaves, and is as long.
+  AccurateRay beside(const AccurateRay& ray, const core::Vec3d& step) const;
+  bool has(const AccurateRay& ray, const ClaimedAnswer& claimed) const;
+  bool is_at_end(const AccurateRay& ray, const ClaimedAnswer& claimed, double reach) const;
+  /// Whether the ray meets the two surfaces no farther apart than `reach`.
+  bool is_level(const AccurateRay& ray, const ClaimedAnswer& claimed, double reach) const;
+
+  const AccurateScene& scene_;
+  const AccurateFinder& finder_;
+};
+
+}  // namespace dmpc::apps
