@@ -31,12 +31,8 @@ double power(double base, std::uint32_t exponent) {
   return result;
 }
 
-/// What a pixel counts for in another's variance, which is next to it or itself: the nearer the more, as a tent does.
+/// What a pixel counts for in its own variance.
 constexpr double own_share = 4;
-double tent_share(std::uint32_t pixel, std::uint32_t near, std::uint32_t width) {
-  const bool is_same_column = pixel % width == near % width, is_same_row = pixel / width == near / width;
-  return (is_same_column ? 2 : 1) * (is_same_row ? 2 : 1);
-}
 
 Vec3d vector_of(const std::array<float, 3>& color) { return {double{color[0]}, double{color[1]}, double{color[2]}}; }
 
@@ -44,13 +40,13 @@ std::array<float, 3> rounded(const Vec3d& color) {
   return {static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z)};
 }
 
-/// Calls visit(pixel) for the pixel and those around it, as far as the picture goes.
+/// Calls visit(pixel, share) for the pixel and those around it, as far as the picture goes; shares are those of a tent, 4 to 1.
 template <class Visit>
 void visit_around(std::uint32_t pixel, std::uint32_t width, std::uint32_t height, const Visit& visit) {
   const std::uint32_t column = pixel % width, row = pixel / width;
   for (std::uint32_t y = row - (row > 0 ? 1 : 0); y <= std::min(row + 1, height - 1); ++y) {
     for (std::uint32_t x = column - (column > 0 ? 1 : 0); x <= std::min(column + 1, width - 1); ++x) {
-      visit(y * width + x);
+      visit(y * width + x, (x == column ? 2.0 : 1.0) * (y == row ? 2.0 : 1.0));
     }
   }
 }
@@ -182,18 +178,18 @@ double ErrorEstimate::seen_error(const Film& film, std::uint32_t pixel) const {
   const bool is_detail = has_detail(pixel);
   double variance = 0, weight = 0;
   std::array<float, 3> darkest = past_[pixel].mean, brightest = darkest;
-  visit_around(pixel, width_, height_, [&](std::uint32_t near) {
+  visit_around(pixel, width_, height_, [&](std::uint32_t near, double share) {
     if (has_detail(near) != is_detail) {
       return;
     }
-    const double share = tent_share(pixel, near, width_);
-    variance += share * double{past_[near].change} / fall(pixel);
+    variance += share * double{past_[near].change};
     weight += share;
     for (std::size_t channel = 0; channel < 3; ++channel) {
       darkest[channel] = std::min(darkest[channel], past_[near].mean[channel]);
       brightest[channel] = std::max(brightest[channel], past_[near].mean[channel]);
     }
   });
+  variance /= fall(pixel);
   const double samples_spread = spread(film.samples(pixel));
   if (is_detail) {
     variance += own_share * detail_variance(pixel, film.samples(pixel)) * samples_spread;
@@ -217,7 +213,7 @@ std::uint32_t ErrorEstimate::tile_of(std::uint32_t pixel) const {
 
 ErrorEstimate::Evidence ErrorEstimate::evidence_around(const std::vector<Evidence>& tiles, std::uint32_t tile) const {
   Evidence sum;
-  visit_around(tile, tile_columns_, tile_rows_, [&](std::uint32_t near) {
+  visit_around(tile, tile_columns_, tile_rows_, [&](std::uint32_t near, double) {
     sum.sum += tiles[near].sum;
     sum.weight += tiles[near].weight;
   });
