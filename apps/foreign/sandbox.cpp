@@ -96,10 +96,9 @@ bool limit_all(std::uint64_t memory_bytes) {
 
 }  // namespace
 
-void tie_to_parent() {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  std::ofstream("/proc/self/oom_score_adj") << 1000;
-}
+void tie_to_parent() { ::prctl(PR_SET_PDEATHSIG, SIGKILL); }
+
+void be_first_to_end() { std::ofstream("/proc/self/oom_score_adj") << 1000; }
 
 /// By Landlock, of kernel 5.13 and later; its later versions know of more that can be done to a file.
 bool forbid_files() {
@@ -118,11 +117,12 @@ bool forbid_files() {
   return is_forbidden;
 }
 
-bool enter_sandbox(std::uint64_t memory_bytes) {
-  const bool is_limited = limit_all(memory_bytes);
+Confinement enter_sandbox(std::uint64_t memory_bytes) {
+  Confinement confinement{.are_limits_set = limit_all(memory_bytes)};
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  forbid_files();  // a second wall, where there is one
-  return filter_calls() && is_limited;
+  confinement.are_files_forbidden = forbid_files();  // a second wall
+  confinement.are_calls_filtered = filter_calls();
+  return confinement;
 }
 
 }  // namespace dmpc::apps

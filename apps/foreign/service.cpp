@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <optional>
@@ -18,7 +19,18 @@ namespace {
 constexpr int line_number = 3;
 constexpr int failed_status = 70;
 
-void get_ready(Line& line) {
+/// Under the address sanitizer, which takes calls of its own, and address space beyond any limit, nothing is shut in.
+Confinement confinement_for([[maybe_unused]] std::uint64_t memory_bytes, [[maybe_unused]] Matter matter) {
+#if !defined(__SANITIZE_ADDRESS__)
+  if (matter == Matter::foreign) {
+    be_first_to_end();
+    return enter_sandbox(memory_bytes);
+  }
+#endif
+  return {};
+}
+
+void get_ready(Line& line, Matter matter) {
   tie_to_parent();
   core::use_usual_arithmetic();
   ::dup2(STDOUT_FILENO, STDERR_FILENO);  // what libraries say of a file may be what the file has them say
@@ -26,12 +38,13 @@ void get_ready(Line& line) {
   if (!message || message->saying != Saying::limits) {
     ::_exit(failed_status);
   }
-#if defined(__SANITIZE_ADDRESS__)  // which takes calls of its own, and address space beyond any limit
-  const bool is_filtered = false;
-#else
-  const bool is_filtered = enter_sandbox(Unpacker(message->bytes).take<std::uint64_t>());
-#endif
-  line.send(Saying::ready, Packer().add(protocol).add(static_cast<std::uint8_t>(is_filtered)));
+  const Confinement confinement = confinement_for(Unpacker(message->bytes).take<std::uint64_t>(), matter);
+  Packer fields;
+  fields.add(protocol);
+  for (const bool flag : {confinement.are_calls_filtered, confinement.are_limits_set, confinement.are_files_forbidden}) {
+    fields.add(static_cast<std::uint8_t>(flag));
+  }
+  line.send(Saying::ready, fields);
 }
 
 /// What a library throws that is no error of ours is its own complaint of the file.
@@ -49,16 +62,25 @@ void serve_one(const Message& request, Line& line, const std::function<void(cons
 
 }  // namespace
 
-void serve_requests(const std::function<void(const Message&, Line&)>& serve) {
+void serve_requests(const std::function<void(const Message&, Line&)>& serve, Matter matter) {
   Line line{Descriptor(line_number)};
   try {
-    get_ready(line);
+    get_ready(line, matter);
     while (const std::optional<Message> request = line.receive(true)) {
       serve_one(*request, line, serve);
     }
   } catch (const HungUp&) {
   }
   ::_exit(0);  // nothing is left to be written, and the libraries' own ends want calls that are gone
+}
+
+void send_bytes(std::span<const std::byte> bytes, Line& line) {
+  for (std::size_t first = 0; first < bytes.size(); first += message_bytes_max) {
+    const auto part = bytes.subspan(first, std::min(message_bytes_max, bytes.size() - first));
+    if (!line.send(Saying::bytes, {reinterpret_cast<const char*>(part.data()), part.size()})) {
+      return;
+    }
+  }
 }
 
 }  // namespace dmpc::apps

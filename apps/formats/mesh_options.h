@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "apps/formats/up_axis.h"
+#include "apps/reader/confinement.h"
 
 namespace dmpc::apps {
 
@@ -13,6 +14,7 @@ struct MeshOptions {
   std::optional<double> smooth_degrees;  ///< vertex normals are reckoned anew, over edges up to this angle; 0 to 180
   bool opens_anywhere = false;           ///< files that lie neither beside nor below the scene are opened, too
   bool allows_missing = false;           ///< what files that are missing would cover is shown in its plain colour
+  Sandbox sandbox = Sandbox::available;  ///< what the readers of the file and of its textures have to be confined by
   /// Another view is taken, or other lights, so that nothing is said of the file's.
   bool is_seen_otherwise = false, is_lit_otherwise = false;
 };

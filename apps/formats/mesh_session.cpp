@@ -51,6 +51,11 @@ std::string format_of(const std::string& path) {
   return ending.empty() ? "these" : ending.substr(1);
 }
 
+ReaderLimits with_sandbox(ReaderLimits limits, Sandbox sandbox) {
+  limits.sandbox = sandbox;
+  return limits;
+}
+
 TextureEdges take_edges(Unpacker& fields) {
   const auto s = fields.take_choice(core::TextureWrap::clamp);
   return {s, fields.take_choice(core::TextureWrap::clamp)};
@@ -64,8 +69,8 @@ MeshSession::MeshSession(const std::string& path, const MeshOptions& options, bo
       access_(path, options.opens_anywhere),
       file_bytes_(bytes_of(path)),
       progress_(std::cerr, shows_progress, "Reading " + path + ":", "bytes"),
-      pictures_(limits),
-      budget_(limits),
+      pictures_(with_sandbox(limits, options.sandbox)),
+      budget_(with_sandbox(limits, options.sandbox)),
       process_("dmpc_mesh_reader", memory_bytes_for(bytes_around(path)), budget_),
       current_(path) {}
 

@@ -7,9 +7,10 @@
 #include <string>
 
 #include "apps/edge/system/output_file.h"
+#include "apps/edge/system/shortage.h"
 #include "apps/picture/exr_file.h"
-#include "apps/picture/picture_library.h"
 #include "apps/picture/picture_reader.h"
+#include "apps/picture/picture_writer.h"
 #include "apps/picture/png_file.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
@@ -31,10 +32,10 @@ bool takes_floats(std::string_view extension) {
   return extension == ".exr" || extension == ".tif" || extension == ".tiff" || extension == ".hdr";
 }
 
-/// A library that takes long to load is asked about all but these two.
+/// A process that takes long to start is asked about all but these two.
 void check_extension(const fs::path& path) {
   const std::string extension = lower_extension(path);
-  if (extension != ".exr" && extension != ".png" && (extension.empty() || !picture_library().writes(extension))) {
+  if (extension != ".exr" && extension != ".png" && (extension.empty() || !picture_writer().writes(extension))) {
     throw core::InputError(path.string() + ": cannot write pictures " +
                            (extension.empty() ? "without an extension" : "of the kind " + extension) +
                            ", use .exr or .tif (linear floats), .png or .jpg (8 bits, sRGB)");
@@ -62,12 +63,15 @@ std::string file_of(const fs::path& path, const Image& image) {
                               .height = image.height,
                               .are_floats = are_floats,
                               .values = are_floats ? static_cast<const void*>(image.rgb.data()) : bytes.data()};
-  std::string error;
-  std::string file = picture_library().file_of(path.string(), picture, error);
-  if (file.empty()) {
-    throw core::InputError(path.string() + ": cannot be written: " + error);
+  try {
+    return picture_writer().file_of(path.string(), picture);
+  } catch (const ComputerRoomError&) {
+    throw;
+  } catch (const core::RoomError&) {
+    throw ComputerRoomError(path.string() + ": there is no memory to write it");
+  } catch (const core::InputError& error) {
+    throw core::InputError(path.string() + ": " + error.what());
   }
-  return file;
 }
 
 }  // namespace
@@ -106,6 +110,8 @@ std::string encoded_picture(const fs::path& path, const Channel& channel) {
 
 void write_image(const fs::path& path, const Image& image) { write_file(path, encoded_picture(path, image)); }
 
-Image read_image(const fs::path& path) { return PictureReader().read_image(open_picture(path)); }
+Image read_image(const fs::path& path, Sandbox sandbox) {
+  return PictureReader({.sandbox = sandbox}).read_image(open_picture(path));
+}
 
 }  // namespace dmpc::apps

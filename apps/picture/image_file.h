@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/reader/confinement.h"
+
 namespace dmpc::apps {
 
 /// Linear RGB radiance, row by row from the top left, three floats a pixel.
@@ -50,7 +52,7 @@ std::string encoded_picture(const std::filesystem::path& path, const Image& imag
 std::string encoded_picture(const std::filesystem::path& path, const Channel& channel);
 
 /// Reads the first three channels (one channel is taken thrice). Floats are taken as linear radiance; integers as sRGB and made
-/// linear. Throws core::InputError if there is no such picture.
-Image read_image(const std::filesystem::path& path);
+/// linear. Throws core::InputError if there is no such picture, or if its reader is confined by less than `sandbox`.
+Image read_image(const std::filesystem::path& path, Sandbox sandbox = Sandbox::available);
 
 }  // namespace dmpc::apps

@@ -80,6 +80,7 @@ core::Texture PictureReader::read_texture(const PictureFile& file, const Texture
   read(file, Saying::read_texture, [&] {
     const Head head = receive_head(file);
     check_texture_size(file.name, head.width, head.height);
+    take_room(head);
     texture.format = head.format;
     texture.levels.push_back({head.width, head.height, receive_values<std::uint32_t>(std::uint64_t{head.width} * head.height)});
   });
@@ -148,6 +149,15 @@ void PictureReader::check_time() const {
   if (!process_ && budget_.left() <= ReadingBudget::Time{}) {
     throw core::InputError("is not read: pictures before it have taken the " + counted(budget_.seconds(), "second") +
                            " of processor time that there is for all together: mend or leave out those");
+  }
+}
+
+void PictureReader::take_room(const Head& head) {
+  const std::uint64_t most = budget_.limits().texture_bytes_max == 0 ? reader_memory_bytes_max() : budget_.limits().texture_bytes_max;
+  texture_bytes_ += std::uint64_t{head.width} * head.height * sizeof(std::uint32_t) * 4 / 3;
+  if (texture_bytes_ > most) {
+    throw ComputerRoomError("with it the scene's textures take " + mebibytes_text(texture_bytes_) + ", and there is room for " +
+                            mebibytes_text(most) + ": make them smaller");
   }
 }
 

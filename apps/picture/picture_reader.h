@@ -29,7 +29,7 @@ PictureFile open_picture(const std::filesystem::path& path);
 PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name, const std::string& ending);
 
 /// Keeps its process from one picture to the next, as long as that lives. All pictures together have one budget of time, which
-/// their bytes alone renew. All throw core::InputError "NAME: ...", and core::RoomError, which says so, if this computer has no
+/// their bytes alone renew, and textures one of memory, which is looked at before there is room for one. All throw core::InputError "NAME: ...", and core::RoomError, which says so, if this computer has no
 /// room for the process or for the picture.
 class PictureReader {
  public:
@@ -53,6 +53,7 @@ class PictureReader {
   void read(const PictureFile& file, Saying request, const Take& take);
   void ask(const PictureFile& file, Saying request);
   void check_time() const;
+  void take_room(const Head& head);
   Head receive_head(const PictureFile& file);
   template <class T>
   std::vector<T> receive_values(std::uint64_t count);
@@ -60,7 +61,7 @@ class PictureReader {
 
   ReadingBudget budget_;
   std::optional<ReaderProcess> process_;
-  std::uint64_t memory_bytes_ = 0;
+  std::uint64_t memory_bytes_ = 0, texture_bytes_ = 0;
 };
 
 }  // namespace dmpc::apps

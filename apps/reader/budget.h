@@ -1,9 +1,11 @@
-// What reading may take: of a scene, or of its pictures.
+// What reading may take, of a scene or of its pictures, and what it is confined by.
 #pragma once
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+
+#include "apps/reader/confinement.h"
 
 namespace dmpc::apps {
 
@@ -12,6 +14,8 @@ struct ReaderLimits {
   std::uint64_t seconds = 10;              ///< of processor time
   std::uint64_t bytes_a_second = 500'000;  ///< so many more bytes of files, one more second
   std::uint64_t wall_factor = 30;  ///< so many times the processor time may pass on the wall: others want the processor, too
+  std::uint64_t texture_bytes_max = 0;  ///< of all textures of a scene, with their levels; 0: what there is room for
+  Sandbox sandbox = Sandbox::available;
 };
 
 /// One for all processes that read one after the other or beside each other, and for what dmpc does to answer them. Bytes of
@@ -28,6 +32,7 @@ class ReadingBudget {
   /// Passed on the wall.
   void wait(Time time) { waited_ += time; }
 
+  const ReaderLimits& limits() const { return limits_; }
   /// All that there is, in whole seconds of processor time.
   std::uint64_t seconds() const { return limits_.seconds + bytes_ / std::max<std::uint64_t>(limits_.bytes_a_second, 1); }
   std::uint64_t wall_seconds() const { return seconds() * limits_.wall_factor; }

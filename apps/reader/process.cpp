@@ -65,16 +65,15 @@ int spawn(pid_t& id, const std::string& program, int line, int errors) {
 
 /// Libraries that get ready start threads, and abort where they cannot.
 [[noreturn]] void fail_to_start(const std::string& program, const std::string& how, const std::string& complaint) {
-  const std::string what = program + ", which reads foreign files for dmpc, cannot be started";
+  const std::string what = program + ", which reads or writes files for dmpc, cannot be started";
   throw_if_short(complaint, what);
   throw core::InternalError(what + ": it " + how + (complaint.empty() ? "" : ", saying: " + complaint));
 }
 
 /// Once.
-[[maybe_unused]] void say_that_none_is_filtered() {
-  [[maybe_unused]] static const bool is_said = [] {
-    std::cerr << "dmpc: this computer does not confine the processes that read foreign files as it should (seccomp, limits): "
-                 "read none that you do not trust\n";
+[[maybe_unused]] void say_what_is_missing(const std::string& missing) {
+  [[maybe_unused]] static const bool is_said = [&] {
+    std::cerr << "dmpc: " << missing << ": read none that you do not trust, or ask for --sandbox=required\n";
     return true;
   }();
 }
@@ -84,30 +83,36 @@ int spawn(pid_t& id, const std::string& program, int line, int errors) {
 ReaderProcess::ReaderProcess(const std::string& program, std::uint64_t memory_bytes, ReadingBudget& budget)
     : memory_bytes_(memory_bytes), line_(Descriptor()) {
   const std::string path =
-      companion_path(program, "../libexec/dmpc", "the program " + program + ", which reads foreign files for dmpc,").string();
+      companion_path(program, "../libexec/dmpc", "the program " + program + ", which reads or writes files for dmpc,").string();
   auto [ours, its] = make_ends();
   line_ = Line(std::move(ours));
   const MemoryFile errors;
   start(path, its, errors.descriptor());
   its = Descriptor();  // else its death would not close the line
   allow();
+  Confinement confinement;
   try {
     send(Saying::limits, Packer().add(memory_bytes));
-    hear_that_it_is_ready();
+    confinement = hear_that_it_is_ready();
   } catch (const core::InputError& error) {
     fail_to_start(path, error.what(), errors.bytes());
   }
   taken_to_start_ = taken();
   budget_ = &budget;
   allow();
+  check(confinement);
 }
 
 ReaderProcess::~ReaderProcess() {
   if (id_ > 0) {
     budget_->spend(taken() - taken_to_start_);
-    ::kill(id_, SIGKILL);
-    ::waitpid(id_, nullptr, 0);
+    stop();
   }
+}
+
+void ReaderProcess::stop() {
+  ::kill(id_, SIGKILL);
+  ::waitpid(std::exchange(id_, -1), nullptr, 0);
 }
 
 void ReaderProcess::start(const std::string& program, const Descriptor& its_end, int errors) {
@@ -118,15 +123,29 @@ void ReaderProcess::start(const std::string& program, const Descriptor& its_end,
   }
 }
 
-void ReaderProcess::hear_that_it_is_ready() {
+Confinement ReaderProcess::hear_that_it_is_ready() {
   const Message message = receive();
   Unpacker fields(message.bytes);
   Unpacker::require(message.saying == Saying::ready && fields.take<std::uint32_t>() == protocol);
-  is_filtered_ = fields.take_flag();
-#if !defined(__SANITIZE_ADDRESS__)  // under which none is
-  if (!is_filtered_) {
-    say_that_none_is_filtered();
+  const bool are_calls_filtered = fields.take_flag(), are_limits_set = fields.take_flag();
+  return {are_calls_filtered, are_limits_set, fields.take_flag()};
+}
+
+void ReaderProcess::check(const Confinement& confinement) {
+  if (budget_->limits().sandbox == Sandbox::none) {
+    return;
   }
+  add_reader(confinement);
+  if (confinement.is_full()) {
+    return;
+  }
+  const std::string missing = missing_text(confinement);
+  if (budget_->limits().sandbox == Sandbox::required) {
+    stop();
+    throw core::InputError(missing + ": nothing is read, as --sandbox=required asks");
+  }
+#if !defined(__SANITIZE_ADDRESS__)  // under which none is
+  say_what_is_missing(missing);
 #endif
 }
 

@@ -20,8 +20,9 @@ struct ReaderDeath : core::InputError {
 class ReaderProcess {
  public:
   /// Starts the program and waits until it is ready; it may take so much memory beside what it has at the start, and from then on
-  /// the time that `budget` has, which outlives it. Throws core::InternalError if there is no such program or if it does not get
-  /// ready, ComputerRoomError if this computer lets it not.
+  /// the time that `budget` has, which outlives it. What this computer does not confine it by is said, once. Throws
+  /// core::InternalError if there is no such program or if it does not get ready, ComputerRoomError if this computer lets it
+  /// not, core::InputError where it is confined by less than the budget's sandbox asks for.
   ReaderProcess(const std::string& program, std::uint64_t memory_bytes, ReadingBudget& budget);
   ~ReaderProcess();
   ReaderProcess(const ReaderProcess&) = delete;
@@ -32,12 +33,11 @@ class ReaderProcess {
   /// The next message. Throws ReaderDeath if it has ended or takes too long, core::RoomError if its memory ended.
   Message receive();
 
-  /// Whether the kernel refuses it all but few calls.
-  bool is_filtered() const { return is_filtered_; }
-
  private:
   void start(const std::string& program, const Descriptor& its_end, int errors);
-  void hear_that_it_is_ready();
+  Confinement hear_that_it_is_ready();
+  void check(const Confinement& confinement);
+  void stop();
   /// Has the system end it where its time ends.
   void allow();
   /// Of the processor, since its start.
@@ -51,7 +51,6 @@ class ReaderProcess {
   pid_t id_ = -1;
   Line line_;
   ReadingBudget::Time taken_to_start_{};
-  bool is_filtered_ = false;
 };
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// What dmpc and the processes that read foreign files for it say to each other: kinds of messages, each with its fields.
+// What dmpc and the processes that read and write files for it say to each other: kinds of messages, each with its fields.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 namespace dmpc::apps {
 
 /// The version of the messages and of what they hold; processes of different builds do not understand each other.
-inline constexpr std::uint32_t protocol = 1;
+inline constexpr std::uint32_t protocol = 2;
 
 /// A message is no longer; more is sent in pieces.
 inline constexpr std::size_t message_bytes_max = 64 * 1024;
@@ -21,12 +21,14 @@ enum class Saying : std::uint8_t {
   read_mesh,     ///< path, scale, up, smooth, and flags of MeshOptions
   read_texture,  ///< name, format hint, bytes of the file; with the file
   read_image,    ///< name, format hint, bytes of the file; with the file
+  writes,         ///< an ending; answered by yes or no
+  write_picture,  ///< name, width, height, whether its values are floats; with a file of these; bytes follow, then done
   file,          ///< bytes of the file; with the file
   names,         ///< paths
   yes,
   no,  ///< why not
   // From a reader.
-  ready,           ///< protocol, whether calls of the system are filtered
+  ready,           ///< protocol, what confines it: a flag each of Confinement
   open,            ///< path; answered by file or no
   exists,          ///< path; answered by yes or no
   meant,           ///< a folder and a name in the scene's file; answered by names

@@ -144,6 +144,7 @@ void add_options(OptionSet options, Staging& staging) {
   options.add_words(
       "--files", {"below", "anywhere"}, [&staging](const std::string& text) { staging.mesh.opens_anywhere = text == "anywhere"; },
       "Mesh files: which files they may refer to: those beside and below them, or any; below if not given");
+  add_sandbox_option(options, staging.mesh.sandbox);
 }
 
 void apply(const Staging& staging, core::Scene& scene) {

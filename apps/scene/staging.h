@@ -24,7 +24,7 @@ struct Staging {
   MeshOptions mesh;                      ///< for mesh files alone
 };
 
-/// Declares --camera, --light, --scale, --up, --smooth, --missing and --files.
+/// Declares --camera, --light, --scale, --up, --smooth, --missing, --files and --sandbox.
 void add_options(OptionSet options, Staging& staging);
 
 /// "FROM/AT[/UP[/DEGREES]]", "1,2,3/0,0,0/0,1,0/45". Throws core::UsageError for anything else, or for a view that shows nothing.

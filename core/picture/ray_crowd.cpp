@@ -31,21 +31,21 @@ std::uint64_t rays_in(const Operations& operations) {
 
 }  // namespace
 
-std::uint8_t find_one_child_depth(const Database& database, const RenderSettings& given) {
-  RenderSettings settings = given;
-  settings.skips = {};  // what is left out changes no film, so neither may what is counted
+std::uint8_t find_one_child_depth(const Database& database, const RenderSettings& settings) {
   if (settings.shade.depth_max <= crowd_depth || !can_send_two(database)) {
     return 0;
   }
+  RenderSettings all = settings;
+  all.skips = {};  // what is left out changes no film, so neither may what is counted
   LocalRecords records(database.bytes());
-  GridTracer tracer(records, settings.header, settings.skips);
-  std::vector<HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
+  GridTracer tracer(records, all.header, all.skips);
+  std::vector<HitState> stack(static_cast<std::size_t>(all.shade.depth_max));
   PixelTask task(stack);
   Operations operations;
-  const std::uint64_t pixels = settings.camera.pixel_count(), count = std::min(looked_at, pixels);
+  const std::uint64_t pixels = all.camera.pixel_count(), count = std::min(looked_at, pixels);
   for (std::uint64_t i = 0; i < count; ++i) {
-    task.start(static_cast<std::uint32_t>(i * stride % pixels), {0, 1}, settings, operations);
-    while (task.run(tracer, settings, operations) != TaskState::finished) {
+    task.start(static_cast<std::uint32_t>(i * stride % pixels), {0, 1}, all, operations);
+    while (task.run(tracer, all, operations) != TaskState::finished) {
       if (rays_in(operations) > crowd_rays * count) {
         return crowd_depth;
       }

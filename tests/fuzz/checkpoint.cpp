@@ -185,11 +185,20 @@ void try_checkpoint(const std::uint8_t* data, std::size_t size) {
   const Picture& of = picture(choice);
   const bool is_raw = choice % 16 == 15;
   file.put(is_raw ? std::string(data + std::min<std::size_t>(size, 1), data + size) : forged(of, bytes));
+  const bool by_dataflow = choice / 2 % 2 == 1;
+  covered().count("any bytes", is_raw);
+  covered().count("forged", !is_raw);
+  std::optional<core::PartialPicture> start;
   try {
-    const core::PartialPicture start = apps::read_checkpoint(file.path(), of.identity());
-    of.finish(start, choice / 2 % 2 == 1);
+    start.emplace(apps::read_checkpoint(file.path(), of.identity()));
   } catch (const core::InputError& error) {
     core::expect(!std::string(error.what()).empty(), "who refuses says why");
+  }
+  covered().count("refused", !start);
+  covered().count("gone on with by svm", start && !by_dataflow);
+  covered().count("gone on with by dataflow", start && by_dataflow);
+  if (start) {
+    of.finish(*start, by_dataflow);
   }
 }
 

@@ -17,6 +17,7 @@ using Target = void (*)(const std::uint8_t* data, std::size_t size);
 
 /// Every input of the corpus of that name.
 void replay(const std::string& name, Target attempt) {
+  covered() = tests::Coverage(name);
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(DMPC_SOURCE_DIR "/tests/fuzz/corpus/" + name)) {
     CAPTURE(entry.path());
@@ -25,6 +26,9 @@ void replay(const std::string& name, Target attempt) {
     ++count;
   }
   CHECK(count > 0);
+  for (const std::string& kind : covered().blind_spots()) {
+    FAIL_CHECK("never: ", kind);
+  }
 }
 
 }  // namespace

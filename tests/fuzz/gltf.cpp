@@ -94,7 +94,11 @@ void try_gltf(const std::uint8_t* data, std::size_t size) {
   if (!is_of_interest(input)) {
     return;
   }
-  if (std::optional<core::Scene> scene = read(input)) {
+  std::optional<core::Scene> scene = read(input);
+  covered().count("refused", !scene);
+  covered().count("rendered", scene.has_value());
+  covered().count("with a texture", scene && !scene->textures.empty());
+  if (scene) {
     tests::check_scene(*scene);
     for (core::Texture& texture : scene->textures) {
       texture.levels = {{2, 2, {0x102030, 0xffffff, 0, 0x808080}}};

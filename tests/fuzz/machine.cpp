@@ -40,7 +40,10 @@ void try_machine(const std::string& text) {
   const auto parse = [](const std::string& json) {
     return accepted<core::InputError>([&] { return apps::parse_machine(json, "input"); });
   };
-  if (const auto machine = parse(text)) {
+  const auto machine = parse(text);
+  covered().count("machine read", machine.has_value());
+  covered().count("machine refused", !machine);
+  if (machine) {
     expect(machine->machine.has_contention || !machine->machine.has_memory_port, "ports need contention");
     expect(!machine->machine.name.empty() && machine->machine.name.size() <= 64, "a name has 1 to 64 characters");
     const std::string written = apps::machine_text(*machine);
@@ -59,6 +62,8 @@ bool is_possible(const apps::Resolution& size) {
 void try_value(const std::string& text) {
   using core::UsageError;
   const auto size = accepted<UsageError>([&] { return apps::parse_size_bytes(text, "--size"); });
+  covered().count("a size taken", size.has_value());
+  covered().count("a size refused", !size);
   expect(!size || *size <= std::size_t{1} << 40U, "a size is a TiB at most");
   const auto page = accepted<UsageError>([&] { return apps::parse_page_size(text); });
   expect(!page || (size == page && *page >= 512 && *page <= 65536), "a page's size is a size, from 512 B to 64 KiB");
@@ -83,6 +88,8 @@ void try_options(Lines lines) {
   apps::RenderOptions render;
   add_options(line.add_command("render", "description"), render);
   const auto parsed = accepted<core::UsageError>([&] { return line.parse(lines); });
+  covered().count("options taken", parsed.has_value());
+  covered().count("options refused", !parsed);
   if (parsed && std::holds_alternative<std::string>(*parsed)) {
     check(render);
   }

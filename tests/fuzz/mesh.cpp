@@ -95,7 +95,12 @@ Hit try_ray(const Subject& subject, const Ray& ray) {
   const apps::OwnAnswers answers = apps::ask_own_kernels(subject.database, ray);
   try {
     compare(ray, answers);
-    if (is_ordinary(subject.database, ray)) {
+    const bool is_judged = is_ordinary(subject.database, ray), is_hit = answers.front().found();
+    covered().count("rays that the referee judges", is_judged);
+    covered().count("rays that it does not", !is_judged);
+    covered().count("hits", is_hit);
+    covered().count("misses", !is_hit);
+    if (is_judged) {
       judge(subject, ray, answers);
     }
   } catch (const core::InternalError&) {
@@ -115,6 +120,7 @@ void try_mesh(const std::uint8_t* data, std::size_t size) {
   for (std::size_t i = 0; i < rays_max && !bytes.empty(); ++i) {
     const Ray ray = rays.next();
     for (const Ray& child : apps::children_of(subject.database, ray, try_ray(subject, ray))) {
+      covered().count("children");
       try_ray(subject, child);
     }
   }

@@ -49,10 +49,20 @@ void try_mesh_text(const std::uint8_t* data, std::size_t size) {
     return;
   }
   const std::string_view file(reinterpret_cast<const char*>(data) + 1, size - 1);
+  constexpr std::array<const char*, 4> kinds{"PLY", "STL", "OBJ", "MTL"};
+  const std::size_t kind = data[0] % checks.size();
+  bool is_refused = false;
   try {
-    checks[data[0] % checks.size()](file);
+    checks[kind](file);
   } catch (const core::InputError& error) {
     core::expect(!std::string_view(error.what()).empty(), "who refuses says why");
+    is_refused = true;
+  }
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    covered().count(std::string(kinds[i]) + " let pass", i == kind && !is_refused);
+    if (checks[i] != check_mtl) {  // which refuses nothing
+      covered().count(std::string(kinds[i]) + " refused", i == kind && is_refused);
+    }
   }
 }
 

@@ -85,12 +85,17 @@ void render(const core::Scene& scene) {
 
 void try_nff(const std::uint8_t* data, std::size_t size) {
   const std::optional<core::Scene> scene = read(std::string(data, data + size));
-  if (scene && scene->vertices.size() <= vertices_max) {
+  const bool is_tried = scene && scene->vertices.size() <= vertices_max, is_rendered = is_tried && scene->lights.size() <= lights_max;
+  covered().count("refused", !scene);
+  covered().count("read and written", is_tried);
+  covered().count("rendered", is_rendered);
+  covered().count("with an object", is_rendered && !scene->objects.empty());
+  if (is_tried) {
     check_promises(*scene);
     check_round_trip(*scene);
-    if (scene->lights.size() <= lights_max) {
-      render(*scene);
-    }
+  }
+  if (is_rendered) {
+    render(*scene);
   }
 }
 

@@ -53,7 +53,12 @@ auto decoded(const apps::EncodedPicture& picture, const Decode& decode) -> std::
 }
 
 void try_picture(const apps::EncodedPicture& picture) {
-  if (const auto texture = decoded(picture, apps::decode_texture)) {
+  const auto texture = decoded(picture, apps::decode_texture);
+  for (const std::string_view format : formats_held) {
+    covered().count(std::string(format) + " decoded", picture.format == format && texture);
+    covered().count(std::string(format) + " refused", picture.format == format && !texture);
+  }
+  if (texture) {
     expect(texture->levels.size() == 1, "the finest level alone is decoded");
     const core::TextureLevel& level = texture->levels.front();
     expect(level.texels.size() == std::uint64_t{level.width} * level.height && !level.texels.empty(), "every texel is there");

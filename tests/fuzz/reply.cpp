@@ -51,6 +51,8 @@ std::optional<core::Scene> received(tests::Bytes& bytes) {
 void try_reply(const std::uint8_t* data, std::size_t size) {
   tests::Bytes bytes(data, size);
   const std::optional<core::Scene> scene = received(bytes);
+  covered().count("nonsense", !scene);
+  covered().count("rendered", scene.has_value());
   if (scene) {
     tests::check_scene(*scene);
     tests::render_small(*scene);

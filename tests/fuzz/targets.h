@@ -6,7 +6,15 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tests/support/coverage.h"
+
 namespace dmpc::fuzz {
+
+/// What the inputs so far have come to.
+inline tests::Coverage& covered() {
+  static tests::Coverage all("fuzz");
+  return all;
+}
 
 void try_checkpoint(const std::uint8_t* data, std::size_t size);
 void try_gltf(const std::uint8_t* data, std::size_t size);

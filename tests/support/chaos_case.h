@@ -32,6 +32,8 @@ class ChaosCase {
 
   std::uint64_t seed() const { return seed_; }
   const Subject& subject() const { return chaos_subject(subject_, structure_); }
+  std::size_t subject_number() const { return subject_; }
+  std::uint32_t node_count() const { return nodes_; }
   /// Rendered in parts, each of which keeps something and is then stopped.
   bool is_in_parts() const { return is_in_parts_ && !is_modelled_; }
   /// How often light comes in a part until it is kept.

@@ -23,7 +23,7 @@ class RealFiles final : public Files {
   int remove(const fs::path& path) override { return ::unlink(path.c_str()); }
   void take_mode(int file, const fs::path& like) override {
     struct stat status {};
-    if (::stat(like.c_str(), &status) == 0 && S_ISREG(status.st_mode)) {
+    if (::lstat(like.c_str(), &status) == 0 && S_ISREG(status.st_mode)) {
       static_cast<void>(!!::fchmod(file, status.st_mode & 0777U));
     }
   }

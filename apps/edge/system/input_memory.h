@@ -1,16 +1,16 @@
 // How much of this computer's memory foreign matter may take.
 #pragma once
 
-#include <unistd.h>
-
 #include <cstdint>
+
+#include "apps/edge/system/memory_room.h"
 
 namespace dmpc::apps {
 
-/// Three quarters of what there is.
+/// Three quarters of what there is for this process at the first call, in a container of what that has.
 inline std::uint64_t reader_memory_bytes_max() {
-  const auto pages = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
-  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) / 4 * 3;
+  static const std::uint64_t bytes = memory_room().bytes / 4 * 3;
+  return bytes;
 }
 
 }  // namespace dmpc::apps

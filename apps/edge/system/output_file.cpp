@@ -169,13 +169,16 @@ void make_output_folder(const fs::path& path, std::string_view option) {
 OutputFile::OutputFile(const fs::path& path) : OutputFile(path, Settings{}) {}
 
 OutputFile::OutputFile(const fs::path& path, const Settings& settings, Files& files)
-    : settings_(settings), files_(files), target_(file_behind(path)), temporary_(target_) {
+    : settings_(settings),
+      files_(files),
+      target_(settings.replaces == Replaces::name ? path : file_behind(path)),
+      temporary_(target_) {
   open();
   stream_.emplace(files_, file_);
 }
 
 void OutputFile::open() {
-  if (is_special(target_)) {
+  if (settings_.replaces == Replaces::what_it_names && is_special(target_)) {
     file_ = open_patiently(files_, target_, O_WRONLY | O_NOCTTY);
   } else {
     for (int tries = 0; file_ < 0 && (tries == 0 || (errno == EEXIST && tries < tries_max)); ++tries) {

@@ -39,6 +39,12 @@ enum class TemporaryName : std::uint8_t {
 /// Whether a file that was committed is there after a loss of power.
 enum class Durability : std::uint8_t { on_disk, until_power_loss };
 
+/// What gives way to a file that is committed.
+enum class Replaces : std::uint8_t {
+  what_it_names,  ///< the file behind symbolic links; a device or a pipe is written to
+  name            ///< whatever has the name, a link or a pipe itself: for folders that others may write
+};
+
 /// `.dmpc-WHO-NAME` beside `target`: hidden.
 std::filesystem::path hidden_name(const std::filesystem::path& target, const std::string& who);
 /// What `target`, which is no symbolic link, is called before it is whole, as TemporaryName::of_target says.
@@ -56,13 +62,14 @@ class OutputFile {
   struct Settings {
     TemporaryName name = TemporaryName::random;
     Durability durability = Durability::on_disk;
+    Replaces replaces = Replaces::what_it_names;
     std::string option = {};  ///< that gave the target, for messages
   };
 
   /// Makes a new file with a hidden name in the target's folder: no file that is there, and no link, is ever opened. If the
   /// target exists and is no ordinary file (/dev/stdout, a pipe), which cannot be renamed over, it is written itself. A symbolic
-  /// link is followed, so that the file behind it is replaced. A file that is replaced keeps its mode. Throws core::InputError if
-  /// that fails. `files` outlives it.
+  /// link is followed, so that the file behind it is replaced. A file that is replaced keeps its mode. `settings.replaces` may ask
+  /// that the name itself gets the file. Throws core::InputError if that fails. `files` outlives it.
   explicit OutputFile(const std::filesystem::path& path);
   OutputFile(const std::filesystem::path& path, const Settings& settings, Files& files = real_files());
   ~OutputFile();

@@ -46,8 +46,8 @@ int status_after(const CompareOptions& options, const std::vector<std::string>& 
 }
 
 int compare_pictures(const CompareOptions& options, Interrupt& interrupt, std::ostream& output) {
-  const Image picture = read_image(options.a);
-  const Image reference = read_image(options.reference);
+  const Image picture = read_image(options.a, options.sandbox);
+  const Image reference = read_image(options.reference, options.sandbox);
   const PictureError error = measure_error(picture, reference);
   if (options.difference) {
     write_picture(*options.difference, difference_picture(picture, reference), interrupt);
@@ -121,6 +121,7 @@ void add_options(OptionSet options, CompareOptions& compare) {
       "Let these counters differ by a share of the reference's; may be given several times");
   options.add_choice<CompareFormat>("--format", compare.format, {{"text", CompareFormat::text}, {"json", CompareFormat::json}},
                                     "How the figures are printed");
+  add_sandbox_option(options, compare.sandbox);
   options.check_in_the_end([options, &compare] { check_together(options, compare); });
   options.set_examples(
       "Examples:\n"

@@ -11,6 +11,7 @@
 #include "apps/edge/system/interrupt.h"
 #include "apps/lab/compare/differences.h"
 #include "apps/lab/compare/limit.h"
+#include "apps/reader/confinement.h"
 
 namespace dmpc::apps {
 
@@ -23,6 +24,7 @@ struct CompareOptions {
   CompareFormat format = CompareFormat::text;
   std::vector<Limit> limits = {};  ///< of pictures
   FigureChoice figures = {};       ///< of counters
+  Sandbox sandbox = Sandbox::available;  ///< of the pictures' reader
 };
 
 /// Declares them.

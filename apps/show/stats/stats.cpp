@@ -13,6 +13,7 @@
 #include "apps/edge/machine/machine_file.h"
 #include "apps/edge/show/stats/counters_json.h"
 #include "apps/edge/show/stats/ranks.h"
+#include "apps/reader/confinement.h"
 #include "apps/run/memory_categories.h"
 #include "apps/run/strategy_rows.h"
 #include "apps/show/counters.h"
@@ -254,6 +255,15 @@ Json heat_maps_json(const RenderRecord& record) {
   return result;
 }
 
+/// Of the readers of this run's foreign files.
+Json sandbox_json() {
+  const std::optional<Confinement> confinement = confinement_of_readers();
+  return confinement ? Json{{"calls_filtered", confinement->are_calls_filtered},
+                            {"limits_set", confinement->are_limits_set},
+                            {"files_forbidden", confinement->are_files_forbidden}}
+                     : Json();
+}
+
 Json database_json(const core::Database& database) {
   const core::RecordCounts& records = database.records();
   const auto block_count = [&](core::PrimitiveKind kind) { return records.blocks[static_cast<std::size_t>(kind)]; };
@@ -309,6 +319,7 @@ std::string stats_json(const RenderRecord& record) {
   all.update(filled({"run_hash", "machine_digest", "virtual_seconds", "time_percent", "events", "links"}, timed.all));
   all.update({{"database", database_json(record.database)}, {"packets", all_packets_json(account, special.packets_overflowed)}});
   all.update(filled({"pages", "work", "questions", "travel", "load", "regions", "mapping", "pairs"}, special.all));
+  all["sandbox"] = sandbox_json();
   all["chaos"] = chaos_json(account, special.chaos);
   all["skips"] = skips_json(record, account);
   all["heat_maps"] = heat_maps_json(record);

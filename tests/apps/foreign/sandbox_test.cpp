@@ -20,8 +20,8 @@ namespace {
 int status_within(const std::function<int()>& act, std::uint64_t memory_bytes = std::uint64_t{1} << 40U) {
   const pid_t id = ::fork();
   if (id == 0) {
-    const bool is_filtered = apps::enter_sandbox(memory_bytes);
-    ::_exit(is_filtered ? act() : 99);
+    const apps::Confinement confinement = apps::enter_sandbox(memory_bytes);
+    ::_exit(confinement.are_calls_filtered && confinement.are_limits_set ? act() : 99);
   }
   int status = 0;
   ::waitpid(id, &status, 0);

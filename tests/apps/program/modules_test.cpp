@@ -52,7 +52,7 @@ struct Wanted {
   std::string picture, option, module;
 };
 std::vector<Wanted> all_that_are_built() {
-  std::vector<Wanted> all = {{"a.bmp", "--depth=5", "dmpc_pictures.so"}, {"a.png", "--tracer=embree", "dmpc_embree.so"}};
+  std::vector<Wanted> all = {{"a.png", "--tracer=embree", "dmpc_embree.so"}};
   if (fs::exists(built / "dmpc_mpi.so")) {  // if there is MPI
     all.push_back({"a.png", "--runner=mpi", "dmpc_mpi.so"});
   }
@@ -96,12 +96,14 @@ void alter_build(const fs::path& module) {
 
 }  // namespace
 
-TEST_CASE("what renders nothing, and a render to EXR or PNG, load neither OpenImageIO nor Embree nor MPI") {
+TEST_CASE("what renders nothing, and a render to a picture of any kind, load neither OpenImageIO nor Embree nor MPI") {
   const TemporaryFolder folder;
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"--version"},
                                              {"info", "tetra-1"},
                                              render_of(folder / "a.exr"),
+                                             render_of(folder / "a.tif"),
+                                             render_of(folder / "a.jpg"),
                                              render_of(folder / "a.png", "--heatmap=rays:" + (folder / "h.png").string())}) {
     CAPTURE(arguments[0]);
     const std::string loaded = loaded_by(arguments);
@@ -111,23 +113,23 @@ TEST_CASE("what renders nothing, and a render to EXR or PNG, load neither OpenIm
   }
 }
 
-TEST_CASE("other pictures load OpenImageIO, and Embree as the tracer loads Embree") {
+TEST_CASE("Embree as the tracer loads Embree") {
   const TemporaryFolder folder;
-  const std::string by_picture = loaded_by(render_of(folder / "a.bmp"));
-  CHECK((contains(by_picture, "libOpenImageIO") && !contains(by_picture, "embree")));
   const std::string by_tracer = loaded_by(render_of(folder / "a.png", "--tracer=embree"));
   CHECK((contains(by_tracer, "libembree") && !contains(by_tracer, "OpenImageIO")));
 }
 
-TEST_CASE("each reader is linked with the one library that it needs") {
+TEST_CASE("each program that reads or writes for dmpc is linked with the one library that it needs") {
   const auto libraries_of = [](const std::string& reader) {
     ChildProcess process({"/usr/bin/env", "LD_TRACE_LOADED_OBJECTS=1", built / reader});
     CHECK(process.status() == 0);
     return process.output();
   };
-  const std::string of_meshes = libraries_of("dmpc_mesh_reader"), of_pictures = libraries_of("dmpc_picture_reader");
+  const std::string of_meshes = libraries_of("dmpc_mesh_reader"), of_pictures = libraries_of("dmpc_picture_reader"),
+                    of_writer = libraries_of("dmpc_picture_writer");
   CHECK((contains(of_meshes, "libassimp") && !contains(of_meshes, "OpenImageIO") && !contains(of_meshes, "embree")));
   CHECK((contains(of_pictures, "libOpenImageIO") && !contains(of_pictures, "assimp") && !contains(of_pictures, "embree")));
+  CHECK((contains(of_writer, "libOpenImageIO") && !contains(of_writer, "assimp") && !contains(of_writer, "embree")));
 }
 
 TEST_CASE("a module that is missing is said with its places, before anything is rendered") {
@@ -143,6 +145,15 @@ TEST_CASE("a module that is missing is said with its places, before anything is 
     CHECK_FALSE(fs::exists(installation.folder / wanted.picture));
   }
   CHECK(installation.render({"b.png", "--depth=5", ""}).status == 0);
+}
+
+TEST_CASE("a picture's writer that is missing is said with its places, before anything is rendered") {
+  const Installation installation;
+  const Ending end = installation.render({"a.tif", "--depth=5", ""});
+  CHECK(end.status == 3);
+  CHECK_MESSAGE(contains(end.errors, "the program dmpc_picture_writer, which reads or writes files for dmpc,"), end.errors);
+  CHECK_MESSAGE(contains(end.errors, (installation.folder / "libexec/dmpc/dmpc_picture_writer").string()), end.errors);
+  CHECK_FALSE(fs::exists(installation.folder / "a.tif"));
 }
 
 TEST_CASE("a module is looked for at its places alone, not where one happens to be or the environment says") {
@@ -182,7 +193,7 @@ TEST_CASE("a module of another build is refused, and one of the same is taken") 
 }
 
 #if !defined(__SANITIZE_ADDRESS__)  // whose shadow is larger than any memory
-TEST_CASE("a module that this computer has no memory or no threads for is a shortage") {
+TEST_CASE("a picture's writer that this computer has no memory or no threads for is a shortage") {
   const TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms::all);
   const std::string render = "exec " DMPC_PROGRAM " render tetra-1 --resolution=8x8 --nodes=1 -o " + (folder / "a.bmp").string();

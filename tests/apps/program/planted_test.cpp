@@ -84,18 +84,18 @@ TEST_CASE("a reader that everybody may write is passed over") {
 
 TEST_CASE("a module that everybody may write, or that lies where only tests have theirs, is not opened") {
   const SharedFolder shared;
-  const fs::path built = fs::path(DMPC_PROGRAM).parent_path(), installed = shared.folder / "lib/dmpc/dmpc_pictures.so",
-                 beside = shared.folder / "apps/dmpc_pictures.so";
+  const fs::path built = fs::path(DMPC_PROGRAM).parent_path(), installed = shared.folder / "lib/dmpc/dmpc_embree.so",
+                 beside = shared.folder / "apps/dmpc_embree.so";
   const auto render = [&] {
-    return shared.run_as(::geteuid(), {"render", "tetra-1", "--resolution=8x8", "--strategy=replicated", "--quiet", "-o",
-                                       shared.folder / "a.bmp"});
+    return shared.run_as(::geteuid(), {"render", "tetra-1", "--resolution=8x8", "--strategy=replicated", "--quiet", "--tracer=embree",
+                                       "-o", shared.folder / "a.png"});
   };
   for (const fs::path& place : {installed, beside}) {
     fs::create_directories(place.parent_path());
   }
-  fs::copy_file(built / "dmpc_pictures.so", beside);
+  fs::copy_file(built / "dmpc_embree.so", beside);
   CHECK(render().status == 3);
-  fs::copy_file(built / "dmpc_pictures.so", installed);
+  fs::copy_file(built / "dmpc_embree.so", installed);
   CHECK(render().status == 0);
   fs::permissions(installed.parent_path(), fs::perms(0777));
   const Said said = render();

@@ -25,6 +25,7 @@
 #include "apps/render/command.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
+#include "tests/support/coverage.h"
 #include "tests/support/environment.h"
 #include "tests/support/simulated_files.h"
 #include "tests/support/temporary_folder.h"
@@ -84,6 +85,44 @@ apps::RenderOptions storage_options(const TemporaryFolder& folder, std::uint64_t
   return options;
 }
 
+void cover(const apps::RenderOptions& options, Coverage& covered) {
+  covered.count("svm", options.strategy == apps::Strategy::svm);
+  covered.count("dataflow", options.strategy == apps::Strategy::dataflow);
+  covered.count("replicated", options.strategy == apps::Strategy::replicated);
+  covered.count("two samples a pixel", options.picture.samples == 2);
+  covered.count("heat maps", !options.heat_maps.empty());
+  covered.count("a trace in JSON", options.trace.path && options.trace.path->extension() == ".json");
+  covered.count("a trace for Paje", options.trace.path && options.trace.path->extension() == ".paje");
+  covered.count("a page", options.report.has_value());
+}
+
+/// All seeds that are asked for.
+class Seeds {
+ public:
+  explicit Seeds(const std::string& generator) : covered_("storage, " + generator) {}
+
+  template <class Try>
+  void for_each(const Try& attempt) {
+    for (std::uint64_t seed = first_; seed < first_ + count_; ++seed) {
+      CAPTURE(seed);
+      attempt(seed, covered_);
+    }
+    if (std::getenv("DMPC_STORAGE_SEEDS") != nullptr) {
+      covered_.print(std::cout);
+    } else {
+      CHECK((count_ < seeds_of_all_kinds || covered_.blind_spots() == std::vector<std::string>()));
+    }
+  }
+
+ private:
+  /// From so many on each kind of case has come.
+  static constexpr std::uint64_t seeds_of_all_kinds = 60;
+
+  std::uint64_t first_ = number_from_environment("DMPC_STORAGE_FIRST", 1);
+  std::uint64_t count_ = number_from_environment("DMPC_STORAGE_SEEDS", storage_seeds_by_default);
+  Coverage covered_;
+};
+
 /// All but the checkpoint.
 std::vector<fs::path> output_paths(const apps::RenderOptions& options) {
   std::vector<fs::path> paths{options.image, *options.stats};
@@ -101,7 +140,9 @@ std::vector<fs::path> output_paths(const apps::RenderOptions& options) {
 /// The disk on which a picture is made, as it is between two starts of the program.
 class Storage {
  public:
-  explicit Storage(std::uint64_t seed) : files_(seed), random_(seed ^ 0x5eed), options_(storage_options(folder_, seed)) {
+  Storage(std::uint64_t seed, Coverage& covered)
+      : covered_(covered), files_(seed), random_(seed ^ 0x5eed), options_(storage_options(folder_, seed)) {
+    cover(options_, covered);
     show();
   }
 
@@ -120,6 +161,12 @@ class Storage {
       complaint = error.what();
     }
     const bool had_power = files_.has_power();
+    covered_.count("there was a power loss within a run", !had_power);
+    covered_.count("there was an error of the disk", files_.errors() > errors);
+    covered_.count("there was a disk of short calls", faults.short_every > 0);
+    covered_.count("there was a run that said that it failed", status_ != 0);
+    covered_.count("there was a checkpoint that cannot be read", !complaint.empty());
+    covered_.count("there was an end that was said to be certain", status_ == 0 && had_power);
     CHECK((status_ == 0 || status_ == 1 || status_ == 4));  // 4: no descriptor is left
     CHECK((status_ == 0 || !had_power || files_.errors() > errors));
     CHECK_MESSAGE((status_ == 0 || contains(complaint, "cannot be read: Input/output error") ||
@@ -133,7 +180,7 @@ class Storage {
   }
 
   SimulatedFiles::Faults draw_faults() {
-    return {.power_lasts_calls = random_() % 4 == 0 ? UINT64_MAX : random_() % 400,
+    return {.power_lasts_calls = random_() % 4 == 0 ? UINT64_MAX : random_() % 64,
             .error_every = random_() % 2 == 0 ? 0 : static_cast<std::uint32_t>(1 + random_() % 200),
             .short_every = random_() % 2 == 0 ? 0 : static_cast<std::uint32_t>(1 + random_() % 10)};
   }
@@ -166,6 +213,8 @@ class Storage {
       return;
     }
     const std::string text = file_text(path);
+    covered_.count("there was a checkpoint after a loss of power");
+    covered_.count("there was a checkpoint that was certain", certain > 0);
     const auto first = versions.begin() + static_cast<std::ptrdiff_t>(certain == 0 ? 0 : certain - 1);
     CHECK(std::find(first, versions.end(), text) != versions.end());
   }
@@ -183,6 +232,7 @@ class Storage {
     CHECK((!are_certain || contains(file_text(*options_.stats), "film_hash")));
   }
 
+  Coverage& covered_;
   TemporaryFolder folder_;
   SimulatedFiles files_;
   std::mt19937_64 random_;
@@ -195,7 +245,8 @@ const std::vector<float>& undisturbed_picture(std::uint64_t seed) {
   static std::map<std::uint64_t, std::vector<float>> pictures;
   std::vector<float>& picture = pictures[seed % 2];
   if (picture.empty()) {
-    Storage storage(seed % 2);
+    Coverage none("undisturbed");
+    Storage storage(seed % 2, none);
     storage.attempt({});
     picture = storage.picture();
   }
@@ -205,11 +256,8 @@ const std::vector<float>& undisturbed_picture(std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("storage: whatever the disk does and wherever the power goes, who goes on comes to the same picture") {
-  const std::uint64_t first = number_from_environment("DMPC_STORAGE_FIRST", 1);
-  const std::uint64_t count = number_from_environment("DMPC_STORAGE_SEEDS", storage_seeds_by_default);
-  for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    CAPTURE(seed);
-    Storage storage(seed);
+  Seeds("pictures").for_each([](std::uint64_t seed, Coverage& covered) {
+    Storage storage(seed, covered);
     for (int attempts = 0; attempts < 3; ++attempts) {
       storage.attempt(storage.draw_faults());
     }
@@ -217,17 +265,14 @@ TEST_CASE("storage: whatever the disk does and wherever the power goes, who goes
     REQUIRE(storage.status() == 0);
     REQUIRE((storage.picture() == undisturbed_picture(seed)));
     CHECK(storage.kept_count() <= 2);  // whose removal was not synced
-  }
+  });
 }
 
 TEST_CASE("storage: a reference that was kept is whole or not there, and there if it was said to be") {
-  const std::uint64_t first = number_from_environment("DMPC_STORAGE_FIRST", 1);
-  const std::uint64_t count = number_from_environment("DMPC_STORAGE_SEEDS", storage_seeds_by_default);
   apps::Reference reference;
   reference.picture = apps::Image(3, 2);
   reference.own_error = 0.25;
-  for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    CAPTURE(seed);
+  Seeds("references").for_each([&](std::uint64_t seed, Coverage& covered) {
     const TemporaryFolder folder;
     SimulatedFiles files(seed);
     files.begin({.power_lasts_calls = seed % 24, .error_every = static_cast<std::uint32_t>(seed % 5 * 8)});
@@ -245,14 +290,13 @@ TEST_CASE("storage: a reference that was kept is whole or not there, and there i
     const std::optional<apps::Reference> read = apps::load_reference(folder.path(), "key");
     CHECK((read.has_value() || !is_certain));
     CHECK((!read || (read->own_error == 0.25 && read->picture.width == 3)));
-  }
+    covered.count("there was a reference that is certain", is_certain);
+    covered.count("there was a reference that is not there", !read);
+  });
 }
 
 TEST_CASE("storage: a state of the stability bench is the last that was kept, and who cannot read it is told so") {
-  const std::uint64_t first = number_from_environment("DMPC_STORAGE_FIRST", 1);
-  const std::uint64_t count = number_from_environment("DMPC_STORAGE_SEEDS", storage_seeds_by_default);
-  for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    CAPTURE(seed);
+  Seeds("states").for_each([](std::uint64_t seed, Coverage& covered) {
     const TemporaryFolder folder;
     SimulatedFiles files(seed);
     apps::StabilityState state;
@@ -284,8 +328,13 @@ TEST_CASE("storage: a state of the stability bench is the last that was kept, an
     } catch (const core::InputError& error) {
       CHECK(contains(error.what(), "cannot be read: "));
       CHECK(files.errors() > 0);
+      read.rays_done = UINT64_MAX;
     }
-  }
+    covered.count("there was a state that is certain", certain > 0);
+    covered.count("there was a state that is read", read.rays_done >= 1 && read.rays_done <= 8);
+    covered.count("there was a state that is not there", read.rays_done == 0);
+    covered.count("there was a state that cannot be read", read.rays_done == UINT64_MAX);
+  });
 }
 
 TEST_CASE("storage: a disk that fails to read is told from a file that is damaged") {

@@ -306,30 +306,84 @@ TEST_CASE("a crash of the reader of pictures is an error of the picture, which i
   CHECK(reader.read_image(apps::open_picture(folder / "a.png")).width == 2);
 }
 
-#if !defined(__SANITIZE_ADDRESS__)  // under which nothing is filtered
-TEST_CASE("where a reader's calls cannot be filtered, that is said, once") {
+#if !defined(__SANITIZE_ADDRESS__)  // under which nothing is confined
+namespace {
+
+/// Stands in for a kernel without these calls; with "seccomp" goes the older way to it.
+bool forget_call(const std::string& call) {
+  const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ALLOW);
+  const scmp_arg_cmp mode{0, SCMP_CMP_EQ, PR_SET_SECCOMP, 0};
+  const bool is_made =
+      ::seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), ::seccomp_syscall_resolve_name(call.c_str()), 0) == 0 &&
+      (call != "seccomp" || ::seccomp_rule_add_array(filter, SCMP_ACT_ERRNO(EINVAL), SCMP_SYS(prctl), 1, &mode) == 0);
+  return is_made && ::seccomp_load(filter) == 0;
+}
+
+struct Reading {
+  int status = 0;
+  std::string said;
+};
+
+/// What a process says that reads two pictures where the kernel has no such call, and what is asked for.
+Reading reading_without(const std::string& call, apps::Sandbox sandbox) {
   const TemporaryFolder folder;
-  static std::string picture, errors;
-  picture = folder / "a.png";
-  errors = folder / "errors";
+  static std::string picture, errors, forgotten;
+  static apps::Sandbox asked;
+  picture = folder / "a.png", errors = folder / "errors", forgotten = call, asked = sandbox;
   write_wood(picture);
   const ForkedProcess process([] {
-    const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ALLOW);
-    const scmp_arg_cmp mode{0, SCMP_CMP_EQ, PR_SET_SECCOMP, 0};
-    bool is_made = ::seccomp_rule_add(filter, SCMP_ACT_ERRNO(EINVAL), SCMP_SYS(seccomp), 0) == 0 &&
-                   ::seccomp_rule_add_array(filter, SCMP_ACT_ERRNO(EINVAL), SCMP_SYS(prctl), 1, &mode) == 0;
-    is_made = is_made && ::seccomp_load(filter) == 0 && ::open(errors.c_str(), O_CREAT | O_WRONLY, 0600) == STDERR_FILENO;
-    apps::PictureReader().read_image(apps::open_picture(picture));
-    apps::PictureReader().read_image(apps::open_picture(picture));
-    std::cerr.flush();
-    return is_made ? 0 : 1;
+    const bool is_made = forget_call(forgotten) && ::open(errors.c_str(), O_CREAT | O_WRONLY, 0600) == STDERR_FILENO;
+    const std::string complaint = complaint_of([] {
+      apps::read_image(picture, asked);
+      apps::read_image(picture, asked);
+    });
+    std::cerr << complaint << std::flush;
+    return !is_made ? 1 : complaint.empty() ? 0 : 2;
   });
-  CHECK(process.status() == 0);
-  const std::string text = file_text(errors), sentence = "does not confine the processes that read foreign files";
-  CHECK(says(text, sentence));
-  CHECK(text.find(sentence) == text.rfind(sentence));
+  const int status = process.status();
+  return {status, file_text(errors)};
+}
+
+}  // namespace
+
+TEST_CASE("where a reader's calls cannot be filtered, or the kernel has no Landlock, that is said, once, and what is missing") {
+  for (const auto& [call, missing] : {std::pair<std::string, std::string>("seccomp", "no filter of system calls (seccomp)"),
+                                      {"landlock_create_ruleset", "files not forbidden (Landlock)"}}) {
+    CAPTURE(call);
+    const Reading reading = reading_without(call, apps::Sandbox::available);
+    CHECK(reading.status == 0);
+    const std::string sentence = "does not confine the processes that read foreign files as it should: " + missing + ": read none";
+    CHECK(says(reading.said, sentence));
+    CHECK(reading.said.find(sentence) == reading.said.rfind(sentence));
+  }
+}
+
+TEST_CASE("where the whole sandbox is required, nothing is read behind half of one") {
+  for (const char* const call : {"seccomp", "landlock_create_ruleset"}) {
+    const Reading reading = reading_without(call, apps::Sandbox::required);
+    CHECK(reading.status == 2);
+    CHECK(says(reading.said, "nothing is read, as --sandbox=required asks"));
+  }
+}
+
+TEST_CASE("a whole sandbox is there, is read in, and is told of all readers together") {
+  const TemporaryFolder folder;
+  write_wood(folder / "a.png");
+  CHECK(complaint_of([&] { apps::read_image(folder / "a.png", apps::Sandbox::required); }).empty());
+  REQUIRE(apps::confinement_of_readers());
+  CHECK(apps::confinement_of_readers()->is_full());
 }
 #endif
+
+TEST_CASE("textures have a budget of memory that is all of theirs, and the one that is too much is named") {
+  const TemporaryFolder folder;
+  apps::write_image(folder / "a.png", apps::Image(100, 10));
+  apps::PictureReader reader({.texture_bytes_max = 12'000});  // of 1000 texels and a third more
+  CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().width == 100);
+  CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().width == 100);
+  CHECK_THROWS_WITH_AS(reader.read_texture(apps::open_picture(folder / "a.png"), {}),
+                       doctest::Contains("a.png: with it the scene's textures take"), core::RoomError);
+}
 
 TEST_CASE("a texture without a name and one with an endless one are said") {
   const TemporaryFolder folder;

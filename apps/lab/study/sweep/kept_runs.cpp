@@ -5,8 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <mutex>
 #include <set>
@@ -19,7 +17,6 @@
 #include "apps/edge/system/companion_path.h"
 #include "apps/edge/system/descriptor.h"
 #include "apps/edge/system/digest.h"
-#include "apps/edge/system/interrupt.h"
 #include "apps/edge/system/output_file.h"
 #include "core/base/expect.h"
 
@@ -48,35 +45,14 @@ void add_companions(Digest& digest) {
   }
 }
 
-/// The text of an ordinary file, and of nothing that a link leads to; nothing of one that is too long for counters.
-std::optional<std::string> entry_text(const fs::path& path) {
+/// What an ordinary file has, and nothing that a link leads to. Throws core::InputError.
+std::vector<Figure> read_entry(const fs::path& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   struct stat status {};
-  if (!file.is_open() || ::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode) ||
-      static_cast<std::uint64_t>(status.st_size) > figures_bytes_max) {
-    return std::nullopt;
+  if (!file.is_open() || ::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode)) {
+    throw core::InputError(path.string() + ": expected a file of counters");
   }
-  std::string text(static_cast<std::size_t>(status.st_size), '\0');
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t count = ::read(file.number(), text.data() + done, text.size() - done);
-    if (count <= 0 && !(count < 0 && errno == EINTR)) {
-      return std::nullopt;
-    }
-    done += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
-  }
-  return text;
-}
-
-bool takes_all(const Descriptor& file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = ::write(file.number(), text.data(), text.size());
-    if (count < 0 && errno != EINTR) {
-      return false;
-    }
-    text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-  }
-  return ::fsync(file.number()) == 0;
+  return read_figures("/proc/self/fd/" + std::to_string(file.number()));
 }
 
 /// Whether a figure is there, or said to be none: "pages" is null where no pages travel.
@@ -125,13 +101,8 @@ fs::path KeptRuns::file_of(const SweepRun& run) const {
 }
 
 std::optional<std::vector<Figure>> KeptRuns::find(const SweepRun& run) const {
-  const fs::path file = file_of(run);
-  const std::optional<std::string> text = entry_text(file);
-  if (!text) {
-    return std::nullopt;
-  }
   try {
-    std::vector<Figure> figures = parse_figures(*text, file.string());
+    std::vector<Figure> figures = read_entry(file_of(run));
     const bool is_whole =
         std::all_of(columns_.begin(), columns_.end(), [&](const std::string& column) { return has(figures, column); });
     return is_whole ? std::optional(std::move(figures)) : std::nullopt;
@@ -140,21 +111,12 @@ std::optional<std::vector<Figure>> KeptRuns::find(const SweepRun& run) const {
   }
 }
 
-/// Under a name of its own first, which then replaces whatever is there, a link itself and not what it leads to.
 void KeptRuns::keep(const SweepRun& run, const fs::path& stats) const {
   static std::mutex one_at_a_time;  // there are few places for files under way
   const std::lock_guard lock(one_at_a_time);
-  std::ostringstream text;
-  text << std::ifstream(stats, std::ios::binary).rdbuf();
-  const std::string name = hidden_name(file_of(run), std::to_string(::getpid())).string();
-  ::unlink(name.c_str());
-  const Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
-  const RemovedAtOnce removed_at_once(name);
-  if (!file.is_open() || !takes_all(file, text.view()) || ::rename(name.c_str(), file_of(run).c_str()) != 0) {
-    const int error = errno;
-    ::unlink(name.c_str());
-    throw core::InputError("--runs " + folder_.string() + ": counters cannot be kept there: " + std::strerror(error));
-  }
+  OutputFile file(file_of(run), {.replaces = Replaces::name, .option = "--runs"});
+  file.stream() << std::ifstream(stats, std::ios::binary).rdbuf();
+  file.commit();
 }
 
 }  // namespace dmpc::apps

@@ -1,6 +1,5 @@
 // The program dmpc_picture_reader: decodes pictures for dmpc, which starts it.
 
-#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,17 +10,6 @@
 
 namespace dmpc::apps {
 namespace {
-
-template <class T>
-void send_values(const std::vector<T>& values, Line& line) {
-  const auto bytes = std::as_bytes(std::span(values));
-  for (std::size_t first = 0; first < bytes.size(); first += message_bytes_max) {
-    const auto part = bytes.subspan(first, std::min(message_bytes_max, bytes.size() - first));
-    if (!line.send(Saying::bytes, {reinterpret_cast<const char*>(part.data()), part.size()})) {
-      return;
-    }
-  }
-}
 
 void send_head(std::uint32_t width, std::uint32_t height, core::TexelFormat format, Line& line) {
   line.send(Saying::picture, Packer().add(width).add(height).add(format));
@@ -36,11 +24,11 @@ void serve_picture(const Message& request, Line& line) {
     const core::Texture texture = decode_texture(picture);
     const core::TextureLevel& finest = texture.levels.front();
     send_head(finest.width, finest.height, texture.format, line);
-    send_values(finest.texels, line);
+    send_bytes(std::as_bytes(std::span(finest.texels)), line);
   } else {
     const Image image = decode_image(picture);
     send_head(static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height), core::TexelFormat::srgb, line);
-    send_values(image.rgb, line);
+    send_bytes(std::as_bytes(std::span(image.rgb)), line);
   }
   line.send(Saying::done);
 }

@@ -1,0 +1,39 @@
+#include "apps/reader/confinement.h"
+
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+std::optional<Confinement> readers;
+
+}  // namespace
+
+void add_sandbox_option(OptionSet options, Sandbox& sandbox) {
+  options.add_choice<Sandbox>(
+      "--sandbox", sandbox, {{"available", Sandbox::available}, {"required", Sandbox::required}},
+      "Foreign files where this computer cannot confine the processes that read them as it should (seccomp, limits, Landlock): "
+      "that is said, or nothing is read");
+}
+
+std::string missing_text(const Confinement& confinement) {
+  core::expect(!confinement.is_full(), "something is missing");
+  std::string words;
+  const auto add = [&words](bool holds, const char* word) {
+    words += holds ? "" : (words.empty() ? "" : ", ") + std::string(word);
+  };
+  add(confinement.are_calls_filtered, "no filter of system calls (seccomp)");
+  add(confinement.are_limits_set, "not all limits of memory, files and processes");
+  add(confinement.are_files_forbidden, "files not forbidden (Landlock)");
+  return "this computer does not confine the processes that read foreign files as it should: " + words;
+}
+
+void add_reader(const Confinement& confinement) {
+  const Confinement before = readers.value_or(Confinement{true, true, true});
+  readers = {before.are_calls_filtered && confinement.are_calls_filtered, before.are_limits_set && confinement.are_limits_set,
+             before.are_files_forbidden && confinement.are_files_forbidden};
+}
+
+std::optional<Confinement> confinement_of_readers() { return readers; }
+
+}  // namespace dmpc::apps
