@@ -495,7 +495,7 @@ void RayProgram<RaysTask, Units>::end_miss(const core::Ray& ray) {
   const core::Color found = ray.kind == core::RayKind::shadow ? ray.weight : ray.weight * settings.header.background;
   const core::FixedColor light = core::to_fixed(found, settings.shade.film_scale);
   if (light != core::FixedColor{}) {
-    film_.add(ray.pixel, ray.sample % 2, light);
+    film_.add(ray.pixel, core::plane_of(ray.sample), light);
   }
 }
 

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view first_words = "dmpc checkpoint ";
-constexpr char format = '3';
+constexpr char format = '4';
 
 struct PixelRecord {
   core::PixelSums sums;
@@ -28,7 +28,7 @@ struct PixelRecord {
 };
 static_assert(sizeof(PixelRecord) == 56 && std::is_trivially_copyable_v<PixelRecord>);
 
-static_assert(sizeof(core::PixelPast) == 24 && std::is_trivially_copyable_v<core::PixelPast>);
+static_assert(sizeof(core::PixelPast) == 36 && std::is_trivially_copyable_v<core::PixelPast>);
 
 /// Settings and digests of less than 2 KiB, as a rule.
 constexpr std::size_t head_bytes_max = 65536;

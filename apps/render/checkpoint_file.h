@@ -1,6 +1,6 @@
 // A picture under way in a file: whose it is, and what of it is done.
 //
-// Lines of text: "dmpc checkpoint 3", "name=value" for each fact of the picture, an empty one. Then, in this computer's order of
+// Lines of text: "dmpc checkpoint 4", "name=value" for each fact of the picture, an empty one. Then, in this computer's order of
 // bytes: the number of the pass (8 bytes); a step for each pixel (core::SampleStep, a byte, filled up to words of 64 bits); a bit
 // for each pixel that is done, in words of 64; for each pixel its sums on the film and its samples of passes that have ended;
 // where the picture is refined, what is remembered of each pixel (core::PixelPast); the digest of all that.

@@ -17,6 +17,9 @@ constexpr std::uint32_t nearby_side = 8;
 /// What the evidence in all of the picture counts for, beside that of so many pixels nearby.
 constexpr double picture_weight = 8;
 constexpr float remembered_share = 0.5F;
+/// What a fall is taken for where nothing is known of it, which counts as that of so many pixels. Samples that meet this and that
+/// at random make it 1, edges spread(2) - 1, in the long run; from few samples to some more it is larger, and does not stay so.
+constexpr double usual_fall = 1.5, unknown_pixels = 64, fall_min = 1, fall_max = 1.8284271247461903;
 
 double square_mean(const Vec3d& color) { return dot(color, color) / 3; }
 
@@ -28,19 +31,22 @@ double power(double base, std::uint32_t exponent) {
   return result;
 }
 
+/// What a pixel counts for in its own variance.
+constexpr double own_share = 4;
+
 Vec3d vector_of(const std::array<float, 3>& color) { return {double{color[0]}, double{color[1]}, double{color[2]}}; }
 
 std::array<float, 3> rounded(const Vec3d& color) {
   return {static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z)};
 }
 
-/// Calls visit(pixel) for the pixel and those around it, as far as the picture goes.
+/// Calls visit(pixel, share) for the pixel and those around it, as far as the picture goes; shares are those of a tent, 4 to 1.
 template <class Visit>
 void visit_around(std::uint32_t pixel, std::uint32_t width, std::uint32_t height, const Visit& visit) {
   const std::uint32_t column = pixel % width, row = pixel / width;
   for (std::uint32_t y = row - (row > 0 ? 1 : 0); y <= std::min(row + 1, height - 1); ++y) {
     for (std::uint32_t x = column - (column > 0 ? 1 : 0); x <= std::min(column + 1, width - 1); ++x) {
-      visit(y * width + x);
+      visit(y * width + x, (x == column ? 2.0 : 1.0) * (y == row ? 2.0 : 1.0));
     }
   }
 }
@@ -56,17 +62,13 @@ ErrorEstimate::ErrorEstimate(int width, int height, const FineDetail* detail, do
       tile_rows_(ceil_divide(height_, nearby_side)),
       detail_(detail),
       even_(even),
-      variances_(std::size_t{width_} * height_),
-      seen_(variances_.size()),
-      past_(variances_.size()),
+      seen_(std::size_t{width_} * height_),
+      past_(seen_.size()),
       unseen_(std::size_t{tile_columns_} * tile_rows_) {}
 
-void ErrorEstimate::resume(const Film& film, std::span<const PixelPast> past) {
+void ErrorEstimate::resume(std::span<const PixelPast> past) {
   expect(past.size() == past_.size(), "a pass under way has the past of all pixels");
   std::copy(past.begin(), past.end(), past_.begin());
-  for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
-    note_variance(film, pixel);
-  }
 }
 
 void ErrorEstimate::end_pass(const Film& film, const Pass& pass) {
@@ -74,10 +76,11 @@ void ErrorEstimate::end_pass(const Film& film, const Pass& pass) {
     past_[pixel].weight *= remembered_share;
     if (pass.has(pixel)) {
       note_evidence(film, pass, pixel);
-      note_variance(film, pixel);
+      note_changes(film, pass, pixel);
       past_[pixel].mean = rounded(film.scaled_mean(pixel));
     }
   }
+  find_falls();
   find_contrast(film);
   for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
     seen_[pixel] = static_cast<float>(seen_error(film, pixel));
@@ -102,9 +105,41 @@ void ErrorEstimate::note_evidence(const Film& film, const Pass& pass, std::uint3
   }
 }
 
-void ErrorEstimate::note_variance(const Film& film, std::uint32_t pixel) {
-  const std::uint32_t samples = film.samples(pixel);
-  variances_[pixel] = samples > 1 ? static_cast<float>(square_mean(film.half_difference(pixel)) * spread(samples)) : 0.0F;
+/// The planes were gathered on that of the last sample before the pass; the block that follows fell on the other. Means are
+/// rounded as those before the pass were, so that what does not change has no variance.
+void ErrorEstimate::note_changes(const Film& film, const Pass& pass, std::uint32_t pixel) {
+  PixelPast& past = past_[pixel];
+  const std::uint32_t before = pass.samples(pixel).first, now = film.samples(pixel);
+  const Vec3d mean = vector_of(rounded(film.scaled_mean(pixel)));
+  const Vec3d mean_before = vector_of(before > 0 ? past.mean : rounded(film.scaled_sum(pixel, 0)));
+  const auto scaled_change = [&](const Vec3d& from) { return static_cast<float>(square_mean(mean - from) * spread(now)); };
+  if (before > 0 && now == 4 * before) {
+    const Vec3d block = vector_of(rounded(film.scaled_sum(pixel, 1 - plane_of(before - 1)) * (1.0 / before)));
+    past.change = scaled_change((mean_before + block) * 0.5);
+    past.told_change += past.change;
+    past.told_quarter_change += scaled_change(mean_before);
+  } else {
+    past.change = scaled_change(mean_before);
+  }
+}
+
+/// By all pixels of a kind that tell, as if there were some more of which nothing is known but that most have edges. What they
+/// told stays as it was: who gets more samples is chosen by its change, so those that are left have a smaller one by choice.
+void ErrorEstimate::find_falls() {
+  struct Told {
+    double change = 0, quarter_change = 0, count = 0;
+  };
+  std::array<Told, 2> kinds;
+  for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
+    Told& told = kinds[has_detail(pixel) ? 1 : 0];
+    told.change += double{past_[pixel].told_change};
+    told.quarter_change += double{past_[pixel].told_quarter_change};
+    told.count += past_[pixel].told_quarter_change > 0 ? 1 : 0;
+  }
+  std::transform(kinds.begin(), kinds.end(), fall_.begin(), [](const Told& told) {
+    const double found = told.change > 0 ? told.quarter_change / told.change - 2 : usual_fall;
+    return std::clamp((told.count * found + unknown_pixels * usual_fall) / (told.count + unknown_pixels), fall_min, fall_max);
+  });
 }
 
 /// Where few samples met a detail nobody knows how bright others are: what is expected counts as much as one that was met. Pixels
@@ -120,7 +155,7 @@ void ErrorEstimate::find_contrast(const Film& film) {
     if (has_detail(pixel)) {
       const std::uint32_t samples = film.samples(pixel);
       const double met = std::max(1.0, samples * detail_->coverage(pixel)), weight = samples / met * (samples / met);
-      found += weight * double{variances_[pixel]} / spread(samples);
+      found += weight * double{past_[pixel].change} / (fall(pixel) * spread(samples));
       expected += weight * detail_variance(pixel, samples);
     }
   }
@@ -141,26 +176,26 @@ double ErrorEstimate::unmet_detail(std::uint32_t pixel, std::uint32_t samples) c
 
 double ErrorEstimate::seen_error(const Film& film, std::uint32_t pixel) const {
   const bool is_detail = has_detail(pixel);
-  double variance = 0;
-  int count = 0;
+  double variance = 0, weight = 0;
   std::array<float, 3> darkest = past_[pixel].mean, brightest = darkest;
-  visit_around(pixel, width_, height_, [&](std::uint32_t near) {
+  visit_around(pixel, width_, height_, [&](std::uint32_t near, double share) {
     if (has_detail(near) != is_detail) {
       return;
     }
-    variance += double{variances_[near]};
-    ++count;
+    variance += share * double{past_[near].change};
+    weight += share;
     for (std::size_t channel = 0; channel < 3; ++channel) {
       darkest[channel] = std::min(darkest[channel], past_[near].mean[channel]);
       brightest[channel] = std::max(brightest[channel], past_[near].mean[channel]);
     }
   });
+  variance /= fall(pixel);
   const double samples_spread = spread(film.samples(pixel));
   if (is_detail) {
-    variance += detail_variance(pixel, film.samples(pixel)) * samples_spread;
-    ++count;
+    variance += own_share * detail_variance(pixel, film.samples(pixel)) * samples_spread;
+    weight += own_share;
   }
-  return std::max(variance / count, contrast_share * square_mean(vector_of(brightest) - vector_of(darkest))) / samples_spread;
+  return std::max(variance / weight, contrast_share * square_mean(vector_of(brightest) - vector_of(darkest))) / samples_spread;
 }
 
 double ErrorEstimate::square_error(const Film& film, std::uint32_t pixel) const {
@@ -178,7 +213,7 @@ std::uint32_t ErrorEstimate::tile_of(std::uint32_t pixel) const {
 
 ErrorEstimate::Evidence ErrorEstimate::evidence_around(const std::vector<Evidence>& tiles, std::uint32_t tile) const {
   Evidence sum;
-  visit_around(tile, tile_columns_, tile_rows_, [&](std::uint32_t near) {
+  visit_around(tile, tile_columns_, tile_rows_, [&](std::uint32_t near, double) {
     sum.sum += tiles[near].sum;
     sum.weight += tiles[near].weight;
   });

@@ -18,6 +18,10 @@ struct PixelPast {
   float expected = -1;          ///< its square error then, if it looked even; less than 0: it did not
   float evidence = 0;           ///< what it has shown of error unseen by pixels that look even, times spread(samples)
   float weight = 0;             ///< of the evidence: 1 at first, half as much after each pass
+  /// The square of what the mean of all of its samples differs by from that of the first half, times spread(samples).
+  float change = 0;
+  /// Sums over passes that brought three quarters of its samples: of the same then, and of that of the first quarter.
+  float told_change = 0, told_quarter_change = 0;
 
   bool operator==(const PixelPast&) const = default;
 };
@@ -28,9 +32,12 @@ double spread(std::uint32_t samples);
 
 /// Square errors of the means of pixels, of light as the film scales it; not thread-safe.
 ///
-/// *What the film shows*: half of the difference between the means of a pixel's even and odd samples is an estimate of its error.
-/// One difference says little, and may be 0 by chance; so a pixel's variance is the mean over it and its neighbours, and at least
-/// what the contrast between them suggests.
+/// *What the film shows*: as all blocks of a scrambled sequence are alike, the square of what a pixel's mean of n samples differs
+/// by from that of 2n is, on average, V(n) - V(2n), what the variance of the mean has become less by. How much is left follows
+/// from how fast it falls: V(n) / V(2n) is 2 where samples meet this and that at random, and more where edges are what makes it.
+/// So many pixels as have got three quarters of their samples in a pass tell: (V(n) - V(4n)) / (V(2n) - V(4n)) is one more than
+/// that ratio, if it is the same for both doublings. One difference says little, and may be 0 by chance; so a pixel's variance is
+/// the mean over it and its neighbours, and at least what the contrast between them suggests.
 ///
 /// *What is known of the scene*: a pixel with fine detail (core/picture/fine_detail.h) is not like its neighbours. Its variance
 /// is half its own, half what its detail would make; as long as it looks even, its detail may all have been missed. How much
@@ -44,9 +51,8 @@ class ErrorEstimate {
   /// `detail` outlives it, if there is any. Pixels below `even` look even: a square error.
   ErrorEstimate(int width, int height, const FineDetail* detail, double even);
 
-  /// Goes on with the past of a pass under way, one for each pixel; what else it knows of the pixels that the pass leaves out,
-  /// the film tells.
-  void resume(const Film& film, std::span<const PixelPast> past);
+  /// Goes on with the past of a pass under way, one for each pixel.
+  void resume(std::span<const PixelPast> past);
   /// The samples of the pass are counted on the film, whose light is all there.
   void end_pass(const Film& film, const Pass& pass);
   /// Remembers what is expected now, before the next pass.
@@ -65,7 +71,9 @@ class ErrorEstimate {
 
   bool has_detail(std::uint32_t pixel) const { return detail_ != nullptr && detail_->has(pixel); }
   void note_evidence(const Film& film, const Pass& pass, std::uint32_t pixel);
-  void note_variance(const Film& film, std::uint32_t pixel);
+  void note_changes(const Film& film, const Pass& pass, std::uint32_t pixel);
+  void find_falls();
+  double fall(std::uint32_t pixel) const { return fall_[has_detail(pixel) ? 1 : 0]; }
   void find_contrast(const Film& film);
   double detail_variance(std::uint32_t pixel, std::uint32_t samples) const;
   double unmet_detail(std::uint32_t pixel, std::uint32_t samples) const;
@@ -77,9 +85,10 @@ class ErrorEstimate {
   std::uint32_t width_, height_, tile_columns_, tile_rows_;
   const FineDetail* detail_;
   double even_;
-  double contrast_ = 0;           ///< the square of that of details
-  std::vector<float> variances_;  ///< of a sample, by the pixel's own difference
-  std::vector<float> seen_;       ///< square errors, but for what is unseen
+  double contrast_ = 0;  ///< the square of that of details
+  /// (V(n) - V(2n)) / V(2n) where n is half of a pixel's samples: of pixels without fine detail, and of those with it.
+  std::array<double, 2> fall_{1, 1};
+  std::vector<float> seen_;  ///< square errors, but for what is unseen
   std::vector<PixelPast> past_;
   std::vector<double> unseen_;  ///< of pixels that look even, by tile, times spread(samples)
 };

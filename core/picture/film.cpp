@@ -76,9 +76,9 @@ Film::Film(int width, int height, FilmScale scale)
 
 bool Film::deposit(std::uint32_t pixel, const PixelSums& sums) {
   expect(pixel < pixels_.size(), "a deposit falls on the film");
-  const bool even = add(pixels_[pixel].plane[0], sums.plane[0]);
-  const bool odd = add(pixels_[pixel].plane[1], sums.plane[1]);
-  return even || odd;
+  const bool first = add(pixels_[pixel].plane[0], sums.plane[0]);
+  const bool second = add(pixels_[pixel].plane[1], sums.plane[1]);
+  return first || second;
 }
 
 std::uint64_t Film::samples() const {
@@ -91,11 +91,16 @@ Vec3d Film::scaled_mean(std::uint32_t pixel) const {
   return (sum_of(pixels_[pixel].plane[0]) + sum_of(pixels_[pixel].plane[1])) * (film_resolution / samples_[pixel]);
 }
 
-Vec3d Film::half_difference(std::uint32_t pixel) const {
-  expect(samples_[pixel] > 1, "both planes of a pixel have samples");
-  const std::uint32_t odd = samples_[pixel] / 2, even = samples_[pixel] - odd;
-  const double scale = 0.5 * film_resolution;
-  return sum_of(pixels_[pixel].plane[0]) * (scale / even) - sum_of(pixels_[pixel].plane[1]) * (scale / odd);
+Vec3d Film::scaled_sum(std::uint32_t pixel, std::uint32_t plane) const {
+  return sum_of(pixels_[pixel].plane[plane]) * film_resolution;
+}
+
+void Film::gather_planes(std::uint32_t pixel) {
+  expect(samples_[pixel] > 0, "a picture has samples");
+  const std::uint32_t plane = plane_of(samples_[pixel] - 1);
+  PixelSums& sums = pixels_[pixel];
+  add(sums.plane[plane], sums.plane[1 - plane]);
+  sums.plane[1 - plane] = {};
 }
 
 std::uint64_t Film::hash() const {

@@ -1,6 +1,7 @@
 // The picture's sums, in fixed point, so that they do not depend on the order of the deposits.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -24,8 +25,8 @@ struct FilmScale {
   constexpr bool operator==(const FilmScale&) const = default;
 };
 
-/// RGB sums of scaled light in units of 2^-32. A sum reaches 2^31 before it saturates: 2^15 samples of 2^16. Deposits are not below
-/// 0, so a saturating sum does not depend on the order either.
+/// RGB sums of scaled light in units of 2^-32. A sum reaches 2^31 before it saturates: 2^15 samples of 2^16. Deposits are not
+/// below 0, so a saturating sum does not depend on the order either.
 struct FixedColor {
   std::array<std::int64_t, 3> channel{};
   constexpr bool operator==(const FixedColor&) const = default;
@@ -40,7 +41,19 @@ FixedColor to_fixed(const Color& light, FilmScale scale = {});
 /// Adds, saturating; returns whether a channel saturated.
 bool add(FixedColor& sum, const FixedColor& deposit);
 
-/// A pixel's sums over its even and over its odd samples: their difference estimates the error.
+/// Samples come in blocks, each as long as all before it: 0, 1, 2 and 3, 4 to 7. Their light falls on two planes by turns, so
+/// that what a block that doubles a pixel's samples has brought can be told from what there was, and from the next such block.
+constexpr std::uint32_t plane_of(std::uint32_t sample) { return static_cast<std::uint32_t>(std::bit_width(sample)) % 2; }
+/// How many of a pixel's first samples fall on a plane.
+constexpr std::uint32_t samples_on(std::uint32_t plane, std::uint32_t samples) {
+  std::uint32_t sum = 0;
+  for (std::uint32_t first = 0, end = 1; first < samples; first = end, end *= 2) {
+    sum += plane_of(first) == plane ? std::min(end, samples) - first : 0;
+  }
+  return sum;
+}
+
+/// A pixel's sums on the planes that its samples fall on.
 struct PixelSums {
   std::array<FixedColor, 2> plane;
   constexpr bool operator==(const PixelSums&) const = default;
@@ -61,7 +74,7 @@ class Film {
   /// Adds a node's sums of one pixel; returns whether a channel saturated. Requires pixel < width * height.
   bool deposit(std::uint32_t pixel, const PixelSums& sums);
   std::span<const PixelSums> pixels() const { return pixels_.span(); }
-  /// Says that a pixel's deposits are those of so many more samples, half of them even or one more.
+  /// Says that a pixel's deposits are those of so many more samples.
   void add_samples(std::uint32_t pixel, std::uint32_t count) { samples_[pixel] += count; }
   std::uint32_t samples(std::uint32_t pixel) const { return samples_[pixel]; }
   /// The samples of all pixels.
@@ -70,8 +83,11 @@ class Film {
   Vec3d radiance(std::uint32_t pixel) const { return scaled_mean(pixel) * (1 / scale_.factor()); }
   /// The same, scaled.
   Vec3d scaled_mean(std::uint32_t pixel) const;
-  /// Half of the difference between the scaled means of its even and its odd samples; requires samples(pixel) > 1.
-  Vec3d half_difference(std::uint32_t pixel) const;
+  /// Scaled light of a pixel that is on a plane.
+  Vec3d scaled_sum(std::uint32_t pixel, std::uint32_t plane) const;
+  /// Moves a pixel's light to that plane on which its last sample fell: the other is free for the block that follows. Requires
+  /// samples(pixel) > 0.
+  void gather_planes(std::uint32_t pixel);
   /// FNV-1a over the sums, the size and the scale, if that is not 1: equal pictures, equal hashes.
   std::uint64_t hash() const;
 

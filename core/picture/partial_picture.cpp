@@ -77,9 +77,10 @@ bool can_be(const PixelPast& past, const PictureTerms& terms) {
   const double error = terms.refinement.error * terms.film_scale.factor();
   constexpr float mean_max = 0x1p31F, evidence_max = 1e30F;
   const auto is_mean = [](float channel) { return channel >= 0 && channel <= mean_max; };
+  const auto is_change = [](float change) { return change >= 0 && change <= evidence_max; };
   return std::all_of(past.mean.begin(), past.mean.end(), is_mean) && past.expected >= -1 &&
          double{past.expected} <= error * error && std::fabs(past.evidence) <= evidence_max && past.weight >= 0 &&
-         past.weight <= 1;
+         past.weight <= 1 && is_change(past.change) && is_change(past.told_change) && is_change(past.told_quarter_change);
 }
 
 const char* fault_of_past(const PartialPicture& picture, const PictureTerms& terms) {
@@ -88,12 +89,24 @@ const char* fault_of_past(const PartialPicture& picture, const PictureTerms& ter
   return is_whole && std::all_of(picture.past.begin(), picture.past.end(), is_right) ? nullptr : "an estimate that no film has";
 }
 
+/// How many samples a plane of a pixel can have light of. Where the pixel is not of the pass, and was of one before, its planes
+/// were gathered nobody knows when.
+std::uint32_t samples_on(std::uint32_t plane, const PartialPicture& picture, std::uint32_t pixel) {
+  const std::uint32_t before = picture.film.samples(pixel);
+  const std::uint32_t brought = picture.done.has(pixel) ? picture.pass.samples(pixel).count : 0;
+  if (before == 0) {
+    return core::samples_on(plane, brought);
+  }
+  const std::uint32_t next_block = std::min(brought, before), all = before + brought;
+  return !picture.pass.has(pixel) ? all : plane == plane_of(before - 1) ? all - next_block : next_block;
+}
+
 const char* fault_of_light(const PartialPicture& picture, const PictureTerms& terms) {
   for (std::uint32_t pixel = 0; pixel < picture.film.pixels().size(); ++pixel) {
-    const std::uint32_t samples = picture.film.samples(pixel) + (picture.done.has(pixel) ? picture.pass.samples(pixel).count : 0);
-    const auto& [even, odd] = picture.film.pixels()[pixel].plane;
-    if (!can_hold(even, samples - samples / 2, terms) || !can_hold(odd, samples / 2, terms)) {
-      return "light that no samples have brought";
+    for (const std::uint32_t plane : {0U, 1U}) {
+      if (!can_hold(picture.film.pixels()[pixel].plane[plane], samples_on(plane, picture, pixel), terms)) {
+        return "light that no samples have brought";
+      }
     }
   }
   return nullptr;

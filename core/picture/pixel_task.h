@@ -80,7 +80,7 @@ struct RenderSettings {
 
 /// Adds what a sample of the ray's number finds to its pixel's sums.
 inline void deposit(PixelSums& sums, const Ray& ray, const Color& light, const RenderSettings& settings, Operations& operations) {
-  if (add(sums.plane[ray.sample % 2], to_fixed(light, settings.shade.film_scale))) {
+  if (add(sums.plane[plane_of(ray.sample)], to_fixed(light, settings.shade.film_scale))) {
     ++operations.deposits_saturated;
   }
 }

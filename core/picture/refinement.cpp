@@ -14,7 +14,7 @@ namespace {
 /// By what a square error falls when samples double: 1 / spread(2).
 constexpr double doubling = 0.35355339059327373;
 /// The share of the square error asked for that a pass aims at: a little lower, or small passes come at the end.
-constexpr double aim = 0.9;
+constexpr double aim = 0.82;
 /// Shares of the square error asked for: pixels below the first look even, those below the second are good enough, whatever
 /// becomes of the others.
 constexpr double even_share = 0.1, negligible_share = 1e-3;
@@ -71,7 +71,7 @@ Refinement::Refinement(const RefinementOptions& options, std::uint32_t samples, 
       pixel_count_(static_cast<std::uint32_t>(width * height)) {
   expect(samples > 0, "a picture has samples");
   if (options.is_wanted()) {
-    expect(samples % 2 == 0 && samples <= options.samples_max, "a picture that is refined starts with samples on both planes");
+    expect(samples == 2 && samples <= options.samples_max, "a picture that is refined starts with a sample on each plane");
     estimate_.emplace(width, height, detail, even_share * error_ * error_);
     square_errors_.resize(pixel_count_);
   }
@@ -83,7 +83,7 @@ void Refinement::resume(const PartialPicture& start) {
   pixel_count_ = pass_.pixel_count();
   result_.passes = start.passes;
   if (estimate_ && start.passes > 1) {
-    estimate_->resume(start.film, start.past);
+    estimate_->resume(start.past);
   }
 }
 
@@ -98,7 +98,7 @@ bool Refinement::next_pass(Film& film) {
   }
   estimate_->end_pass(film, pass_);
   find_errors(film);
-  return result_.error > error_ && result_.passes < passes_max && choose();
+  return result_.error > error_ && result_.passes < passes_max && choose(film);
 }
 
 void Refinement::find_errors(const Film& film) {
@@ -111,7 +111,7 @@ void Refinement::find_errors(const Film& film) {
 }
 
 /// The next pass, for an error that is too large.
-bool Refinement::choose() {
+bool Refinement::choose(Film& film) {
   for (SampleStep& step : pass_.steps()) {
     const std::uint32_t level = std::max(step.from(), step.to());
     step = {level, level};
@@ -120,6 +120,11 @@ bool Refinement::choose() {
   const std::uint64_t samples = take_best(promises().threshold(too_much * static_cast<double>(square_errors_.size())));
   if (samples > 0) {
     explore(samples);
+    for (std::uint32_t pixel = 0; pixel < pass_.steps().size(); ++pixel) {
+      if (pass_.has(pixel)) {
+        film.gather_planes(pixel);
+      }
+    }
     estimate_->begin_pass();
     ++result_.passes;
   }

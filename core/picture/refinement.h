@@ -28,8 +28,9 @@ struct RefinementOptions {
 
 /// The last pass ends a picture, whatever its error: with samples enough for any it comes sooner.
 inline constexpr std::uint32_t passes_max = 12;
-/// In one pass a pixel's samples are doubled so often at most: what few samples say is then looked at again.
-inline constexpr std::uint32_t doublings_max = 3;
+/// In one pass a pixel's samples are doubled so often at most: what few samples say is then looked at again, and of so many
+/// blocks of samples the film's planes tell each from the others.
+inline constexpr std::uint32_t doublings_max = 2;
 /// The level that a pixel of `samples` in the first pass may come to; at most SampleStep::level_max.
 std::uint32_t level_max(const RefinementOptions& options, std::uint32_t samples);
 
@@ -47,8 +48,8 @@ struct RefinementResult {
 /// get four times their samples, for what they show of the others.
 class Refinement {
  public:
-  /// `samples`: of every pixel in the first pass, which is under way from the start. Requires an even number of them, and a film
-  /// of this size and scale, if there is an error to come down to; else any number. `detail`, if there is any, outlives it.
+  /// `samples`: of every pixel in the first pass, which is under way from the start. Requires two, and a film of this size and
+  /// scale, if there is an error to come down to; else any number. `detail`, if there is any, outlives it.
   Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height, const FineDetail* detail = nullptr,
              FilmScale scale = {});
 
@@ -58,7 +59,8 @@ class Refinement {
   /// Under way.
   const Pass& pass() const { return pass_; }
   std::uint32_t pixel_count() const { return pixel_count_; }
-  /// All light of the pass under way has arrived: counts its samples on the film, and chooses the next one. Returns false if the
+  /// All light of the pass under way has arrived: counts its samples on the film, and chooses the next one, for whose pixels it
+  /// gathers the film's planes. Returns false if the
   /// picture is good enough, or no pixel may have more samples.
   bool next_pass(Film& film);
   /// Up to the pass under way, its error not yet known.
@@ -70,7 +72,7 @@ class Refinement {
   class Promises;
 
   void find_errors(const Film& film);
-  bool choose();
+  bool choose(Film& film);
   Promises promises() const;
   std::uint64_t take_best(std::size_t threshold);
   void explore(std::uint64_t samples_chosen);

@@ -37,11 +37,10 @@ double unit(std::uint32_t digits) { return static_cast<double>(digits) * 0x1p-32
 }  // namespace
 
 SamplePosition sample_position(std::uint32_t pixel, std::uint32_t sample) {
-  const std::uint32_t index = sample / 2, plane = sample % 2;
-  const std::uint64_t seeds = mix((std::uint64_t{pixel} << 1U | plane) + 0x9e3779b97f4a7c15ULL);
+  const std::uint64_t seeds = mix((std::uint64_t{pixel} << 1U) + 0x9e3779b97f4a7c15ULL);
   const auto seed_x = static_cast<std::uint32_t>(seeds), seed_y = static_cast<std::uint32_t>(seeds >> 32U);
   // The first dimension's digits are the index's in reverse.
-  return {unit(reversed(permuted(index, seed_x))), unit(reversed(permuted(second_dimension_reversed(index), seed_y)))};
+  return {unit(reversed(permuted(sample, seed_x))), unit(reversed(permuted(second_dimension_reversed(sample), seed_y)))};
 }
 
 }  // namespace dmpc::core

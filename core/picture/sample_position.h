@@ -11,11 +11,11 @@ struct SamplePosition {
   constexpr bool operator==(const SamplePosition&) const = default;
 };
 
-/// Even samples and odd ones are two point sets without relation, so that the difference of their means tells the error. Each is
-/// Sobol's (0, 2)-sequence (I. M. Sobol, "On the Distribution of Points in a Cube", 1967): of its first 2^k points each lies in a
-/// box of its own, for every way of cutting the pixel into 2^k equal boxes of 2^i by 2^(k - i). The digits are scrambled by a
-/// hash of (pixel, plane) after A. B. Owen, so that every position is equally likely, by the method of B. Burley, "Practical
-/// Hash-based Owen Scrambling", Journal of Computer Graphics Techniques 9 (4), 2020.
+/// A pixel's samples are Sobol's (0, 2)-sequence (I. M. Sobol, "On the Distribution of Points in a Cube", 1967): of the first
+/// 2^k, and of each 2^k that follow upon a multiple of 2^k, each lies in a box of its own, for every way of cutting the pixel
+/// into 2^k equal boxes of 2^i by 2^(k - i). The digits are scrambled by a hash of the pixel after A. B. Owen, so that every
+/// position is equally likely, by the method of B. Burley, "Practical Hash-based Owen Scrambling", Journal of Computer Graphics
+/// Techniques 9 (4), 2020.
 SamplePosition sample_position(std::uint32_t pixel, std::uint32_t sample);
 
 }  // namespace dmpc::core

@@ -179,7 +179,7 @@ TEST_CASE("the pixels kept as done have all their light, and the others none") {
 }
 
 TEST_CASE("a run that keeps the picture whenever it can comes to the same end") {
-  const Subject subject(tests::mirrors_and_glass(), {24, 20, 2, {.error = 0.03}});
+  const Subject subject(tests::mirrors_and_glass(), {24, 20, 2, {.error = 0.01}});
   for (const Strategy strategy : all_strategies) {
     Keeper keeper(1);
     CHECK(run(subject, {.strategy = strategy, .continuation = keeper.continuation()}).film.hash() == subject.outcome().film_hash);

@@ -119,9 +119,9 @@ TEST_CASE("what is no checkpoint is refused") {
   write_text(folder / "a", "");
   CHECK(contains(file_complaint(folder / "a"), "no checkpoint"));
   write_text(folder / "a", "dmpc checkpoint 2\n\n");
-  CHECK(contains(file_complaint(folder / "a"), "no checkpoint of this version of dmpc: its format is 2, here 3 is read"));
+  CHECK(contains(file_complaint(folder / "a"), "no checkpoint of this version of dmpc: its format is 2, here 4 is read"));
   CHECK(contains(file_complaint(folder / "none"), "cannot be read"));
-  write_text(folder / "a", "dmpc checkpoint 3\n" + std::string(100'000, 'x') + "=\n");
+  write_text(folder / "a", "dmpc checkpoint 4\n" + std::string(100'000, 'x') + "=\n");
   CHECK(contains(file_complaint(folder / "a"), "is damaged"));
   CHECK(contains(file_complaint("/dev/zero"), "no checkpoint"));
 }

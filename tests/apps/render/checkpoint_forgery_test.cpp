@@ -32,7 +32,7 @@ using tests::write_text;
 namespace {
 
 constexpr std::size_t word_bytes = sizeof(std::uint64_t);
-constexpr std::size_t pixel_bytes = 7 * word_bytes, past_bytes = 3 * word_bytes;
+constexpr std::size_t pixel_bytes = 7 * word_bytes, past_bytes = 9 * sizeof(float);
 
 std::size_t forgery_count() { return tests::number_from_environment("DMPC_FORGERIES", 300); }
 

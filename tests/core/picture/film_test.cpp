@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "apps/lab/bench/stability/random.h"
@@ -78,11 +79,31 @@ TEST_CASE("a pixel's radiance is the mean of both planes over the samples") {
   CHECK(film.samples() == 5);
 }
 
-TEST_CASE("half of the difference of a pixel's planes is between the means of its even and of its odd samples") {
+TEST_CASE("blocks of samples that double those before fall on the planes by turns") {
+  for (const auto& [sample, plane] : {std::pair(0U, 0U), {1U, 1U}, {2U, 0U}, {3U, 0U}, {4U, 1U}, {7U, 1U}, {8U, 0U}}) {
+    CHECK(plane_of(sample) == plane);
+  }
+  for (const std::uint32_t samples : {0U, 1U, 2U, 3U, 7U, 100U}) {
+    std::uint32_t counted = 0;
+    for (std::uint32_t sample = 0; sample < samples; ++sample) {
+      counted += plane_of(sample);
+    }
+    CHECK(samples_on(1, samples) == counted);
+    CHECK(samples_on(0, samples) == samples - counted);
+  }
+}
+
+TEST_CASE("planes gathered leave the light of the block that follows alone on its plane") {
   Film film(1, 1);
   film.deposit(0, {{to_fixed({6, 0, 2}), to_fixed({1, 1, 1})}});
-  film.add_samples(0, 3);  // two even ones, and one odd
-  CHECK(film.half_difference(0) == Vec3d{1, -0.5, 0});
+  film.add_samples(0, 2);
+  film.gather_planes(0);
+  CHECK(film.pixels()[0] == PixelSums{{FixedColor{}, to_fixed({7, 1, 3})}});
+  PixelSums third;
+  third.plane[plane_of(2)] = to_fixed({1, 0, 0});
+  film.deposit(0, third);
+  CHECK(film.scaled_sum(0, plane_of(2)) == Vec3d{1, 0, 0});
+  CHECK(film.radiance(0) == Vec3d{4, 0.5, 1.5});
 }
 
 TEST_CASE("a film tells of saturation, of pixels beyond it and of no samples") {
@@ -90,8 +111,7 @@ TEST_CASE("a film tells of saturation, of pixels beyond it and of no samples") {
   CHECK(film.deposit(3, even({infinite, 0, 0})));
   CHECK_THROWS_AS(film.deposit(4, {}), InternalError);
   CHECK_THROWS_AS(film.radiance(0), InternalError);
-  film.add_samples(0, 1);
-  CHECK_THROWS_AS(film.half_difference(0), InternalError);
+  CHECK_THROWS_AS(film.gather_planes(0), InternalError);
   CHECK_THROWS_AS(Film(0, 1), InternalError);
 }
 

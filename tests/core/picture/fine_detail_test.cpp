@@ -103,7 +103,7 @@ TEST_CASE("small things that fill a pixel crowd, and are no detail") {
 TEST_CASE("detail does not depend on how the database is laid out") {
   Small small;
   for (int i = 0; i < 200; ++i) {
-    const SamplePosition at = sample_position(17, static_cast<std::uint32_t>(2 * i));
+    const SamplePosition at = sample_position(17, static_cast<std::uint32_t>(i));
     small.builder.sphere(Small::place(at.x * side, at.y * side), 0.1 * pixel);
     small.builder.cone(Small::place(at.x * side, at.y * side), 0.02 * pixel, Small::place(at.y * side, 5), 0.01 * pixel);
   }

@@ -13,11 +13,11 @@ namespace {
 constexpr int picture_width = 10, picture_height = 7;
 constexpr std::uint32_t picture_pixels = 70;
 
-/// Light as if each of `even` and `odd` samples had brought as much as film_resolution.
-void bring(PartialPicture& picture, std::uint32_t pixel, std::int64_t even, std::int64_t odd) {
+/// Light as if each of so many samples on both planes had brought as much as film_resolution.
+void bring(PartialPicture& picture, std::uint32_t pixel, std::int64_t first, std::int64_t second) {
   PixelSums sums;
-  sums.plane[0].channel[1] = even;
-  sums.plane[1].channel[2] = odd;
+  sums.plane[0].channel[1] = first;
+  sums.plane[1].channel[2] = second;
   picture.film.deposit(pixel, sums);
 }
 
@@ -37,7 +37,7 @@ PartialPicture in_first_pass() {
 }
 
 /// The second pass has doubled the samples of pixels 5 to 9, the third is about to double those of 7 again, and those of 8 twice,
-/// which is done.
+/// which is done; so the light that those two had is gathered on the first plane, where the fourth sample fell.
 PartialPicture in_third_pass() {
   PartialPicture picture = with_samples(2);
   picture.passes = 3;
@@ -45,7 +45,8 @@ PartialPicture in_third_pass() {
     const bool is_refined = pixel >= 5 && pixel <= 9;
     picture.film.add_samples(pixel, is_refined ? 4 : 2);
     picture.pass.steps()[pixel] = is_refined ? SampleStep(2, 2) : SampleStep(1, 1);
-    bring(picture, pixel, 1, 1);
+    const bool is_gathered = pixel == 7 || pixel == 8;
+    bring(picture, pixel, 1, is_gathered ? 0 : 1);
   }
   picture.pass.steps()[7] = {2, 3};
   picture.pass.steps()[8] = {2, 4};
@@ -121,7 +122,8 @@ TEST_CASE("what no film can have left in an estimate is a fault") {
   CHECK(fault_after(in_third_pass(), [](auto& picture) { picture.past.clear(); }) == expected);
   for (const PixelPast& past :
        {PixelPast{.mean = {0, -1, 0}}, PixelPast{.mean = {0, 0, infinite}}, PixelPast{.expected = -2}, PixelPast{.expected = 1},
-        PixelPast{.evidence = -infinite}, PixelPast{.weight = 1.5F}, PixelPast{.weight = -1}}) {
+        PixelPast{.evidence = -infinite}, PixelPast{.weight = 1.5F}, PixelPast{.weight = -1}, PixelPast{.change = -1},
+        PixelPast{.change = infinite}, PixelPast{.told_change = -1}, PixelPast{.told_quarter_change = infinite}}) {
     CHECK(fault_after(in_third_pass(), [&](auto& picture) { picture.past[50] = past; }) == expected);
   }
 }
@@ -140,8 +142,10 @@ TEST_CASE("light without samples, below nothing or above what they can bring is 
   const std::int64_t one = std::int64_t{1} << 32;
   CHECK(fault_after(in_first_pass(), [&](auto& picture) { bring(picture, 0, one, one); }).empty());
   CHECK(fault_after(in_first_pass(), [&](auto& picture) { bring(picture, 0, 0, 3 * one); }) == expected);
-  CHECK(fault_after(in_third_pass(), [&](auto& picture) { bring(picture, 7, 5 * one, 0); }) == expected);
-  CHECK(fault_after(in_third_pass(), [&](auto& picture) { bring(picture, 8, 5 * one, 0); }).empty());
+  CHECK(fault_after(in_third_pass(), [&](auto& picture) { bring(picture, 7, 9 * one, 0); }) == expected);
+  CHECK(fault_after(in_third_pass(), [&](auto& picture) { bring(picture, 7, 0, 1); }) == expected);
+  CHECK(fault_after(in_third_pass(), [&](auto& picture) { bring(picture, 8, 9 * one, 7 * one); }).empty());
+  CHECK(fault_after(in_third_pass(), [&](auto& picture) { bring(picture, 8, 0, 9 * one); }) == expected);
   const PictureTerms terms_of_one{.samples = 1};
   const auto has_one = [](auto& picture) { picture.pass = Pass(picture_pixels, 1); };
   CHECK(fault_after(in_first_pass(), has_one, terms_of_one) == expected);  // there is no second sample

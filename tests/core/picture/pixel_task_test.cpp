@@ -114,14 +114,14 @@ TEST_CASE("a stack of a hit a depth is enough, a smaller one is refused") {
   CHECK_THROWS_AS(task.start(0, {}, settings_of(database, scene, 1, 5), operations), InternalError);
 }
 
-TEST_CASE("rays that hit nothing bring the background, half of the samples to each plane") {
+TEST_CASE("rays that hit nothing bring the background, each sample to its plane") {
   Scene scene;
   SceneBuilder(scene).background({0.25, 0.5, 0.75});
   const Database database = database_of(scene);
   Operations operations;
   const PixelSums sums = fed(database, settings_of(database, scene, 4, 5), 3, operations);
-  CHECK(sums.plane[0] == to_fixed({0.5F, 1, 1.5F}));
-  CHECK(sums.plane[1] == sums.plane[0]);
+  CHECK(sums.plane[0] == to_fixed({0.75F, 1.5F, 2.25F}));
+  CHECK(sums.plane[1] == to_fixed({0.25F, 0.5F, 0.75F}));
   CHECK(operations.rays[0] == 4);
 }
 
