@@ -5,12 +5,12 @@
 
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "apps/edge/system/memory_file.h"
-#include "apps/foreign/mapped_file.h"
 #include "apps/foreign/service.h"
 #include "core/base/expect.h"
 
@@ -74,8 +74,15 @@ void serve_picture(const Message& request, Line& line) {
   }
   const int width = fields.take<int>(), height = fields.take<int>();
   const OIIO::ImageSpec spec = specification(width, height, fields.take_flag());
-  const std::unique_ptr<FileBytes> values = map_file(request.file, spec.image_bytes());
-  const std::string file = file_of(name, spec, values->bytes().data());
+  std::string values;
+  while (values.size() < spec.image_bytes()) {
+    const std::optional<Message> part = line.receive(false);
+    if (!part || part->saying != Saying::bytes) {
+      return;  // dmpc is no more
+    }
+    values += part->bytes;
+  }
+  const std::string file = file_of(name, spec, values.data());
   send_bytes(std::as_bytes(std::span(file)), line);
   line.send(Saying::done);
 }

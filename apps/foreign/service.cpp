@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <exception>
 #include <new>
 #include <optional>
@@ -72,15 +71,6 @@ void serve_requests(const std::function<void(const Message&, Line&)>& serve, Mat
   } catch (const HungUp&) {
   }
   ::_exit(0);  // nothing is left to be written, and the libraries' own ends want calls that are gone
-}
-
-void send_bytes(std::span<const std::byte> bytes, Line& line) {
-  for (std::size_t first = 0; first < bytes.size(); first += message_bytes_max) {
-    const auto part = bytes.subspan(first, std::min(message_bytes_max, bytes.size() - first));
-    if (!line.send(Saying::bytes, {reinterpret_cast<const char*>(part.data()), part.size()})) {
-      return;
-    }
-  }
 }
 
 }  // namespace dmpc::apps

@@ -1,10 +1,8 @@
 // The main loop of a process that reads or writes files for dmpc: it gets ready, shuts itself in, and does what it is asked for.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <span>
 
 #include "apps/reader/line.h"
 
@@ -19,8 +17,5 @@ enum class Matter : std::uint8_t {
 /// Takes the line that dmpc has left open, and calls `serve` for each request until dmpc hangs up; what that throws is sent.
 /// Libraries have to be ready before, since with foreign matter nothing can be opened any more. Never returns.
 [[noreturn]] void serve_requests(const std::function<void(const Message&, Line&)>& serve, Matter matter = Matter::foreign);
-
-/// In as many messages as they take, unless dmpc hangs up.
-void send_bytes(std::span<const std::byte> bytes, Line& line);
 
 }  // namespace dmpc::apps

@@ -2,6 +2,7 @@
 
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -80,6 +81,16 @@ std::optional<Message> Line::receive(bool takes_file) {
   message.saying = static_cast<Saying>(buffer_[0]);
   message.bytes.assign(buffer_, 1, static_cast<std::size_t>(count) - 1);
   return message;
+}
+
+bool send_bytes(std::span<const std::byte> bytes, Line& line) {
+  for (std::size_t first = 0; first < bytes.size(); first += message_bytes_max) {
+    const auto part = bytes.subspan(first, std::min(message_bytes_max, bytes.size() - first));
+    if (!line.send(Saying::bytes, {reinterpret_cast<const char*>(part.data()), part.size()})) {
+      return false;
+    }
+  }
+  return true;
 }
 
 std::pair<Descriptor, Descriptor> make_ends() {

@@ -1,7 +1,9 @@
 // One end of the line between dmpc and a process that reads for it: messages, perhaps with an open file.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,6 +41,9 @@ class Line {
   Descriptor socket_;
   std::string buffer_;
 };
+
+/// In as many messages as they take. Returns whether they were sent: not if the other end is closed.
+bool send_bytes(std::span<const std::byte> bytes, Line& line);
 
 /// Both ends; closed when another program is started. Throws ComputerRoomError if none can be had.
 std::pair<Descriptor, Descriptor> make_ends();

@@ -175,6 +175,12 @@ void ReaderProcess::send(Saying saying, const Packer& fields, const Descriptor* 
   }
 }
 
+void ReaderProcess::send_bytes(std::span<const std::byte> bytes) {
+  if (!dmpc::apps::send_bytes(bytes, line_)) {
+    end("does not listen");
+  }
+}
+
 /// All waiting together is bounded: messages, however many, renew nothing. Who looks up much later than it wanted to was stopped,
 /// and so was the reader, perhaps.
 void ReaderProcess::wait_for_message() {

@@ -3,7 +3,9 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "apps/reader/budget.h"
@@ -30,6 +32,8 @@ class ReaderProcess {
 
   /// With a file, its bytes give it more time. Throws ReaderDeath if it has ended, or if no time is left.
   void send(Saying saying, const Packer& fields = {}, const Descriptor* file = nullptr, std::uint64_t file_bytes = 0);
+  /// After a request, in as many messages as they take; waits while it does not take them. Throws ReaderDeath if it has ended.
+  void send_bytes(std::span<const std::byte> bytes);
   /// The next message. Throws ReaderDeath if it has ended or takes too long, core::RoomError if its memory ended.
   Message receive();
 

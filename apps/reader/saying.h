@@ -22,7 +22,7 @@ enum class Saying : std::uint8_t {
   read_texture,  ///< name, format hint, bytes of the file; with the file
   read_image,    ///< name, format hint, bytes of the file; with the file
   writes,         ///< an ending; answered by yes or no
-  write_picture,  ///< name, width, height, whether its values are floats; with a file of these; bytes follow, then done
+  write_picture,  ///< name, width, height, whether its values are floats; these follow as bytes; answered by bytes, then done
   file,          ///< bytes of the file; with the file
   names,         ///< paths
   yes,
