@@ -1,6 +1,7 @@
 #include "core/database/coplanar.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -136,13 +137,13 @@ class ExactSets {
   }
 
   const std::vector<Ids>& sets() const { return sets_; }
-  FaceStack stack_of(const Ids& set) const {
+  FaceStack stack_of(const Ids& set, StackBudget& budget) const {
     std::vector<Face> faces;
     faces.reserve(set.size());
     for (const std::uint32_t id : set) {
       faces.push_back(faces_[static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin())]);
     }
-    return stack_faces(faces);
+    return stack_faces(faces, budget);
   }
 
  private:
@@ -150,6 +151,15 @@ class ExactSets {
   Ids ids_;
   std::vector<Face> faces_;
 };
+
+/// One of each polygon of a set, whose triangles come one behind the other.
+Ids one_of_each_polygon(const Conversion& conversion, const Ids& set) {
+  Ids ids;
+  std::unique_copy(set.begin(), set.end(), std::back_inserter(ids), [&](std::uint32_t a, std::uint32_t b) {
+    return conversion.sources[a].object == conversion.sources[b].object;
+  });
+  return ids;
+}
 
 /// Adds the other triangles of a triangle's polygon, which come one behind the other.
 void add_polygon(const Conversion& conversion, std::uint32_t id, FaceSets& sets) {
@@ -346,7 +356,8 @@ class Settler {
 
 /// For certain, and without dividing polygons: the corners of all polygons of a set have a coordinate in common, as doubles have
 /// it.
-bool is_level(const Exactly& exactly, const Ids& set) {
+bool is_level(const Exactly& exactly, const Ids& whole) {
+  const Ids set = one_of_each_polygon(exactly.conversion, whole);
   const auto corners_of = [&](std::uint32_t id) {
     const Object& object = exactly.scene.objects[exactly.conversion.sources[id].object];
     return std::span(exactly.scene.vertices).subspan(object.first, object.vertex_count);
@@ -366,15 +377,17 @@ bool is_level(const Exactly& exactly, const Ids& set) {
 
 /// Adds to sets that doubles take apart the other triangles of their polygons, and to `merged` what they cannot. Returns whether
 /// there are any of the former.
-bool add_polygons(const Exactly& exactly, FaceSets& close, std::vector<CloseFaces>& merged) {
+bool add_polygons(const Exactly& exactly, FaceSets& close, StackBudget& budget, std::vector<CloseFaces>& merged) {
   std::vector<Ids> doubtful = close.sets();
   std::erase_if(doubtful, [&](const Ids& set) { return is_level(exactly, set); });
   const ExactSets exact(exactly, std::move(doubtful));
   bool found = false;
   for (const Ids& set : exact.sets()) {
-    const FaceStack stack = exact.stack_of(set);
+    const FaceStack stack = exact.stack_of(set, budget);
     if (stack.layers.size() > 1) {
-      std::for_each(set.begin(), set.end(), [&](std::uint32_t id) { add_polygon(exactly.conversion, id, close); });
+      for (const std::uint32_t id : one_of_each_polygon(exactly.conversion, set)) {
+        add_polygon(exactly.conversion, id, close);
+      }
       found = true;
     } else {
       merged.insert(merged.end(), stack.blurred.begin(), stack.blurred.end());
@@ -407,10 +420,11 @@ bool settle_coplanar(Conversion& conversion, const TopCells& cells, const Scene&
   CoveringSets found = covering_sets(exactly, cells, parallel);
   std::vector<FaceStack> stacks;
   std::vector<bool> is_stacked(conversion.primitives.size());
-  if (add_polygons(exactly, found.close, conversion.close_faces)) {
+  StackBudget budget;
+  if (add_polygons(exactly, found.close, budget, conversion.close_faces)) {
     const ExactSets exact(exactly, found.close.sets());
     for (const Ids& set : exact.sets()) {
-      FaceStack stack = exact.stack_of(set);
+      FaceStack stack = exact.stack_of(set, budget);
       if (stack.layers.size() > 1) {
         conversion.close_faces.insert(conversion.close_faces.end(), stack.blurred.begin(), stack.blurred.end());
         stacks.push_back(std::move(stack));

@@ -1,5 +1,6 @@
 #include "core/database/exact_corners.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -90,7 +91,9 @@ std::vector<Face> exact_faces(const Scene& scene, const GridFrame& frame, const 
   faces.reserve(ids.size());
   for (const std::uint32_t id : ids) {
     const std::uint32_t object = conversion.sources[id].object;
-    faces.emplace_back(finder.corners_of(conversion.primitives[id], object), beside, exact_rounding, id, object);
+    faces.emplace_back(finder.corners_of(conversion.primitives[id], object), beside,
+                       std::max(exact_rounding, scene.coordinate_rounding), id, object);
+    faces.back().moved += exact_rounding;
   }
   return faces;
 }

@@ -59,7 +59,7 @@ bool are_coplanar(const Face& a, const Face& b) {
 
 bool are_near(const Face& a, const Face& b) {
   const std::array<Height, 3> heights = heights_between(a, b);
-  const double tie = tie_share * std::min(a.longest(), b.longest());
+  const double tie = tie_of(std::min(a.longest(), b.longest()));
   const auto near = [&](const Height& corner) { return near_roundings * corner.moved + tie; };
   const auto leans = [&](const Height& corner) { return std::fabs(corner.height) > leaning_nears * near(corner); };
   const auto is_above = [&](const Height& corner) { return corner.height > near(corner); };

@@ -70,8 +70,9 @@ bool are_coplanar(const Face& a, const Face& b);
 /// Planes that are apart, but no farther than so many times what rounding moves them by, are near: a ray that starts on one
 /// starts behind the other (core/picture/triangle_hit.h).
 inline constexpr double near_roundings = 16;
-/// And no farther than this share of a face: whoever sees it from some sizes of it away meets both at one t, in float.
-inline constexpr double tie_share = 0x1p-20;
+/// And so are those that are no farther apart than this: whoever sees a face of such a size from 16 times it away meets both at
+/// one t, in float, or even from a thousand times it where that loses no more of t than it loses across the scene.
+inline double tie_of(double size) { return 0x1p-20 * size + std::min(0x1p-14 * size, 0x1p-24); }
 /// Whether some corner of the smaller of two triangles is near to the plane of the other, or they lie on both of its sides, and
 /// none is `leaning_nears` times as far.
 bool are_near(const Face& a, const Face& b);

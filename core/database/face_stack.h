@@ -1,6 +1,7 @@
 // Faces that lie so near to each other that only the file's doubles tell which is before which.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,9 +15,9 @@ namespace dmpc::core {
 ///
 /// Floats would make one of them, or they are nearer to each other than rays start off a triangle. So their planes come from the
 /// corners as the file has them, and stand in the blocks. Edges stay those of the floats, since along a plane rounding shifts a
-/// face and swaps nothing; across it t, points and starts of rays are right to 2^-47 of the coordinates. Where a float t is the
-/// same for two planes, in_layer() (core/trace/primitive.h) moves it by a unit in the last place for each layer, in the order in
-/// which the ray comes to them. So (t, id) decides as ever, whatever box, node or kernel a face is met in. Near faces of one layer
+/// face and swaps nothing; across it t, points and starts of rays are right to 2^-47 of the coordinates. Where a float t
+/// would be the same for two planes, in_layer() (core/trace/primitive.h) tells them apart: it moves each t by a unit in the last place
+/// for each layer, in the order in which the ray comes to them. So (t, id) decides as ever, whatever box, node or kernel a face is met in. Near faces of one layer
 /// may be swapped where t is too coarse to tell them apart: RoundingLoss::swapped.
 struct FaceStack {
   /// Of one plane, as far as doubles tell.
@@ -25,12 +26,19 @@ struct FaceStack {
     std::vector<std::uint32_t> ids;  ///< of the faces, ascending
   };
   std::vector<Layer> layers;
-  std::vector<CloseFaces> blurred;  ///< that cover each other and are in one layer, in two planes or in one for want of digits
+  /// Of those that cover another one and are in its layer, in two planes or in one for want of digits: once each, the smaller one.
+  std::vector<CloseFaces> blurred;
+};
+
+/// What all stacks of a scene may take: looks from a face at a plane, and at another face. What is not looked at has a plane of its
+/// own, in no order, and is said to be.
+struct StackBudget {
+  std::size_t planes = std::size_t{1} << 28U, pairs = std::size_t{1} << 24U;
 };
 
 /// Sorts faces, as doubles have them, by their planes. The planes face one side; each is in a layer above those that it covers
 /// from there, as far as plane_layers_max goes. Planes that cut each other where their faces cover each other may be in one
-/// layer. Takes time in proportion to the faces, times their planes where those are few.
-FaceStack stack_faces(std::span<const Face> faces);
+/// layer.
+FaceStack stack_faces(std::span<const Face> faces, StackBudget& budget);
 
 }  // namespace dmpc::core

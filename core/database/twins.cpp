@@ -21,26 +21,41 @@ struct Twin {
   auto operator<=>(const Twin&) const = default;
 };
 
-/// Finds, among triangles with the same floats, those in whose plane an earlier one lies for doubles.
+/// Finds, among triangles with the same floats, those in whose plane an earlier one lies for doubles. Takes many together, so that
+/// polygons that have twins of each other are divided once for all of them.
 class TwinFinder {
  public:
-  TwinFinder(const Scene& scene, const GridFrame& frame, const Conversion& conversion)
-      : scene_(scene), frame_(frame), conversion_(conversion) {}
+  TwinFinder(const Scene& scene, const GridFrame& frame, const Conversion& conversion, std::vector<bool>& is_twin)
+      : scene_(scene), frame_(frame), conversion_(conversion), is_twin_(is_twin) {}
 
-  /// Marks them. `like`: the triangles, ascending.
-  void mark(std::span<const std::uint32_t> like, std::vector<bool>& is_twin) {
-    kept_.clear();
-    while (!like.empty()) {
-      const std::size_t count = std::min(like.size(), faces_together);
-      for (const Face& face : exact_faces(scene_, frame_, conversion_, like.first(count))) {
-        is_twin[face.id] = is_kept(face);
+  /// `like`: the triangles, ascending.
+  void add(std::span<const std::uint32_t> like) {
+    for (const std::uint32_t id : like) {
+      ids_.push_back(id);
+      is_first_.push_back(id == like[0]);
+      if (ids_.size() == together_max) {
+        mark();
       }
-      like = like.subspan(count);
     }
+  }
+  /// Marks all that were added.
+  void mark() {
+    std::vector<std::uint32_t> sorted = ids_;
+    std::sort(sorted.begin(), sorted.end());
+    const std::vector<Face> faces = exact_faces(scene_, frame_, conversion_, sorted);
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      if (is_first_[i]) {
+        kept_.clear();
+      }
+      const auto place = std::lower_bound(sorted.begin(), sorted.end(), ids_[i]) - sorted.begin();
+      is_twin_[ids_[i]] = is_kept(faces[static_cast<std::size_t>(place)]);
+    }
+    ids_.clear();
+    is_first_.clear();
   }
 
  private:
-  static constexpr std::size_t faces_together = 1024, kept_max = 64;
+  static constexpr std::size_t together_max = 65536, kept_max = 64;
 
   /// Whether one like it is; else it is from now on.
   bool is_kept(const Face& face) {
@@ -54,7 +69,10 @@ class TwinFinder {
   const Scene& scene_;
   const GridFrame& frame_;
   const Conversion& conversion_;
-  std::vector<Face> kept_;
+  std::vector<bool>& is_twin_;
+  std::vector<std::uint32_t> ids_;
+  std::vector<bool> is_first_;  ///< of those that are alike
+  std::vector<Face> kept_;      ///< of those that are alike
 };
 
 }  // namespace
@@ -76,16 +94,17 @@ bool drop_twins(Conversion& conversion, const Scene& scene, const GridFrame& fra
   }
   std::sort(triangles.begin(), triangles.end());
   std::vector<bool> is_twin(conversion.primitives.size());
-  TwinFinder finder(scene, frame, conversion);
+  TwinFinder finder(scene, frame, conversion, is_twin);
   for (std::size_t first = 0, last = 0; first < triangles.size(); first = last) {
     std::vector<std::uint32_t> like;
     for (last = first; last < triangles.size() && triangles[last].is_like(triangles[first]); ++last) {
       like.push_back(triangles[last].id);
     }
     if (like.size() > 1) {
-      finder.mark(like, is_twin);
+      finder.add(like);
     }
   }
+  finder.mark();
   std::vector<std::uint32_t> kept(conversion.primitives.size());
   std::iota(kept.begin(), kept.end(), 0U);
   std::erase_if(kept, [&](std::uint32_t id) { return is_twin[id]; });

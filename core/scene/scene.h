@@ -89,6 +89,9 @@ struct Scene {
   std::vector<Sphere> spheres;
   std::vector<Cone> cones;
   std::vector<Texture> textures;
+  /// What the file's coordinates have lost of those that were meant, as a share of them: 0x1p-25 where it keeps them in single
+  /// precision. So much does not tell two planes apart.
+  double coordinate_rounding = 0;
 };
 
 /// What a light of the scene shines with. One without a colour shines with 1 / sqrt(number of lights): twice Haines' suggestion,

@@ -21,6 +21,9 @@ inline constexpr Stand along_axes{{7300, 4100, 0}, {1, 0, 0}, {0, 0, 1}, {0, -1,
 /// Turned about the vertical by an angle of sine 0.28: no coordinate is the same on all of the wall.
 inline constexpr Stand turned_round{{7300, 4100, 0}, {0.96, 0.28, 0}, {0, 0, 1}, {0.28, -0.96, 0}};
 
+/// Lying, so that what is off the ground is so by very little.
+inline constexpr Stand floor_of_all{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
 /// A rectangle of a stand's, which leans: its upper edge is farther off by `leaning`.
 inline std::vector<core::Vec3d> rectangle_of(const Stand& stand, const core::Vec3d& low, const core::Vec3d& high,
                                              double leaning = 0) {
