@@ -54,7 +54,7 @@ struct PrecisionRow {
 
   bool is_explained() const { return precision.errors.empty(); }
   bool is_warned() const { return precision.causes[static_cast<std::size_t>(PixelCause::warned)] > 0; }
-  /// Of a small picture one pixel may differ where less than a whole one may.
+  /// How many may differ is rounded up: of a small picture one, where less than a whole one may.
   bool is_expected() const {
     const double may_differ = (1 - expectation.percent / 100) * static_cast<double>(precision.pixels);
     return static_cast<double>(precision.differing_pixels) <= std::ceil(may_differ - 1e-9);

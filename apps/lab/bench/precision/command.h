@@ -17,10 +17,12 @@ struct PrecisionOptions {
   std::vector<std::string> scenes;  ///< NFF files or built-in names; none: every family in its own size
   Resolution resolution{256, 256};
   int depth = 5;
-  std::optional<double> expected;  ///< percent of the pixels that have the same 8 bits; nothing: what is usual, or was measured
-  Staging staging;                 ///< of all scenes
-  TableOutput table;               ///< without a page and plots
-  bool quiet = false;              ///< no progress
+  /// Percent of the pixels that have the same 8 bits; nothing: what is usual, or was measured. How many pixels may differ is
+  /// rounded up.
+  std::optional<double> expected;
+  Staging staging;     ///< of all scenes
+  TableOutput table;   ///< without a page and plots
+  bool quiet = false;  ///< no progress
 };
 
 /// Declares them.

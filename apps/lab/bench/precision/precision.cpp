@@ -95,13 +95,14 @@ Precision measure_precision(const core::Scene& scene, const PictureOptions& pict
   const AccuratePicture right =
       render_accurately(accurate, finder, camera, SamplePattern::of_product(1), subject.settings.shade, attendance);
   Precision precision{.primitives = subject.database.primitives().size(), .rays = right.rays};
-  const std::vector<std::uint32_t> differing = compare(product_radiance(subject), right.radiance, precision);
+  const std::vector<Vec3d> product = product_radiance(subject);
+  const std::vector<std::uint32_t> differing = compare(product, right.radiance, precision);
   const PixelJudge judge(subject.database, subject.settings, accurate, finder, camera, subject.loss);
   side_by_side(differing.size(), [&](std::size_t index) {
     if (attendance.stop.stop_requested()) {
       throw Interrupted();
     }
-    return [&, index, judgement = judge.judge(differing[index])] {
+    return [&, index, judgement = judge.judge(differing[index], product[differing[index]])] {
       count(judgement, differing[index], static_cast<std::uint32_t>(camera.width()), precision);
     };
   });

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/picture/film.h"
+
 namespace dmpc::apps {
 namespace {
 
@@ -17,6 +19,9 @@ constexpr double level = 64 * 0x1p-24;
 /// Within so much of its start, grid-local, or so small a share of its length before its end a shadow ray's hit lies at its end.
 constexpr double ray_end = 8e-6;
 
+/// A ray's light is a product of two floats at most, one of them the rounded background.
+constexpr double light_rounding = 4 * 0x1p-24;
+
 PixelCause undecided(const LoggedRay& ray) {
   return ray.kind == RayKind::shadow ? PixelCause::terminator : PixelCause::critical_angle;
 }
@@ -28,22 +33,33 @@ std::string_view name_of(PixelCause cause) { return cause_names[static_cast<std:
 PixelJudge::PixelJudge(const core::Database& database, const core::RenderSettings& settings, const AccurateScene& scene,
                        const AccurateFinder& finder, const AccurateCamera& camera, const core::RoundingLoss& loss)
     : logger_(database, settings, scene),
-      audit_(database, settings.shade, scene, finder, std::max(loss.moved_pixels, loss.collapsed_pixels)),
+      audit_(database, settings.shade, scene, finder, std::max({loss.moved_pixels, loss.collapsed_pixels, loss.swapped_pixels})),
       options_(settings.shade),
       scene_(scene),
       finder_(finder),
       camera_(camera),
       unit_(1 / database.header().frame.scale) {}
 
-Judgement PixelJudge::judge(std::uint32_t pixel) const {
+Judgement PixelJudge::judge(std::uint32_t pixel, const core::Vec3d& radiance) const {
   const auto width = static_cast<std::uint32_t>(camera_.width());
   const AccurateRay primary = camera_.ray_through(pixel % width, pixel / width);
   const ProductLog product = logger_.log_of(pixel);
-  const Audit audit = audit_.of(product, primary);
+  Audit audit = audit_.of(product, primary);
+  if (audit.error.empty() && !is_light_of(product, radiance)) {
+    audit.error = "its light is not that of its rays";
+  }
   const PixelCause cause = !audit.error.empty() ? PixelCause::unexplained
                            : audit.is_warned    ? PixelCause::warned
                                              : cause_of_parting(product, accurate_log(scene_, finder_, options_, primary), audit);
   return {cause, audit.largest_step, audit.error};
+}
+
+/// The film rounds what each ray brings to a step of its own.
+bool PixelJudge::is_light_of(const ProductLog& product, const core::Vec3d& radiance) const {
+  const core::Vec3d light = product.light(scene_.background);
+  const double steps = core::film_resolution / options_.film_scale.factor() * static_cast<double>(product.rays.size());
+  const auto is_near = [steps](double a, double b) { return std::fabs(a - b) <= steps + light_rounding * std::fabs(b); };
+  return is_near(radiance.x, light.x) && is_near(radiance.y, light.y) && is_near(radiance.z, light.z);
 }
 
 PixelCause PixelJudge::cause_of_parting(const ProductLog& product, const RayLog& accurate, const Audit& audit) const {

@@ -33,8 +33,9 @@ struct Judgement {
   std::string error;        ///< of an unexplained pixel
 };
 
-/// Follows a pixel's rays in both renderers to the first place where they part. The pixel is explained if StepAudit has no error
-/// to report: then each step is right but for rounding, and what parts lies within what roundings grew to on the way there.
+/// Follows a pixel's rays in both renderers to the first place where they part. The pixel is explained if its light is that of
+/// its rays and StepAudit has no error to report: then each step is right but for rounding, and what parts lies within what
+/// roundings grew to on the way there.
 /// Thread-safe.
 class PixelJudge {
  public:
@@ -42,10 +43,11 @@ class PixelJudge {
   PixelJudge(const core::Database& database, const core::RenderSettings& settings, const AccurateScene& scene,
              const AccurateFinder& finder, const AccurateCamera& camera, const core::RoundingLoss& loss = {});
 
-  /// Judges a pixel of a picture with one sample a pixel.
-  Judgement judge(std::uint32_t pixel) const;
+  /// Judges a pixel of a picture with one sample a pixel, which has this linear radiance there.
+  Judgement judge(std::uint32_t pixel, const core::Vec3d& radiance) const;
 
  private:
+  bool is_light_of(const ProductLog& product, const core::Vec3d& radiance) const;
   PixelCause cause_of_parting(const ProductLog& product, const RayLog& accurate, const Audit& audit) const;
   PixelCause cause_of_answers(const LoggedRay& product, const LoggedRay& accurate, const std::optional<Verdict>& doubt) const;
 

@@ -60,9 +60,7 @@ class NotingTracer {
       note_hit(noted, cursor.best, depth);
     }
     log_.rays.push_back(noted);
-    const bool is_named = noted.hit && ray.kind != RayKind::shadow;
-    log_.shots.push_back(
-        {ray, {noted.hit, is_named ? cursor.best.primitive : core::no_primitive, cursor.best.t}, in_world(ray, noted)});
+    log_.shots.push_back(in_world(ray, noted));
     return result;
   }
   const std::byte* find(core::Address address) { return grid_.find(address); }
@@ -149,6 +147,16 @@ bool same_values(const AccurateBody& body, const core::PrimitiveValues& values, 
 const LoggedRay* RayLog::find(std::uint64_t path) const {
   const auto at = std::find_if(rays.begin(), rays.end(), [path](const LoggedRay& ray) { return ray.path == path; });
   return at == rays.end() ? nullptr : &*at;
+}
+
+Vec3d ProductLog::light(const Vec3d& background) const {
+  Vec3d sum;
+  for (std::size_t index = 0; index < rays.size(); ++index) {
+    if (!rays[index].hit) {
+      sum = sum + (rays[index].kind == RayKind::shadow ? shots[index].weight : shots[index].weight * background);
+    }
+  }
+  return sum;
 }
 
 std::vector<std::uint32_t> bodies_of_primitives(const AccurateScene& scene, const core::Database& database) {

@@ -8,7 +8,6 @@
 #include "apps/lab/oracle/accurate/finder.h"
 #include "apps/lab/oracle/accurate/scene.h"
 #include "apps/lab/oracle/accurate/tracer.h"
-#include "apps/lab/oracle/referee.h"
 #include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 
@@ -41,14 +40,12 @@ struct RayLog {
   const LoggedRay* find(std::uint64_t path) const;
 };
 
-/// The product's, with its own words: grid-local rays, the database's primitives; and the same rays in world coordinates.
+/// The product's.
 struct ProductLog : RayLog {
-  struct Shot {
-    core::Ray ray;
-    Answer answer;
-    AccurateRay world;
-  };
-  std::vector<Shot> shots;  ///< one for each of `rays`
+  std::vector<AccurateRay> shots;  ///< in world coordinates, one for each of `rays`
+
+  /// The sum of what the rays bring that meet nothing: a shadow ray its light, any other the background's.
+  core::Vec3d light(const core::Vec3d& background) const;
 };
 
 /// Which body of `scene` each primitive of the database is; no_primitive for one that double precision left out.

@@ -76,9 +76,10 @@ class StepAudit::Case {
  private:
   void complain(const std::string& error) { result_.error = result_.error.empty() ? error : result_.error; }
 
-  /// A ray of an eye that is far away starts nearer.
+  /// A ray of an eye that is far away starts nearer, where it has passed nothing.
   void check_primary(AccurateRay primary) {
-    const double ahead = dot(log_.shots.front().world.origin - primary.origin, primary.direction);
+    check_start(0, primary);
+    const double ahead = dot(log_.shots.front().origin - primary.origin, primary.direction);
     primary.cone += ahead;
     primary.origin = primary.origin + primary.direction * ahead;
     std::vector<Rays> trials;
@@ -86,7 +87,7 @@ class StepAudit::Case {
       trials.push_back({primary});
       Disturbance(audit_.unit_, seed).shoot(trials.back().front());
     }
-    compare(log_.shots.front().world, primary, trials);
+    compare(log_.shots.front(), primary, trials);
   }
 
   AccurateHit answer_of(const AccurateRay& ray) const {
@@ -97,7 +98,7 @@ class StepAudit::Case {
   }
 
   void check_answer(std::size_t index) {
-    const AccurateRay& ray = log_.shots[index].world;
+    const AccurateRay& ray = log_.shots[index];
     const LoggedRay& logged = log_.rays[index];
     const AccurateHit hit = answer_of(ray);
     if (is_same(logged, hit)) {
@@ -129,26 +130,42 @@ class StepAudit::Case {
 
   /// What lies between a surface and the start of a ray that leaves it is not seen by that ray, which may miss it.
   void check_start(std::size_t index, const AccurateRay& right) {
-    const AccurateRay& found = log_.shots[index].world;
+    const AccurateRay& found = log_.shots[index];
     const double ahead = dot(found.origin - right.origin, right.direction);
     AccurateRay passed = right;
     passed.kind = RayKind::shadow;
     passed.t_max = std::min(ahead, right.t_max);
     if (ahead > 0 && answer_of(passed).found() && !is_same(log_.rays[index], answer_of(right)) &&
-        !audit_.witnesses_.is_beside(passed, {}, core::rounding_allowed_pixels * pixel_at(right.origin, right))) {
+        !audit_.witnesses_.is_beside(passed, {}, core::rounding_allowed_pixels * pixel_at(found.origin, right))) {
       complain(text_of(found) + " that starts behind something");
     }
   }
 
-  AccurateHit hit_of(std::size_t index) const {
+  /// Where the ray meets the body, or a ray beside it, which the product's distance tells then.
+  AccurateHit hit_of(std::size_t index) {
     const LoggedRay& logged = log_.rays[index];
-    const std::optional<double> t = distance_to(audit_.scene_.bodies[logged.body], log_.shots[index].world);
-    const bool is_same = t && std::fabs(*t - logged.t) < same_hit * (logged.t + audit_.unit_);
-    return {is_same ? *t : logged.t, logged.body};
+    const AccurateRay& ray = log_.shots[index];
+    const double rounding = same_hit * (logged.t + audit_.unit_);
+    const std::optional<double> t = distance_to(audit_.scene_.bodies[logged.body], ray);
+    if (t && std::fabs(*t - logged.t) < rounding) {
+      return {*t, logged.body};
+    }
+    const double pixel = pixel_at(ray.origin + ray.direction * logged.t, ray);
+    const auto is_met = [&](double pixels) {
+      return audit_.witnesses_.is_met(ray, {logged.t, logged.body}, rounding, pixels * pixel);
+    };
+    if (!is_met(core::rounding_allowed_pixels)) {
+      const bool is_warned = audit_.warned_pixels_ > core::rounding_allowed_pixels && is_met(audit_.warned_pixels_);
+      result_.is_warned = result_.is_warned || is_warned;
+      if (!is_warned) {
+        complain(text_of(ray) + " that hits its body where no ray does that runs beside it");
+      }
+    }
+    return {logged.t, logged.body};
   }
 
   void check_spawned(std::size_t index) {
-    AccurateRay from = log_.shots[index].world;
+    AccurateRay from = log_.shots[index];
     from.apart = primary_.apart;
     if (log_.rays[index].body == core::no_primitive) {
       return complain(text_of(from) + " hits what double precision leaves out");
@@ -159,7 +176,7 @@ class StepAudit::Case {
     Rays found;
     for (std::size_t child = index + 1; child < log_.rays.size(); ++child) {
       if (log_.rays[child].maker == log_.rays[index].path) {
-        found.push_back(log_.shots[child].world);
+        found.push_back(log_.shots[child]);
         check_child(child, find(exact, found.back()), trials);
       }
     }
@@ -173,9 +190,9 @@ class StepAudit::Case {
   /// `right`: the ray that it should be, or null.
   void check_child(std::size_t child, const AccurateRay* right, const std::vector<Rays>& trials) {
     if (right == nullptr) {
-      return check_decision(log_.shots[child].world, trials, true);
+      return check_decision(log_.shots[child], trials, true);
     }
-    compare(log_.shots[child].world, *right, trials);
+    compare(log_.shots[child], *right, trials);
     check_start(child, *right);
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace dmpc::apps {
@@ -59,13 +60,14 @@ AccurateRay WitnessFinder::beside(const AccurateRay& ray, const Vec3d& step) con
   return moved;
 }
 
-bool WitnessFinder::is_beside(const AccurateRay& ray, const ClaimedAnswer& claimed, double reach) const {
+template <class Accept>
+bool WitnessFinder::any_beside(const AccurateRay& ray, double reach, const Accept& accept) const {
   const auto [right, up] = across(ray.direction);
   double width = reach;
   for (int ring = 0; ring < ring_count; ++ring, width *= ring_ratio) {
     for (int place = 0; place < ring_rays; ++place) {
       const double angle = 2 * std::numbers::pi * place / ring_rays;
-      if (has(beside(ray, (right * std::cos(angle) + up * std::sin(angle)) * width), claimed)) {
+      if (accept(beside(ray, (right * std::cos(angle) + up * std::sin(angle)) * width))) {
         return true;
       }
     }
@@ -73,11 +75,28 @@ bool WitnessFinder::is_beside(const AccurateRay& ray, const ClaimedAnswer& claim
   return false;
 }
 
+bool WitnessFinder::is_beside(const AccurateRay& ray, const ClaimedAnswer& claimed, double reach) const {
+  return any_beside(ray, reach, [&](const AccurateRay& other) { return has(other, claimed); });
+}
+
+bool WitnessFinder::is_met(const AccurateRay& ray, const AccurateHit& hit, double rounding, double reach) const {
+  const AccurateBody& body = scene_.bodies[hit.body];
+  double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
+  const auto is_between = [&](const AccurateRay& other) {
+    const bool starts_there = other.ignored_body == hit.body;
+    if (const std::optional<double> t = starts_there ? distance_across(body, other) : distance_to(body, other)) {
+      nearest = std::min(nearest, *t), farthest = std::max(farthest, *t);
+    }
+    return nearest - rounding < hit.t && hit.t < farthest + rounding;
+  };
+  return is_between(ray) || any_beside(ray, reach, is_between);
+}
+
 bool WitnessFinder::is_at_end(const AccurateRay& ray, const ClaimedAnswer& claimed, double reach) const {
   AccurateRay shorter = ray, longer = ray;
   shorter.t_max -= reach;
   longer.t_max += reach;
-  return has(shorter, claimed) || has(longer, claimed);
+  return (shorter.t_max > 0 && has(shorter, claimed)) || has(longer, claimed);
 }
 
 bool WitnessFinder::is_level(const AccurateRay& ray, const ClaimedAnswer& claimed, double reach) const {

@@ -32,10 +32,16 @@ class WitnessFinder {
   std::optional<Verdict> find(const AccurateRay& ray, const ClaimedAnswer& claimed, double reach, double crossing) const;
   /// Whether a ray that runs `reach` aside of it at most has the answer.
   bool is_beside(const AccurateRay& ray, const ClaimedAnswer& claimed, double reach) const;
+  /// Whether the ray meets the body of `hit` there, within `rounding` along it; or rays that run `reach` aside of it at most do
+  /// so before there and behind.
+  bool is_met(const AccurateRay& ray, const AccurateHit& hit, double rounding, double reach) const;
 
  private:
   /// A ray moved across itself: it starts as far off the surface that it leaves, and is as long.
   AccurateRay beside(const AccurateRay& ray, const core::Vec3d& step) const;
+  /// Whether accept(other) is true of a ray that runs `reach` aside at most; asks no further then.
+  template <class Accept>
+  bool any_beside(const AccurateRay& ray, double reach, const Accept& accept) const;
   bool has(const AccurateRay& ray, const ClaimedAnswer& claimed) const;
   bool is_at_end(const AccurateRay& ray, const ClaimedAnswer& claimed, double reach) const;
   /// Whether the ray meets the two surfaces no farther apart than `reach`.

@@ -17,10 +17,11 @@ using apps::PixelCause;
 
 /// How many pixels have which cause, whether their bytes differ or not.
 struct Causes : std::array<std::uint32_t, apps::pixel_cause_count> {
-  explicit Causes(const Workbench& bench, const core::RoundingLoss& loss = {}) : array{} {
+  explicit Causes(const Workbench& bench, const core::RoundingLoss& loss = {}) : Causes(bench, bench.picture(), loss) {}
+  Causes(const Workbench& bench, const core::Film& picture, const core::RoundingLoss& loss = {}) : array{} {
     const apps::PixelJudge judge(bench.database, bench.settings, bench.accurate, bench.finder, bench.camera, loss);
     for (std::uint32_t pixel = 0; pixel < bench.pixel_count(); ++pixel) {
-      const apps::Judgement judgement = judge.judge(pixel);
+      const apps::Judgement judgement = judge.judge(pixel, picture.radiance(pixel));
       ++at(static_cast<std::size_t>(judgement.cause));
       CHECK(judgement.error.empty() == (judgement.cause != PixelCause::unexplained));
     }
@@ -75,6 +76,27 @@ TEST_CASE("what is farther off than pixels may be is unexplained without a warni
   const Causes warned(bench, core::find_rounding_loss(bench.database, bench.settings.camera));
   CHECK(warned.of(PixelCause::unexplained) == 0);
   CHECK(warned.of(PixelCause::warned) > 0);
+  CHECK(Causes(bench, {.swapped = 1, .swapped_pixels = 2}).of(PixelCause::unexplained) == 0);
+}
+
+TEST_CASE("a pixel that is not as bright as its rays make it is unexplained, and one that is off by a step of the film is not") {
+  const Workbench bench(mirrors_and_glass(), 16);
+  const apps::PixelJudge judge(bench.database, bench.settings, bench.accurate, bench.finder, bench.camera);
+  const core::Film picture = bench.picture();
+  for (std::uint32_t pixel = 0; pixel < bench.pixel_count(); ++pixel) {
+    const core::Vec3d radiance = picture.radiance(pixel);
+    REQUIRE(judge.judge(pixel, radiance + core::Vec3d{0, picture.step() / 4, 0}).error == "");
+    REQUIRE(judge.judge(pixel, radiance + core::Vec3d{0, 1e-6, 0}).error == "its light is not that of its rays");
+  }
+}
+
+TEST_CASE("a part of the picture that is taken for background and is none is unexplained") {
+  Workbench bench(mirrors_and_glass(), 24);
+  core::BackgroundTiles::Bits all;
+  all.fill(~std::uint64_t{0});
+  bench.settings.background = core::BackgroundTiles(bench.settings.camera, all);
+  REQUIRE(bench.settings.shows_background(0));
+  CHECK(Causes(bench).of(PixelCause::unexplained) > bench.pixel_count() / 2);
 }
 
 TEST_CASE("another surface than the scene's is unexplained") {

@@ -65,7 +65,7 @@ TEST_CASE("the product's log has the rays and the light of its renderer") {
 
 TEST_CASE("a shot in world coordinates is the accurate renderer's ray but for rounding") {
   const Workbench bench(mirrors_and_glass(), 8);
-  const apps::AccurateRay shot = bench.logger.log_of(20).shots.front().world, right = bench.primary(20);
+  const apps::AccurateRay shot = bench.logger.log_of(20).shots.front(), right = bench.primary(20);
   CHECK(length(shot.origin - right.origin) < 1e-5);
   CHECK(length(shot.direction - right.direction) < 1e-6);
 }

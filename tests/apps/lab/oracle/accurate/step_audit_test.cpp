@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "apps/lab/oracle/accurate/tracer.h"
 #include "tests/apps/lab/oracle/accurate/workbench.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/text.h"
@@ -77,7 +78,7 @@ TEST_CASE("a ray with another direction, start, weight or end is found") {
   for (const RayKind kind : {RayKind::primary, RayKind::reflected, RayKind::refracted, RayKind::shadow}) {
     const std::uint32_t pixel = bench.pixel_with(kind);
     const auto falsified = [&](const auto& change) {
-      return bench.error_of(pixel, [&](ProductLog& log) { change(log.shots[index_of(log, kind)].world); });
+      return bench.error_of(pixel, [&](ProductLog& log) { change(log.shots[index_of(log, kind)]); });
     };
     CHECK(contains(falsified([](apps::AccurateRay& ray) {
                      ray.direction = normalize(ray.direction + core::Vec3d{1e-4, 0, 0});
@@ -87,7 +88,7 @@ TEST_CASE("a ray with another direction, start, weight or end is found") {
     CHECK(contains(falsified([](apps::AccurateRay& ray) { ray.weight = ray.weight + core::Vec3d{0, 1e-3, 0}; }), "off by"));
   }
   CHECK(contains(bench.error_of(bench.pixel_with(RayKind::shadow),
-                                [](ProductLog& log) { log.shots[index_of(log, RayKind::shadow)].world.t_max *= 0.9; }),
+                                [](ProductLog& log) { log.shots[index_of(log, RayKind::shadow)].t_max *= 0.9; }),
                  "another end"));
 }
 
@@ -100,17 +101,39 @@ TEST_CASE("a ray too many and a ray too few are found") {
     log.shots.erase(log.shots.begin() + at);
   };
   CHECK(contains(bench.error_of(pixel, forget), "is missing"));
-  const auto mistake = [](ProductLog& log) { log.shots[index_of(log, RayKind::reflected)].world.kind = RayKind::refracted; };
+  const auto mistake = [](ProductLog& log) { log.shots[index_of(log, RayKind::reflected)].kind = RayKind::refracted; };
   CHECK(contains(bench.error_of(pixel, mistake), "should not be there"));
 }
 
 TEST_CASE("an answer that no ray beside it has is found") {
   const Audited bench(mirrors_and_glass(), 24);
-  const auto miss = [](ProductLog& log) {
-    log.rays.front().hit = false;
-    log.shots.front().answer = {};
-  };
+  const auto miss = [](ProductLog& log) { log.rays.front().hit = false; };
   CHECK(contains(bench.error_of(bench.pixel_with(RayKind::reflected), miss), "no ray has"));
+}
+
+TEST_CASE("a hit on the far side of a ball is found, though all that follows from it is right") {
+  core::Scene scene;
+  scene.view.from = {0.1, 0, 5};
+  scene.lights = {{{1, 2, 5}}};
+  core::SceneBuilder builder(scene);
+  builder.sphere({0, 0, 0}, 1);
+  const Audited bench(scene, 1);
+  const auto cross = [&](ProductLog& log) {
+    log.rays.resize(1);
+    log.shots.resize(1);
+    apps::AccurateRay behind = log.shots.front();
+    behind.origin = behind.origin + behind.direction * (log.rays.front().t + 1e-3);
+    log.rays.front().t += 1e-3 + distance_to(bench.accurate.bodies[0], behind).value();
+    const apps::AccurateTracer tracer(bench.accurate, bench.finder, bench.settings.shade);
+    for (const apps::AccurateRay& ray : tracer.spawned(log.shots.front(), {log.rays.front().t, 0})) {
+      log.rays.push_back({.path = log.rays.size(), .maker = log.rays.front().path, .kind = ray.kind, .light = ray.light});
+      log.rays.back().hit = bench.finder.any(ray).found();
+      log.shots.push_back(ray);
+    }
+    REQUIRE(log.rays.size() == 2);
+  };
+  CHECK(bench.of(0).error == "");
+  CHECK(bench.error_of(0, cross) == "a primary ray of depth 1 that hits its body where no ray does that runs beside it");
 }
 
 TEST_CASE("shading by another material is found") {
@@ -143,6 +166,39 @@ core::Scene pane(std::initializer_list<double> heights) {
 TEST_CASE("a start beyond a face that is left out is found, however near the face is to the surface left") {
   CHECK(Audited(pane({0}), 1).of(0).error == "");
   CHECK(contains(Audited(pane({0}), pane({0, -1e-7}), 1).of(0).error, "a refracted ray of depth 2 that starts behind something"));
+}
+
+TEST_CASE("what lies between a far eye and the start of its ray is found") {
+  const auto far = [](std::initializer_list<double> heights) {
+    core::Scene scene = pane(heights);
+    scene.view.from = {0.1, 0.2, 500};
+    scene.view.angle_degrees = 0.2;
+    return scene;
+  };
+  CHECK(Audited(far({0}), 1).of(0).error == "");
+  CHECK(Audited(far({0}), far({0, 400}), 1).of(0).error == "a primary ray of depth 1 that starts behind something");
+}
+
+/// A ball seen from above that ends there on the right.
+core::Scene ball_to(double x) {
+  core::Scene scene;
+  scene.view = {.from = {0, 0, 5}, .at = {0, 0, 0}, .up = {0, 1, 0}, .angle_degrees = 20};
+  core::SceneBuilder builder(scene);
+  builder.sphere({x - 1, 0, 0}, 1);
+  return scene;
+}
+
+TEST_CASE("what is farther off than sixteen pixels is wrong, whatever was said") {
+  constexpr int side = 96;  // a pixel is 0.0186 wide
+  constexpr std::uint32_t middle = side / 2 * side + side / 2;
+  const auto audit_of = [](double end) {
+    const Workbench bench(ball_to(0.1), ball_to(end), side);
+    const apps::StepAudit audit(bench.database, bench.settings.shade, bench.accurate, bench.finder, 100);
+    return audit.of(bench.logger.log_of(middle), bench.primary(middle));
+  };
+  CHECK(audit_of(-0.15).is_warned);
+  CHECK(audit_of(-0.15).error == "");
+  CHECK(contains(audit_of(-0.6).error, "whose answer no ray has"));
 }
 
 TEST_CASE("a ray that misses everything is right") {

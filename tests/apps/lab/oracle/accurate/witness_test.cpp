@@ -66,5 +66,29 @@ TEST_CASE("what hides a light at the end of a shadow ray is shown by one that is
   CHECK_FALSE(stage.witnesses.find(shadow, {false}, 1e-3, 0));
 }
 
+TEST_CASE("a shadow ray that would end before it starts is no witness that nothing hides the light") {
+  const Stage stage(1);
+  AccurateRay shadow = Stage::down(0.5);
+  shadow.kind = core::RayKind::shadow;
+  shadow.t_max = 5.5;
+  CHECK_FALSE(stage.witnesses.find(shadow, {false}, 6, 0));
+}
+
+TEST_CASE("a ray meets a body where it does, or between where those beside it do") {
+  core::Scene scene;
+  core::SceneBuilder builder(scene);
+  builder.sphere({0, 0, 0}, 1);
+  const apps::AccurateScene ball = apps::accurate_scene(scene);
+  const apps::AccurateFinder finder(ball, {0, 0, 9});
+  const apps::WitnessFinder witnesses(ball, finder);
+  const AccurateRay at_pole = {.origin = {0, 0, 5}, .direction = {0, 0, -1}};
+  CHECK(witnesses.is_met(at_pole, {4, 0}, 1e-9, 0));
+  CHECK_FALSE(witnesses.is_met(at_pole, {6, 0}, 1e-9, 1e-3));
+  const AccurateRay passing = {.origin = {1 + 1e-6, 0, 5}, .direction = {0, 0, -1}};
+  CHECK(witnesses.is_met(passing, {5 - 1e-2, 0}, 1e-9, 1e-3));
+  CHECK_FALSE(witnesses.is_met(passing, {5 - 1e-1, 0}, 1e-9, 1e-3));
+  CHECK_FALSE(witnesses.is_met(passing, {5 - 1e-2, 0}, 1e-9, 1e-7));
+}
+
 }  // namespace
 }  // namespace dmpc::tests::witness_test

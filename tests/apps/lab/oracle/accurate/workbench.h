@@ -9,6 +9,8 @@
 #include "apps/lab/oracle/accurate/scene.h"
 #include "core/database/database.h"
 #include "core/picture/pixel_task.h"
+#include "core/picture/render.h"
+#include "core/record/records.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::tests {
@@ -31,6 +33,13 @@ struct Workbench {
   apps::AccurateRay primary(std::uint32_t pixel) const {
     const auto width = static_cast<std::uint32_t>(camera.width());
     return camera.ray_through(pixel % width, pixel / width);
+  }
+  /// The product's, as it is rendered in one process.
+  core::Film picture() const {
+    core::LocalRecords records(database.bytes());
+    core::GridTracer tracer(records, settings.header, settings.skips);
+    core::Operations operations;
+    return core::render(tracer, settings, operations);
   }
   apps::RayLog accurate_log(std::uint32_t pixel) const {
     return apps::accurate_log(accurate, finder, settings.shade, primary(pixel));

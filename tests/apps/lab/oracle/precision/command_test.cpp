@@ -2,13 +2,17 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
+#include <csignal>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "apps/lab/bench/precision/expectation.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
+#include "tests/support/child_process.h"
 #include "tests/support/painted_square.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -78,6 +82,26 @@ TEST_CASE("bench precision fails where fewer pixels are equal than expected, tho
   CHECK(status_of({"--expect=50"}, text) == 0);
   CHECK(contains(text, "Every pixel is explained."));
   CHECK(contains(text, "| explained |"));
+}
+
+TEST_CASE("a signal ends bench precision with status 130, though a scene before had too few equal pixels") {
+  using namespace std::chrono_literals;
+  std::vector<std::string> line{DMPC_PROGRAM, "bench",        "precision", "--resolution=64x64",
+                                "--depth=16", "--expect=100", "balls-3"};
+  line.insert(line.end(), 40, "balls-6");
+  for (auto wait = 500ms;; wait *= 2) {  // however slow the computer is
+    ChildProcess process(line);
+    REQUIRE(process.blocks(SIGTERM));
+    std::this_thread::sleep_for(wait);
+    process.send(SIGTERM);
+    CHECK(process.status() == 130);
+    const std::string table = unfolded(process.output());
+    if (!table.empty() || wait > 60s) {
+      CHECK(contains(table, "| too few |"));
+      CHECK(contains(process.errors(), "interrupted, the table has the scenes measured before"));
+      break;
+    }
+  }
 }
 
 TEST_CASE("bench precision calls a scene warned whose pixels are off by no more than was said before") {
