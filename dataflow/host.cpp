@@ -268,6 +268,7 @@ std::string HostProgram::describe() const {
 
 HostCounters HostProgram::report() const {
   HostCounters counters = counters_;
+  counters.deposits_saturated += refinement_.gatherings_saturated();
   counters.rays_kept_max = kept_.high_water();
   counters.kept_bytes_max = kept_.store_bytes();
   return counters;

@@ -37,7 +37,7 @@ struct HostCounters {
   std::size_t kept_bytes_max = 0;        ///< of the host's heap, beyond its plan: the places of kept rays
   std::uint64_t token_rounds = 0;        ///< of the termination's ring
   std::uint64_t film_entries = 0;        ///< received
-  std::uint64_t deposits_saturated = 0;  ///< on the host's film
+  std::uint64_t deposits_saturated = 0;  ///< on the host's film, and gatherings of its planes
 };
 
 /// Depends on nobody: film and overflow are taken and acknowledged at once. When the end of a pass is proved and its film

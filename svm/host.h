@@ -58,8 +58,8 @@ class HostProgram final : public nodes::Program {
   nodes::Levels levels() const override { return {{"pixels done", pixels_done()}}; }
   std::string describe() const override;
 
-  /// Deposits that saturated a sum on the host's film.
-  std::uint64_t deposits_saturated() const { return deposits_saturated_; }
+  /// Deposits, and gatherings of planes, that saturated a sum on the host's film.
+  std::uint64_t deposits_saturated() const { return deposits_saturated_ + refinement_.gatherings_saturated(); }
   /// Keeps what has arrived, if that is wanted: for when the run has been interrupted.
   void keep() const;
   /// Replies to requests for pages.

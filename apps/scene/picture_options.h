@@ -17,8 +17,8 @@
 
 namespace dmpc::apps {
 
-/// In the first pass of a refined picture: two on each plane would tell more of the error, one is what most pixels of most
-/// pictures need.
+/// In the first pass of a refined picture: one would tell nothing of a pixel's error, the second tells it by what it changes, and
+/// two are what most pixels of most pictures need.
 inline constexpr int refined_samples = 2;
 
 /// Names for choices of samples and cutoff, to be had without knowing them: draft shows within 5 of 255 steps, on average, what

@@ -95,12 +95,13 @@ Vec3d Film::scaled_sum(std::uint32_t pixel, std::uint32_t plane) const {
   return sum_of(pixels_[pixel].plane[plane]) * film_resolution;
 }
 
-void Film::gather_planes(std::uint32_t pixel) {
+bool Film::gather_planes(std::uint32_t pixel) {
   expect(samples_[pixel] > 0, "a picture has samples");
   const std::uint32_t plane = plane_of(samples_[pixel] - 1);
   PixelSums& sums = pixels_[pixel];
-  add(sums.plane[plane], sums.plane[1 - plane]);
+  const bool is_saturated = add(sums.plane[plane], sums.plane[1 - plane]);
   sums.plane[1 - plane] = {};
+  return is_saturated;
 }
 
 std::uint64_t Film::hash() const {

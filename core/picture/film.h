@@ -25,8 +25,8 @@ struct FilmScale {
   constexpr bool operator==(const FilmScale&) const = default;
 };
 
-/// RGB sums of scaled light in units of 2^-32. A sum reaches 2^31 before it saturates: 2^15 samples of 2^16. Deposits are not
-/// below 0, so a saturating sum does not depend on the order either.
+/// RGB sums of scaled light in units of 2^-32. A sum reaches 2^31 before it saturates: 2^15 samples of 2^16, all of a pixel, if
+/// its planes are gathered. Deposits are not below 0, so a saturating sum does not depend on the order either.
 struct FixedColor {
   std::array<std::int64_t, 3> channel{};
   constexpr bool operator==(const FixedColor&) const = default;
@@ -85,9 +85,9 @@ class Film {
   Vec3d scaled_mean(std::uint32_t pixel) const;
   /// Scaled light of a pixel that is on a plane.
   Vec3d scaled_sum(std::uint32_t pixel, std::uint32_t plane) const;
-  /// Moves a pixel's light to that plane on which its last sample fell: the other is free for the block that follows. Requires
-  /// samples(pixel) > 0.
-  void gather_planes(std::uint32_t pixel);
+  /// Moves a pixel's light to that plane on which its last sample fell: the other is free for the block that follows. Returns
+  /// whether a channel saturated. Requires samples(pixel) > 0.
+  bool gather_planes(std::uint32_t pixel);
   /// FNV-1a over the sums, the size and the scale, if that is not 1: equal pictures, equal hashes.
   std::uint64_t hash() const;
 

@@ -122,7 +122,7 @@ bool Refinement::choose(Film& film) {
     explore(samples);
     for (std::uint32_t pixel = 0; pixel < pass_.steps().size(); ++pixel) {
       if (pass_.has(pixel)) {
-        film.gather_planes(pixel);
+        gatherings_saturated_ += film.gather_planes(pixel) ? 1 : 0;
       }
     }
     estimate_->begin_pass();

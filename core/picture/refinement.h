@@ -60,11 +60,12 @@ class Refinement {
   const Pass& pass() const { return pass_; }
   std::uint32_t pixel_count() const { return pixel_count_; }
   /// All light of the pass under way has arrived: counts its samples on the film, and chooses the next one, for whose pixels it
-  /// gathers the film's planes. Returns false if the
-  /// picture is good enough, or no pixel may have more samples.
+  /// gathers the film's planes. Returns false if the picture is good enough, or no pixel may have more samples.
   bool next_pass(Film& film);
   /// Up to the pass under way, its error not yet known.
   RefinementResult result() const { return {result_.passes, result_.error / scale_}; }
+  /// How often gathering has saturated a pixel's sum.
+  std::uint64_t gatherings_saturated() const { return gatherings_saturated_; }
   /// What it remembers of the pixels, for who goes on; of none, if no refinement is wanted.
   std::span<const PixelPast> past() const;
 
@@ -89,6 +90,7 @@ class Refinement {
   RefinementResult result_;                ///< its error scaled
   std::optional<ErrorEstimate> estimate_;  ///< this and the next are empty without refinement
   std::vector<float> square_errors_;
+  std::uint64_t gatherings_saturated_ = 0;
 };
 
 }  // namespace dmpc::core

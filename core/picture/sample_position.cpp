@@ -37,6 +37,7 @@ double unit(std::uint32_t digits) { return static_cast<double>(digits) * 0x1p-32
 }  // namespace
 
 SamplePosition sample_position(std::uint32_t pixel, std::uint32_t sample) {
+  // Twice the number serves as well as the number: pictures keep their bits by it.
   const std::uint64_t seeds = mix((std::uint64_t{pixel} << 1U) + 0x9e3779b97f4a7c15ULL);
   const auto seed_x = static_cast<std::uint32_t>(seeds), seed_y = static_cast<std::uint32_t>(seeds >> 32U);
   // The first dimension's digits are the index's in reverse.

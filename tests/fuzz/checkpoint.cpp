@@ -32,7 +32,7 @@ namespace dmpc::fuzz {
 namespace {
 
 constexpr std::size_t word_bytes = sizeof(std::uint64_t);
-constexpr std::size_t pixel_bytes = 7 * word_bytes, past_bytes = 3 * word_bytes;
+constexpr std::size_t pixel_bytes = 7 * word_bytes, past_bytes = sizeof(core::PixelPast);
 constexpr int side = 3;
 constexpr std::size_t pixels = side * side;
 
@@ -59,7 +59,7 @@ class Picture {
       : subject_(tests::mirrors_and_glass(), {side, side, samples, refinement}),
         identity_{side, side, {{"depth", "5"}, {"objects", "#1"}, {apps::film_scale_fact, "1"}}, {}} {
     identity_.terms = {static_cast<std::uint32_t>(samples), refinement, core::radiance_bound(tests::mirrors_and_glass(), 6)};
-    for (const std::uint32_t keeps : {1U, 4U, 10U, 12U}) {
+    for (const std::uint32_t keeps : {1U, 2U, 3U, 4U}) {
       keep(keeps);
     }
     core::expect(!genuine_.empty(), "runs keep what they have");
@@ -195,8 +195,14 @@ void try_checkpoint(const std::uint8_t* data, std::size_t size) {
     core::expect(!std::string(error.what()).empty(), "who refuses says why");
   }
   covered().count("refused", !start);
-  covered().count("gone on with by svm", start && !by_dataflow);
-  covered().count("gone on with by dataflow", start && by_dataflow);
+  const bool is_refined = of.identity().terms.refinement.is_wanted();
+  for (const bool is_dataflow : {false, true}) {
+    const std::string by = is_dataflow ? " by dataflow" : " by svm";
+    const bool is_gone_on_with = start && by_dataflow == is_dataflow;
+    covered().count("plain, gone on with" + by, is_gone_on_with && !is_refined);
+    covered().count("refined, gone on with in the first pass" + by, is_gone_on_with && is_refined && start->passes == 1);
+    covered().count("refined, gone on with in a later pass" + by, is_gone_on_with && is_refined && start->passes > 1);
+  }
   if (start) {
     of.finish(*start, by_dataflow);
   }

@@ -106,6 +106,18 @@ TEST_CASE("planes gathered leave the light of the block that follows alone on it
   CHECK(film.radiance(0) == Vec3d{4, 0.5, 1.5});
 }
 
+TEST_CASE("planes gathered hold 32,768 samples of 2^16, but for the last unit, and say so when a channel is full") {
+  Film film(1, 1);
+  const float half = 0x1p30F;  // 2^14 samples of 2^16
+  film.deposit(0, {{to_fixed({half, half, 0}), to_fixed({half * (1 - 0x1p-24F), 0, 0})}});
+  film.add_samples(0, 32768);
+  CHECK_FALSE(film.gather_planes(0));
+  CHECK(film.radiance(0).x == 0x1p16 - 0x1p-9);
+  film.deposit(0, {{to_fixed({half, 0, 0}), FixedColor{}}});
+  CHECK(film.gather_planes(0));
+  CHECK(film.radiance(0) == Vec3d{0x1p16, 0x1p15, 0});
+}
+
 TEST_CASE("a film tells of saturation, of pixels beyond it and of no samples") {
   Film film(2, 2);
   CHECK(film.deposit(3, even({infinite, 0, 0})));
