@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
@@ -20,6 +21,13 @@ constexpr float remembered_share = 0.5F;
 /// What a fall is taken for where nothing is known of it, which counts as that of so many pixels. Samples that meet this and that
 /// at random make it 1, edges spread(2) - 1, in the long run; from few samples to some more it is larger, and does not stay so.
 constexpr double usual_fall = 1.5, unknown_pixels = 64, fall_min = 1, fall_max = 1.8284271247461903;
+
+/// What one pixel is of all that is told of a fall, at most: more than any is in pictures without a highlight. It is lowered so
+/// often at most, each time to down to this share.
+constexpr double told_share = 1.0 / 16;
+constexpr int told_rounds = 16;
+
+double told_by(const PixelPast& past) { return double{past.told_change} + double{past.told_quarter_change}; }
 
 double square_mean(const Vec3d& color) { return dot(color, color) / 3; }
 
@@ -105,41 +113,63 @@ void ErrorEstimate::note_evidence(const Film& film, const Pass& pass, std::uint3
   }
 }
 
-/// The planes were gathered on that of the last sample before the pass; the block that follows fell on the other. Means are
-/// rounded as those before the pass were, so that what does not change has no variance.
+/// The planes were gathered on that of the last sample before the pass; the block that follows fell on the other. So the film
+/// tells the mean of the first half to the last bit, but where samples doubled twice: there half of it is that of the first
+/// quarter, rounded to a float.
 void ErrorEstimate::note_changes(const Film& film, const Pass& pass, std::uint32_t pixel) {
   PixelPast& past = past_[pixel];
   const std::uint32_t before = pass.samples(pixel).first, now = film.samples(pixel);
-  const Vec3d mean = vector_of(rounded(film.scaled_mean(pixel)));
-  const Vec3d mean_before = vector_of(before > 0 ? past.mean : rounded(film.scaled_sum(pixel, 0)));
+  const Vec3d mean = film.scaled_mean(pixel);
   const auto scaled_change = [&](const Vec3d& from) { return static_cast<float>(square_mean(mean - from) * spread(now)); };
   if (before > 0 && now == 4 * before) {
-    const Vec3d block = vector_of(rounded(film.scaled_sum(pixel, 1 - plane_of(before - 1)) * (1.0 / before)));
-    past.change = scaled_change((mean_before + block) * 0.5);
+    const Vec3d quarter = vector_of(past.mean), block = film.scaled_sum(pixel, 1 - plane_of(before - 1)) * (1.0 / before);
+    past.change = scaled_change((quarter + block) * 0.5);
     past.told_change += past.change;
-    past.told_quarter_change += scaled_change(mean_before);
+    past.told_quarter_change += scaled_change(quarter);
   } else {
-    past.change = scaled_change(mean_before);
+    const std::uint32_t half = now / 2;
+    past.change = scaled_change(film.scaled_sum(pixel, plane_of(half - 1)) * (1.0 / half));
   }
 }
 
-/// By all pixels of a kind that tell, as if there were some more of which nothing is known but that most have edges. What they
-/// told stays as it was: who gets more samples is chosen by its change, so those that are left have a smaller one by choice.
+/// By all pixels of a kind that tell, as if there were some more of which nothing is known but that most have edges; one that
+/// outshines the others counts for a share at most. What they told stays as it was: who gets more samples is chosen by its
+/// change, so those that are left have a smaller one by choice.
 void ErrorEstimate::find_falls() {
-  struct Told {
+  for (const bool detail : {false, true}) {
+    const double limit = told_limit(detail);
     double change = 0, quarter_change = 0, count = 0;
-  };
-  std::array<Told, 2> kinds;
-  for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
-    Told& told = kinds[has_detail(pixel) ? 1 : 0];
-    told.change += double{past_[pixel].told_change};
-    told.quarter_change += double{past_[pixel].told_quarter_change};
-    told.count += past_[pixel].told_quarter_change > 0 ? 1 : 0;
+    for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
+      const double told = told_by(past_[pixel]);
+      if (has_detail(pixel) == detail && told > 0) {
+        const double weight = std::min(1.0, limit / told);
+        change += weight * double{past_[pixel].told_change};
+        quarter_change += weight * double{past_[pixel].told_quarter_change};
+        count += past_[pixel].told_quarter_change > 0 ? 1 : 0;
+      }
+    }
+    const double found = change > 0 ? quarter_change / change - 2 : usual_fall;
+    fall_[detail ? 1 : 0] =
+        std::clamp((count * found + unknown_pixels * usual_fall) / (count + unknown_pixels), fall_min, fall_max);
   }
-  std::transform(kinds.begin(), kinds.end(), fall_.begin(), [](const Told& told) {
-    const double found = told.change > 0 ? told.quarter_change / told.change - 2 : usual_fall;
-    return std::clamp((told.count * found + unknown_pixels * usual_fall) / (told.count + unknown_pixels), fall_min, fall_max);
-  });
+}
+
+/// What a pixel may have told at most, so that it is no more than told_share of what all have: lowered until that is so.
+double ErrorEstimate::told_limit(bool detail) const {
+  double limit = std::numeric_limits<double>::max();
+  for (int round = 0; round < told_rounds; ++round) {
+    double sum = 0, most = 0;
+    for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
+      const double told = has_detail(pixel) == detail ? std::min(told_by(past_[pixel]), limit) : 0;
+      sum += told;
+      most = std::max(most, told);
+    }
+    if (most <= sum * told_share) {
+      break;
+    }
+    limit = sum * told_share;
+  }
+  return limit;
 }
 
 /// Where few samples met a detail nobody knows how bright others are: what is expected counts as much as one that was met. Pixels

@@ -14,10 +14,12 @@ namespace dmpc::core {
 
 /// What an estimate remembers of a pixel that a film does not tell.
 struct PixelPast {
-  std::array<float, 3> mean{};  ///< of light as the film scales it, when the pass under way was chosen
-  float expected = -1;          ///< its square error then, if it looked even; less than 0: it did not
-  float evidence = 0;           ///< what it has shown of error unseen by pixels that look even, times spread(samples)
-  float weight = 0;             ///< of the evidence: 1 at first, half as much after each pass
+  /// Of light as the film scales it, when the pass under way was chosen: to 2^-24 of itself, so what a pixel whose samples double
+  /// twice has changed by is known as well as that.
+  std::array<float, 3> mean{};
+  float expected = -1;  ///< its square error then, if it looked even; less than 0: it did not
+  float evidence = 0;   ///< what it has shown of error unseen by pixels that look even, times spread(samples)
+  float weight = 0;     ///< of the evidence: 1 at first, half as much after each pass
   /// The square of what the mean of all of its samples differs by from that of the first half, times spread(samples).
   float change = 0;
   /// Sums over passes that brought three quarters of its samples: of the same then, and of that of the first quarter.
@@ -36,12 +38,13 @@ double spread(std::uint32_t samples);
 /// by from that of 2n is, on average, V(n) - V(2n), what the variance of the mean has become less by. How much is left follows
 /// from how fast it falls: V(n) / V(2n) is 2 where samples meet this and that at random, and more where edges are what makes it.
 /// So many pixels as have got three quarters of their samples in a pass tell: (V(n) - V(4n)) / (V(2n) - V(4n)) is one more than
-/// that ratio, if it is the same for both doublings. One difference says little, and may be 0 by chance; so a pixel's variance is
-/// the mean over it and its neighbours, and at least what the contrast between them suggests.
+/// that ratio, if it is the same for both doublings. One that outshines the others says little. One difference says little, and
+/// may be 0 by chance; so a pixel's variance is the mean over it and its neighbours, and at least what the contrast between them
+/// suggests.
 ///
-/// *What is known of the scene*: a pixel with fine detail (core/picture/fine_detail.h) is not like its neighbours. Its variance
-/// is half its own, half what its detail would make; as long as it looks even, its detail may all have been missed. How much
-/// light details differ by is found from all such pixels together.
+/// *What is known of the scene*: a pixel with fine detail (core/picture/fine_detail.h) is not like its neighbours without. In the
+/// mean only those that have some count, and what the pixel's detail would make counts as much as the pixel itself; as long as it
+/// looks even, its detail may all have been missed. How much light details differ by is found from all such pixels together.
 ///
 /// *What is known of neither*: of the pixels that look even, and have no such detail, some get more samples for no reason of
 /// their own. How much their means change, beyond what was expected, is evidence of the error of those that do not get more,
@@ -73,6 +76,7 @@ class ErrorEstimate {
   void note_evidence(const Film& film, const Pass& pass, std::uint32_t pixel);
   void note_changes(const Film& film, const Pass& pass, std::uint32_t pixel);
   void find_falls();
+  double told_limit(bool detail) const;
   double fall(std::uint32_t pixel) const { return fall_[has_detail(pixel) ? 1 : 0]; }
   void find_contrast(const Film& film);
   double detail_variance(std::uint32_t pixel, std::uint32_t samples) const;
