@@ -22,7 +22,7 @@ void set_bounds(const RTCBoundsFunctionArguments* arguments) {
 }  // namespace
 
 const Library& library() {
-  static const auto* const opened = static_cast<const Library*>(open_module("embree", "asks Embree what rays hit", 0));
+  static const auto* const opened = static_cast<const Library*>(open_module("embree", "asks Embree what rays hit"));
   return *opened;
 }
 

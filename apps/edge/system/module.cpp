@@ -2,11 +2,7 @@
 
 #include <dlfcn.h>
 
-#include <latch>
 #include <string_view>
-#include <system_error>
-#include <thread>
-#include <vector>
 
 #include "apps/edge/system/last_words.h"
 #include "apps/edge/system/shortage.h"
@@ -31,22 +27,6 @@ std::string loader_complaint() {
   return complaint == nullptr ? "the dynamic loader does not say why" : complaint;
 }
 
-/// There may be libraries that wait for ever if they cannot start their threads.
-void check_thread_room(const std::string& what, std::size_t count) {
-  std::latch over(1);
-  std::vector<std::jthread> threads;
-  try {
-    while (threads.size() < count) {
-      threads.emplace_back([&over] { over.wait(); });
-    }
-  } catch (const std::system_error& error) {
-    over.count_down();
-    throw_if_short(error.code().value(), what + " cannot start its threads");
-    throw;
-  }
-  over.count_down();
-}
-
 /// Its libraries may start threads as they are loaded, and change the arithmetic.
 void* load(const std::string& path) {
   const LoadsLibrary loads_library;
@@ -60,10 +40,9 @@ void* load(const std::string& path) {
 
 }  // namespace
 
-const void* open_module(const std::string& name, const std::string& purpose, std::size_t threads_at_once, CompanionOf whose) {
+const void* open_module(const std::string& name, const std::string& purpose, CompanionOf whose) {
   const std::string file = "dmpc_" + name + ".so", what = "the module " + file + ", with which dmpc " + purpose + ",";
   const std::string path = companion_path(file, "../lib/dmpc", what, whose).string();
-  check_thread_room(what, threads_at_once);
   void* const opened = load(path);
   if (opened == nullptr) {
     const std::string complaint = loader_complaint();

@@ -1,7 +1,6 @@
 // Parts of dmpc with foreign libraries that are slow to load: shared modules, opened when they are first wanted.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -17,9 +16,7 @@ struct Module {
 
 /// The interface of apps/modules/NAME.cpp, whose file, found as companion_path() says, is never closed again. `purpose` goes on
 /// "the module dmpc_NAME.so, with which dmpc ...". Throws InstallationError if it is missing, cannot be opened or is of another
-/// build, ComputerRoomError if this computer has no room for it, or for `threads_at_once`: more than its libraries start as they
-/// are loaded. Thread-safe.
-const void* open_module(const std::string& name, const std::string& purpose, std::size_t threads_at_once,
-                        CompanionOf whose = CompanionOf::dmpc);
+/// build, ComputerRoomError if this computer has no room for it. Thread-safe.
+const void* open_module(const std::string& name, const std::string& purpose, CompanionOf whose = CompanionOf::dmpc);
 
 }  // namespace dmpc::apps
