@@ -2,11 +2,13 @@
 // something says so.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <iostream>
 #include <map>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dmpc::tests {
@@ -36,6 +38,16 @@ class Coverage {
       }
     }
     return kinds;
+  }
+
+  /// What is not as it should be of the seeds that a test chose: its blind spots, where these are enough for all kinds. Where somebody
+  /// else has chosen them, by this variable of the environment, the counts are printed for who sums them up, and nothing is.
+  std::vector<std::string> missed(const char* seeds_variable, bool are_enough, const std::string& but_for = "\n") const {
+    if (std::getenv(seeds_variable) != nullptr) {
+      print(std::cout);
+      return {};
+    }
+    return are_enough ? blind_spots(but_for) : std::vector<std::string>();
   }
 
   /// A line each, as tests/covered sums them up: "covered: forest: threads: 28".
