@@ -62,7 +62,7 @@ std::string file_of(const fs::path& path, const Image& image) {
   const PictureValues picture{.width = image.width,
                               .height = image.height,
                               .are_floats = are_floats,
-                              .values = are_floats ? static_cast<const void*>(image.rgb.data()) : bytes.data()};
+                              .values = are_floats ? std::as_bytes(std::span(image.rgb)) : std::as_bytes(std::span(bytes))};
   try {
     return picture_writer().file_of(path.string(), picture);
   } catch (const ComputerRoomError&) {

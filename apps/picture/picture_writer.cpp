@@ -1,8 +1,5 @@
 #include "apps/picture/picture_writer.h"
 
-#include <cstddef>
-#include <span>
-
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -59,13 +56,11 @@ bool PictureWriter::writes(const std::string& extension) {
 }
 
 std::string PictureWriter::file_of(const std::string& name, const PictureValues& picture) {
-  const std::size_t value_bytes = picture.are_floats ? sizeof(float) : 1,
-                    bytes = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * 3 * value_bytes;
   return ask([&](ReaderProcess& process) {
     const Packer fields = Packer().add_text(name).add(picture.width).add(picture.height).add(
         static_cast<std::uint8_t>(picture.are_floats));
     process.send(Saying::write_picture, fields);
-    process.send_bytes({static_cast<const std::byte*>(picture.values), bytes});
+    process.send_bytes(picture.values);
     return received_file(process);
   });
 }

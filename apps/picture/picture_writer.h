@@ -1,7 +1,9 @@
 // Pictures as files of all the formats that OpenImageIO writes, by a process of their own: its 250 libraries are none of dmpc's.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "apps/reader/process.h"
@@ -12,7 +14,7 @@ namespace dmpc::apps {
 struct PictureValues {
   int width = 0, height = 0;
   bool are_floats = false;  ///< linear light, else bytes on the sRGB curve
-  const void* values = nullptr;
+  std::span<const std::byte> values;
 };
 
 /// Its process, dmpc_picture_writer, starts at the first call and waits until the end, so that a picture that is done has a
