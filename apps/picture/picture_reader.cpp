@@ -153,7 +153,8 @@ void PictureReader::check_time() const {
 }
 
 void PictureReader::take_room(const Head& head) {
-  const std::uint64_t most = budget_.limits().texture_bytes_max == 0 ? reader_memory_bytes_max() : budget_.limits().texture_bytes_max;
+  const std::uint64_t most =
+      budget_.limits().texture_bytes_max == 0 ? reader_memory_bytes_max() : budget_.limits().texture_bytes_max;
   texture_bytes_ += std::uint64_t{head.width} * head.height * sizeof(std::uint32_t) * 4 / 3;
   if (texture_bytes_ > most) {
     throw ComputerRoomError("with it the scene's textures take " + mebibytes_text(texture_bytes_) + ", and there is room for " +

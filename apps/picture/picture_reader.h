@@ -29,8 +29,9 @@ PictureFile open_picture(const std::filesystem::path& path);
 PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name, const std::string& ending);
 
 /// Keeps its process from one picture to the next, as long as that lives. All pictures together have one budget of time, which
-/// their bytes alone renew, and textures one of memory, which is looked at before there is room for one. All throw core::InputError "NAME: ...", and core::RoomError, which says so, if this computer has no
-/// room for the process or for the picture.
+/// their bytes alone renew, and textures one of memory, which is looked at before there is room for one. All throw
+/// core::InputError "NAME: ...", and core::RoomError, which says so, if this computer has no room for the process or for the
+/// picture.
 class PictureReader {
  public:
   explicit PictureReader(const ReaderLimits& limits = {}) : budget_(limits) {}

@@ -57,8 +57,8 @@ bool PictureWriter::writes(const std::string& extension) {
 
 std::string PictureWriter::file_of(const std::string& name, const PictureValues& picture) {
   return ask([&](ReaderProcess& process) {
-    const Packer fields = Packer().add_text(name).add(picture.width).add(picture.height).add(
-        static_cast<std::uint8_t>(picture.are_floats));
+    const Packer fields =
+        Packer().add_text(name).add(picture.width).add(picture.height).add(static_cast<std::uint8_t>(picture.are_floats));
     process.send(Saying::write_picture, fields);
     process.send_bytes(picture.values);
     return received_file(process);

@@ -13,7 +13,7 @@ namespace dmpc::apps {
 struct ReaderLimits {
   std::uint64_t seconds = 10;              ///< of processor time
   std::uint64_t bytes_a_second = 500'000;  ///< so many more bytes of files, one more second
-  std::uint64_t wall_factor = 30;  ///< so many times the processor time may pass on the wall: others want the processor, too
+  std::uint64_t wall_factor = 30;       ///< so many times the processor time may pass on the wall: others want the processor, too
   std::uint64_t texture_bytes_max = 0;  ///< of all textures of a scene, with their levels; 0: what there is room for
   Sandbox sandbox = Sandbox::available;
 };

@@ -11,7 +11,7 @@ namespace dmpc::apps {
 
 /// What holds of one process, or of several together.
 struct Confinement {
-  bool are_calls_filtered = false;    ///< seccomp refuses it all calls of the system but a few
+  bool are_calls_filtered = false;   ///< seccomp refuses it all calls of the system but a few
   bool are_limits_set = false;       ///< of memory, files and processes
   bool are_files_forbidden = false;  ///< Landlock lets it open none, whatever calls it may make
 

@@ -17,14 +17,14 @@ inline constexpr std::size_t text_bytes_max = 32 * 1024;
 /// Fields in the order in which they are packed (apps/reader/packing.h).
 enum class Saying : std::uint8_t {
   // From dmpc.
-  limits,        ///< bytes of memory: the first message
-  read_mesh,     ///< path, scale, up, smooth, and flags of MeshOptions
-  read_texture,  ///< name, format hint, bytes of the file; with the file
-  read_image,    ///< name, format hint, bytes of the file; with the file
+  limits,         ///< bytes of memory: the first message
+  read_mesh,      ///< path, scale, up, smooth, and flags of MeshOptions
+  read_texture,   ///< name, format hint, bytes of the file; with the file
+  read_image,     ///< name, format hint, bytes of the file; with the file
   writes,         ///< an ending; answered by yes or no
   write_picture,  ///< name, width, height, whether its values are floats; these follow as bytes; answered by bytes, then done
-  file,          ///< bytes of the file; with the file
-  names,         ///< paths
+  file,           ///< bytes of the file; with the file
+  names,          ///< paths
   yes,
   no,  ///< why not
   // From a reader.

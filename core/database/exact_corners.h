@@ -13,8 +13,8 @@
 
 namespace dmpc::core {
 
-/// What doubles lose of a coordinate that a program has turned and moved, and of our own reckoning with it, as a share; and of one
-/// next to zero, as a share of the scene, since it comes from larger ones.
+/// What doubles lose of a coordinate that a program has turned and moved, and of our own reckoning with it, as a share; and of
+/// one next to zero, as a share of the scene, since it comes from larger ones.
 inline constexpr double exact_rounding = 0x1p-49;
 
 /// The triangles of a conversion whose floats say little of their planes, as the doubles of its scene have them, and `moved` as

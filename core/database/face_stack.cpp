@@ -57,7 +57,6 @@ std::pair<double, double> heights_above(const FacePlane& plane, const Face& face
 /// How a face lies above another one that it covers.
 struct Rise {
   double least, most;  ///< negative: below
-
   double moved;        ///< what rounding does to either
 
   bool is_above() const { return least >= -moved; }
@@ -115,9 +114,8 @@ class Layers {
         in_one_layer.push_back(&pair);
       }
     }
-    std::sort(in_one_layer.begin(), in_one_layer.end(), [](const Pair* a, const Pair* b) {
-      return std::tie(a->small, a->faces.most) < std::tie(b->small, b->faces.most);
-    });
+    std::sort(in_one_layer.begin(), in_one_layer.end(),
+              [](const Pair* a, const Pair* b) { return std::tie(a->small, a->faces.most) < std::tie(b->small, b->faces.most); });
     std::vector<CloseFaces> result;
     for (std::size_t i = 0; i < in_one_layer.size(); ++i) {
       if (i == 0 || in_one_layer[i]->small != in_one_layer[i - 1]->small) {

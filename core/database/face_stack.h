@@ -16,9 +16,9 @@ namespace dmpc::core {
 /// Floats would make one of them, or they are nearer to each other than rays start off a triangle. So their planes come from the
 /// corners as the file has them, and stand in the blocks. Edges stay those of the floats, since along a plane rounding shifts a
 /// face and swaps nothing; across it t, points and starts of rays are right to 2^-47 of the coordinates. Where a float t
-/// would be the same for two planes, in_layer() (core/trace/primitive.h) tells them apart: it moves each t by a unit in the last place
-/// for each layer, in the order in which the ray comes to them. So (t, id) decides as ever, whatever box, node or kernel a face is met in. Near faces of one layer
-/// may be swapped where t is too coarse to tell them apart: RoundingLoss::swapped.
+/// would be the same for two planes, in_layer() (core/trace/primitive.h) tells them apart: it moves each t by a unit in the last
+/// place for each layer, in the order in which the ray comes to them. So (t, id) decides as ever, whatever box, node or kernel a
+/// face is met in. Near faces of one layer may be swapped where t is too coarse to tell them apart: RoundingLoss::swapped.
 struct FaceStack {
   /// Of one plane, as far as doubles tell.
   struct Layer {
@@ -26,12 +26,13 @@ struct FaceStack {
     std::vector<std::uint32_t> ids;  ///< of the faces, ascending
   };
   std::vector<Layer> layers;
-  /// Of those that cover another one and are in its layer, in two planes or in one for want of digits: once each, the smaller one.
+  /// Of those that cover another one and are in its layer, in two planes or in one for want of digits: once each, the smaller
+  /// one.
   std::vector<CloseFaces> blurred;
 };
 
-/// What all stacks of a scene may take: looks from a face at a plane, and at another face. What is not looked at has a plane of its
-/// own, in no order, and is said to be.
+/// What all stacks of a scene may take: looks from a face at a plane, and at another face. What is not looked at has a plane of
+/// its own, in no order, and is said to be.
 struct StackBudget {
   std::size_t planes = std::size_t{1} << 28U, pairs = std::size_t{1} << 24U;
 };

@@ -21,8 +21,8 @@ struct Twin {
   auto operator<=>(const Twin&) const = default;
 };
 
-/// Finds, among triangles with the same floats, those in whose plane an earlier one lies for doubles. Takes many together, so that
-/// polygons that have twins of each other are divided once for all of them.
+/// Finds, among triangles with the same floats, those in whose plane an earlier one lies for doubles. Takes many together, so
+/// that polygons that have twins of each other are divided once for all of them.
 class TwinFinder {
  public:
   TwinFinder(const Scene& scene, const GridFrame& frame, const Conversion& conversion, std::vector<bool>& is_twin)

@@ -85,7 +85,8 @@ void render(const core::Scene& scene) {
 
 void try_nff(const std::uint8_t* data, std::size_t size) {
   const std::optional<core::Scene> scene = read(std::string(data, data + size));
-  const bool is_tried = scene && scene->vertices.size() <= vertices_max, is_rendered = is_tried && scene->lights.size() <= lights_max;
+  const bool is_tried = scene && scene->vertices.size() <= vertices_max,
+             is_rendered = is_tried && scene->lights.size() <= lights_max;
   covered().count("refused", !scene);
   covered().count("read and written", is_tried);
   covered().count("rendered", is_rendered);

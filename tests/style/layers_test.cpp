@@ -79,7 +79,8 @@ struct Foreign {
 const std::vector<Foreign> foreign = {
     {"embree", {"apps/oracle/embree.h"}},
     {"OpenImageIO/",
-     {"apps/foreign/picture_writer_main.cpp", "apps/foreign/picture_decoder.cpp", "tests/apps/modules/", "tests/fuzz/picture.cpp"}},
+     {"apps/foreign/picture_writer_main.cpp", "apps/foreign/picture_decoder.cpp", "tests/apps/modules/",
+      "tests/fuzz/picture.cpp"}},
     {"OpenEXR/", {"apps/picture/exr_file.cpp"}},
     {"mpi.h", {"apps/modules/mpi.cpp"}},
     {"gmpxx.h", {"apps/lab/oracle/exact.cpp"}},

@@ -55,9 +55,9 @@ inline void cover(Coverage& covered, const ChaosCase& one, const svm::RunOptions
     return;
   }
   covered.count("a cache of one page", pages.cache_pages == 1);
-  for (const svm::Replacement each : {svm::Replacement::lru, svm::Replacement::clock, svm::Replacement::fifo,
-                                      svm::Replacement::random, svm::Replacement::two_queues, svm::Replacement::adaptive,
-                                      svm::Replacement::small_and_main}) {
+  for (const svm::Replacement each :
+       {svm::Replacement::lru, svm::Replacement::clock, svm::Replacement::fifo, svm::Replacement::random,
+        svm::Replacement::two_queues, svm::Replacement::adaptive, svm::Replacement::small_and_main}) {
     covered.count("replacement " + std::string(svm::name_of(each)), pages.replacement == each);
   }
   for (const svm::PageHomes each : {svm::PageHomes::spread, svm::PageHomes::host, svm::PageHomes::tree}) {

@@ -40,8 +40,9 @@ class Coverage {
     return kinds;
   }
 
-  /// What is not as it should be of the seeds that a test chose: its blind spots, where these are enough for all kinds. Where somebody
-  /// else has chosen them, by this variable of the environment, the counts are printed for who sums them up, and nothing is.
+  /// What is not as it should be of the seeds that a test chose: its blind spots, where these are enough for all kinds. Where
+  /// somebody else has chosen them, by this variable of the environment, the counts are printed for who sums them up, and nothing
+  /// is.
   std::vector<std::string> missed(const char* seeds_variable, bool are_enough, const std::string& but_for = "\n") const {
     if (std::getenv(seeds_variable) != nullptr) {
       print(std::cout);

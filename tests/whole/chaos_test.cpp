@@ -211,7 +211,8 @@ void check_replicated(std::uint64_t seeds) { check_pages(svm::replicated_strateg
 void check_forest(std::uint64_t seeds) { check_pages(svm::forest_strategy(), run_forest, seeds, core::Structure::extents); }
 
 void check_dataflow(std::uint64_t seeds) {
-  check_seeds(Rays(), [](ChaosCase& one, std::uint32_t round) { return one.ray_options(round); }, run_dataflow, seeds);
+  check_seeds(
+      Rays(), [](ChaosCase& one, std::uint32_t round) { return one.ray_options(round); }, run_dataflow, seeds);
 }
 
 /// Some chaos that does everything often.

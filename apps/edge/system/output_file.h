@@ -68,8 +68,8 @@ class OutputFile {
 
   /// Makes a new file with a hidden name in the target's folder: no file that is there, and no link, is ever opened. If the
   /// target exists and is no ordinary file (/dev/stdout, a pipe), which cannot be renamed over, it is written itself. A symbolic
-  /// link is followed, so that the file behind it is replaced. A file that is replaced keeps its mode. `settings.replaces` may ask
-  /// that the name itself gets the file. Throws core::InputError if that fails. `files` outlives it.
+  /// link is followed, so that the file behind it is replaced. A file that is replaced keeps its mode. `settings.replaces` may
+  /// ask that the name itself gets the file. Throws core::InputError if that fails. `files` outlives it.
   explicit OutputFile(const std::filesystem::path& path);
   OutputFile(const std::filesystem::path& path, const Settings& settings, Files& files = real_files());
   ~OutputFile();

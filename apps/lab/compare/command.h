@@ -22,8 +22,8 @@ struct CompareOptions {
   std::optional<std::filesystem::path> difference;  ///< where the picture |A - B| goes
   std::optional<std::filesystem::path> flip;        ///< where the picture of perceived differences goes
   CompareFormat format = CompareFormat::text;
-  std::vector<Limit> limits = {};  ///< of pictures
-  FigureChoice figures = {};       ///< of counters
+  std::vector<Limit> limits = {};        ///< of pictures
+  FigureChoice figures = {};             ///< of counters
   Sandbox sandbox = Sandbox::available;  ///< of the pictures' reader
 };
 

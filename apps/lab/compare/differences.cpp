@@ -26,7 +26,7 @@ std::string parent_of(const std::string& name) { return name.substr(0, name.rfin
 
 /// Keys of what differs from run to run, or says how a run was asked for.
 std::vector<std::string> unsteady_keys(std::span<const Figure> figures) {
-  std::vector<std::string> keys = {"program",          "seconds",      "nodes.*.seconds",    "host.seconds",
+  std::vector<std::string> keys = {"program",          "seconds",      "nodes.*.seconds",     "host.seconds",
                                    "heat_maps.*.file", "ranks.*.name", "ranks.*.clock_error", "sandbox"};
   for (const Figure& figure : figures) {
     if (is_within(figure.name, "heat_maps.*.clock") && text_of(figure.value) == "processor time") {

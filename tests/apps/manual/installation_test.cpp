@@ -20,11 +20,11 @@ namespace fs = std::filesystem;
 /// Everything that is to be installed is below `root`, with zsh's completion in a folder of this name.
 void check_installed(const fs::path& root, const std::string& zsh_folder) {
   const fs::path share = root / "share";
-  for (const fs::path& file :
-       {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/WORDS.md", share / "doc/dmpc/copyright",
-        share / "doc/dmpc/apps/teapot.png", share / "dmpc/stats.schema.json", share / "doc/dmpc/apps/teapot-heat.png",
-        share / "doc/dmpc/core/README.md", share / "doc/dmpc/apps/lab/study/paper/RESULTS.md",
-        share / "fish/vendor_completions.d/dmpc.fish", share / "zsh" / zsh_folder / "_dmpc"}) {
+  for (const fs::path& file : {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/WORDS.md",
+                               share / "doc/dmpc/copyright", share / "doc/dmpc/apps/teapot.png", share / "dmpc/stats.schema.json",
+                               share / "doc/dmpc/apps/teapot-heat.png", share / "doc/dmpc/core/README.md",
+                               share / "doc/dmpc/apps/lab/study/paper/RESULTS.md", share / "fish/vendor_completions.d/dmpc.fish",
+                               share / "zsh" / zsh_folder / "_dmpc"}) {
     CHECK_MESSAGE(fs::file_size(file) > 0, file);
   }
   const Said completed = run({"bash", "--norc", "-c",

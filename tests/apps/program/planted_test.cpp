@@ -87,8 +87,8 @@ TEST_CASE("a module that everybody may write, or that lies where only tests have
   const fs::path built = fs::path(DMPC_PROGRAM).parent_path(), installed = shared.folder / "lib/dmpc/dmpc_embree.so",
                  beside = shared.folder / "apps/dmpc_embree.so";
   const auto render = [&] {
-    return shared.run_as(::geteuid(), {"render", "tetra-1", "--resolution=8x8", "--strategy=replicated", "--quiet", "--tracer=embree",
-                                       "-o", shared.folder / "a.png"});
+    return shared.run_as(::geteuid(), {"render", "tetra-1", "--resolution=8x8", "--strategy=replicated", "--quiet",
+                                       "--tracer=embree", "-o", shared.folder / "a.png"});
   };
   for (const fs::path& place : {installed, beside}) {
     fs::create_directories(place.parent_path());

@@ -352,7 +352,8 @@ TEST_CASE("where a reader's calls cannot be filtered, or the kernel has no Landl
     CAPTURE(call);
     const Reading reading = reading_without(call, apps::Sandbox::available);
     CHECK(reading.status == 0);
-    const std::string sentence = "does not confine the processes that read foreign files as it should: " + missing + ": read none";
+    const std::string sentence =
+        "does not confine the processes that read foreign files as it should: " + missing + ": read none";
     CHECK(says(reading.said, sentence));
     CHECK(reading.said.find(sentence) == reading.said.rfind(sentence));
   }

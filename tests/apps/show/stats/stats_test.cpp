@@ -22,13 +22,13 @@ using tests::TemporaryFolder;
 
 TEST_CASE("the keys of the counters are an interface") {
   const std::string json = Rendered(small()).json();
-  CHECK(keys(json, 1) ==
-        std::vector<std::string>{
-            "format", "program", "options",    "runner",  "machine",  "film_hash",      "film_scale",      "sampling",
-            "rays",   "hits",    "operations", "seconds", "run_hash", "machine_digest", "virtual_seconds", "time_percent",
-            "events", "links",   "database",   "packets", "pages",    "work",           "questions",       "travel",
-            "load",   "regions", "mapping",    "pairs",   "sandbox",  "chaos",    "skips",          "heat_maps",       "nodes",
-            "ranks",  "host"});
+  CHECK(keys(json, 1) == std::vector<std::string>{"format",       "program",    "options",   "runner",         "machine",
+                                                  "film_hash",    "film_scale", "sampling",  "rays",           "hits",
+                                                  "operations",   "seconds",    "run_hash",  "machine_digest", "virtual_seconds",
+                                                  "time_percent", "events",     "links",     "database",       "packets",
+                                                  "pages",        "work",       "questions", "travel",         "load",
+                                                  "regions",      "mapping",    "pairs",     "sandbox",        "chaos",
+                                                  "skips",        "heat_maps",  "nodes",     "ranks",          "host"});
   for (const std::string key : {"samples_per_pixel",
                                 "passes",
                                 "estimated_error",
