@@ -23,6 +23,7 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/gltf/reader.h"
+#include "apps/foreign/mesh/file_ending.h"
 #include "apps/foreign/mesh/material.h"
 #include "apps/foreign/mesh/mtl_text.h"
 #include "apps/foreign/mesh/obj_check.h"
@@ -65,12 +66,6 @@ class Stream final : public Assimp::IOStream {
   std::unique_ptr<FileBytes> file_;
   std::size_t position_ = 0;
 };
-
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending.empty() ? ending : ending.substr(1);
-}
 
 std::string_view text_of(const FileBytes& file) {
   return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/import.h"
@@ -9,8 +10,10 @@
 #include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/mesh/lights.h"
 #include "apps/foreign/mesh/material.h"
+#include "apps/foreign/mesh/placed_mesh.h"
 #include "apps/foreign/mesh/placement.h"
 #include "apps/foreign/mesh/textures.h"
+#include "apps/foreign/polygon_formats.h"
 #include "apps/formats/whole_view.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
@@ -19,6 +22,9 @@ namespace dmpc::apps {
 namespace {
 
 using Placements = std::vector<Placement>;
+
+/// Assimp's and glTF's numbers are floats.
+constexpr double float_rounding = 0x1p-25;
 
 /// Which materials some placed mesh has.
 std::vector<bool> used_materials(const aiScene& file, const Placements& placements) {
@@ -46,11 +52,19 @@ void note_other_names(const std::vector<std::string>& names, std::vector<std::st
   }
 }
 
+/// Tells what of textures was not to be had, or was had from elsewhere.
+void note_textures(const TextureReader& textures, MeshScene& result, std::vector<std::string>& missing) {
+  for (const std::string& texture : textures.missing()) {
+    missing.push_back(texture);
+  }
+  note_other_names(textures.other_names(), result.notes);
+}
+
 /// With the textures of those that are used, which the scene is given; what cannot be had is added to `missing`.
 std::vector<MeshMaterial> materials_of(const ImportedFile& imported, const Placements& placements, SceneFiles& files,
                                        MeshScene& result, std::vector<std::string>& missing) {
   const aiScene& file = *imported.scene;
-  TextureReader textures(file, result.scene.name, files, result.scene.textures);
+  TextureReader textures(&file, result.scene.name, files, result.scene.textures);
   const std::vector<bool> used = used_materials(file, placements);
   std::vector<MeshMaterial> materials;
   for (std::size_t i = 0; i < file.mNumMaterials; ++i) {
@@ -63,10 +77,26 @@ std::vector<MeshMaterial> materials_of(const ImportedFile& imported, const Place
     }
     materials.push_back(material);
   }
-  for (const std::string& texture : textures.missing()) {
-    missing.push_back(texture);
+  note_textures(textures, result, missing);
+  return materials;
+}
+
+/// The same of a file that a reader of our own has read.
+std::vector<core::Material> materials_of(const PolygonFile& file, SceneFiles& files, MeshScene& result,
+                                         std::vector<std::string>& missing) {
+  TextureReader textures(nullptr, result.scene.name, files, result.scene.textures);
+  std::vector<bool> used(file.materials.size());
+  for (const PolygonMesh& mesh : file.meshes) {
+    used[mesh.material] = true;
   }
-  note_other_names(textures.other_names(), result.notes);
+  std::vector<core::Material> materials;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    core::Material material = file.materials[i].material;
+    const auto& use = file.materials[i].texture;
+    material.texture = used[i] && use ? textures.find(*use).value_or(core::Material::no_texture) : core::Material::no_texture;
+    materials.push_back(material);
+  }
+  note_textures(textures, result, missing);
   return materials;
 }
 
@@ -124,21 +154,51 @@ void forget(aiScene& file, std::size_t mesh) {
   file.mMeshes[mesh] = nullptr;
 }
 
+void check_has_area(const GeometryWriter& writer) {
+  if (!writer.has_area()) {
+    throw core::InputError("there is no triangle in it that has an area; expected a mesh of triangles or polygons");
+  }
+}
+
+const MeshMaterial& material_for(const aiMesh& mesh, std::size_t index, const std::vector<MeshMaterial>& materials) {
+  if (mesh.mMaterialIndex >= materials.size()) {
+    throw core::InputError(name_of(mesh, index) + " has material " + std::to_string(mesh.mMaterialIndex) +
+                           ", and there are but " + std::to_string(materials.size()));
+  }
+  return materials[mesh.mMaterialIndex];
+}
+
 /// Each mesh is freed after its last place.
 void add_geometry(core::Scene& scene, aiScene& file, const Placements& placements, const std::vector<MeshMaterial>& materials,
                   const MeshOptions& options) {
   core::SceneBuilder builder(scene);
-  GeometryWriter writer(builder, materials, options.smooth_degrees);
+  GeometryWriter writer(builder, options.smooth_degrees);
   std::vector<std::size_t> uses = count_uses(file, placements);
   for (const Placement& placement : placements) {
-    writer.add(*file.mMeshes[placement.mesh], placement.mesh, placement.world);
+    const aiMesh& mesh = *file.mMeshes[placement.mesh];
+    const MeshMaterial& material = material_for(mesh, placement.mesh, materials);
+    writer.add(placed_mesh(mesh, placement.mesh, placement.world, material), material.material);
     if (--uses[placement.mesh] == 0) {
       forget(file, placement.mesh);
     }
   }
-  if (!writer.has_area()) {
-    throw core::InputError("there is no triangle in it that has an area; expected a mesh of triangles or polygons");
+  check_has_area(writer);
+}
+
+/// Takes the meshes of a file that a reader of our own has read, and frees each at once.
+void add_geometry(core::Scene& scene, std::vector<PolygonMesh> meshes, const std::vector<core::Material>& materials,
+                  const MeshOptions& options) {
+  core::SceneBuilder builder(scene);
+  GeometryWriter writer(builder, options.smooth_degrees);
+  const double scale = options.scale.value_or(1);
+  for (PolygonMesh& mesh : meshes) {
+    for (core::Vec3d& vertex : mesh.vertices) {
+      vertex = vertex * scale;
+    }
+    const core::Material& material = materials[mesh.material];
+    writer.add(std::exchange(mesh, {}), material);
   }
+  check_has_area(writer);
 }
 
 std::string text_of(const core::Vec3d& point) { return rounded(point.x) + "," + rounded(point.y) + "," + rounded(point.z); }
@@ -150,24 +210,27 @@ core::View plain_view(const BoundingSphere& bounds, const MeshOptions& options, 
   return view;
 }
 
-void add_surroundings(core::Scene& scene, const aiScene& file, const MeshOptions& options, std::vector<std::string>& notes) {
+/// `file` may have cameras and lights, if it is there.
+void add_surroundings(core::Scene& scene, const aiScene* file, const MeshOptions& options, std::vector<std::string>& notes) {
   const double scale = options.scale.value_or(1);
   const BoundingSphere bounds = sphere_around_vertices(scene);
   scene.background = plain_background;
   // What is said of a view or of lights that others are put in place of would be untrue.
   std::vector<std::string> unsaid;
   std::vector<std::string>& view_notes = options.is_seen_otherwise ? unsaid : notes;
-  const auto camera = camera_of(file, scale, view_notes);
+  const auto camera = file == nullptr ? std::nullopt : camera_of(*file, scale, view_notes);
   scene.view = camera ? *camera : plain_view(bounds, options, view_notes);
-  scene.lights = lights_of(file, bounds, scale, options.is_lit_otherwise ? unsaid : notes);
+  if (file != nullptr) {
+    scene.lights = lights_of(*file, bounds, scale, options.is_lit_otherwise ? unsaid : notes);
+  }
   if (scene.lights.empty()) {
     scene.lights = plain_lights(bounds, scene.view);
   }
 }
 
-MeshScene read(const std::string& path, const MeshOptions& options, SceneFiles& files) {
-  const ImportedFile file = import_file(path, files);
-  MeshScene result{.scene = {.name = path}, .notes = {}};
+/// What Assimp's types hold: nodes place meshes.
+MeshScene scene_of(const ImportedFile& file, const std::string& path, const MeshOptions& options, SceneFiles& files) {
+  MeshScene result{.scene = {.name = path, .coordinate_rounding = float_rounding}, .notes = {}};
   std::vector<std::string> missing = file.missing;
   const Placements placements = find_placements(*file.scene, options.scale.value_or(1));
   const GeometrySize size = measure(*file.scene, placements, result.notes);
@@ -178,8 +241,32 @@ MeshScene read(const std::string& path, const MeshOptions& options, SceneFiles& 
   const std::vector<MeshMaterial> materials = materials_of(file, placements, files, result, missing);
   judge_missing(missing, options, result.notes);
   add_geometry(result.scene, *file.scene, placements, materials, options);
-  add_surroundings(result.scene, *file.scene, options, result.notes);
+  add_surroundings(result.scene, file.scene.get(), options, result.notes);
   return result;
+}
+
+/// What a reader of our own has read stands where it is.
+MeshScene scene_of(PolygonFile file, const std::string& path, const MeshOptions& options, SceneFiles& files) {
+  MeshScene result{.scene = {.name = path, .coordinate_rounding = file.coordinate_rounding}, .notes = std::move(file.notes)};
+  std::vector<std::string> missing = std::move(file.missing);
+  GeometrySize size;
+  for (const PolygonMesh& mesh : file.meshes) {
+    size += size_of(mesh.faces);
+  }
+  check_size(size);
+  reserve(result.scene, size);
+  const std::vector<core::Material> materials = materials_of(file, files, result, missing);
+  judge_missing(missing, options, result.notes);
+  add_geometry(result.scene, std::move(file.meshes), materials, options);
+  add_surroundings(result.scene, nullptr, options, result.notes);
+  return result;
+}
+
+MeshScene read(const std::string& path, const MeshOptions& options, SceneFiles& files) {
+  if (auto file = read_polygon_file(path, files)) {
+    return scene_of(*std::move(file), path, options, files);
+  }
+  return scene_of(import_file(path, files), path, options, files);
 }
 
 }  // namespace

@@ -93,7 +93,6 @@ MeshFile MeshSession::read() {
         : error;
   }
   result_.scene.name = path_;
-  result_.scene.coordinate_rounding = 0x1p-25;  // Assimp's and glTF's numbers are floats
   result_.opened = access_.opened();
   return std::move(result_);
 }

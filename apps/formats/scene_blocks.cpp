@@ -69,6 +69,7 @@ bool send_scene(core::Scene& scene, Line& line) {
   const Packer head = Packer()
                           .add(scene.view)
                           .add(scene.background)
+                          .add(scene.coordinate_rounding)
                           .add(count_of(scene.materials))
                           .add(count_of(scene.objects))
                           .add(count_of(scene.vertices))
@@ -118,6 +119,8 @@ void SceneReceiver::take_head(Unpacker fields) {
   Unpacker::require(!std::exchange(has_head_, true));
   scene_.view = fields.take<core::View>();
   scene_.background = fields.take<Vec3d>();
+  scene_.coordinate_rounding = fields.take<double>();
+  Unpacker::require(scene_.coordinate_rounding >= 0 && scene_.coordinate_rounding < 1);
   const auto reserve = [&fields](auto& pool) {
     const auto count = fields.take<std::uint64_t>();
     Unpacker::require(count < std::numeric_limits<std::uint32_t>::max());

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/foreign/mesh/smooth.h"
 #include "apps/formats/nff_reader.h"
 #include "core/base/expect.h"
 
@@ -19,8 +22,25 @@ bool is_usable(const Vec3d& v) {
   return std::abs(v.x) < coordinate_max && std::abs(v.y) < coordinate_max && std::abs(v.z) < coordinate_max;
 }
 
-bool all_equal(const std::vector<Vec3d>& list) {
-  return std::all_of(list.begin(), list.end(), [&list](const Vec3d& v) { return v == list.front(); });
+/// Twice the area times the normal.
+Vec3d area_vector(const std::vector<Vec3d>& corners) {
+  Vec3d sum;
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    sum = sum + cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
+  }
+  return sum;
+}
+
+/// Whether a face looks as it would without them: all are alike and stand on its plane but for what writing them in a few digits
+/// has done to them, or are 0. Cards of leaves have normals that are alike, and point elsewhere.
+bool are_the_faces_own(const std::vector<Vec3d>& normals, const std::vector<Vec3d>& corners) {
+  constexpr double sine_max = 0x1p-10;
+  const Vec3d& first = normals.front();
+  if (!std::all_of(normals.begin(), normals.end(), [&first](const Vec3d& v) { return v == first; })) {
+    return false;
+  }
+  const Vec3d area = area_vector(corners);
+  return !(length(cross(first, area)) > sine_max * length(first) * length(area));
 }
 
 bool spans_an_area(const std::vector<Vec3d>& corners) {
@@ -32,13 +52,34 @@ bool spans_an_area(const std::vector<Vec3d>& corners) {
   return false;
 }
 
+void check_vertices(const PolygonMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!is_usable(mesh.vertices[i])) {
+      throw core::InputError(mesh.name + ": vertex " + std::to_string(i) +
+                             " has a coordinate that is not a number, infinite or beyond 1e30; correct the file");
+    }
+  }
+}
+
+void check_faces(const FaceList& faces, const std::string& name) {
+  std::uint32_t first = 0;
+  for (std::size_t i = 0; i < faces.ends.size(); ++i) {
+    if (faces.ends[i] - std::exchange(first, faces.ends[i]) > polygon_vertices_max) {
+      throw core::InputError(name + ": face " + std::to_string(i) + " has too many corners, more than 65535; correct the file");
+    }
+  }
+}
+
 }  // namespace
 
-GeometrySize size_of(const aiMesh& mesh) {
+GeometrySize size_of_face(std::uint64_t corners) { return corners < 3 ? GeometrySize{} : GeometrySize{corners - 2, 1, corners}; }
+
+GeometrySize size_of(const FaceList& faces) {
   GeometrySize size;
-  for (std::size_t i = 0; i < mesh.mNumFaces; ++i) {
-    const std::uint64_t corners = mesh.mFaces[i].mNumIndices;
-    size += corners < 3 ? GeometrySize{} : GeometrySize{corners - 2, 1, corners};
+  std::uint32_t first = 0;
+  for (const std::uint32_t end : faces.ends) {
+    size += size_of_face(end - first);
+    first = end;
   }
   return size;
 }
@@ -51,127 +92,55 @@ void check_size(const GeometrySize& size) {
   }
 }
 
-std::string name_of(const aiMesh& mesh, std::size_t index) {
-  const std::string number = "mesh " + std::to_string(index);
-  return mesh.mName.length > 0 ? number + " '" + mesh.mName.C_Str() + "'" : number;
-}
-
-void GeometryWriter::add(const aiMesh& mesh, std::size_t index, const Transform& world) {
-  read_faces(mesh, index, world.determinant() < 0);
-  if (faces_.ends.empty()) {
-    return;  // points and lines alone
+void GeometryWriter::add(PolygonMesh mesh, core::Material material) {
+  if (mesh.faces.ends.empty()) {
+    return;
   }
-  read_vertices(mesh, index, world);
-  read_normals(mesh, world);
-  builder_.material(material_for(mesh, index));
+  check_faces(mesh.faces, mesh.name);
+  check_vertices(mesh);
+  if (smooth_degrees_) {
+    mesh.normals = smooth_normals(mesh.vertices, mesh.faces, *smooth_degrees_);
+  }
+  if (mesh.places.empty()) {
+    material.texture = core::Material::no_texture;
+  } else if (material.texture == core::Material::no_texture) {
+    mesh.places.clear();
+  }
+  builder_.material(material);
   std::size_t first = 0;
-  for (const std::uint32_t end : faces_.ends) {
-    add_face(first, end);
+  for (const std::uint32_t end : mesh.faces.ends) {
+    add_face(mesh, first, end);
     first = end;
   }
 }
 
-/// That of the mesh, without its texture if the mesh does not say where it goes; reads places if it does.
-core::Material GeometryWriter::material_for(const aiMesh& mesh, std::size_t index) {
-  if (mesh.mMaterialIndex >= materials_.size()) {
-    throw core::InputError(name_of(mesh, index) + " has material " + std::to_string(mesh.mMaterialIndex) +
-                           ", and there are but " + std::to_string(materials_.size()));
-  }
-  auto [material, coordinates, place] = materials_[mesh.mMaterialIndex];
-  places_.clear();
-  if (material.texture != core::Material::no_texture && mesh.HasTextureCoords(coordinates)) {
-    read_places(mesh, coordinates, place);
-  } else {
-    material.texture = core::Material::no_texture;
-  }
-  return material;
-}
-
-/// A file's t grows upwards.
-void GeometryWriter::read_places(const aiMesh& mesh, unsigned coordinates, const TexturePlace& place) {
-  const bool is_plain = place.is_plain();
-  for (std::size_t i = 0; i < mesh.mNumVertices; ++i) {
-    const aiVector3D& source = mesh.mTextureCoords[coordinates][i];
-    const std::array<float, 2> plain = {source.x, 1 - source.y};
-    const auto [s, t] = place(double{plain[0]}, double{plain[1]});
-    places_.push_back(is_plain ? plain : std::array<float, 2>{static_cast<float>(s), static_cast<float>(t)});
-  }
-}
-
-void GeometryWriter::read_vertices(const aiMesh& mesh, std::size_t index, const Transform& world) {
-  vertices_.resize(mesh.mNumVertices);
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    vertices_[i] = world.point(to_vec(mesh.mVertices[i]));
-    if (!is_usable(vertices_[i])) {
-      throw core::InputError(name_of(mesh, index) + ": vertex " + std::to_string(i) +
-                             " has a coordinate that is not a number, infinite or beyond 1e30; correct the file");
-    }
-  }
-}
-
-void GeometryWriter::read_faces(const aiMesh& mesh, std::size_t index, bool is_mirrored) {
-  faces_.corners.clear();
-  faces_.ends.clear();
-  for (std::size_t i = 0; i < mesh.mNumFaces; ++i) {
-    const aiFace& face = mesh.mFaces[i];
-    if (face.mNumIndices < 3) {
-      continue;
-    }
-    const bool is_known = std::all_of(face.mIndices, face.mIndices + face.mNumIndices,
-                                      [&mesh](unsigned vertex) { return vertex < mesh.mNumVertices; });
-    if (!is_known || face.mNumIndices > polygon_vertices_max) {
-      throw core::InputError(name_of(mesh, index) + ": face " + std::to_string(i) +
-                             (is_known ? " has too many corners, more than 65535"
-                                       : " has a vertex that does not exist: the mesh has " + std::to_string(mesh.mNumVertices)) +
-                             "; correct the file");
-    }
-    faces_.corners.insert(faces_.corners.end(), face.mIndices, face.mIndices + face.mNumIndices);
-    if (is_mirrored) {
-      std::reverse(faces_.corners.end() - face.mNumIndices, faces_.corners.end());
-    }
-    faces_.ends.push_back(static_cast<std::uint32_t>(faces_.corners.size()));
-  }
-}
-
-void GeometryWriter::read_normals(const aiMesh& mesh, const Transform& world) {
-  normals_.clear();
-  if (smooth_degrees_) {
-    normals_ = smooth_normals(vertices_, faces_, *smooth_degrees_);
-  } else if (mesh.HasNormals()) {
-    const Transform of_normals = world.of_normals();
-    normals_.reserve(faces_.corners.size());
-    for (const std::uint32_t vertex : faces_.corners) {
-      normals_.push_back(of_normals.direction(to_vec(mesh.mNormals[vertex])));
-    }
-  }
-}
-
-void GeometryWriter::add_face(std::size_t first, std::size_t end) {
+void GeometryWriter::add_face(const PolygonMesh& mesh, std::size_t first, std::size_t end) {
   face_vertices_.clear();
   for (std::size_t i = first; i < end; ++i) {
-    face_vertices_.push_back(vertices_[faces_.corners[i]]);
+    face_vertices_.push_back(mesh.vertices[mesh.faces.corners[i]]);
   }
   has_area_ = has_area_ || spans_an_area(face_vertices_);
-  if (!normals_.empty()) {
-    face_normals_.assign(normals_.begin() + static_cast<std::ptrdiff_t>(first),
-                         normals_.begin() + static_cast<std::ptrdiff_t>(end));
+  face_normals_.clear();
+  if (!mesh.normals.empty()) {
+    face_normals_.assign(mesh.normals.begin() + static_cast<std::ptrdiff_t>(first),
+                         mesh.normals.begin() + static_cast<std::ptrdiff_t>(end));
+    if (are_the_faces_own(face_normals_, face_vertices_)) {
+      face_normals_.clear();
+    }
   }
-  const bool is_flat = normals_.empty() || all_equal(face_normals_);
-  if (!places_.empty()) {
-    face_normals_.resize(is_flat ? 0 : end - first);
-    add_textured(first, end);
-  } else if (is_flat) {
+  if (!mesh.places.empty()) {
+    add_textured(mesh, first, end);
+  } else if (face_normals_.empty()) {
     builder_.polygon(face_vertices_);
   } else {
     builder_.patch(face_vertices_, face_normals_);
   }
 }
 
-void GeometryWriter::add_textured(std::size_t first, std::size_t end) {
+void GeometryWriter::add_textured(const PolygonMesh& mesh, std::size_t first, std::size_t end) {
   face_corners_.clear();
   for (std::size_t i = first; i < end; ++i) {
-    const core::Vec3d normal = face_normals_.empty() ? core::Vec3d{} : face_normals_[i - first];
-    face_corners_.push_back({normal, places_[faces_.corners[i]]});
+    face_corners_.push_back({face_normals_.empty() ? Vec3d{} : face_normals_[i - first], mesh.places[i]});
   }
   builder_.textured(face_vertices_, face_corners_);
 }

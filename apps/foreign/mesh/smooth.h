@@ -1,18 +1,12 @@
 // Vertex normals for faces that share vertices.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "apps/foreign/mesh/polygon_mesh.h"
 #include "core/base/vec.h"
 
 namespace dmpc::apps {
-
-/// Polygons over a list of vertices, one after the other.
-struct FaceList {
-  std::vector<std::uint32_t> corners;  ///< indices of vertices
-  std::vector<std::uint32_t> ends;     ///< of each face: one past its last corner
-};
 
 /// A normal for each corner, perhaps not of unit length: the sum of the area vectors of those faces around its vertex whose
 /// planes lie within `degrees` (0 to 180) of its own. Vertices at one point are one. A face without area keeps its corners at 0.

@@ -63,7 +63,7 @@ std::string TextureReader::file_of(const std::string& name) {
 }
 
 void TextureReader::read(const TextureUse& use) {
-  const aiTexture* const within = file_.GetEmbeddedTexture(use.path.c_str());
+  const aiTexture* const within = file_ == nullptr ? nullptr : file_->GetEmbeddedTexture(use.path.c_str());
   if (within == nullptr) {
     return files_.add_texture(file_of(use.path), use.edges);
   }

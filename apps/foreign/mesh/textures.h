@@ -31,8 +31,9 @@ std::optional<TextureUse> colour_texture(const aiMaterial& source);
 /// Reads each texture once, from beside the mesh file or from within it.
 class TextureReader {
  public:
-  /// `file` is what lies at `path`; it and `files` outlive the reader. `textures` get names alone.
-  TextureReader(const aiScene& file, const std::filesystem::path& path, SceneFiles& files, std::vector<core::Texture>& textures)
+  /// `file` is what lies at `path`, if Assimp's types hold it: it may have textures within. It and `files` outlive the reader.
+  /// `textures` get names alone.
+  TextureReader(const aiScene* file, const std::filesystem::path& path, SceneFiles& files, std::vector<core::Texture>& textures)
       : file_(file), path_(path), files_(files), textures_(textures) {}
 
   /// Its place among the scene's textures; nothing if it cannot be had, which missing() tells.
@@ -50,7 +51,7 @@ class TextureReader {
   /// That is meant by this name (apps/formats/named_file.h).
   std::string file_of(const std::string& name);
 
-  const aiScene& file_;
+  const aiScene* file_;
   std::filesystem::path path_;
   SceneFiles& files_;
   std::vector<core::Texture>& textures_;

@@ -102,7 +102,7 @@ TEST_CASE("more than was announced, and parts of an entry, are refused") {
   core::Scene scene = three_triangles();
   CHECK_THROWS_AS(receiver.take({Saying::vertices, std::string(24, '\0'), Descriptor()}), Nonsense);
   Packer head;
-  head.add(scene.view).add(scene.background);
+  head.add(scene.view).add(scene.background).add(scene.coordinate_rounding);
   for (int pool = 0; pool < 5; ++pool) {
     head.add(std::uint64_t{1});
   }
@@ -116,7 +116,7 @@ TEST_CASE("more lights, textures and materials than any scene has are refused be
   SceneReceiver receiver;
   const core::Scene scene;
   Packer head;
-  head.add(scene.view).add(scene.background).add(std::uint64_t{1} << 30U);
+  head.add(scene.view).add(scene.background).add(scene.coordinate_rounding).add(std::uint64_t{1} << 30U);
   for (int pool = 0; pool < 4; ++pool) {
     head.add(std::uint64_t{1});
   }

@@ -2,9 +2,51 @@
 
 #include <doctest/doctest.h>
 
+#include "apps/foreign/mesh/placed_mesh.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::geometry_test {
+
+namespace {
+
+/// A unit square in the plane z = 0, with one normal at all corners.
+core::Scene square_with(const core::Vec3d& normal, bool has_places = false) {
+  PolygonMesh mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, .faces = {{0, 1, 2, 3}, {4}}};
+  mesh.normals.assign(4, normal);
+  mesh.places.assign(has_places ? 4 : 0, {});
+  core::Scene scene{.textures = {{.name = "leaf", .levels = {}}}};
+  core::SceneBuilder builder(scene);
+  GeometryWriter(builder, std::nullopt).add(mesh, {.texture = has_places ? 0 : core::Material::no_texture});
+  return scene;
+}
+
+core::ObjectKind kind_of(const core::Scene& scene) { return scene.objects.front().kind; }
+
+}  // namespace
+
+TEST_CASE("normals that are alike over a face and not its own are kept, as leaves' cards have them") {
+  const core::Scene card = square_with({0, 1, 0});
+  CHECK(kind_of(card) == core::ObjectKind::patch);
+  CHECK(card.normals == std::vector<core::Vec3d>(4, {0, 1, 0}));
+  CHECK(square_with({0, 1, 0}, true).corners.front().normal == core::Vec3d{0, 1, 0});
+  CHECK(kind_of(square_with({0.002, 0, 1})) == core::ObjectKind::patch);
+}
+
+TEST_CASE("normals that say what the face says, in whatever length, direction or digits, leave it flat") {
+  CHECK(kind_of(square_with({0, 0, 1})) == core::ObjectKind::polygon);
+  CHECK(kind_of(square_with({0, 0, -3})) == core::ObjectKind::polygon);
+  CHECK(kind_of(square_with({0.0005, 0, 1})) == core::ObjectKind::polygon);
+  CHECK(kind_of(square_with({0, 0, 0})) == core::ObjectKind::polygon);
+  CHECK(square_with({0, 0, 1}, true).corners.front().normal == core::Vec3d{});
+}
+
+TEST_CASE("a face with more corners than an object has room for is refused by its number") {
+  PolygonMesh mesh{.name = "mesh 3", .vertices = {{0, 0, 0}}, .faces = {std::vector<std::uint32_t>(65'539), {3, 65'539}}};
+  core::Scene scene;
+  core::SceneBuilder builder(scene);
+  CHECK_THROWS_WITH_AS(GeometryWriter(builder, std::nullopt).add(mesh, {}),
+                       doctest::Contains("mesh 3: face 1 has too many corners"), core::InputError);
+}
 
 TEST_CASE("a scene has room for as many corners as 32 bits count, and no more") {
   CHECK_NOTHROW(check_size({}));

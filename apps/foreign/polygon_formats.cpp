@@ -1,0 +1,31 @@
+#include "apps/foreign/polygon_formats.h"
+
+#include <array>
+
+#include "apps/foreign/mesh/file_ending.h"
+
+namespace dmpc::apps {
+namespace {
+
+using PolygonReader = PolygonFile (*)(const std::string& path, SceneFiles& files);
+
+struct Format {
+  const char* ending;
+  PolygonReader reader;
+};
+
+constexpr std::array<Format, 0> formats{};
+
+}  // namespace
+
+std::optional<PolygonFile> read_polygon_file(const std::string& path, SceneFiles& files) {
+  const std::string ending = ending_of(path);
+  for (const Format& format : formats) {
+    if (ending == format.ending) {
+      return format.reader(path, files);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace dmpc::apps
