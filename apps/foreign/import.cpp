@@ -24,11 +24,8 @@
 #include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/mesh/file_ending.h"
-#include "apps/foreign/mesh/material.h"
 #include "apps/foreign/mesh/mtl_text.h"
 #include "apps/foreign/mesh/obj_check.h"
-#include "apps/foreign/mesh/ply_check.h"
-#include "apps/foreign/mesh/stl_check.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -95,9 +92,7 @@ class TextBytes final : public FileBytes {
 std::unique_ptr<FileBytes> open_scene(const std::string& path, const std::string& ending, SceneFiles& files) {
   std::unique_ptr<FileBytes> file = files.open(path);
   const std::string_view text = text_of(*file);
-  const std::string_view rest = ending == "ply" || ending == "obj" ? without_mark(text)
-                                : ending == "stl"                  ? stl_without_mark(text)
-                                                                   : text;
+  const std::string_view rest = ending == "obj" ? without_mark(text) : text;
   const std::size_t begin = text.size() - rest.size();
   return begin == 0 ? std::move(file) : std::make_unique<LaterBytes>(std::move(file), begin);
 }
@@ -204,11 +199,10 @@ void rethrow_end_of_memory(const std::exception_ptr& caught) {
   }
 }
 
-/// What Assimp takes for a scene, or for ever to read, although something of it is missing.
+/// What Assimp takes for a scene, although something of it is missing.
 void check_is_whole(const std::string& path, const std::string& ending, SceneFiles& files) {
-  const auto check = ending == "ply" ? check_ply : ending == "stl" ? check_stl : ending == "obj" ? check_obj : nullptr;
-  if (check != nullptr) {
-    check(text_of(*open_scene(path, ending, files)));
+  if (ending == "obj") {
+    check_obj(text_of(*open_scene(path, ending, files)));
   }
 }
 
@@ -239,26 +233,6 @@ bool is_figure_of_nodes(const aiScene& scene) {
   };
   return (scene.mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0 &&
          std::any_of(scene.mMaterials, scene.mMaterials + scene.mNumMaterials, is_named_so);
-}
-
-/// Whether a scene that Assimp paints white comes from a file that says nothing of colours.
-bool says_no_colour(const std::string& path, const std::string& ending, SceneFiles& files) {
-  if (ending != "ply" && ending != "stl") {
-    return false;
-  }
-  const std::unique_ptr<FileBytes> file = open_scene(path, ending, files);
-  return ending == "ply" ? !has_ply_material(text_of(*file)) : !has_stl_colour(text_of(*file));
-}
-
-/// But a texture's colours stay as they are.
-void make_plain(aiScene& scene) {
-  const aiColor3D grey(static_cast<ai_real>(plain_grey));
-  for (aiMaterial* const material : std::span(scene.mMaterials, scene.mNumMaterials)) {
-    if (material->GetTextureCount(aiTextureType_DIFFUSE) == 0) {
-      material->RemoveProperty(AI_MATKEY_COLOR_DIFFUSE);
-      material->AddProperty(&grey, 1, AI_MATKEY_COLOR_DIFFUSE);
-    }
-  }
 }
 
 void take_over(const MtlTextures& textures, ImportedFile& file) {
@@ -321,9 +295,6 @@ ImportedFile import_file(const std::string& path, SceneFiles& files) {
   check_has_mesh(*importer.GetScene());
   file.scene.reset(importer.GetOrphanedScene());
   take_over(textures, file);
-  if (says_no_colour(path, ending, files)) {
-    make_plain(*file.scene);
-  }
   return file;
 }
 

@@ -245,6 +245,13 @@ MeshScene scene_of(const ImportedFile& file, const std::string& path, const Mesh
   return result;
 }
 
+void note_colors(const std::vector<PolygonMesh>& meshes, std::vector<std::string>& notes) {
+  const auto coloured = std::count_if(meshes.begin(), meshes.end(), [](const PolygonMesh& mesh) { return !mesh.colors.empty(); });
+  if (coloured > 0) {
+    notes.push_back("meshes whose vertex colours are not used: " + grouped(static_cast<std::uint64_t>(coloured)));
+  }
+}
+
 /// What a reader of our own has read stands where it is.
 MeshScene scene_of(PolygonFile file, const std::string& path, const MeshOptions& options, SceneFiles& files) {
   MeshScene result{.scene = {.name = path, .coordinate_rounding = file.coordinate_rounding}, .notes = std::move(file.notes)};
@@ -255,6 +262,7 @@ MeshScene scene_of(PolygonFile file, const std::string& path, const MeshOptions&
   }
   check_size(size);
   reserve(result.scene, size);
+  note_colors(file.meshes, result.notes);
   const std::vector<core::Material> materials = materials_of(file, files, result, missing);
   judge_missing(missing, options, result.notes);
   add_geometry(result.scene, std::move(file.meshes), materials, options);

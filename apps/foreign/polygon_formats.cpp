@@ -3,6 +3,9 @@
 #include <array>
 
 #include "apps/foreign/mesh/file_ending.h"
+#include "apps/foreign/polygon/off.h"
+#include "apps/foreign/polygon/ply.h"
+#include "apps/foreign/polygon/stl.h"
 
 namespace dmpc::apps {
 namespace {
@@ -14,7 +17,11 @@ struct Format {
   PolygonReader reader;
 };
 
-constexpr std::array<Format, 0> formats{};
+constexpr std::array<Format, 3> formats{{
+    {"off", read_off},
+    {"ply", read_ply},
+    {"stl", read_stl},
+}};
 
 }  // namespace
 

@@ -3,8 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +11,7 @@
 #include "apps/foreign/gltf/document.h"
 #include "apps/foreign/mesh_reader.h"
 #include "core/base/expect.h"
+#include "tests/fuzz/input_files.h"
 #include "tests/fuzz/small_picture.h"
 #include "tests/fuzz/targets.h"
 
@@ -22,44 +21,7 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
-class InputBytes final : public apps::FileBytes {
- public:
-  explicit InputBytes(Bytes bytes) : bytes_(bytes) {}
-  Bytes bytes() const override { return bytes_; }
-
- private:
-  Bytes bytes_;
-};
-
-/// The input is the only file; a picture within it is taken for one.
-class InputFiles final : public apps::SceneFiles {
- public:
-  explicit InputFiles(Bytes input) : input_(input) {}
-
-  std::unique_ptr<apps::FileBytes> open(const std::string& path) override {
-    if (path != name) {
-      throw core::InputError(path + ": is not there");
-    }
-    return std::make_unique<InputBytes>(input_);
-  }
-  bool exists(const std::string& path) override { return path == name; }
-  std::vector<std::filesystem::path> meant(const std::filesystem::path& /*folder*/, const std::string& /*name*/) override {
-    return {};
-  }
-  void add_texture(const std::string& path, const apps::TextureEdges& /*edges*/) override {
-    throw core::InputError(path + ": is not there");
-  }
-  void add_texture(Bytes /*file*/, const std::string& /*name*/, const std::string& /*format_hint*/,
-                   const apps::TextureEdges& /*edges*/) override {}
-  void add_texture(std::span<const std::uint32_t> /*texels*/, std::uint32_t /*width*/, std::uint32_t /*height*/,
-                   const std::string& /*name*/, const apps::TextureEdges& /*edges*/) override {}
-  void show_progress(float /*share*/) override {}
-
-  static constexpr const char* name = "input.gltf";
-
- private:
-  Bytes input_;
-};
+constexpr const char* name = "input.gltf";
 
 /// Whether our reader gets it, and gets through it soon: what has no bytes in the file may be said to be as large as memory.
 bool is_of_interest(Bytes input) {
@@ -78,9 +40,9 @@ bool is_of_interest(Bytes input) {
 }
 
 std::optional<core::Scene> read(Bytes input) {
-  InputFiles files(input);
+  InputFiles files(name, input);
   try {
-    return apps::read_mesh(InputFiles::name, {.allows_missing = true}, files).scene;
+    return apps::read_mesh(name, {.allows_missing = true}, files).scene;
   } catch (const core::InputError& error) {
     core::expect(!std::string_view(error.what()).empty(), "who refuses says why");
   }

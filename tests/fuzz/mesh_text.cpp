@@ -1,5 +1,5 @@
-// Any bytes as a file in the formats that Assimp reads and we look through beforehand: refused with core::InputError, or let
-// pass; MTL is made plain, once for all. The first byte says which.
+// Any bytes as OBJ or MTL, which Assimp reads and we look through beforehand: OBJ is refused with core::InputError, or let pass;
+// MTL is made plain, once for all. The first byte says which.
 
 #include <array>
 #include <cstddef>
@@ -10,8 +10,6 @@
 #include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/mtl_text.h"
 #include "apps/foreign/mesh/obj_check.h"
-#include "apps/foreign/mesh/ply_check.h"
-#include "apps/foreign/mesh/stl_check.h"
 #include "core/base/expect.h"
 #include "tests/fuzz/targets.h"
 
@@ -30,26 +28,15 @@ void check_mtl(std::string_view file) {
   core::expect(is_marked || none.left_out.empty(), "what is plain has no option but -clamp");
 }
 
-void check_stl(std::string_view file) {
-  const std::string_view rest = apps::stl_without_mark(file);
-  apps::check_stl(rest);
-  apps::has_stl_colour(rest);
-}
-
-void check_ply(std::string_view file) {
-  apps::check_ply(file);
-  apps::has_ply_material(file);
-}
-
 }  // namespace
 
 void try_mesh_text(const std::uint8_t* data, std::size_t size) {
-  constexpr std::array<Check, 4> checks{check_ply, check_stl, apps::check_obj, check_mtl};
+  constexpr std::array<Check, 2> checks{apps::check_obj, check_mtl};
   if (size == 0) {
     return;
   }
   const std::string_view file(reinterpret_cast<const char*>(data) + 1, size - 1);
-  constexpr std::array<const char*, 4> kinds{"PLY", "STL", "OBJ", "MTL"};
+  constexpr std::array<const char*, 2> kinds{"OBJ", "MTL"};
   const std::size_t kind = data[0] % checks.size();
   bool is_refused = false;
   try {

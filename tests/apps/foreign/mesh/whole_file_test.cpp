@@ -2,14 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cstdint>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "apps/foreign/mesh/obj_check.h"
-#include "apps/foreign/mesh/ply_check.h"
-#include "apps/foreign/mesh/stl_check.h"
 #include "apps/formats/mesh_file.h"
 #include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
@@ -31,54 +27,14 @@ std::string refusal_of(const std::string& name, const std::string& text) {
   return "";
 }
 
-std::string binary_ply(const std::string& format, const std::string& body) {
-  return "ply\nformat " + format +
-         " 1.0\nelement vertex 1\nproperty uchar x\nelement face 1\nproperty list ushort int i\nend_header\n" + body;
-}
-
 }  // namespace
 
-TEST_CASE("a PLY file cut within its header is refused at once, wherever it is cut") {
-  const std::string header = tests::triangle_ply.substr(0, tests::triangle_ply.find("end_header") + 10);
-  for (std::size_t length = 0; length <= header.size(); ++length) {
-    CHECK_THROWS_AS(check_ply(header.substr(0, length)), core::InputError);
-  }
-  CHECK(tests::contains(refusal_of("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nprop"),
-                        "a.ply: line 4: the file ends within its header"));
-  CHECK(tests::contains(refusal_of("a.ply", "ply\nelement vertex three\n"), "line 2: expected 'element NAME COUNT'"));
-  CHECK(
-      tests::contains(refusal_of("a.ply", "ply\nelement vertex 3\nproperty real x\n"), "line 3: expected 'property TYPE NAME'"));
-  check_ply("ply\nformat ascii 1.0\nCreated by somebody\ncomment b\nobj_info c\nend_header\n");
-}
-
-TEST_CASE("a PLY file cut within its body is refused with what it ends in") {
-  const std::string whole = tests::triangle_ply;
-  check_ply(whole);
-  CHECK(tests::contains(refusal_of("a.ply", whole.substr(0, whole.find("3 0 1 2") + 5)), "it ends within element 'face' 1 of 1"));
-  CHECK(tests::contains(refusal_of("a.ply", whole.substr(0, whole.find("0 1 0"))), "it ends within element 'vertex' 3 of 3"));
-  check_ply(binary_ply("binary_little_endian", std::string("x\1\0abcd", 7)));
-  check_ply(binary_ply("binary_big_endian", std::string("x\0\1abcd", 7)));
-  CHECK_THROWS_AS(check_ply(binary_ply("binary_big_endian", std::string("x\1\0abcd", 7))), core::InputError);
-  CHECK_THROWS_AS(check_ply(binary_ply("binary_little_endian", std::string("x\1\0abc", 6))), core::InputError);
-  CHECK_THROWS_AS(check_ply(binary_ply("binary_little_endian", "x")), core::InputError);
-}
-
-TEST_CASE("an STL file cut short is refused, in text and in binary") {
-  check_stl(tests::triangle_stl);
-  check_stl(tests::triangle_binary_stl());
-  const std::string& text = tests::triangle_stl;
-  for (const char* word : {"endloop", "endfacet", "endsolid"}) {
-    CHECK(tests::contains(refusal_of("a.stl", text.substr(0, text.find(word))), "cut short"));
-  }
-  const std::string binary = tests::triangle_binary_stl();
-  CHECK(tests::contains(refusal_of("a.stl", binary.substr(0, 120)), "it has room for 0 facets, and says that it has 1"));
-  CHECK(tests::contains(refusal_of("a.stl", binary.substr(0, 50)), "is no STL"));
-}
-
-TEST_CASE("text of PLY, STL, OBJ and MTL may begin with a byte order mark") {
+TEST_CASE("text of PLY, STL, OFF and OBJ may begin with a byte order mark") {
   const std::string mark = "\xef\xbb\xbf";
-  for (const auto& [name, text] :
-       {std::pair{"a.ply", tests::triangle_ply}, {"a.stl", tests::triangle_stl}, {"a.obj", tests::triangle_obj}}) {
+  for (const auto& [name, text] : {std::pair{"a.ply", tests::triangle_ply},
+                                   {"a.stl", tests::triangle_stl},
+                                   {"a.obj", tests::triangle_obj},
+                                   {"a.off", "OFF 3 1 0\n0 0 0\n2 0 0\n0 1 0\n3 0 1 2\n"}}) {
     CAPTURE(name);
     CHECK(refusal_of(name, text) == "");
     CHECK(refusal_of(name, mark + text) == "");

@@ -1,0 +1,270 @@
+#include "apps/foreign/polygon/off.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
+#include "apps/edge/system/byte_order_mark.h"
+#include "apps/foreign/polygon/indexed_mesh.h"
+#include "apps/foreign/polygon/plain_material.h"
+#include "apps/foreign/polygon/reading_progress.h"
+#include "apps/foreign/polygon/text_words.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// Of a face that says none, until all are read.
+constexpr Color no_off_color = {-1, -1, -1};
+
+class OffReader {
+ public:
+  OffReader(std::string_view text, ReadingProgress& progress) : words_(text, 1, '#'), progress_(progress), bytes_(text.size()) {}
+
+  PolygonFile read();
+
+ private:
+  void read_header();
+  void read_kind(std::string_view word);
+  void read_counts(std::string_view first);
+  std::uint64_t count_of(std::string_view word, const char* what) const;
+  double number_of(std::string_view word, const char* what) const;
+  void read_vertex(std::uint64_t number);
+  void read_face(std::uint64_t number);
+  std::uint32_t read_corner(std::uint64_t face);
+  /// Of the numbers that end a line, after its first `begin`.
+  std::optional<Color> off_color(std::size_t begin);
+  void read_rest_of_line();
+  std::uint64_t room() const { return (bytes_ - words_.position()) / 2 + 1; }
+
+  TextWords words_;
+  ReadingProgress& progress_;
+  std::size_t bytes_;
+  bool has_colors_ = false, has_normals_ = false, has_places_ = false;
+  std::uint64_t vertices_ = 0, faces_ = 0, thin_ = 0, from_map_ = 0, see_through_ = 0;
+  IndexedMesh mesh_{.name = "the mesh"};
+  std::vector<double> numbers_;  ///< of the line
+  std::vector<std::uint32_t> corners_;
+};
+
+/// ST, C, N, 4 and n stand before OFF in this order.
+void OffReader::read_kind(std::string_view word) {
+  const std::string_view whole = word;
+  const auto take = [&word](std::string_view part) {
+    const bool is_there = word.starts_with(part);
+    word.remove_prefix(is_there ? part.size() : 0);
+    return is_there;
+  };
+  has_places_ = take("ST");
+  has_colors_ = take("C");
+  has_normals_ = take("N");
+  const bool is_other = take("4") || take("n");
+  if (is_other) {
+    words_.fail("'" + std::string(whole) +
+                "' has vertices of other than three coordinates, which are not read; expected OFF of three");
+  }
+}
+
+void OffReader::read_header() {
+  std::string_view word = words_.next();
+  if (word.ends_with("OFF") && word.size() <= std::string_view("STCN4nOFF").size()) {
+    read_kind(word);
+    word = words_.next();
+    if (word == "BINARY") {
+      words_.fail("OFF in binary is not read; write it as text");
+    }
+  } else if (!decimal_of(word)) {
+    words_.fail_at(word, "OFF, perhaps with ST, C or N before it, or the number of vertices");
+  }
+  read_counts(word);
+}
+
+/// Edges need not be counted.
+void OffReader::read_counts(std::string_view first) {
+  vertices_ = count_of(first, "the number of vertices");
+  faces_ = count_of(words_.next(), "the number of faces");
+  if (const std::string_view edges = words_.next_in_line(); !edges.empty()) {
+    count_of(edges, "the number of edges");
+  }
+  if (const std::string_view more = words_.next_in_line(); !more.empty()) {
+    words_.fail_at(more, "no more than the numbers of vertices, faces and edges in a line");
+  }
+  if (vertices_ > room() || faces_ > room()) {
+    words_.fail("the file is cut short: it says that it has " + grouped(vertices_) + " vertices and " + grouped(faces_) +
+                " faces, for which it has too few bytes");
+  }
+}
+
+std::uint64_t OffReader::count_of(std::string_view word, const char* what) const {
+  const auto count = decimal_of(word);
+  if (!count || !(*count >= 0 && *count < 0x1p53 && std::floor(*count) >= *count)) {
+    words_.fail_at(word, what);
+  }
+  return static_cast<std::uint64_t>(*count);
+}
+
+double OffReader::number_of(std::string_view word, const char* what) const {
+  const auto number = decimal_of(word);
+  if (!number) {
+    words_.fail_at(word, what);
+  }
+  return *number;
+}
+
+void OffReader::read_rest_of_line() {
+  for (std::string_view word = words_.next_in_line(); !word.empty(); word = words_.next_in_line()) {
+    constexpr std::size_t most = 16;
+    if (numbers_.size() == most) {
+      words_.fail_at(word, "no more than " + std::to_string(most) + " numbers of a vertex, or of a face's colour");
+    }
+    numbers_.push_back(number_of(word, "a number"));
+  }
+}
+
+std::optional<Color> OffReader::off_color(std::size_t begin) {
+  const std::size_t count = numbers_.size() - begin;
+  if (count == 0) {
+    return std::nullopt;
+  }
+  if (count == 1) {
+    ++from_map_;
+    return std::nullopt;
+  }
+  if (count != 3 && count != 4) {
+    words_.fail("there are " + std::to_string(count) + " numbers of a colour; expected 3 or 4");
+  }
+  const auto from_zero = [&](std::size_t i) {
+    if (!(numbers_[begin + i] >= 0 && numbers_[begin + i] <= 255)) {
+      words_.fail("a colour has " + rounded(numbers_[begin + i]) + "; expected numbers from 0 to 1, or to 255");
+    }
+    return static_cast<float>(numbers_[begin + i]);
+  };
+  see_through_ += count == 4 && (numbers_[begin + 3] < 1 || (numbers_[begin + 3] > 1 && numbers_[begin + 3] < 255)) ? 1 : 0;
+  return Color{from_zero(0), from_zero(1), from_zero(2)};
+}
+
+/// Its first numbers may stand in several lines.
+void OffReader::read_vertex(std::uint64_t number) {
+  numbers_.clear();
+  const std::size_t own = has_normals_ ? 6 : 3, places = has_places_ ? 2 : 0;
+  while (numbers_.size() < own) {
+    const std::string_view word = words_.next();
+    if (word.empty()) {
+      words_.fail("the file is cut short: it ends within vertex " + std::to_string(number) + " of " + std::to_string(vertices_));
+    }
+    numbers_.push_back(number_of(word, "a coordinate"));
+  }
+  mesh_.vertices.push_back({numbers_[0], numbers_[1], numbers_[2]});
+  if (has_normals_) {
+    mesh_.normals.push_back({numbers_[3], numbers_[4], numbers_[5]});
+  }
+  read_rest_of_line();
+  if (numbers_.size() < own + places) {
+    words_.fail("vertex " + std::to_string(number) + " has no texture coordinates, which ST promises");
+  }
+  numbers_.resize(numbers_.size() - places);
+  if (const auto color = off_color(own)) {
+    mesh_.colors.resize(mesh_.vertices.size(), no_off_color);
+    mesh_.colors.back() = *color;
+  }
+}
+
+std::uint32_t OffReader::read_corner(std::uint64_t face) {
+  const std::string_view word = words_.next();
+  if (word.empty()) {
+    words_.fail("the file is cut short: it ends within face " + std::to_string(face) + " of " + std::to_string(faces_));
+  }
+  const double index = number_of(word, "the number of a vertex");
+  if (!(index >= 0 && index < static_cast<double>(vertices_) && std::floor(index) >= index)) {
+    words_.fail("face " + std::to_string(face) + " has a vertex that does not exist, " + clipped(word, 40) + ": there are " +
+                std::to_string(vertices_) + "; correct the file");
+  }
+  return static_cast<std::uint32_t>(index);
+}
+
+void OffReader::read_face(std::uint64_t number) {
+  const std::string_view word = words_.next();
+  if (word.empty()) {
+    words_.fail("the file is cut short: it ends before face " + std::to_string(number) + " of " + std::to_string(faces_));
+  }
+  const std::uint64_t count = count_of(word, "the number of a face's corners");
+  corners_.clear();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    corners_.push_back(read_corner(number));
+  }
+  numbers_.clear();
+  read_rest_of_line();
+  if (count < 3) {
+    ++thin_;
+    return;
+  }
+  mesh_.add_face(corners_);
+  if (const auto color = off_color(0)) {
+    mesh_.face_colors.resize(mesh_.faces.ends.size(), no_off_color);
+    mesh_.face_colors.back() = *color;
+  }
+}
+
+void make_light(std::vector<Color>& colors, std::size_t count) {
+  if (!colors.empty()) {
+    colors.resize(count, no_off_color);
+  }
+  const double full = full_light(colors);
+  for (Color& color : colors) {
+    color = color == no_off_color ? colour_of_none : linear_color(color, full);
+  }
+}
+
+PolygonFile OffReader::read() {
+  read_header();
+  mesh_.vertices.reserve(std::min(vertices_, room()));
+  for (std::uint64_t i = 0; i < vertices_; ++i) {
+    read_vertex(i);
+    progress_.show(words_.position());
+  }
+  mesh_.faces.ends.reserve(std::min(faces_, room()));
+  for (std::uint64_t i = 0; i < faces_; ++i) {
+    read_face(i);
+    progress_.show(words_.position());
+  }
+  PolygonFile file;
+  const auto note = [&file](const std::string& what, std::uint64_t count) {
+    if (count > 0) {
+      file.notes.push_back(what + ": " + grouped(count));
+    }
+  };
+  note("points and lines left out", thin_);
+  note("colours by their number in a map, which are not shown", from_map_);
+  note("colours whose alpha is not shown", see_through_);
+  const std::string_view rest = words_.next();
+  note("bytes behind the last face, which are not looked at", rest.empty() ? 0 : bytes_ - words_.position() + rest.size());
+  if (!mesh_.colors.empty() && !mesh_.face_colors.empty()) {
+    note("colours of vertices, which are not shown beside those of faces", std::exchange(mesh_.colors, {}).size());
+  }
+  make_light(mesh_.colors, mesh_.vertices.size());
+  make_light(mesh_.face_colors, mesh_.faces.ends.size());
+  const bool has_colors = !mesh_.colors.empty() || !mesh_.face_colors.empty();
+  file.materials = {{has_colors ? plain_material({1, 1, 1}) : plain_material(), {}}};
+  add_meshes(std::move(mesh_), file);
+  return file;
+}
+
+}  // namespace
+
+PolygonFile read_off(const std::string& path, SceneFiles& files) {
+  const std::unique_ptr<FileBytes> bytes = files.open(path);
+  const std::string_view file(reinterpret_cast<const char*>(bytes->bytes().data()), bytes->bytes().size());
+  ReadingProgress progress(files, file.size());
+  PolygonFile result = OffReader(without_mark(file), progress).read();
+  check_has_faces(result);
+  return result;
+}
+
+}  // namespace dmpc::apps

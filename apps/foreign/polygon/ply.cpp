@@ -1,0 +1,365 @@
+#include "apps/foreign/polygon/ply.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
+#include "apps/edge/system/byte_order_mark.h"
+#include "apps/foreign/polygon/indexed_mesh.h"
+#include "apps/foreign/polygon/ply_header.h"
+#include "apps/foreign/polygon/ply_row.h"
+#include "apps/foreign/polygon/ply_surfaces.h"
+#include "apps/foreign/polygon/ply_values.h"
+#include "apps/foreign/polygon/reading_progress.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+using enum PlyRole;
+
+/// Of a face that says none, until all are read.
+constexpr Color no_ply_color = {-1, -1, -1};
+
+/// What is counted on the way, and said in the end.
+struct PlyCounts {
+  std::uint64_t thin = 0, see_through = 0, materials_of_none = 0, textures_of_none = 0;
+};
+
+Color row_color(const PlyRow& row) {
+  return {static_cast<float>(row[red]), static_cast<float>(row[green]), static_cast<float>(row[blue])};
+}
+
+/// Of a channel; 0 if the type does not say it.
+double full_light_of(PlyType type) {
+  constexpr double byte_max = 255;
+  return !is_whole(type) ? 0 : type == PlyType::uint16 ? most_of(type) : byte_max;
+}
+
+bool is_see_through(const PlyRow& row) {
+  const double full = row.has(alpha) ? full_light_of(row.type_of(alpha)) : 0;
+  return row.has(alpha) && row[alpha] < (full > 0 ? full : 1);
+}
+
+void note_count(std::vector<std::string>& notes, const std::string& what, std::uint64_t count) {
+  if (count > 0) {
+    notes.push_back(what + ": " + grouped(count));
+  }
+}
+
+class PlyReader {
+ public:
+  PlyReader(std::string_view file, ReadingProgress& progress)
+      : progress_(progress), header_(read_ply_header(file)), values_(ply_values(header_, file)), surfaces_(header_.textures) {}
+
+  PolygonFile read();
+
+ private:
+  template <class Take>
+  void for_each(const PlyElement& element, PlyRow& row, const Take& take);
+  void read_element(const PlyElement& element);
+  void read_vertices(const PlyElement& element);
+  void set_precision(const PlyRow& row);
+  void take_vertex(const PlyRow& row, bool has_normals, bool has_places);
+  void read_faces(const PlyElement& element);
+  void take_face(const PlyRow& row, std::uint64_t number);
+  void take_corner_places(const PlyRow& row, std::uint64_t number);
+  std::uint32_t surface_of(const PlyRow& row, std::uint64_t number);
+  void set_face_color(const Color& color);
+  void read_strips(const PlyElement& element);
+  void take_strip(const PlyRow& row, std::uint64_t number);
+  void read_materials(const PlyElement& element);
+  void skip(const PlyElement& element);
+  std::uint32_t vertex_of(double index, const std::string& what) const;
+  void finish_faces();
+  void finish_colors();
+  bool is_textured() const;
+  void note_all();
+  [[noreturn]] void fail(const std::string& what) const { throw core::InputError(values_->place() + ": " + what); }
+
+  ReadingProgress& progress_;
+  PlyHeader header_;
+  std::unique_ptr<PlyValues> values_;
+  PlySurfaces surfaces_;
+  IndexedMesh mesh_{.name = "the mesh"};
+  PlyCounts counts_;
+  std::vector<std::string> notes_;
+  std::vector<std::uint32_t> corners_;
+  std::uint64_t vertex_count_ = 0;
+  bool has_materials_ = false;
+  double coordinate_rounding_ = 0, vertex_light_ = 0, face_light_ = 0;
+};
+
+template <class Take>
+void PlyReader::for_each(const PlyElement& element, PlyRow& row, const Take& take) {
+  std::uint64_t number = 0;
+  try {
+    for (; number < element.count && !element.properties.empty(); ++number) {
+      row.read();
+      take(number);
+      progress_.show(values_->position());
+    }
+  } catch (const PlyIsShort&) {
+    throw core::InputError("the file is cut short: it ends within element '" + clipped(element.name, 40) + "' " +
+                           std::to_string(number + 1) + " of " + std::to_string(element.count));
+  }
+}
+
+void PlyReader::set_precision(const PlyRow& row) {
+  const auto is_float = [&row](PlyRole role) { return row.type_of(role) == PlyType::float32; };
+  const bool is_rounded = header_.format != PlyFormat::text && (is_float(x) || is_float(y) || is_float(z));
+  coordinate_rounding_ = is_rounded ? 0x1p-25 : 0;
+}
+
+void PlyReader::take_vertex(const PlyRow& row, bool has_normals, bool has_places) {
+  mesh_.vertices.push_back({row[x], row[y], row[z]});
+  if (has_normals) {
+    mesh_.normals.push_back({row[normal_x], row[normal_y], row[normal_z]});
+  }
+  if (has_places) {
+    mesh_.places.push_back({static_cast<float>(row[s]), 1 - static_cast<float>(row[t])});
+  }
+}
+
+void PlyReader::read_vertices(const PlyElement& element) {
+  PlyRow row(element, *values_, true);
+  if (!row.has_all({x, y, z})) {
+    throw core::InputError("the element 'vertex' has no properties x, y and z; expected all three");
+  }
+  set_precision(row);
+  const bool has_normals = row.has_all({normal_x, normal_y, normal_z}), has_places = row.has_all({s, t}),
+             has_colors = row.has_all({red, green, blue});
+  vertex_light_ = has_colors ? full_light_of(row.type_of(red)) : 0;
+  const std::uint64_t room = std::min(element.count, values_->room_for(element));
+  mesh_.vertices.reserve(room);
+  mesh_.normals.reserve(has_normals ? room : 0);
+  mesh_.places.reserve(has_places ? room : 0);
+  mesh_.colors.reserve(has_colors ? room : 0);
+  for_each(element, row, [&](std::uint64_t /*number*/) {
+    take_vertex(row, has_normals, has_places);
+    if (has_colors) {
+      mesh_.colors.push_back(row_color(row));
+      counts_.see_through += is_see_through(row) ? 1 : 0;
+    }
+  });
+}
+
+std::uint32_t PlyReader::vertex_of(double index, const std::string& what) const {
+  if (!(index >= 0 && index < static_cast<double>(vertex_count_) && std::floor(index) >= index)) {
+    fail(what + " has a vertex that does not exist, " + rounded(index) + ": there are " + std::to_string(vertex_count_) +
+         "; correct the file");
+  }
+  return static_cast<std::uint32_t>(index);
+}
+
+/// Faces that have none are plain.
+void PlyReader::take_corner_places(const PlyRow& row, std::uint64_t number) {
+  const std::vector<double>& places = row.corner_places();
+  const std::size_t corners = row.corners().size();
+  if (!places.empty() && places.size() != 2 * corners) {
+    fail("face " + std::to_string(number) + " has " + std::to_string(places.size()) + " numbers of texcoord, expected " +
+         std::to_string(2 * corners) + ", two for each corner");
+  }
+  mesh_.corner_places.resize(mesh_.faces.corners.size() - (places.empty() ? 0 : corners));
+  for (std::size_t i = 0; i < places.size(); i += 2) {
+    mesh_.corner_places.push_back({static_cast<float>(places[i]), 1 - static_cast<float>(places[i + 1])});
+  }
+}
+
+std::uint32_t PlyReader::surface_of(const PlyRow& row, std::uint64_t number) {
+  const double of_material = row.has(material) && has_materials_ ? row[material] : 0,
+               of_texture = row.has(texture) ? row[texture] : 0;
+  const auto textures = static_cast<double>(surfaces_.texture_count());
+  counts_.materials_of_none += row.has(material) && !has_materials_ ? 1 : 0;
+  counts_.textures_of_none += row.has(texture) && of_texture >= 0 && textures == 0 ? 1 : 0;
+  const bool is_textured = textures > 0 && of_texture >= 0 && !(row.has(corner_places) && row.corner_places().empty());
+  if (is_textured && !(of_texture < textures)) {
+    fail("face " + std::to_string(number) + " has texture " + rounded(of_texture) + ", which does not exist: there are " +
+         rounded(textures));
+  }
+  if (!(of_material >= 0 && of_material < 0x1p32)) {
+    fail("face " + std::to_string(number) + " has material " + rounded(of_material) + "; expected a number from 0");
+  }
+  const auto chosen = is_textured ? std::optional(static_cast<std::uint32_t>(of_texture)) : std::nullopt;
+  return surfaces_.find(static_cast<std::uint32_t>(of_material), chosen);
+}
+
+/// Of the last face; those before it that have none stay without.
+void PlyReader::set_face_color(const Color& color) {
+  mesh_.face_colors.resize(mesh_.faces.ends.size(), no_ply_color);
+  mesh_.face_colors.back() = color;
+}
+
+void PlyReader::take_face(const PlyRow& row, std::uint64_t number) {
+  if (row.corners().size() < 3) {
+    ++counts_.thin;
+    return;
+  }
+  corners_.clear();
+  for (const double index : row.corners()) {
+    corners_.push_back(vertex_of(index, "face " + std::to_string(number)));
+  }
+  mesh_.add_face(corners_);
+  mesh_.face_materials.push_back(surface_of(row, number));
+  if (row.has(corner_places)) {
+    take_corner_places(row, number);
+  }
+  if (row.has_all({red, green, blue})) {
+    set_face_color(row_color(row));
+    counts_.see_through += is_see_through(row) ? 1 : 0;
+  }
+}
+
+void PlyReader::read_faces(const PlyElement& element) {
+  PlyRow row(element, *values_, true);
+  if (!row.has(corners) && element.count > 0) {
+    throw core::InputError("the element 'face' has no list vertex_indices or vertex_index; expected one");
+  }
+  face_light_ = row.has_all({red, green, blue}) ? full_light_of(row.type_of(red)) : 0;
+  const std::uint64_t room = std::min(element.count, values_->room_for(element));
+  mesh_.faces.ends.reserve(room);
+  mesh_.faces.corners.reserve(3 * room);
+  mesh_.face_materials.reserve(room);
+  for_each(element, row, [&](std::uint64_t number) { take_face(row, number); });
+}
+
+/// Stanford's: a vertex more is a triangle more, every second one turned; -1 begins anew. Triangles without area only join
+/// strips.
+void PlyReader::take_strip(const PlyRow& row, std::uint64_t number) {
+  const std::string what = "strip " + std::to_string(number);
+  const bool has_texture = surfaces_.texture_count() > 0 && !mesh_.places.empty();
+  const std::uint32_t surface = surfaces_.find(0, has_texture ? std::optional(0U) : std::nullopt);
+  corners_.clear();
+  for (const double index : row.corners()) {
+    if (index == -1) {
+      corners_.clear();
+      continue;
+    }
+    corners_.push_back(vertex_of(index, what));
+    const std::size_t count = corners_.size();
+    if (count < 3) {
+      continue;
+    }
+    const std::uint32_t c = corners_[count - 1], b = corners_[count - 2], a = corners_[count - 3];
+    if (a != b && b != c && c != a) {
+      mesh_.add_face(count % 2 == 1 ? std::array{a, b, c} : std::array{b, a, c});
+      mesh_.face_materials.push_back(surface);
+    }
+  }
+}
+
+void PlyReader::read_strips(const PlyElement& element) {
+  PlyRow row(element, *values_, true);
+  if (!row.has(corners) && element.count > 0) {
+    throw core::InputError("the element 'tristrips' has no list vertex_indices or vertex_index; expected one");
+  }
+  for_each(element, row, [&](std::uint64_t number) { take_strip(row, number); });
+}
+
+void PlyReader::read_materials(const PlyElement& element) {
+  PlyRow row(element, *values_, true);
+  for_each(element, row, [&](std::uint64_t /*number*/) { surfaces_.add_material(row); });
+}
+
+void PlyReader::skip(const PlyElement& element) {
+  PlyRow row(element, *values_, false);
+  for_each(element, row, [](std::uint64_t /*number*/) {});
+  note_count(notes_, "elements '" + clipped(element.name, 40) + "', which are not shown", element.count);
+}
+
+void PlyReader::read_element(const PlyElement& element) {
+  if (element.name == "vertex") {
+    read_vertices(element);
+  } else if (element.name == "face") {
+    read_faces(element);
+  } else if (element.name == "tristrips") {
+    read_strips(element);
+  } else if (element.name == "material") {
+    read_materials(element);
+  } else {
+    skip(element);
+  }
+}
+
+bool PlyReader::is_textured() const {
+  return surfaces_.texture_count() > 0 && !(mesh_.places.empty() && mesh_.corner_places.empty());
+}
+
+/// What some of the faces have, all have.
+void PlyReader::finish_faces() {
+  if (!mesh_.face_colors.empty()) {
+    mesh_.face_colors.resize(mesh_.faces.ends.size(), no_ply_color);
+  }
+  if (!mesh_.corner_places.empty()) {
+    mesh_.corner_places.resize(mesh_.faces.corners.size());
+  }
+}
+
+/// One kind of colours is shown: a texture's, else the vertices', else the faces'.
+void PlyReader::finish_colors() {
+  const bool has_both = !mesh_.colors.empty() && !mesh_.face_colors.empty();
+  note_count(notes_, "colours of faces, which are not shown beside those of vertices", has_both ? mesh_.face_colors.size() : 0);
+  if (has_both) {
+    mesh_.face_colors = {};
+  }
+  if (is_textured()) {
+    note_count(notes_, "colours that are not shown beside textures", mesh_.colors.size() + mesh_.face_colors.size());
+    mesh_.colors = {};
+    mesh_.face_colors = {};
+  }
+  const auto light = [](double full, const std::vector<Color>& colors) { return full > 0 ? full : apps::full_light(colors); };
+  make_linear(mesh_.colors, light(vertex_light_, mesh_.colors));
+  const double full = light(face_light_, mesh_.face_colors);
+  for (Color& color : mesh_.face_colors) {
+    color = color == no_ply_color ? colour_of_none : linear_color(color, full);
+  }
+}
+
+void PlyReader::note_all() {
+  note_count(notes_, "points and lines left out", counts_.thin);
+  note_count(notes_, "colours whose alpha is not shown", counts_.see_through);
+  note_count(notes_, "faces with a material, of which the file has none", counts_.materials_of_none);
+  note_count(notes_, "faces with the number of a texture, of which the file names none", counts_.textures_of_none);
+  note_count(notes_, "textures that are not shown, since the mesh has no texture coordinates",
+             is_textured() ? 0 : surfaces_.texture_count());
+  note_count(notes_, "bytes behind the last element, which are not looked at", values_->count_rest());
+}
+
+PolygonFile PlyReader::read() {
+  bool has_vertices = false;
+  for (const PlyElement& element : header_.elements) {
+    if (element.name == "vertex" && std::exchange(has_vertices, true)) {
+      throw core::InputError("the header has the element 'vertex' twice; expected it once");
+    }
+    vertex_count_ += element.name == "vertex" ? element.count : 0;
+    has_materials_ = has_materials_ || (element.name == "material" && element.count > 0);
+  }
+  for (const PlyElement& element : header_.elements) {
+    read_element(element);
+  }
+  finish_faces();
+  note_all();
+  finish_colors();
+  PolygonFile file{.materials = surfaces_.materials(!mesh_.colors.empty() || !mesh_.face_colors.empty()),
+                   .notes = std::move(header_.notes),
+                   .coordinate_rounding = coordinate_rounding_};
+  file.notes.insert(file.notes.end(), notes_.begin(), notes_.end());
+  add_meshes(std::move(mesh_), file);
+  return file;
+}
+
+}  // namespace
+
+PolygonFile read_ply(const std::string& path, SceneFiles& files) {
+  const std::unique_ptr<FileBytes> bytes = files.open(path);
+  const std::string_view file(reinterpret_cast<const char*>(bytes->bytes().data()), bytes->bytes().size());
+  ReadingProgress progress(files, file.size());
+  PolygonFile result = PlyReader(without_mark(file), progress).read();
+  check_has_faces(result);
+  return result;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,17 @@
+// PLY (G. Turk 1994), in text and in binary.
+#pragma once
+
+#include <string>
+
+#include "apps/foreign/mesh/polygon_file.h"
+#include "apps/foreign/mesh/scene_files.h"
+
+namespace dmpc::apps {
+
+/// The vertices and faces of the file are one mesh, whose faces may have materials (`element material`, `material_index`),
+/// textures (`comment TextureFile`, `texnumber`), places on these and colours; strips of triangles (`tristrips`) are faces, too.
+/// Elements and properties come in any order. Numbers in text are read as doubles, whatever type they have. Throws
+/// core::InputError, with the line or byte.
+PolygonFile read_ply(const std::string& path, SceneFiles& files);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,203 @@
+#include "apps/foreign/polygon/ply_values.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
+#include "apps/foreign/polygon/text_words.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+bool is_whole_number(double value, double least, double most) {
+  return value >= least && value <= most && std::floor(value) >= value;
+}
+
+class TextValues final : public PlyValues {
+ public:
+  TextValues(std::string_view body, std::size_t first_line) : words_(body, first_line), bytes_(body.size()) {}
+
+  void begin_element() override;
+  double next(PlyType type) override;
+  std::uint64_t next_length(PlyType count_type, PlyType type) override;
+  void skip(PlyType type, std::uint64_t count) override;
+  std::uint64_t room_for(const PlyElement& element) const override {
+    return left() / std::max<std::size_t>(2 * element.properties.size(), 1) + 1;
+  }
+  std::uint64_t count_rest() override;
+  std::size_t position() const override { return words_.position(); }
+  std::string place() const override { return "line " + std::to_string(words_.line()); }
+
+ private:
+  std::uint64_t left() const { return bytes_ - words_.position(); }
+  /// A comment is none.
+  std::string_view word();
+
+  TextWords words_;
+  std::size_t bytes_;
+};
+
+std::string_view TextValues::word() {
+  std::string_view word = words_.next();
+  while (word == "comment") {
+    words_.rest_of_line();
+    word = words_.next();
+  }
+  return word;
+}
+
+void TextValues::begin_element() {
+  const std::string_view more = words_.position() == 0 ? "" : words_.next_in_line();
+  if (more == "comment") {
+    words_.rest_of_line();
+  } else if (!more.empty()) {
+    words_.fail("found '" + clipped(more, 40) + "', expected no more values: each element begins a line");
+  }
+}
+
+double TextValues::next(PlyType type) {
+  const std::string_view found = word();
+  if (found.empty()) {
+    throw PlyIsShort{};
+  }
+  const auto value = decimal_of(found);
+  if (!value) {
+    words_.fail_at(found, "a number");
+  }
+  if (is_whole(type) && !is_whole_number(*value, least_of(type), most_of(type))) {
+    words_.fail_at(found,
+                   "a whole number from " + rounded(least_of(type)) + " to " + rounded(most_of(type)) + ", as the header says");
+  }
+  return *value;
+}
+
+std::uint64_t TextValues::next_length(PlyType /*count_type*/, PlyType /*type*/) {
+  const std::string_view found = word();
+  if (found.empty()) {
+    throw PlyIsShort{};
+  }
+  const auto length = decimal_of(found);
+  if (!length || !is_whole_number(*length, 0, 0x1p32)) {
+    words_.fail_at(found, "the length of a list");
+  }
+  if (*length > static_cast<double>(left() / 2 + 1)) {
+    throw PlyIsShort{};
+  }
+  return static_cast<std::uint64_t>(*length);
+}
+
+void TextValues::skip(PlyType /*type*/, std::uint64_t count) {
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (word().empty()) {
+      throw PlyIsShort{};
+    }
+  }
+}
+
+std::uint64_t TextValues::count_rest() {
+  const std::string_view first = word();
+  return first.empty() ? 0 : left() + first.size();
+}
+
+class BinaryValues final : public PlyValues {
+ public:
+  BinaryValues(std::string_view file, std::size_t begin, bool is_big_endian)
+      : file_(file), begin_(begin), at_(begin), is_swapped_(is_big_endian == (std::endian::native == std::endian::little)) {}
+
+  void begin_element() override {}
+  double next(PlyType type) override;
+  std::uint64_t next_length(PlyType count_type, PlyType type) override;
+  void skip(PlyType type, std::uint64_t count) override;
+  std::uint64_t room_for(const PlyElement& element) const override;
+  std::uint64_t count_rest() override { return left(); }
+  std::size_t position() const override { return at_ - begin_; }
+  std::string place() const override { return "byte " + std::to_string(at_); }
+
+ private:
+  std::uint64_t left() const { return file_.size() - at_; }
+  template <class T>
+  T take();
+
+  std::string_view file_;
+  std::size_t begin_, at_;
+  bool is_swapped_;
+};
+
+template <class T>
+T BinaryValues::take() {
+  if (left() < sizeof(T)) {
+    throw PlyIsShort{};
+  }
+  std::array<char, sizeof(T)> bytes{};
+  std::memcpy(bytes.data(), file_.data() + at_, sizeof(T));
+  if (is_swapped_) {
+    std::reverse(bytes.begin(), bytes.end());
+  }
+  at_ += sizeof(T);
+  return std::bit_cast<T>(bytes);
+}
+
+double BinaryValues::next(PlyType type) {
+  switch (type) {
+    case PlyType::int8:
+      return take<std::int8_t>();
+    case PlyType::uint8:
+      return take<std::uint8_t>();
+    case PlyType::int16:
+      return take<std::int16_t>();
+    case PlyType::uint16:
+      return take<std::uint16_t>();
+    case PlyType::int32:
+      return take<std::int32_t>();
+    case PlyType::uint32:
+      return take<std::uint32_t>();
+    case PlyType::float32:
+      return double{take<float>()};
+    case PlyType::float64:
+      return take<double>();
+  }
+  core::expect(false, "a value has one of PLY's types");
+  return 0;
+}
+
+std::uint64_t BinaryValues::next_length(PlyType count_type, PlyType type) {
+  const double length = next(count_type);
+  if (!is_whole_number(length, 0, 0x1p32)) {
+    throw core::InputError(place() + ": found " + rounded(length) + ", expected the length of a list");
+  }
+  if (length > static_cast<double>(left() / bytes_of(type))) {
+    throw PlyIsShort{};
+  }
+  return static_cast<std::uint64_t>(length);
+}
+
+void BinaryValues::skip(PlyType type, std::uint64_t count) {
+  if (count > left() / bytes_of(type)) {
+    throw PlyIsShort{};
+  }
+  at_ += count * bytes_of(type);
+}
+
+std::uint64_t BinaryValues::room_for(const PlyElement& element) const {
+  std::uint64_t bytes = 0;
+  for (const PlyProperty& property : element.properties) {
+    bytes += bytes_of(property.count_type.value_or(property.type));
+  }
+  return left() / std::max<std::uint64_t>(bytes, 1);
+}
+
+}  // namespace
+
+std::unique_ptr<PlyValues> ply_values(const PlyHeader& header, std::string_view file) {
+  if (header.format == PlyFormat::text) {
+    return std::make_unique<TextValues>(file.substr(header.bytes), header.lines + 1);
+  }
+  return std::make_unique<BinaryValues>(file, header.bytes, header.format == PlyFormat::big_endian);
+}
+
+}  // namespace dmpc::apps

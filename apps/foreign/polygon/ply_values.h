@@ -1,0 +1,43 @@
+// The values of a PLY file's body, one after the other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "apps/foreign/polygon/ply_header.h"
+
+namespace dmpc::apps {
+
+/// The body ends within an element.
+struct PlyIsShort {};
+
+class PlyValues {
+ public:
+  virtual ~PlyValues() = default;
+
+  /// An element begins. In text it begins a line; its values may go on in others.
+  virtual void begin_element() = 0;
+  /// Throws PlyIsShort at the end, core::InputError, with the place, for what is no value of the type.
+  virtual double next(PlyType type) = 0;
+  /// Of a list whose values are of `type`: no more than there are bytes for. Throws as next() does.
+  virtual std::uint64_t next_length(PlyType count_type, PlyType type) = 0;
+  /// Passes over so many.
+  virtual void skip(PlyType type, std::uint64_t count) = 0;
+
+  /// How many of these there are bytes for, at most.
+  virtual std::uint64_t room_for(const PlyElement& element) const = 0;
+  /// What follows the last element, in bytes.
+  virtual std::uint64_t count_rest() = 0;
+  /// How many bytes of the body are read.
+  virtual std::size_t position() const = 0;
+  /// "line 7" or "byte 1234", of the last value.
+  virtual std::string place() const = 0;
+};
+
+/// `file` outlives it.
+std::unique_ptr<PlyValues> ply_values(const PlyHeader& header, std::string_view file);
+
+}  // namespace dmpc::apps

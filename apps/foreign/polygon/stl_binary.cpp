@@ -1,0 +1,152 @@
+#include "apps/foreign/polygon/stl_binary.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/foreign/polygon/indexed_mesh.h"
+#include "apps/foreign/polygon/plain_material.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr std::size_t header_bytes = 80, facet_bytes = 50, facets_begin = header_bytes + sizeof(std::uint32_t);
+
+/// As it lies there, least byte first.
+template <class T>
+T value_at(std::string_view file, std::size_t place) {
+  static_assert(std::endian::native == std::endian::little);
+  T value;
+  std::memcpy(&value, file.data() + place, sizeof value);
+  return value;
+}
+
+class StlBinaryReader {
+ public:
+  StlBinaryReader(std::string_view file, ReadingProgress& progress)
+      : file_(file), progress_(progress), whole_color_(color_in(file.substr(0, header_bytes))) {}
+
+  PolygonFile read();
+
+ private:
+  /// What the header says of the whole.
+  std::optional<Color> color_in(std::string_view header);
+  std::size_t count_facets();
+  void read_facet(std::size_t facet);
+  std::optional<Color> color_of(std::uint16_t attribute) const;
+  void set_color(const Color& color);
+
+  std::string_view file_;
+  ReadingProgress& progress_;
+  std::vector<std::string> notes_;
+  std::optional<Color> whole_color_;
+  IndexedMesh mesh_{.name = "the solid"};
+  std::uint64_t coloured_ = 0;
+};
+
+std::optional<Color> StlBinaryReader::color_in(std::string_view header) {
+  constexpr std::string_view key = "COLOR=";
+  constexpr std::size_t channels = 4;
+  const std::size_t place = header.find(key);
+  if (place == std::string_view::npos || place + key.size() + channels > header.size()) {
+    return std::nullopt;
+  }
+  if (header.find("MATERIAL=") != std::string_view::npos) {
+    notes_.emplace_back("the header's MATERIAL=, which is not shown");
+  }
+  std::array<std::uint8_t, channels> bytes{};
+  std::memcpy(bytes.data(), header.data() + place + key.size(), channels);
+  return linear_color({static_cast<float>(bytes[0]), static_cast<float>(bytes[1]), static_cast<float>(bytes[2])}, 255);
+}
+
+std::size_t StlBinaryReader::count_facets() {
+  if (file_.size() < facets_begin) {
+    throw core::InputError("is no STL: it neither begins with 'solid' nor has the 84 bytes with which binary ones begin");
+  }
+  const std::size_t count = value_at<std::uint32_t>(file_, header_bytes), bytes = file_.size() - facets_begin;
+  const std::size_t room = bytes / facet_bytes;
+  if (room < count) {
+    throw core::InputError("the file is cut short: it has room for " + std::to_string(room) + " facets, and says that it has " +
+                           std::to_string(count));
+  }
+  if (count == 0 && room > 0 && bytes % facet_bytes == 0) {
+    notes_.push_back("says that it has no facets; by its length it has these: " + grouped(std::uint64_t{room}));
+    return room;
+  }
+  if (bytes > count * facet_bytes) {
+    notes_.push_back("bytes behind the last facet, which are not looked at: " +
+                     grouped(std::uint64_t{bytes - count * facet_bytes}));
+  }
+  return count;
+}
+
+std::optional<Color> StlBinaryReader::color_of(std::uint16_t attribute) const {
+  constexpr unsigned mark = 0x8000U, mask = 31;
+  const bool is_own = whole_color_ ? attribute != 0 && (attribute & mark) == 0 : (attribute & mark) != 0;
+  if (!is_own) {
+    return std::nullopt;
+  }
+  const auto low = static_cast<float>(attribute & mask), middle = static_cast<float>(attribute >> 5U & mask),
+             high = static_cast<float>(attribute >> 10U & mask);
+  return linear_color(whole_color_ ? Color{low, middle, high} : Color{high, middle, low}, mask);
+}
+
+/// Of the last facet; those before it that have none get that of the whole.
+void StlBinaryReader::set_color(const Color& color) {
+  ++coloured_;
+  mesh_.face_colors.resize(mesh_.faces.ends.size(), whole_color_.value_or(colour_of_none));
+  mesh_.face_colors.back() = color;
+}
+
+void StlBinaryReader::read_facet(std::size_t facet) {
+  constexpr std::size_t normal_bytes = 12;
+  const std::size_t begin = facets_begin + facet * facet_bytes;
+  const auto corners = value_at<std::array<std::array<float, 3>, 3>>(file_, begin + normal_bytes);
+  const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+  for (const auto& [x, y, z] : corners) {
+    mesh_.vertices.push_back({double{x}, double{y}, double{z}});
+  }
+  mesh_.add_face(std::array{first, first + 1, first + 2});
+  if (const auto color = color_of(value_at<std::uint16_t>(file_, begin + facet_bytes - sizeof(std::uint16_t)))) {
+    set_color(*color);
+  }
+}
+
+PolygonFile StlBinaryReader::read() {
+  const std::size_t count = count_facets();
+  mesh_.vertices.reserve(3 * count);
+  mesh_.faces.corners.reserve(3 * count);
+  mesh_.faces.ends.reserve(count);
+  for (std::size_t facet = 0; facet < count; ++facet) {
+    read_facet(facet);
+    progress_.show(facet * facet_bytes);
+  }
+  core::Material material = plain_material();
+  if (coloured_ > 0) {
+    notes_.push_back("facets that have the colour of their attribute: " + grouped(coloured_));
+    mesh_.face_colors.resize(count, whole_color_.value_or(colour_of_none));
+    material.color = {1, 1, 1};
+  } else if (whole_color_) {
+    material.color = {double{(*whole_color_)[0]}, double{(*whole_color_)[1]}, double{(*whole_color_)[2]}};
+  }
+  PolygonFile file{.materials = {{material, {}}}, .notes = std::move(notes_), .coordinate_rounding = 0x1p-25};
+  add_meshes(std::move(mesh_), file);
+  return file;
+}
+
+}  // namespace
+
+bool is_whole_stl_binary(std::string_view file) {
+  return file.size() >= facets_begin &&
+         file.size() == facets_begin + facet_bytes * std::size_t{value_at<std::uint32_t>(file, header_bytes)};
+}
+
+PolygonFile read_stl_binary(std::string_view file, ReadingProgress& progress) { return StlBinaryReader(file, progress).read(); }
+
+}  // namespace dmpc::apps

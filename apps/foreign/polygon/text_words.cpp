@@ -1,0 +1,98 @@
+#include "apps/foreign/polygon/text_words.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "apps/edge/line/shown_text.h"
+#include "apps/foreign/mesh/trimmed.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+bool is_blank(char letter) { return letter == ' ' || letter == '\t' || letter == '\v' || letter == '\f'; }
+bool ends_line(char letter) { return letter == '\n' || letter == '\r'; }
+
+/// Whether a number that no double holds is one too small.
+bool is_tiny(std::string_view word) {
+  const std::size_t exponent = word.find_first_of("eE");
+  return exponent == std::string_view::npos || word.substr(exponent + 1).starts_with('-');
+}
+
+}  // namespace
+
+void TextWords::skip_blanks() {
+  while (at_ < text_.size() && is_blank(text_[at_])) {
+    ++at_;
+  }
+  if (at_ < text_.size() && is_at_remark()) {
+    at_ = std::min(text_.find_first_of("\r\n", at_), text_.size());
+  }
+}
+
+void TextWords::skip_line_end() {
+  at_ += text_.substr(at_, 2) == "\r\n" ? 2 : 1;
+  ++line_;
+}
+
+std::string_view TextWords::word() {
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && !is_blank(text_[at_]) && !ends_line(text_[at_]) && !is_at_remark()) {
+    ++at_;
+  }
+  return text_.substr(begin, at_ - begin);
+}
+
+std::string_view TextWords::next() {
+  for (skip_blanks(); at_ < text_.size() && ends_line(text_[at_]); skip_blanks()) {
+    skip_line_end();
+  }
+  return word();
+}
+
+std::string_view TextWords::next_in_line() {
+  skip_blanks();
+  return word();
+}
+
+std::string_view TextWords::rest_of_line() {
+  const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
+  const std::string_view rest = text_.substr(at_, end - at_);
+  at_ = end;
+  return trimmed(rest);
+}
+
+void TextWords::fail(const std::string& what) const { throw core::InputError("line " + std::to_string(line_) + ": " + what); }
+
+void TextWords::fail_at(std::string_view word, const std::string& expected) const {
+  fail((word.empty() ? "the file ends" : "found '" + clipped(word, 40) + "'") + ", expected " + expected);
+}
+
+double TextWords::number(const std::string& what) {
+  const std::string_view word = next();
+  const std::optional<double> value = decimal_of(word);
+  if (!value) {
+    fail_at(word, what);
+  }
+  return *value;
+}
+
+std::optional<double> decimal_of(std::string_view word) {
+  if (word.starts_with('+')) {
+    word.remove_prefix(1);
+    if (word.starts_with('-')) {
+      return std::nullopt;
+    }
+  }
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const bool is_whole = end == word.data() + word.size() && !word.empty();
+  if (is_whole && error == std::errc::result_out_of_range && is_tiny(word)) {
+    return 0;
+  }
+  return is_whole && error == std::errc{} && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,90 @@
+// OFF, by our own reader.
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/support/read_mesh.h"
+
+namespace dmpc::apps::off_test {
+
+using core::Vec3d;
+using tests::contains;
+using tests::mesh_refusal;
+using tests::notes;
+using tests::read_mesh;
+
+namespace {
+
+const std::string vertices = "0 0 0\n2 0 0\n0 1 0\n";
+const std::vector<Vec3d> triangle = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}};
+
+/// What is said of a face that ends so.
+std::string face_refusal(const std::string& face) { return mesh_refusal("a.off", "OFF\n3 1 0\n" + vertices + face); }
+
+MeshFile read_face(const std::string& face) { return read_mesh("a.off", "OFF\n3 1 0\n" + vertices + face); }
+
+Vec3d color_of_object(const MeshFile& file, std::size_t object) { return tests::material_of_object(file, object).color; }
+
+}  // namespace
+
+TEST_CASE("an OFF file may count behind its first word, leave edges and that word out, and have remarks anywhere") {
+  for (const std::string begin :
+       {"OFF\n3 1 0\n", "OFF 3 1 0\n", "OFF # a\n\n# b\n 3 1\n", "3 1 0\n", "\xef\xbb\xbfOFF\r\n3 1 0\r\n"}) {
+    CAPTURE(begin);
+    const MeshFile file = read_mesh("a.off", begin + "0 0 0 # the first\n2 0\n0\n# c\n0 1 0\n#d\n3 0 1 2#e\n# end");
+    CHECK(file.scene.vertices == triangle);
+    CHECK(file.notes.size() == 1);
+  }
+}
+
+TEST_CASE("OFF files in binary and of other dimensions are refused by name") {
+  CHECK(contains(mesh_refusal("a.off", "OFF BINARY\n123"), "line 1: OFF in binary is not read"));
+  CHECK(contains(mesh_refusal("a.off", "4OFF\n3 1 0\n"), "line 1: '4OFF' has vertices of other than three coordinates"));
+  CHECK(contains(mesh_refusal("a.off", "nOFF\n3\n3 1 0\n"), "'nOFF' has vertices of other than three coordinates"));
+  CHECK(contains(mesh_refusal("a.off", "solid"), "line 1: found 'solid', expected OFF"));
+}
+
+TEST_CASE("a face of OFF has its colour, of 255 or of 1, and with alpha, which is said") {
+  CHECK(color_of_object(read_face("3 0 1 2 255 0 0\n"), 0) == Vec3d{1, 0, 0});
+  CHECK(color_of_object(read_face("3 0 1 2 0 1 0\n"), 0) == Vec3d{0, 1, 0});
+  CHECK(color_of_object(read_face("3 0 1 2 0.0 0.0 1.0 1.0\n"), 0) == Vec3d{0, 0, 1});
+  CHECK(color_of_object(read_face("3 0 1 2 0 188 0 128\n"), 0).y == doctest::Approx(0.502886).epsilon(1e-5));
+  CHECK(notes(read_face("3 0 1 2 0 188 0 128\n"), "colours whose alpha is not shown: 1"));
+  CHECK(notes(read_face("3 0 1 2 7\n"), "colours by their number in a map, which are not shown: 1"));
+}
+
+TEST_CASE("faces of OFF of few colours have materials, those without one stay grey") {
+  const MeshFile file = read_mesh("a.off", "OFF\n4 2 0\n" + vertices + "0 0 1\n3 0 1 2 255 0 0\n3 0 1 3\n");
+  CHECK(color_of_object(file, 0) == Vec3d{1, 0, 0});
+  CHECK(color_of_object(file, 1).x == doctest::Approx(0.6));
+}
+
+TEST_CASE("normals of NOFF are shown, texture coordinates of STOFF are not, of which OFF names no texture") {
+  const std::string text = "STNOFF 3 1 0\n0 0 0 0 0 1 0 0\n2 0 0 0 1 1 1 0\n0 1 0 0 0 1 0 1\n3 0 1 2\n";
+  const MeshFile file = read_mesh("a.off", text);
+  CHECK(file.scene.objects.at(0).kind == core::ObjectKind::patch);
+  CHECK(contains(mesh_refusal("a.off", "STOFF 3 1 0\n" + vertices + "3 0 1 2\n"), "vertex 0 has no texture coordinates"));
+}
+
+TEST_CASE("what is wrong in OFF is refused with its line") {
+  CHECK(contains(face_refusal("3 0 1 3\n"), "line 6: face 0 has a vertex that does not exist, 3: there are 3"));
+  CHECK(contains(face_refusal("3 0 1 -1\n"), "line 6: face 0 has a vertex that does not exist, -1"));
+  CHECK(contains(face_refusal("3 0 1\n"), "the file is cut short: it ends within face 0 of 1"));
+  CHECK(contains(face_refusal("3 0 1 2 1 2\n"), "line 6: there are 2 numbers of a colour; expected 3 or 4"));
+  CHECK(contains(face_refusal("3 0 1 2 1 2 300\n"), "line 6: a colour has 300"));
+  CHECK(contains(face_refusal("3 0 1 2x\n"), "line 6: found '2x', expected the number of a vertex"));
+  CHECK(contains(face_refusal("4294967295 0 1 2\n"), "the file is cut short"));
+  CHECK(contains(mesh_refusal("a.off", "OFF\n353535235358 6 0\n0 0 0\n"), "line 2: the file is cut short: it says that it has"));
+  CHECK(contains(mesh_refusal("a.off", "OFF\n3 0 0\n" + vertices), "there is no mesh in it"));
+}
+
+TEST_CASE("points and lines of OFF, and what stands behind its last face, are said") {
+  const MeshFile file = read_mesh("a.off", "OFF\n3 3 0\n" + vertices + "1 0\n3 0 1 2\n2 0 1\nmore");
+  CHECK(file.scene.objects.size() == 1);
+  CHECK(notes(file, "points and lines left out: 2"));
+  CHECK(notes(file, "bytes behind the last face, which are not looked at: 4"));
+}
+
+}  // namespace dmpc::apps::off_test

@@ -1,0 +1,251 @@
+// PLY in text and in binary, by our own reader.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/foreign/polygon/ply_header.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/read_mesh.h"
+
+namespace dmpc::apps::ply_test {
+
+using core::Vec3d;
+using tests::contains;
+using tests::mesh_refusal;
+using tests::notes;
+using tests::read_mesh;
+
+namespace {
+
+const std::vector<Vec3d> triangle = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}};
+
+std::string with(std::string text, const std::string& part, const std::string& other) {
+  return text.replace(text.find(part), part.size(), other);
+}
+
+/// With these properties of vertices and faces and these bodies of three vertices and of faces.
+struct Ply {
+  std::string vertex_properties = "property float x\nproperty float y\nproperty float z\n";
+  std::string vertices = "0 0 0\n2 0 0\n0 1 0\n";
+  std::string face_properties = "property list uchar int vertex_indices\n";
+  std::string faces = "3 0 1 2\n";
+  std::string more_header, more_body;
+  int face_count = 1;
+
+  std::string text() const {
+    return "ply\nformat ascii 1.0\nelement vertex 3\n" + vertex_properties + "element face " + std::to_string(face_count) + "\n" +
+           face_properties + more_header + "end_header\n" + vertices + faces + more_body;
+  }
+};
+
+template <class T>
+std::string swapped(T value) {
+  std::string bytes = tests::bytes_of(value);
+  std::reverse(bytes.begin(), bytes.end());
+  return bytes;
+}
+
+/// The triangle in binary, with coordinates of this type.
+template <class T>
+std::string binary(const std::string& type, bool is_big) {
+  std::string file = "ply\nformat " + std::string(is_big ? "binary_big_endian" : "binary_little_endian") +
+                     " 1.0\nelement face 1\n" + "property list int16 uint vertex_index\nproperty uint8 flags\nelement vertex 3\n";
+  for (const char* name : {"x", "y", "z"}) {
+    file += "property " + type + " " + name + "\nproperty list uint8 double unknown_" + name + "\n";
+  }
+  file += "end_header\n";
+  const auto add = [&](auto value) { file += is_big ? swapped(value) : tests::bytes_of(value); };
+  add(std::int16_t{3});
+  for (const std::uint32_t vertex : {0U, 1U, 2U}) {
+    add(vertex);
+  }
+  add(std::uint8_t{7});
+  for (const float corner : tests::triangle_corners) {
+    add(static_cast<T>(corner));
+    add(std::uint8_t{1});
+    add(double{0.5});
+  }
+  return file;
+}
+
+Vec3d color_of_object(const MeshFile& file, std::size_t object) { return tests::material_of_object(file, object).color; }
+
+const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+
+}  // namespace
+
+TEST_CASE("a PLY file is the same in text and in both orders of bytes, of any types, elements in any order") {
+  for (const bool is_big : {false, true}) {
+    CHECK(read_mesh("a.ply", binary<float>("float", is_big)).scene.vertices == triangle);
+    CHECK(read_mesh("a.ply", binary<double>("float64", is_big)).scene.vertices == triangle);
+    CHECK(read_mesh("a.ply", binary<std::int8_t>("char", is_big)).scene.vertices == triangle);
+    CHECK(read_mesh("a.ply", binary<std::uint16_t>("ushort", is_big)).scene.vertices == triangle);
+    CHECK(read_mesh("a.ply", binary<std::int32_t>("int32", is_big)).scene.vertices == triangle);
+  }
+  CHECK(read_mesh("a.ply", Ply{}.text()).scene.vertices == triangle);
+  CHECK(read_mesh("a.ply", with(Ply{}.text(), "2 0 0\n", "2\r\n\r\n0 0 comment\ncomment 9\n")).scene.vertices == triangle);
+}
+
+TEST_CASE("coordinates of PLY are doubles in text, whatever type they have, and rounded in binary only where they are floats") {
+  const MeshFile file = read_mesh("a.ply", with(Ply{}.text(), "2 0 0", "5412345.25 0 0"));
+  CHECK(file.scene.vertices.at(1).x == 5412345.25);
+  CHECK(file.scene.coordinate_rounding == 0);
+  CHECK(read_mesh("a.ply", binary<double>("double", false)).scene.coordinate_rounding == 0);
+  CHECK(read_mesh("a.ply", binary<float>("float", false)).scene.coordinate_rounding == 0x1p-25);
+}
+
+TEST_CASE("faces of PLY have their colours, in materials of their own where these are few") {
+  const Ply few{.face_properties = colors + "property list uchar int vertex_indices\n",
+                .faces = "255 0 0 3 0 1 2\n0 0 255 3 2 1 0\n",
+                .face_count = 2};
+  const MeshFile file = read_mesh("a.ply", few.text());
+  CHECK(color_of_object(file, 0) == Vec3d{1, 0, 0});
+  CHECK(color_of_object(file, 1) == Vec3d{0, 0, 1});
+  Ply many{.face_properties = few.face_properties, .faces = "", .face_count = 65};
+  for (int i = 0; i < many.face_count; ++i) {
+    many.faces += std::to_string(i) + " 0 0 3 0 1 2\n";
+  }
+  const MeshFile spread = read_mesh("a.ply", many.text());
+  CHECK(spread.scene.objects.size() == 65);
+  CHECK(spread.scene.materials.size() == 1);
+}
+
+TEST_CASE("colours of PLY are a screen's, of the largest number of their type, of floats 1") {
+  const std::string list = "property list uchar int vertex_indices\n";
+  const auto color = [&](const std::string& type, const std::string& value) {
+    std::string properties;
+    for (const char* name : {"red", "green", "blue"}) {
+      properties += "property " + type + " " + name + "\n";
+    }
+    const Ply file{.face_properties = list + properties, .faces = "3 0 1 2 " + value + " 0 0\n"};
+    return color_of_object(read_mesh("a.ply", file.text()), 0).x;
+  };
+  CHECK(color("uchar", "128") == doctest::Approx(0.2158605).epsilon(1e-6));
+  CHECK(color("ushort", "32896") == doctest::Approx(0.2158605).epsilon(1e-6));
+  CHECK(color("float", "0.5") == doctest::Approx(0.2140411).epsilon(1e-6));
+  CHECK(color("float", "255") == 1);
+}
+
+TEST_CASE("where vertices and faces of PLY have colours the vertices' are shown, and this is said") {
+  const Ply both{.vertex_properties = Ply{}.vertex_properties + colors,
+                 .vertices = "0 0 0 9 9 9\n2 0 0 9 9 9\n0 1 0 9 9 9\n",
+                 .face_properties = Ply{}.face_properties + colors,
+                 .faces = "3 0 1 2 255 255 255\n"};
+  CHECK(notes(read_mesh("a.ply", both.text()), "colours of faces, which are not shown beside those of vertices: 1"));
+}
+
+TEST_CASE("strips of PLY are faces, beside faces") {
+  const Ply file{.more_header = "element tristrips 1\nproperty list int int vertex_indices\n",
+                 .more_body = "8 0 1 2 2 1 -1 2 1\n"};
+  CHECK(read_mesh("a.ply", file.text()).scene.objects.size() == 2);
+  const Ply alone{.faces = "", .more_header = file.more_header, .more_body = "4 0 1 2 2\n", .face_count = 0};
+  CHECK(read_mesh("a.ply", alone.text()).scene.objects.size() == 1);
+}
+
+TEST_CASE("faces of PLY have the materials that they name") {
+  const std::string materials =
+      "element material 2\nproperty uchar diffuse_red\nproperty uchar diffuse_green\nproperty uchar diffuse_blue\n";
+  const Ply file{.face_properties = "property list uchar int vertex_indices\nproperty int material_index\n",
+                 .faces = "3 0 1 2 1\n3 0 1 2 0\n",
+                 .more_header = materials,
+                 .more_body = "255 0 0\n0 255 0\n",
+                 .face_count = 2};
+  const MeshFile scene = read_mesh("a.ply", file.text());
+  CHECK(std::count_if(scene.scene.materials.begin(), scene.scene.materials.end(), [](const core::Material& material) {
+          return material.color == Vec3d{0, 1, 0};
+        }) == 1);
+  CHECK(contains(mesh_refusal("a.ply", with(file.text(), "3 0 1 2 1", "3 0 1 2 5")),
+                 "a face has material 5, which does not exist"));
+  const Ply none{.face_properties = file.face_properties, .faces = "3 0 1 2 5\n"};
+  CHECK(notes(read_mesh("a.ply", none.text()), "faces with a material, of which the file has none: 1"));
+}
+
+TEST_CASE("a texture of PLY is looked for, and without coordinates for it that is said") {
+  const std::string named = with(Ply{}.text(), "element vertex", "comment TextureFile a b.png\nelement vertex");
+  const MeshFile file = read_mesh("a.ply", named, {.allows_missing = true});
+  CHECK(notes(file, "textures that are not shown, since the mesh has no texture coordinates: 1"));
+  const std::string placed = with(with(named, "property float z\n", "property float z\nproperty float s\nproperty float t\n"),
+                                  "0 0 0\n2 0 0\n0 1 0\n", "0 0 0 0 0\n2 0 0 1 0\n0 1 0 0 1\n");
+  CHECK(contains(mesh_refusal("a.ply", placed), "a b.png"));
+  const std::string wedges = with(with(named, "vertex_indices\n", "vertex_indices\nproperty list uchar float texcoord\n"),
+                                  "3 0 1 2\n", "3 0 1 2 6 0 0 1 0 0 1\n");
+  CHECK(contains(mesh_refusal("a.ply", wedges), "a b.png"));
+  CHECK(contains(mesh_refusal("a.ply", with(wedges, "6 0 0 1 0 0 1", "5 0 0 1 0 0")),
+                 "face 0 has 5 numbers of texcoord, expected 6, two for each corner"));
+}
+
+TEST_CASE("what of PLY is not shown is said with a count") {
+  const Ply file{.vertex_properties = Ply{}.vertex_properties + colors + "property uchar alpha\nproperty float quality\n",
+                 .vertices = "0 0 0 9 9 9 255 1\n2 0 0 9 9 9 7 1\n0 1 0 9 9 9 255 1\n",
+                 .faces = "3 0 1 2\n2 0 1\n",
+                 .more_header = "element edge 2\nproperty int vertex1\nproperty int vertex2\n",
+                 .more_body = "0 1\n1 2\nmore\n",
+                 .face_count = 2};
+  const MeshFile scene = read_mesh("a.ply", with(file.text(), "format", "made by me\nformat"));
+  for (const char* what :
+       {"points and lines left out: 1", "colours whose alpha is not shown: 1", "elements 'edge', which are not shown: 2",
+        "bytes behind the last element, which are not looked at: 5", "which are passed over: 1, such as line 2, 'made by me'"}) {
+    CHECK_MESSAGE(notes(scene, what), what);
+  }
+}
+
+TEST_CASE("what is wrong in PLY is refused with its line or byte") {
+  const std::string whole = Ply{}.text();
+  CHECK(contains(mesh_refusal("a.ply", with(whole, "2 0 0", "2 1x 0")), "line 11: found '1x', expected a number"));
+  CHECK(contains(mesh_refusal("a.ply", with(whole, "2 0 0", "2 0 0 7")), "line 11: found '7', expected no more values"));
+  CHECK(
+      contains(mesh_refusal("a.ply", with(whole, "3 0 1 2", "3 0 1 1.5")), "line 13: found '1.5', expected a whole number from"));
+  CHECK(contains(mesh_refusal("a.ply", with(whole, "3 0 1 2", "3 0 1 -1")),
+                 "line 13: face 0 has a vertex that does not exist, -1"));
+  CHECK(
+      contains(mesh_refusal("a.ply", with(whole, "3 0 1 2", "-3 0 1 2")), "line 13: found '-3', expected the length of a list"));
+  std::string bytes = binary<float>("float", false);
+  bytes.replace(bytes.find("end_header\n") + 13, 1, "\x07");
+  CHECK(contains(mesh_refusal("a.ply", bytes), ": face 0 has a vertex that does not exist, 7: there are 3"));
+  CHECK(contains(mesh_refusal("a.ply", bytes), "a.ply: byte "));
+  CHECK(contains(mesh_refusal("a.ply", with(whole, "element face", "element vertex 3\nelement face")), "'vertex' twice"));
+  CHECK(contains(mesh_refusal("a.ply", with(whole, "property float z", "property float w")), "no properties x, y and z"));
+  CHECK(contains(mesh_refusal("a.ply", with(whole, "float z", "list int float z")), "'z' of the element 'vertex' is a list"));
+  CHECK(contains(mesh_refusal("a.ply", with(whole, "vertex_indices", "corners")), "no list vertex_indices or vertex_index"));
+  CHECK(contains(mesh_refusal("a.ply", with(with(whole, "face 1", "face 0"), "3 0 1 2\n", "")), "there is no mesh in it"));
+}
+
+TEST_CASE("a PLY file cut within its header is refused at once, wherever it is cut") {
+  const std::string header = tests::triangle_ply.substr(0, tests::triangle_ply.find("end_header") + 10);
+  for (std::size_t length = 0; length <= header.size(); ++length) {
+    CHECK_THROWS_AS(read_ply_header(header.substr(0, length)), core::InputError);
+  }
+  CHECK(contains(mesh_refusal("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nprop"),
+                 "a.ply: line 4: the file ends within its header"));
+  CHECK(contains(mesh_refusal("a.ply", "ply\nelement vertex three\n"), "line 2: expected 'element NAME COUNT'"));
+  CHECK(contains(mesh_refusal("a.ply", "ply\nelement vertex 3\nproperty real x\n"), "line 3: expected 'property TYPE NAME'"));
+  read_ply_header("ply\nformat ascii 1.0\nCreated by somebody\ncomment b\nobj_info c\nend_header\n");
+}
+
+TEST_CASE("a PLY file cut within its body is refused with what it ends in") {
+  const std::string& whole = tests::triangle_ply;
+  CHECK(contains(mesh_refusal("a.ply", whole.substr(0, whole.find("3 0 1 2") + 5)), "it ends within element 'face' 1 of 1"));
+  CHECK(contains(mesh_refusal("a.ply", whole.substr(0, whole.find("0 1 0"))), "it ends within element 'vertex' 3 of 3"));
+  const std::string bytes = binary<float>("float", true);
+  CHECK(contains(mesh_refusal("a.ply", bytes.substr(0, bytes.size() - 1)), "it ends within element 'vertex' 3 of 3"));
+  CHECK(
+      contains(mesh_refusal("a.ply", bytes.substr(0, bytes.find("end_header\n") + 20)), "it ends within element 'face' 1 of 1"));
+}
+
+TEST_CASE("what a PLY header promises and its bytes cannot hold is refused before room is made for it") {
+  const std::string begin = "ply\nformat binary_little_endian 1.0\n";
+  const std::string floats = "property float x\nproperty float y\nproperty float z\n";
+  CHECK(contains(mesh_refusal("a.ply", begin + "element vertex 4000000000\n" + floats + "end_header\nabc"),
+                 "it ends within element 'vertex' 1 of 4000000000"));
+  CHECK(contains(
+      mesh_refusal("a.ply", begin + "element a 18446744073709551615\nproperty list uint double i\nend_header\n\xff\xff\xff\xff"),
+      "it ends within element 'a' 1 of 18446744073709551615"));
+  CHECK(contains(mesh_refusal("a.ply", begin + "element a 18446744073709551615\nend_header\n"), "there is no mesh in it"));
+}
+
+}  // namespace dmpc::apps::ply_test

@@ -1,0 +1,42 @@
+// Mesh files that tests write and have read.
+#pragma once
+
+#include <string>
+
+#include "apps/formats/mesh_file.h"
+#include "core/base/expect.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests {
+
+inline apps::MeshFile read_mesh(const std::string& name, const std::string& text, const apps::MeshOptions& options = {}) {
+  const TemporaryFolder folder;
+  write_text(folder / name, text);
+  return apps::read_mesh_file(folder / name, options);
+}
+
+/// What is said of a file that is refused; empty if it is read.
+inline std::string mesh_refusal(const std::string& name, const std::string& text) {
+  try {
+    read_mesh(name, text);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+inline bool notes(const apps::MeshFile& file, const std::string& what) {
+  for (const std::string& note : file.notes) {
+    if (contains(note, what)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+inline const core::Material& material_of_object(const apps::MeshFile& file, std::size_t object) {
+  return file.scene.materials[file.scene.objects.at(object).material];
+}
+
+}  // namespace dmpc::tests
