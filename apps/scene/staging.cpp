@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/option_values.h"
@@ -17,6 +18,8 @@ using core::Vec3d;
 constexpr const char* camera_form = "FROM/AT[/UP[/DEGREES]] with points such as 1,2,3";
 constexpr const char* light_form = "X,Y,Z[/R,G,B] with numbers, coordinates from -1e30 to 1e30, none of the colour below 0";
 constexpr const char* number_form = "a number above 0, at most 1e30";
+constexpr const char* color_form = "R,G,B such as 0.1,0.1,0.2, or one number for all three, each from 0 to 1e30";
+constexpr double intensity_max = 1e30;
 
 [[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& expected) {
   throw core::UsageError(option + "=" + text + ": expected " + expected);
@@ -64,6 +67,49 @@ double parse_scale(const std::string& text) {
 double parse_smooth(const std::string& text) {
   const double degrees = finite_number(text);
   return degrees >= 0 && degrees <= 180 ? degrees : (refuse("--smooth", text, "degrees from 0 to 180"), 0);
+}
+
+double parse_intensity(const std::string& text) {
+  const double intensity = finite_number(text);
+  return intensity >= 0 && intensity <= intensity_max ? intensity : (refuse("--fill", text, "a number from 0 to 1e30"), 0);
+}
+
+Vec3d parse_color(const std::string& option, const std::string& text) {
+  const bool is_grey = text.find(',') == std::string::npos;
+  const auto color = parse_vector(is_grey ? text + "," + text + "," + text : text);
+  if (!color || std::min({color->x, color->y, color->z}) < 0 || largest_component(*color) > intensity_max) {
+    refuse(option, text, color_form);
+  }
+  return *color;
+}
+
+/// Lights without a colour, which share what one would have, keep what they have without the fill.
+void add_fill(double intensity, core::Scene& scene) {
+  std::vector<core::PointLight> lights;
+  for (const core::PointLight& light : scene.lights) {
+    lights.push_back({light.position, core::intensity_of(light, scene), true});
+  }
+  lights.push_back({scene.view.from, {intensity, intensity, intensity}, true});
+  scene.lights = std::move(lights);
+}
+
+void add_light_options(OptionSet& options, Staging& staging) {
+  options.add_texts(
+      "--light", "X,Y,Z[/R,G,B] [the scene's]",
+      [&staging](const std::string& text) { staging.lights.push_back(parse_light(text)); },
+      "A point light in place of the scene's; give it again for more. Without a colour it is as bright as NFF's");
+  options.add_text(
+      "--fill", "INTENSITY [none]", [&staging](const std::string& text) { staging.fill = parse_intensity(text); },
+      "A white light in the eye, beside all others, so that what they do not reach is not black: 0.3 is what a mesh without "
+      "lights is given, 1 is as bright as a light alone");
+  options.add_text(
+      "--ambient", "R,G,B|GREY [0]", [&staging](const std::string& text) { staging.ambient = parse_color("--ambient", text); },
+      "Light from everywhere, which nothing shadows: each surface shows its diffuse colour times this, beside what lights show. "
+      "0.1 is faint, 1 shows colours as they are");
+  options.add_text(
+      "--background", "R,G,B|GREY [the scene's]",
+      [&staging](const std::string& text) { staging.background = parse_color("--background", text); },
+      "The colour of what no ray meets, linear: 0 is black, 1 is white");
 }
 
 }  // namespace
@@ -120,10 +166,7 @@ void add_options(OptionSet options, Staging& staging) {
       "--camera", "FROM/AT[/UP[/DEGREES]] [the scene's]",
       [&staging](const std::string& text) { staging.camera = parse_camera(text); },
       "From where and at what to look, such as 1,2,3/0,0,0/0,1,0/45");
-  options.add_texts(
-      "--light", "X,Y,Z[/R,G,B] [the scene's]",
-      [&staging](const std::string& text) { staging.lights.push_back(parse_light(text)); },
-      "A point light in place of the scene's; give it again for more. Without a colour it is as bright as NFF's");
+  add_light_options(options, staging);
   options.add_text(
       "--scale", "S [1]", [&staging](const std::string& text) { staging.mesh.scale = parse_scale(text); },
       "Mesh files: multiply all coordinates by S");
@@ -160,6 +203,11 @@ void apply(const Staging& staging, core::Scene& scene) {
   if (!staging.lights.empty()) {
     scene.lights = staging.lights;
   }
+  if (staging.fill.value_or(0) > 0) {
+    add_fill(*staging.fill, scene);
+  }
+  scene.ambient = staging.ambient.value_or(scene.ambient);
+  scene.background = staging.background.value_or(scene.background);
 }
 
 }  // namespace dmpc::apps

@@ -20,11 +20,17 @@ struct CameraChoice {
 
 struct Staging {
   std::optional<CameraChoice> camera;
-  std::vector<core::PointLight> lights;  ///< in place of the scene's, unless there are none
-  MeshOptions mesh;                      ///< for mesh files alone
+  std::vector<core::PointLight> lights;   ///< in place of the scene's, unless there are none
+  std::optional<double> fill;             ///< the intensity of a white light in the eye, beside all others; 0 or more
+  std::optional<core::Vec3d> ambient;     ///< core::Scene::ambient; each channel 0 or more
+  std::optional<core::Vec3d> background;  ///< in place of the scene's; each channel 0 or more
+  MeshOptions mesh;                       ///< for mesh files alone
+
+  /// The scene is seen and lit as it says itself.
+  bool is_as_scene() const { return !camera && lights.empty() && !fill && !ambient && !background; }
 };
 
-/// Declares --camera, --light, --scale, --up, --smooth, --missing, --files and --sandbox.
+/// Declares --camera, --light, --fill, --ambient, --background, --scale, --up, --smooth, --missing, --files and --sandbox.
 void add_options(OptionSet options, Staging& staging);
 
 /// "FROM/AT[/UP[/DEGREES]]", "1,2,3/0,0,0/0,1,0/45". Throws core::UsageError for anything else, or for a view that shows nothing.
@@ -39,7 +45,8 @@ std::string text_of(const core::PointLight& light);
 /// "1,2,3", with the very numbers.
 std::string text_of(const core::Vec3d& vector);
 
-/// Gives the scene the camera and the lights. Throws core::UsageError if the scene's own up does not go with the camera.
+/// Gives the scene the camera, the lights and the background. A fill leaves the other lights as bright as they are. Throws
+/// core::UsageError if the scene's own up does not go with the camera.
 void apply(const Staging& staging, core::Scene& scene);
 
 }  // namespace dmpc::apps
