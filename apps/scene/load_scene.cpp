@@ -127,9 +127,10 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   if (opened != nullptr) {
     opened->add(read);
   }
-  apply(picture.staging, scene);
+  const SceneKind kind = is_mesh(picture.scene) ? SceneKind::mesh : SceneKind::own;
+  const std::string note = apply(picture.staging, scene, kind);
   if (notes == LoadNotes::said) {
-    say_once({is_mesh(picture.scene) ? shadow_note(picture.staging) : ""});
+    say_once({note, kind == SceneKind::mesh ? shadow_note(picture.staging) : ""});
     say_what_is_missing(scene);
   }
   return scene;

@@ -8,6 +8,7 @@
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/line/words.h"
 #include "apps/formats/view_faults.h"
+#include "apps/formats/whole_view.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -93,6 +94,35 @@ void add_fill(double intensity, core::Scene& scene) {
   scene.lights = std::move(lights);
 }
 
+/// Nothing is to be said.
+std::string look(const CameraChoice& camera, core::View& view) {
+  view.from = camera.from;
+  view.at = camera.at;
+  view.up = camera.up.value_or(view.up);
+  view.angle_degrees = camera.degrees.value_or(view.angle_degrees);
+  if (fault_of(view)) {
+    throw core::UsageError("--camera: the scene's own up is parallel to the line from FROM to AT: give UP, too");
+  }
+  return "";
+}
+
+/// The file's own camera has no share in it.
+std::string look_at_mesh(const Staging& staging, core::View& view) {
+  const CameraChoice& camera = *staging.camera;
+  const SceneAxes axes = axes_of(staging.mesh.up.value_or(UpAxis{}));
+  const Vec3d direction = camera.at - camera.from;
+  view.from = camera.from;
+  view.at = camera.at;
+  view.up = camera.up.value_or(axes.up);
+  view.angle_degrees = camera.degrees.value_or(core::View{}.angle_degrees);
+  if (fault_of(view) != ViewFault::up) {
+    return "";
+  }
+  view.up = dot(direction, axes.up) > 0 ? axes.front : Vec3d{} - axes.front;  // in which no zero is negative
+  return "--camera looks along the axis that points up: upwards in the picture is " + text_of(view.up) +
+         ", as by --camera=" + text_of(camera.from) + "/" + text_of(camera.at) + "/" + text_of(view.up);
+}
+
 void add_light_options(OptionSet& options, Staging& staging) {
   options.add_texts(
       "--light", "X,Y,Z[/R,G,B] [the scene's]",
@@ -165,7 +195,9 @@ void add_options(OptionSet options, Staging& staging) {
   options.add_text(
       "--camera", "FROM/AT[/UP[/DEGREES]] [the scene's]",
       [&staging](const std::string& text) { staging.camera = parse_camera(text); },
-      "From where and at what to look, such as 1,2,3/0,0,0/0,1,0/45");
+      "From where and at what to look, such as 1,2,3/0,0,0/0,1,0/45. Of a mesh UP is y, or what --up says, and DEGREES 45, "
+      "whatever "
+      "camera its file has");
   add_light_options(options, staging);
   options.add_text(
       "--scale", "S [1]", [&staging](const std::string& text) { staging.mesh.scale = parse_scale(text); },
@@ -175,7 +207,7 @@ void add_options(OptionSet options, Staging& staging) {
     axes.emplace_back(word, up_axis_of(word));
   }
   options.add_choice("--up", staging.mesh.up, axes, "y",
-                     "Mesh files: the axis that points up, such as --up=-z, for the view where the file has none");
+                     "Mesh files: the axis that points up, such as --up=-z, where the file has no camera or --camera no UP");
   options.add_text(
       "--smooth", "DEGREES [the file's normals]",
       [&staging](const std::string& text) { staging.mesh.smooth_degrees = parse_smooth(text); },
@@ -190,15 +222,10 @@ void add_options(OptionSet options, Staging& staging) {
   add_sandbox_option(options, staging.mesh.sandbox);
 }
 
-void apply(const Staging& staging, core::Scene& scene) {
+std::string apply(const Staging& staging, core::Scene& scene, SceneKind kind) {
+  std::string note;
   if (staging.camera) {
-    scene.view.from = staging.camera->from;
-    scene.view.at = staging.camera->at;
-    scene.view.up = staging.camera->up.value_or(scene.view.up);
-    scene.view.angle_degrees = staging.camera->degrees.value_or(scene.view.angle_degrees);
-    if (fault_of(scene.view)) {
-      throw core::UsageError("--camera: the scene's own up is parallel to the line from FROM to AT: give UP, too");
-    }
+    note = kind == SceneKind::mesh ? look_at_mesh(staging, scene.view) : look(*staging.camera, scene.view);
   }
   if (!staging.lights.empty()) {
     scene.lights = staging.lights;
@@ -208,6 +235,7 @@ void apply(const Staging& staging, core::Scene& scene) {
   }
   scene.ambient = staging.ambient.value_or(scene.ambient);
   scene.background = staging.background.value_or(scene.background);
+  return note;
 }
 
 }  // namespace dmpc::apps

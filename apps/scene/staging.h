@@ -1,6 +1,7 @@
 // How a scene is placed, seen and lit, where the command line has its own idea.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,8 +46,13 @@ std::string text_of(const core::PointLight& light);
 /// "1,2,3", with the very numbers.
 std::string text_of(const core::Vec3d& vector);
 
-/// Gives the scene the camera, the lights and the background. A fill leaves the other lights as bright as they are. Throws
-/// core::UsageError if the scene's own up does not go with the camera.
-void apply(const Staging& staging, core::Scene& scene);
+/// Whose a scene's own view is: its file's, or, of a mesh, that of a camera which may look from anywhere.
+enum class SceneKind : std::uint8_t { own, mesh };
+
+/// Gives the scene the camera, the lights and the background. What a camera leaves open stays the scene's; of a mesh up is what
+/// --up says, or, where that points along the line of sight, away from who stands in front, and the angle is 45 degrees. A fill
+/// leaves the other lights as bright as they are. Returns what is to be said of it, nothing as a rule. Throws core::UsageError if
+/// the scene's own up does not go with the camera.
+std::string apply(const Staging& staging, core::Scene& scene, SceneKind kind = SceneKind::own);
 
 }  // namespace dmpc::apps

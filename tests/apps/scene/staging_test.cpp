@@ -113,6 +113,29 @@ TEST_CASE("a camera replaces what it names of the scene's view, lights replace a
   CHECK(scene.lights.size() == 1);
 }
 
+TEST_CASE("a camera asked for of a mesh has nothing of the file's: up is y, or what --up says, and the angle 45 degrees") {
+  core::Scene scene{.view = {.from = {0, 9, 0}, .up = {0, 0, -1}, .angle_degrees = 20, .width = 64}};
+  CHECK(apply({.camera = parse_camera("0,0,5/0,0,0")}, scene, SceneKind::mesh).empty());
+  CHECK(scene.view.up == Vec3d{0, 1, 0});
+  CHECK(scene.view.angle_degrees == 45);
+  CHECK(apply({.camera = parse_camera("0,9,0/0,0,0"), .mesh = {.up = UpAxis{2}}}, scene, SceneKind::mesh).empty());
+  CHECK(scene.view.up == Vec3d{0, 0, 1});
+  CHECK(apply({.camera = parse_camera("0,0,5/0,0,0/1,0,0/30")}, scene, SceneKind::mesh).empty());
+  CHECK(scene.view.up == Vec3d{1, 0, 0});
+  CHECK(scene.view.angle_degrees == 30);
+}
+
+TEST_CASE("a camera along what is up of a mesh is turned as who stands in front and looks up or down, and says so") {
+  core::Scene scene;
+  CHECK(apply({.camera = parse_camera("0,5,0/0,0,0")}, scene, SceneKind::mesh) ==
+        "--camera looks along the axis that points up: upwards in the picture is 0,0,-1, as by --camera=0,5,0/0,0,0/0,0,-1");
+  CHECK(scene.view.up == Vec3d{0, 0, -1});
+  CHECK_FALSE(apply({.camera = parse_camera("0,0,0/0,5,0")}, scene, SceneKind::mesh).empty());
+  CHECK(scene.view.up == Vec3d{0, 0, 1});
+  CHECK_FALSE(apply({.camera = parse_camera("0,0,5/0,0,0"), .mesh = {.up = UpAxis{2}}}, scene, SceneKind::mesh).empty());
+  CHECK(scene.view.up == Vec3d{0, 1, 0});
+}
+
 TEST_CASE("a fill is one more light in the eye, and leaves the others as bright as they are") {
   core::Scene scene;
   scene.lights.resize(4);
