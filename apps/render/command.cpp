@@ -25,6 +25,7 @@
 #include "apps/render/film_notes.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/outputs.h"
+#include "apps/render/pass_progress.h"
 #include "apps/render/preview.h"
 #include "apps/render/ranks.h"
 #include "apps/render/self_test.h"
@@ -36,6 +37,7 @@
 #include "apps/show/summary.h"
 #include "apps/show/trace/file.h"
 #include "core/database/conversion.h"
+#include "core/picture/refinement.h"
 #include "nodes/ranks/life_signs.h"
 
 namespace dmpc::apps {
@@ -187,7 +189,10 @@ class Rendering {
     Stopwatch stopwatch;
     const ProcessorTime before = processor_time();
     Progress progress(std::cerr, !options_.quiet && stderr_is_terminal());
-    const auto update = [&progress](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
+    PassProgress passes(progress, continuation_.start != nullptr ? continuation_.start->passes : 1, core::passes_max);
+    const auto update = [this, &progress, &passes](std::uint32_t done, std::uint32_t total) {
+      options_.picture.is_refined ? passes.update(done, total) : progress.update(done, total);
+    };
     report_.emplace(ready_.start(update, interrupt_.token()));
     if (account_of(*report_).end != nodes::RunEnd::finished) {  // else the picture is done, and a signal comes too late for it
       interrupt_.check();
