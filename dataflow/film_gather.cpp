@@ -4,13 +4,14 @@
 
 namespace dmpc::dataflow {
 
-FilmGather::FilmGather(nodes::Node& node, std::uint32_t node_count, std::uint32_t credits)
-    : node_(&node), host_(nodes::NodeId{node_count}), room_(layout().in(node.memory()).data()) {
+FilmGather::FilmGather(nodes::Node& node, std::uint32_t node_count, std::uint32_t credits, std::uint32_t at_once)
+    : node_(&node), host_(nodes::NodeId{node_count}), room_(layout().in(node.memory()).data()), at_once_(at_once) {
+  core::expect(at_once >= 1 && at_once <= entries_at_once_max, "what may come at once has room in a packet");
   node.grant(host_, film_channel, credits);
 }
 
 void FilmGather::add(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {
-  core::expect(!waits(), "no light is gathered while a film packet waits");
+  core::expect(count_ < film_packet_entries, "no light is gathered while a film packet waits");
   ++counters_.deposits;
   if (FilmEntry* const entry = find(pixel, plane)) {
     counters_.saturated += core::add(entry->light, light) ? 1 : 0;

@@ -19,26 +19,30 @@ class FilmGather {
   struct OpenPacket;
 
  public:
+  static constexpr std::uint32_t entries_at_once_max = film_packet_entries;
+
   struct Counters {
     std::uint64_t deposits = 0;
     std::uint64_t entries = 0;    ///< sent
     std::uint64_t saturated = 0;  ///< deposits that saturated an entry's channel
   };
 
-  /// Takes `credits` for film packets to the host, node `node_count`.
-  FilmGather(nodes::Node& node, std::uint32_t node_count, std::uint32_t credits);
+  /// Takes `credits` for film packets to the host, node `node_count`. `at_once`: so many deposits may come in succession after
+  /// one look whether the packet waits; at least 1, at most entries_at_once_max.
+  FilmGather(nodes::Node& node, std::uint32_t node_count, std::uint32_t credits, std::uint32_t at_once = 1);
   /// What the constructor takes.
   static nodes::Room<OpenPacket> layout() { return {core::MemoryUse::film_tiles, 1}; }
 
-  /// Requires that the packet does not wait. Sends it if that fills it and a credit is left.
+  /// Requires that the packet did not wait before as many deposits as may come at once. Sends it if it has no room for as many
+  /// more and a credit is left.
   void add(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
   /// Sends what is there, full or not, if a credit is left.
   void flush();
   /// The host has taken a packet. Sends the one that waits.
   void acknowledged();
 
-  /// The packet is full and found no credit.
-  bool waits() const { return count_ == film_packet_entries; }
+  /// The packet is full, or has no room for what may come at once, and found no credit.
+  bool waits() const { return count_ + at_once_ > film_packet_entries; }
   /// Everything that was added has been sent and acknowledged.
   bool settled() const { return count_ == 0 && under_way_ == 0; }
   std::uint32_t gathered() const { return count_; }
@@ -59,6 +63,7 @@ class FilmGather {
   nodes::Node* node_;
   nodes::NodeId host_;
   OpenPacket* room_;
+  std::uint32_t at_once_;
   std::uint32_t count_ = 0;
   std::uint32_t under_way_ = 0;
   Counters counters_;

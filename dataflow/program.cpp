@@ -79,6 +79,13 @@ RaysTask make_task(nodes::Node& node, const Plan& plan) {
   }
 }
 
+/// A ray that ends leaves light once; hits that glow, which are shaded side by side, do so together.
+template <class RaysTask>
+std::uint32_t deposits_at_once(const core::DatabaseHeader& header) {
+  static_assert(RaysTask::rays_max < FilmGather::entries_at_once_max);
+  return core::hits_glow(header) ? RaysTask::rays_max : 1;
+}
+
 }  // namespace
 
 template <class RaysTask, class Units>
@@ -100,7 +107,7 @@ RayProgram<RaysTask, Units>::RayProgram(nodes::Node& node, const Plan& plan, con
       tested_objects_(plan.tested_objects()),
       task_(make_task<RaysTask>(node, plan)),
       gather_(node, gather_capacity(plan)),
-      film_(node, plan.node_count(), plan.film_credits),
+      film_(node, plan.node_count(), plan.film_credits, deposits_at_once<RaysTask>(deal.header)),
       backpressure_(plan.node_count() - 1, plan.queue_packets, !plan.request.rays.without_backpressure) {
   core::expect(RaysTask::rays_max == plan.rays_a_task, "a node's task is that of the plan");
 }
@@ -372,7 +379,9 @@ void RayProgram<RaysTask, Units>::leave_background(std::uint32_t pixel, std::uin
 template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::go_on() {
   if (!task_.has_rays() && !task_.has_ended()) {
-    task_.next_children(tracer_, constants_->settings, operations_, [this](const core::Ray& child) { shoot(child); });
+    task_.next_children(
+        tracer_, constants_->settings, operations_, [this](const core::Ray& child) { shoot(child); },
+        [this](const core::Ray& ray, const core::Color& light) { leave_light(ray, light); });
   }
   trace();
 }
@@ -492,8 +501,12 @@ template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::end_miss(const core::Ray& ray) {
   ++counters_.ended;
   const core::RenderSettings& settings = constants_->settings;
-  const core::Color found = ray.kind == core::RayKind::shadow ? ray.weight : ray.weight * settings.header.background;
-  const core::FixedColor light = core::to_fixed(found, settings.shade.film_scale);
+  leave_light(ray, ray.kind == core::RayKind::shadow ? ray.weight : ray.weight * settings.header.background);
+}
+
+template <class RaysTask, class Units>
+void RayProgram<RaysTask, Units>::leave_light(const core::Ray& ray, const core::Color& found) {
+  const core::FixedColor light = core::to_fixed(found, constants_->settings.shade.film_scale);
   if (light != core::FixedColor{}) {
     film_.add(ray.pixel, core::plane_of(ray.sample), light);
   }

@@ -129,6 +129,7 @@ class RayProgram final : public NodeProgram {
   void start_primaries();
   void start_primary();
   void leave_background(std::uint32_t pixel, std::uint32_t sample);
+  void leave_light(const core::Ray& ray, const core::Color& found);
   void go_on();
   void trace();
   void shoot(const core::Ray& ray);

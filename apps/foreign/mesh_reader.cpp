@@ -201,9 +201,9 @@ void add_geometry(core::Scene& scene, std::vector<PolygonMesh> meshes, const std
   check_has_area(writer);
 }
 
-std::string text_of(const core::Vec3d& point) { return rounded(point.x) + "," + rounded(point.y) + "," + rounded(point.z); }
+std::string text_of(const core::Vec3d& point) { return shortest(point.x) + "," + shortest(point.y) + "," + shortest(point.z); }
 
-/// The whole in view; says how, as a start for a camera of one's own.
+/// The whole in view; says how, to the last bit, as a start for a camera of one's own.
 core::View plain_view(const BoundingSphere& bounds, const MeshOptions& options, std::vector<std::string>& notes) {
   const core::View view = whole_view(bounds, options.up.value_or(UpAxis{}));
   notes.push_back("the whole is in view, as by --camera=" + text_of(view.from) + "/" + text_of(view.at) + "/" + text_of(view.up));

@@ -27,16 +27,16 @@ BoundingSphere sphere_around_vertices(const core::Scene& scene) {
   return bounds;
 }
 
-core::View whole_view(const BoundingSphere& bounds, const UpAxis& up) {
-  struct Frame {
-    Vec3d right, up, front;
-  };
-  static constexpr std::array<Frame, 3> frames = {
+SceneAxes axes_of(const UpAxis& up) {
+  static constexpr std::array<SceneAxes, 3> all = {
       {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}}};
-  Frame frame = frames[up.axis];
-  if (up.is_negative) {  // half a turn about the way to the front
-    frame = {Vec3d{} - frame.right, Vec3d{} - frame.up, frame.front};
-  }
+  const SceneAxes& axes = all[up.axis];
+  // Half a turn about the way to the front.
+  return up.is_negative ? SceneAxes{Vec3d{} - axes.right, Vec3d{} - axes.up, axes.front} : axes;
+}
+
+core::View whole_view(const BoundingSphere& bounds, const UpAxis& up) {
+  const SceneAxes frame = axes_of(up);
   core::View view{.at = bounds.center, .up = frame.up};
   const Vec3d towards_eye = normalize(frame.right * 0.6 + frame.up * 0.5 + frame.front);
   view.from = bounds.center + towards_eye * (bounds.radius / core::sin_degrees(view.angle_degrees / 2));

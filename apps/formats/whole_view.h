@@ -20,6 +20,12 @@ BoundingSphere sphere_around_vertices(const core::Scene& scene);
 /// Light grey-blue, linear: dark and bright surfaces stand out from it.
 inline constexpr core::Vec3d plain_background{0.45, 0.55, 0.7};
 
+/// The directions of a scene, of unit length: `front` is where it is looked at from.
+struct SceneAxes {
+  core::Vec3d right, up, front;
+};
+SceneAxes axes_of(const UpAxis& up);
+
 /// The whole sphere in a picture of 512x512 over 45 degrees, from a direction between front, right and above.
 core::View whole_view(const BoundingSphere& bounds, const UpAxis& up);
 

@@ -25,15 +25,19 @@
 #include "apps/render/film_notes.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/outputs.h"
+#include "apps/render/pass_progress.h"
 #include "apps/render/preview.h"
 #include "apps/render/ranks.h"
 #include "apps/render/self_test.h"
+#include "apps/render/unseen_note.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/show/stats/stats.h"
 #include "apps/show/summary.h"
 #include "apps/show/trace/file.h"
+#include "core/database/conversion.h"
+#include "core/picture/refinement.h"
 #include "nodes/ranks/life_signs.h"
 
 namespace dmpc::apps {
@@ -132,6 +136,8 @@ class Rendering {
       checkpoints_.emplace(options_.checkpoint, identity_of(options_, scene), std::cerr, options_.quiet, interrupt_.token(),
                            files_);
     }
+    bounds_ = core::bounds_of(scene, core::world_axes, core::Parallel(0));
+    up_ = is_mesh(options_.picture.scene) ? options_.picture.staging.mesh.up.value_or(UpAxis{}) : up_of(scene.view);
     scene_digest_ = options_.report ? std::optional(scene_digest(scene)) : std::nullopt;
     seconds_.load = stopwatch.lap();
     subject_.emplace(build_subject(std::move(scene), options_.picture, options_.database, true));
@@ -183,7 +189,10 @@ class Rendering {
     Stopwatch stopwatch;
     const ProcessorTime before = processor_time();
     Progress progress(std::cerr, !options_.quiet && stderr_is_terminal());
-    const auto update = [&progress](std::uint32_t done, std::uint32_t total) { progress.update(done, total); };
+    PassProgress passes(progress, continuation_.start != nullptr ? continuation_.start->passes : 1, core::passes_max);
+    const auto update = [this, &progress, &passes](std::uint32_t done, std::uint32_t total) {
+      options_.picture.is_refined ? passes.update(done, total) : progress.update(done, total);
+    };
     report_.emplace(ready_.start(update, interrupt_.token()));
     if (account_of(*report_).end != nodes::RunEnd::finished) {  // else the picture is done, and a signal comes too late for it
       interrupt_.check();
@@ -203,6 +212,7 @@ class Rendering {
     Attempts attempts(std::cerr);
     const bool is_written = attempts.make([&] { write_picture(film); });
     attempts.make([&] { say(film_notes(film, lit_in(account))); });
+    attempts.make([&] { say({sees_nothing(account) ? unseen_note(bounds_, up_) : ""}); });
     if (checkpoints_ && is_written) {
       attempts.make([&] { checkpoints_->finish(); });
     } else if (checkpoints_ && checkpoints_->has_one()) {
@@ -227,6 +237,11 @@ class Rendering {
     picture.commit();
     interrupt_.set_consequence("the picture was written, what follows it is incomplete");
     seconds_.write = stopwatch.lap();
+  }
+
+  /// No ray from the eye has met anything of a scene that has something.
+  bool sees_nothing(const Account& account) const {
+    return account.operations.primary_hits == 0 && samples_found_done() == 0 && !bounds_.empty();
   }
 
   /// Shadow rays that brought light, where none is shot that would not.
@@ -295,6 +310,8 @@ class Rendering {
   std::optional<FileLock> lock_;
   std::optional<Checkpoints> checkpoints_;
   std::optional<std::uint64_t> scene_digest_;  ///< if a page tells it
+  core::Box bounds_;                           ///< of the scene
+  UpAxis up_;                                  ///< of the scene, where a camera is advised
   std::optional<Subject> subject_;
   std::optional<Onlookers> onlookers_;
   std::unique_ptr<Preview> preview_;

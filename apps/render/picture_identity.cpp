@@ -79,6 +79,9 @@ std::string textures_text(const core::Scene& scene) {
 std::string lights_text(const core::Scene& scene) {
   Digest digest;
   add(digest, scene.background);
+  if (!(scene.ambient == core::Vec3d{})) {
+    add(digest, scene.ambient);
+  }
   for (const core::PointLight& light : scene.lights) {
     add(digest, light.position);
     add(digest, light.color);

@@ -152,6 +152,7 @@ bool counts_pages(const RenderOptions& render) {
 }
 
 void add_options(OptionSet options, RenderOptions& render) {
+  render.picture.refines_meshes = true;
   add_options(options, render.picture);
   options.add_required(
       "-o,--output", "IMAGE", [&render](const std::string& text) { render.image = text; },

@@ -31,13 +31,17 @@ WaitKinds waits_of(const svm::Report& report) {
   return {.data = asks ? "answer" : "page",
           .data_kinds = asks ? bits_of({Kind::questions, Kind::answers}) : bits_of({Kind::page_reply}),
           .work_kinds = bits_of({Kind::work_request, Kind::work_reply, Kind::mask_part, Kind::begin_pass}),
+          .film_kinds = bits_of({Kind::film_acknowledgement, Kind::mask_acknowledgement}),
           .end_kinds = bits_of({Kind::stop})};
 }
 WaitKinds waits_of(const dataflow::Report&) {
   using dataflow::Kind;
   return {.data = "ray",
           .data_kinds = bits_of({Kind::rays, Kind::forwarded}),
-          .work_kinds = bits_of({Kind::primaries}),
+          .work_kinds = bits_of({Kind::primaries, Kind::unit_refusal, Kind::unit_page, Kind::unit_primaries}),
+          .token_kinds = bits_of({Kind::token}),
+          .credit_kinds = bits_of({Kind::credits, Kind::ask, Kind::unused, Kind::hold, Kind::hold_acknowledgement}),
+          .film_kinds = bits_of({Kind::film_acknowledgement}),
           .end_kinds = bits_of({Kind::finish, Kind::stop})};
 }
 

@@ -21,7 +21,7 @@ namespace {
 void say_once(const std::vector<std::string>& notes) {
   static std::set<std::string> said;
   for (const std::string& note : notes) {
-    if (said.insert(note).second) {
+    if (!note.empty() && said.insert(note).second) {
       std::cerr << "dmpc: " << note << '\n';
     }
   }
@@ -31,7 +31,7 @@ void say_once(const std::vector<std::string>& notes) {
 void say_what_is_missing(const core::Scene& scene) {
   if (scene.objects.empty()) {
     say_once({scene.name + ": there is nothing in it: the picture shows the background alone"});
-  } else if (scene.lights.empty()) {
+  } else if (scene.lights.empty() && scene.ambient == core::Vec3d{}) {
     say_once({scene.name + ": no light is in it: what reflects none is black; --light=X,Y,Z adds one"});
   }
 }
@@ -85,15 +85,25 @@ core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int
                              : load_nff(scene, mesh.is_seen_otherwise, pixels_max, notes, opened);
 }
 
+/// What surprises who gives a mesh a light of their own.
+std::string shadow_note(const Staging& staging) {
+  const bool is_alone = !staging.lights.empty() && !staging.fill && !staging.ambient;
+  return is_alone
+             ? "what --light does not reach is black: --fill=0.3 adds a light in the eye, --ambient=0.1 light from everywhere"
+             : "";
+}
+
 void check_mesh_options(const std::string& scene, const MeshOptions& options) {
-  const bool is_mesh = !core::find_scene_name(scene) && is_mesh_path(scene);
-  if (!is_mesh && (options.scale || options.up || options.smooth_degrees || options.allows_missing || options.opens_anywhere)) {
+  if (!is_mesh(scene) &&
+      (options.scale || options.up || options.smooth_degrees || options.allows_missing || options.opens_anywhere)) {
     throw core::UsageError("--scale, --up, --smooth, --missing=plain and --files=anywhere go with mesh files (" +
                            known_mesh_formats() + "), and " + scene + " is none");
   }
 }
 
 }  // namespace
+
+bool is_mesh(const std::string& scene) { return !core::find_scene_name(scene) && is_mesh_path(scene); }
 
 core::Scene load_scene(const std::string& scene, std::int64_t pixels_max) {
   OpenedFiles opened;
@@ -117,8 +127,10 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   if (opened != nullptr) {
     opened->add(read);
   }
-  apply(picture.staging, scene);
+  const SceneKind kind = is_mesh(picture.scene) ? SceneKind::mesh : SceneKind::own;
+  const std::string note = apply(picture.staging, scene, kind);
   if (notes == LoadNotes::said) {
+    say_once({note, kind == SceneKind::mesh ? shadow_note(picture.staging) : ""});
     say_what_is_missing(scene);
   }
   return scene;

@@ -18,6 +18,9 @@ namespace dmpc::apps {
 /// mesh file is not shown as it is is said on stderr, once in a process.
 core::Scene load_scene(const std::string& scene, std::int64_t pixels_max = picture_pixels_max);
 
+/// Whether load_scene(scene) reads it as a mesh file.
+bool is_mesh(const std::string& scene);
+
 /// Adds the file that load_scene(scene) reads, if it reads one.
 void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/edge/line/option_values.h"
+#include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "core/picture/background.h"
 #include "core/picture/film_scale.h"
@@ -51,6 +52,13 @@ void apply_quality(const OptionSet& options, PictureOptions& picture) {
   }
 }
 
+void refine_mesh(const OptionSet& options, PictureOptions& picture) {
+  if (picture.refines_meshes && !options.is_given("--samples") && !picture.quality && is_mesh(picture.scene)) {
+    take_samples(picture, "auto");
+    picture.is_refined_unasked = !options.is_given("--error");
+  }
+}
+
 void check_refinement(const OptionSet& options, PictureOptions& picture) {
   for (const char* option : {"--error", "--samples-max"}) {
     if (!picture.is_refined && options.is_given(option)) {
@@ -79,7 +87,8 @@ void add_options(OptionSet options, PictureOptions& picture) {
   add_options(options, picture.staging);
   add_view_options(options, picture);
   options.add_text(
-      "--samples", "1..32768|auto [1]", [&picture](const std::string& text) { take_samples(picture, text); },
+      "--samples", picture.refines_meshes ? "1..32768|auto [1, of a mesh file auto]" : "1..32768|auto [1]",
+      [&picture](const std::string& text) { take_samples(picture, text); },
       "Rays through each pixel; auto: as many as it needs for --error");
   options.add_text(
       "--error", "E [1/255]", [&picture](const std::string& text) { picture.refinement.error = parse_share(text, "--error"); },
@@ -90,11 +99,13 @@ void add_options(OptionSet options, PictureOptions& picture) {
       "--cutoff", "C [0]", [&picture](const std::string& text) { picture.cutoff = parse_share(text, "--cutoff", true); },
       "Shoot no ray that can bring but less than C of light to its sample; 0 is exact");
   options.add_choice<Quality>(
-      "--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}}, "one ray a pixel",
+      "--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}},
+      picture.refines_meshes ? "one ray a pixel, of a mesh file an error of 1/255" : "one ray a pixel",
       "As --samples=auto with an error and a cutoff for a quick look, or for a good one; what other options say counts more");
   add_skip_option(options, picture.skips);
   options.check_in_the_end([options, &picture] {
     apply_quality(options, picture);
+    refine_mesh(options, picture);
     check_refinement(options, picture);
   });
 }

@@ -39,6 +39,8 @@ struct PictureOptions {
   std::optional<Resolution> resolution;  ///< the view's own if not given
   int samples = 1;                       ///< per pixel, 1 to 32768 (core/picture/film.h says why); if refined, in the first pass
   bool is_refined = false;               ///< --samples=auto
+  bool refines_meshes = false;           ///< mesh files are refined, too, if neither samples nor a quality is asked for
+  bool is_refined_unasked = false;       ///< for that reason, to the default error
   core::RefinementOptions refinement;    ///< its error is 0 unless the picture is refined
   int depth = 5;                         ///< hits of this depth cast shadow rays only; 1 to 255
   core::Convention convention = core::Convention::haines;
@@ -48,7 +50,7 @@ struct PictureOptions {
   Staging staging;                 ///< how the scene is seen and lit, if not as it says itself
 };
 
-/// Declares them.
+/// Declares them. What refines_meshes is now decides of what it says.
 void add_options(OptionSet options, PictureOptions& picture);
 /// Declares --no-skip.
 void add_skip_option(OptionSet options, core::Skips& skips);

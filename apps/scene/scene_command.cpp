@@ -1,8 +1,10 @@
 #include "apps/scene/scene_command.h"
 
+#include <iostream>
 #include <ostream>
 
 #include "apps/edge/system/output_file.h"
+#include "apps/edge/system/progress.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/nff_writer.h"
 #include "core/base/expect.h"
@@ -47,13 +49,15 @@ void write_output(const core::SceneName& name, Interrupt& interrupt, std::ostrea
   finish_output(output, "the scene");
 }
 
-void write_landscape_files(int size, const std::optional<std::filesystem::path>& path, Interrupt& interrupt) {
+void write_landscape_files(int size, const SceneOptions& options, Interrupt& interrupt) {
+  const auto& path = options.output;
   if (!path) {
     throw core::UsageError("a landscape is several files: give -o FILE.gltf");
   }
   check_output_path(*path, "-o");
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  write_landscape(size, *path);
+  Progress progress(std::cerr, !options.quiet && stderr_is_terminal(), "Making " + options.name + ":", "rows");
+  write_landscape(size, *path, [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
 }
 
 }  // namespace
@@ -73,7 +77,7 @@ void add_options(OptionSet options, SceneOptions& scene) {
 
 int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output) {
   if (const auto size = landscape_size(options.name)) {
-    write_landscape_files(*size, options.output, interrupt);
+    write_landscape_files(*size, options, interrupt);
     return 0;
   }
   const core::SceneName name = core::parse_scene_name(options.name);

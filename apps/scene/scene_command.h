@@ -14,7 +14,7 @@ namespace dmpc::apps {
 struct SceneOptions {
   std::string name;                             ///< of a built-in scene or a landscape
   std::optional<std::filesystem::path> output;  ///< stdout if not given
-  bool quiet = false;                           ///< as for other commands: there is no progress to leave out
+  bool quiet = false;                           ///< no progress of a landscape, the only one that takes long
 };
 
 /// Declares them.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/line/words.h"
 #include "apps/formats/view_faults.h"
+#include "apps/formats/whole_view.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -17,6 +19,8 @@ using core::Vec3d;
 constexpr const char* camera_form = "FROM/AT[/UP[/DEGREES]] with points such as 1,2,3";
 constexpr const char* light_form = "X,Y,Z[/R,G,B] with numbers, coordinates from -1e30 to 1e30, none of the colour below 0";
 constexpr const char* number_form = "a number above 0, at most 1e30";
+constexpr const char* color_form = "R,G,B such as 0.1,0.1,0.2, or one number for all three, each from 0 to 1e30";
+constexpr double intensity_max = 1e30;
 
 [[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& expected) {
   throw core::UsageError(option + "=" + text + ": expected " + expected);
@@ -64,6 +68,78 @@ double parse_scale(const std::string& text) {
 double parse_smooth(const std::string& text) {
   const double degrees = finite_number(text);
   return degrees >= 0 && degrees <= 180 ? degrees : (refuse("--smooth", text, "degrees from 0 to 180"), 0);
+}
+
+double parse_intensity(const std::string& text) {
+  const double intensity = finite_number(text);
+  return intensity >= 0 && intensity <= intensity_max ? intensity : (refuse("--fill", text, "a number from 0 to 1e30"), 0);
+}
+
+Vec3d parse_color(const std::string& option, const std::string& text) {
+  const bool is_grey = text.find(',') == std::string::npos;
+  const auto color = parse_vector(is_grey ? text + "," + text + "," + text : text);
+  if (!color || std::min({color->x, color->y, color->z}) < 0 || largest_component(*color) > intensity_max) {
+    refuse(option, text, color_form);
+  }
+  return *color;
+}
+
+/// Lights without a colour, which share what one would have, keep what they have without the fill.
+void add_fill(double intensity, core::Scene& scene) {
+  std::vector<core::PointLight> lights;
+  for (const core::PointLight& light : scene.lights) {
+    lights.push_back({light.position, core::intensity_of(light, scene), true});
+  }
+  lights.push_back({scene.view.from, {intensity, intensity, intensity}, true});
+  scene.lights = std::move(lights);
+}
+
+/// Nothing is to be said.
+std::string look(const CameraChoice& camera, core::View& view) {
+  view.from = camera.from;
+  view.at = camera.at;
+  view.up = camera.up.value_or(view.up);
+  view.angle_degrees = camera.degrees.value_or(view.angle_degrees);
+  if (fault_of(view)) {
+    throw core::UsageError("--camera: the scene's own up is parallel to the line from FROM to AT: give UP, too");
+  }
+  return "";
+}
+
+/// The file's own camera has no share in it.
+std::string look_at_mesh(const Staging& staging, core::View& view) {
+  const CameraChoice& camera = *staging.camera;
+  const SceneAxes axes = axes_of(staging.mesh.up.value_or(UpAxis{}));
+  const Vec3d direction = camera.at - camera.from;
+  view.from = camera.from;
+  view.at = camera.at;
+  view.up = camera.up.value_or(axes.up);
+  view.angle_degrees = camera.degrees.value_or(core::View{}.angle_degrees);
+  if (fault_of(view) != ViewFault::up) {
+    return "";
+  }
+  view.up = dot(direction, axes.up) > 0 ? axes.front : Vec3d{} - axes.front;  // in which no zero is negative
+  return "--camera looks along the axis that points up: upwards in the picture is " + text_of(view.up) +
+         ", as by --camera=" + text_of(camera.from) + "/" + text_of(camera.at) + "/" + text_of(view.up);
+}
+
+void add_light_options(OptionSet& options, Staging& staging) {
+  options.add_texts(
+      "--light", "X,Y,Z[/R,G,B] [the scene's]",
+      [&staging](const std::string& text) { staging.lights.push_back(parse_light(text)); },
+      "A point light in place of the scene's; give it again for more. Without a colour it is as bright as NFF's");
+  options.add_text(
+      "--fill", "INTENSITY [none]", [&staging](const std::string& text) { staging.fill = parse_intensity(text); },
+      "A white light in the eye, beside all others, so that what they do not reach is not black: 0.3 is what a mesh without "
+      "lights is given, 1 is as bright as a light alone");
+  options.add_text(
+      "--ambient", "R,G,B|GREY [0]", [&staging](const std::string& text) { staging.ambient = parse_color("--ambient", text); },
+      "Light from everywhere, which nothing shadows: each surface shows its diffuse colour times this, beside what lights show. "
+      "0.1 is faint, 1 shows colours as they are");
+  options.add_text(
+      "--background", "R,G,B|GREY [the scene's]",
+      [&staging](const std::string& text) { staging.background = parse_color("--background", text); },
+      "The colour of what no ray meets, linear: 0 is black, 1 is white");
 }
 
 }  // namespace
@@ -119,11 +195,10 @@ void add_options(OptionSet options, Staging& staging) {
   options.add_text(
       "--camera", "FROM/AT[/UP[/DEGREES]] [the scene's]",
       [&staging](const std::string& text) { staging.camera = parse_camera(text); },
-      "From where and at what to look, such as 1,2,3/0,0,0/0,1,0/45");
-  options.add_texts(
-      "--light", "X,Y,Z[/R,G,B] [the scene's]",
-      [&staging](const std::string& text) { staging.lights.push_back(parse_light(text)); },
-      "A point light in place of the scene's; give it again for more. Without a colour it is as bright as NFF's");
+      "From where and at what to look, such as 1,2,3/0,0,0/0,1,0/45. Of a mesh UP is y, or what --up says, and DEGREES 45, "
+      "whatever "
+      "camera its file has");
+  add_light_options(options, staging);
   options.add_text(
       "--scale", "S [1]", [&staging](const std::string& text) { staging.mesh.scale = parse_scale(text); },
       "Mesh files: multiply all coordinates by S");
@@ -132,7 +207,7 @@ void add_options(OptionSet options, Staging& staging) {
     axes.emplace_back(word, up_axis_of(word));
   }
   options.add_choice("--up", staging.mesh.up, axes, "y",
-                     "Mesh files: the axis that points up, such as --up=-z, for the view where the file has none");
+                     "Mesh files: the axis that points up, such as --up=-z, where the file has no camera or --camera no UP");
   options.add_text(
       "--smooth", "DEGREES [the file's normals]",
       [&staging](const std::string& text) { staging.mesh.smooth_degrees = parse_smooth(text); },
@@ -147,19 +222,20 @@ void add_options(OptionSet options, Staging& staging) {
   add_sandbox_option(options, staging.mesh.sandbox);
 }
 
-void apply(const Staging& staging, core::Scene& scene) {
+std::string apply(const Staging& staging, core::Scene& scene, SceneKind kind) {
+  std::string note;
   if (staging.camera) {
-    scene.view.from = staging.camera->from;
-    scene.view.at = staging.camera->at;
-    scene.view.up = staging.camera->up.value_or(scene.view.up);
-    scene.view.angle_degrees = staging.camera->degrees.value_or(scene.view.angle_degrees);
-    if (fault_of(scene.view)) {
-      throw core::UsageError("--camera: the scene's own up is parallel to the line from FROM to AT: give UP, too");
-    }
+    note = kind == SceneKind::mesh ? look_at_mesh(staging, scene.view) : look(*staging.camera, scene.view);
   }
   if (!staging.lights.empty()) {
     scene.lights = staging.lights;
   }
+  if (staging.fill.value_or(0) > 0) {
+    add_fill(*staging.fill, scene);
+  }
+  scene.ambient = staging.ambient.value_or(scene.ambient);
+  scene.background = staging.background.value_or(scene.background);
+  return note;
 }
 
 }  // namespace dmpc::apps

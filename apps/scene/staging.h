@@ -1,6 +1,7 @@
 // How a scene is placed, seen and lit, where the command line has its own idea.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,11 +21,17 @@ struct CameraChoice {
 
 struct Staging {
   std::optional<CameraChoice> camera;
-  std::vector<core::PointLight> lights;  ///< in place of the scene's, unless there are none
-  MeshOptions mesh;                      ///< for mesh files alone
+  std::vector<core::PointLight> lights;   ///< in place of the scene's, unless there are none
+  std::optional<double> fill;             ///< the intensity of a white light in the eye, beside all others; 0 or more
+  std::optional<core::Vec3d> ambient;     ///< core::Scene::ambient; each channel 0 or more
+  std::optional<core::Vec3d> background;  ///< in place of the scene's; each channel 0 or more
+  MeshOptions mesh;                       ///< for mesh files alone
+
+  /// The scene is seen and lit as it says itself.
+  bool is_as_scene() const { return !camera && lights.empty() && !fill && !ambient && !background; }
 };
 
-/// Declares --camera, --light, --scale, --up, --smooth, --missing, --files and --sandbox.
+/// Declares --camera, --light, --fill, --ambient, --background, --scale, --up, --smooth, --missing, --files and --sandbox.
 void add_options(OptionSet options, Staging& staging);
 
 /// "FROM/AT[/UP[/DEGREES]]", "1,2,3/0,0,0/0,1,0/45". Throws core::UsageError for anything else, or for a view that shows nothing.
@@ -39,7 +46,13 @@ std::string text_of(const core::PointLight& light);
 /// "1,2,3", with the very numbers.
 std::string text_of(const core::Vec3d& vector);
 
-/// Gives the scene the camera and the lights. Throws core::UsageError if the scene's own up does not go with the camera.
-void apply(const Staging& staging, core::Scene& scene);
+/// Whose a scene's own view is: its file's, or, of a mesh, that of a camera which may look from anywhere.
+enum class SceneKind : std::uint8_t { own, mesh };
+
+/// Gives the scene the camera, the lights and the background. What a camera leaves open stays the scene's; of a mesh up is what
+/// --up says, or, where that points along the line of sight, away from who stands in front, and the angle is 45 degrees. A fill
+/// leaves the other lights as bright as they are. Returns what is to be said of it, nothing as a rule. Throws core::UsageError if
+/// the scene's own up does not go with the camera.
+std::string apply(const Staging& staging, core::Scene& scene, SceneKind kind = SceneKind::own);
 
 }  // namespace dmpc::apps

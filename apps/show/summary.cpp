@@ -118,6 +118,11 @@ std::string sampling_line(const RenderOptions& options, const Account& account) 
          "\n";
 }
 
+/// Behind the picture's name, where samples were chosen that nobody asked for.
+std::string refined_text(const PictureOptions& picture) {
+  return picture.is_refined_unasked ? ", refined to the default error of 1/255 (--samples=1 for one ray a pixel)" : "";
+}
+
 StrategyLines lines_of(const RenderOptions& options, const svm::Report& report) {
   const bool paged = options.strategy == Strategy::svm;
   const std::string in_flight = counted(report.plan.in_flight, "pixel") + " in flight";
@@ -192,7 +197,8 @@ void print_summary(std::ostream& output, const RenderRecord& record) {
          << ranks_line(account) << "rays     " << rays_text(account.operations, walks, record.seconds.render) << '\n'
          << sampling_line(record.options, account) << special.figures << virtual_lines(account, record.options.computer.machine)
          << "time     " << time_text(record.seconds) << "\npicture  " << shown(record.options.image.string()) << ", "
-         << account.film.width() << "x" << account.film.height() << ", film " << hash_text(account.film.hash()) << '\n';
+         << account.film.width() << "x" << account.film.height() << ", film " << hash_text(account.film.hash())
+         << refined_text(record.options.picture) << '\n';
 }
 
 }  // namespace dmpc::apps

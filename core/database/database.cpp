@@ -107,6 +107,7 @@ class DatabaseBuilder {
       move_zero(header().frame, *place);
     }
     header().background = Color(scene_.background);
+    header().ambient = Color(scene_.ambient);
     if (!bounds.empty()) {
       const Vec3d extent = bounds.high - bounds.low;
       const double size = std::max({extent.x, extent.y, extent.z, 1e-30});

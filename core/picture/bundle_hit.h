@@ -34,8 +34,7 @@ struct BundleHit {
   Phase phase = Phase::surface;
 
   bool has_unread_surface() const {
-    return std::any_of(hit.begin(), hit.begin() + count,
-                       [](const HitState& state) { return state.stage < HitState::Stage::light; });
+    return std::any_of(hit.begin(), hit.begin() + count, [](const HitState& state) { return !state.has_surface(); });
   }
   /// No hit is there.
   void clear() {
@@ -69,12 +68,18 @@ class BundleShader {
         operations_(operations),
         shader_(settings.header, settings.shade, settings.skips, operations, &settings.camera) {}
 
-  /// Ends the phase that the hits are in: shoot(child, i) is called for every child of hit i, at most one for each. False if a
-  /// record is absent, whose address is then `absent`: call it again once that is there. Requires a phase other than finished.
-  template <class Shoot>
-  bool step(Address& absent, const Shoot& shoot) {
+  /// Ends the phase that the hits are in: shoot(child, i) is called for every child of hit i, at most one for each, and, where
+  /// hits glow, shine(light, i) once for each when all surfaces are known. False if a record is absent, whose address is then
+  /// `absent`: call it again once that is there. Requires a phase other than finished.
+  template <class Shoot, class Shine>
+  bool step(Address& absent, const Shoot& shoot, const Shine& shine) {
     if (hits_.phase == Phase::surface ? !read_surfaces(absent) : hits_.phase == Phase::light && !shoot_at_light(absent, shoot)) {
       return false;
+    }
+    if (hits_.phase == Phase::surface && shader_.hits_glow()) {
+      for (std::uint32_t i = 0; i < hits_.count; ++i) {
+        shine(shader_.glow(hits_.hit[i]), i);
+      }
     }
     if (hits_.phase == Phase::reflected) {
       shoot_children(HitState::Stage::reflected, shoot);
@@ -110,7 +115,7 @@ bool BundleShader<T>::read_surfaces(Address& absent) {
   for (; hits_.has_unread_surface(); hits_.next = 0) {
     for (; hits_.next < hits_.count; ++hits_.next) {
       HitState& state = hits_.hit[hits_.next];
-      if (state.stage >= HitState::Stage::light) {
+      if (state.has_surface()) {
         continue;
       }
       absent = record_needed(state, settings_.header);

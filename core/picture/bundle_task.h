@@ -93,7 +93,10 @@ TaskState BundleTask::shade(T& tracer, const RenderSettings& settings, Operation
       continue;
     }
     const auto shoot = [&](const Ray& child, std::uint32_t i) { add_ray(child, hits.place[i], operations); };
-    if (!BundleShader<T>(hits, tracer, settings, operations).step(absent_, shoot)) {
+    const auto shine = [&](const Color& light, std::uint32_t i) {
+      deposit(sums_[hits.place[i]], hits.hit[i].ray, light, settings, operations);
+    };
+    if (!BundleShader<T>(hits, tracer, settings, operations).step(absent_, shoot, shine)) {
       return TaskState::absent;
     }
     if (begin_tracing()) {

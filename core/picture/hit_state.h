@@ -63,6 +63,9 @@ struct HitState {
   bool leaving = false;         ///< the ray goes along the true normal: out of the body
   bool has_refraction = false;  ///< Snell's law has an answer: known if this hit may have children
   Stage stage = Stage::geometry;
+
+  /// Its material has been read.
+  bool has_surface() const { return stage >= Stage::light; }
 };
 static_assert(sizeof(HitState) == 256 && std::is_trivially_copyable_v<HitState>);
 

@@ -193,8 +193,14 @@ TaskState PixelTask::shade(T& tracer, const RenderSettings& settings, Operations
       absent_ = address;
       return TaskState::absent;
     }
+    const Shader shader(settings.header, settings.shade, settings.skips, operations, &settings.camera);
+    const bool was_known = state.has_surface();
     Ray child;
-    if (Shader(settings.header, settings.shade, settings.skips, operations, &settings.camera).step(state, record, child)) {
+    const bool has_child = shader.step(state, record, child);
+    if (shader.hits_glow() && !was_known && state.has_surface()) {
+      deposit(sums_, state.ray, shader.glow(state), settings, operations);
+    }
+    if (has_child) {
       shoot(child, operations);
       return TaskState::more;
     }

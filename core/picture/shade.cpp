@@ -81,13 +81,15 @@ double brightest(const Vec3d& color) { return std::max({color.x, color.y, color.
 }  // namespace
 
 double radiance_bound(const Scene& scene, int depth_max) {
+  const double ambient = brightest(scene.ambient);
   double light = 0, direct = 0, passed_on = 0;
   for (const PointLight& point_light : scene.lights) {
     light += brightest(intensity_of(point_light, scene));
   }
   for (const Material& material : scene.materials) {
     const double texture = material.texture == Material::no_texture ? 1 : scene.textures[material.texture].brightest;
-    direct = std::max(direct, light * (material.diffuse * brightest(material.color) * texture + material.specular));
+    const double diffuse = material.diffuse * brightest(material.color) * texture;
+    direct = std::max(direct, light * (diffuse + material.specular) + ambient * diffuse);
     passed_on = std::max(passed_on, material.specular + material.transmittance);
   }
   const double background = brightest(scene.background);
@@ -158,6 +160,11 @@ void Shader::read_normals(HitState& state, const std::byte* record) const {
   if (normals.is_textured()) {
     begin_texture(state, record);
   }
+}
+
+Color Shader::glow(const HitState& state) const {
+  const MaterialRecord& material = state.surface.material;
+  return Color(Vec3d(state.ray.weight) * Vec3d(header_.ambient) * (Vec3d(material.color) * double{material.diffuse}));
 }
 
 bool Shader::reflects(const HitState& state) const { return mirrored_share(state) > 0.0F || !skips_.zero_terms; }

@@ -46,8 +46,12 @@ struct ShadeOptions {
 double sample_spacing(std::uint32_t sample, std::uint32_t first_samples);
 
 /// No reflected or refracted ray in the scene finds more light than this, in any channel: each hit reflects at most the share of
-/// all lights that its material allows, and passes on at most its share of what a ray of the next depth finds.
+/// all lights, and of the ambient one, that its material allows, and passes on at most its share of what a ray of the next depth
+/// finds.
 double radiance_bound(const Scene& scene, int depth_max);
+
+/// Whether hits send light by themselves, without a ray: what they reflect of an ambient light.
+inline bool hits_glow(const DatabaseHeader& header) { return !(header.ambient == Color{}); }
 
 /// Shades hits, one record a step. What it is made from outlives it.
 class Shader {
@@ -62,6 +66,10 @@ class Shader {
   bool step(HitState& state, const std::byte* record, Ray& child) const;
   /// Whether step() does to a hit's geometry what read_geometry() does, and no more.
   bool reads_beside() const { return !(options_.pixel_share > 0); }
+  /// Whether glow() may tell of light.
+  bool hits_glow() const { return core::hits_glow(header_); }
+  /// What a hit whose surface is known sends on by itself: of the ambient light what its diffuse part reflects.
+  Color glow(const HitState& state) const;
   /// Goes on with a hit at a light that is known to fall on it so; `highlight`: lobe_cosine() to the power of its shine.
   bool shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const;
   /// Goes on with a hit that mirrors or lets through a ray, which leaves `towards` a unit direction from `start`.

@@ -292,6 +292,7 @@ struct DatabaseHeader {
   std::uint32_t material_count = 0;
   std::uint32_t light_count = 0;
   Color background;
+  Color ambient;  ///< Scene::ambient
 };
 static_assert(std::is_trivially_copyable_v<DatabaseHeader>);
 

@@ -80,6 +80,7 @@ struct Scene {
   std::string name;  ///< the file's path or the built-in name, for messages
   View view;
   Vec3d background;  ///< linear RGB, as the file gives it
+  Vec3d ambient;     ///< light that comes to every hit alike, from everywhere: its diffuse part reflects that, too
   std::vector<PointLight> lights;
   std::vector<Material> materials;  ///< equal ones merged
   std::vector<Object> objects;      ///< in file order

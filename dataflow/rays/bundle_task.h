@@ -57,8 +57,9 @@ class BundleTask {
 
   /// Shades the newest hits until they make children (true), for each of which shoot(child) is called, or no hit is left (false).
   /// Requires that no ray is under way.
-  template <class Shoot>
-  bool next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations, const Shoot& shoot);
+  template <class Shoot, class Shine>
+  bool next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations, const Shoot& shoot,
+                     const Shine& shine);
 
  private:
   /// How a ray came into the region, if it did not start in it, and where its candidate's block is if that is not here.
@@ -92,9 +93,9 @@ class BundleTask {
   std::uint32_t traced_ = 0;      ///< rays that were traced
 };
 
-template <class Shoot>
+template <class Shoot, class Shine>
 bool BundleTask::next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations,
-                               const Shoot& shoot) {
+                               const Shoot& shoot, const Shine& shine) {
   core::expect(!has_rays() && !has_ended(), "children are made when their parents' bundle has ended");
   close_hits();
   while (depth_ > 0) {
@@ -105,7 +106,9 @@ bool BundleTask::next_children(PartTracer& tracer, const core::RenderSettings& s
     }
     core::Address absent = core::no_address;
     core::BundleShader<PartTracer> shader(hits, tracer, settings, operations);
-    const bool is_here = shader.step(absent, [&](const core::Ray& child, std::uint32_t) { shoot(child); });
+    const bool is_here = shader.step(
+        absent, [&](const core::Ray& child, std::uint32_t) { shoot(child); },
+        [&](const core::Color& light, std::uint32_t i) { shine(hits.hit[i].ray, light); });
     core::expect(is_here, "a node has every record of its region");
     if (has_rays()) {
       return true;

@@ -120,22 +120,4 @@ RayMessage RayTask::confirmed_hit() const {
   return message;
 }
 
-bool RayTask::next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child,
-                         core::Operations& operations) {
-  core::expect(stage_ == Stage::none, "a child is made when its parent's ray has ended");
-  while (depth_ > 0) {
-    core::HitState& hit = stack_[depth_ - 1];
-    if (hit.stage == core::HitState::Stage::finished) {
-      --depth_;
-      continue;
-    }
-    const core::Address address = core::record_needed(hit, settings.header);
-    const std::byte* const record = address == core::no_address ? nullptr : tracer.find(address);
-    if (core::Shader(settings.header, settings.shade, settings.skips, operations, &settings.camera).step(hit, record, child)) {
-      return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace dmpc::dataflow

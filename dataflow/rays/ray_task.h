@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/base/expect.h"
 #include "core/picture/pixel_task.h"
 #include "dataflow/packets.h"
 #include "dataflow/rays/part_tracer.h"
@@ -64,12 +65,13 @@ class RayTask {
   /// The caller has seen to the ray: it is no longer under way.
   void drop_ended() { stage_ = Stage::none; }
 
-  /// Shades the newest hit until it makes a child (true), for which shoot(child) is called, or no hit is left (false). Requires
-  /// that no ray is under way.
-  template <class Shoot>
-  bool next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations, const Shoot& shoot) {
+  /// Shades the newest hit until it makes a child (true), for which shoot(child) is called, or no hit is left (false). If that
+  /// hit glows, shine(ray, light) is called with the ray that met it, at most once. Requires that no ray is under way.
+  template <class Shoot, class Shine>
+  bool next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations, const Shoot& shoot,
+                     const Shine& shine) {
     core::Ray child;
-    const bool has_child = next_child(tracer, settings, child, operations);
+    const bool has_child = next_child(tracer, settings, child, operations, shine);
     if (has_child) {
       shoot(child);
     }
@@ -92,7 +94,9 @@ class RayTask {
   core::Hit travelling_candidate() const;
   nodes::NodeId finder_of_candidate() const { return found_here() ? self_ : flight_->finder; }
   void push(const core::Ray& ray, const core::Hit& hit);
-  bool next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child, core::Operations& operations);
+  template <class Shine>
+  bool next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child, core::Operations& operations,
+                  const Shine& shine);
   core::Traced trace_with_list(PartTracer& tracer, core::Operations& operations);
   bool begin(PartTracer& tracer, const core::DatabaseHeader& header);
 
@@ -106,5 +110,29 @@ class RayTask {
   Stage stage_ = Stage::none;
   core::Traced traced_ = core::Traced::miss;
 };
+
+template <class Shine>
+bool RayTask::next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child, core::Operations& operations,
+                         const Shine& shine) {
+  core::expect(stage_ == Stage::none, "a child is made when its parent's ray has ended");
+  const core::Shader shader(settings.header, settings.shade, settings.skips, operations, &settings.camera);
+  while (depth_ > 0) {
+    core::HitState& hit = stack_[depth_ - 1];
+    if (hit.stage == core::HitState::Stage::finished) {
+      --depth_;
+      continue;
+    }
+    const core::Address address = core::record_needed(hit, settings.header);
+    const std::byte* const record = address == core::no_address ? nullptr : tracer.find(address);
+    const bool was_known = hit.has_surface(), has_child = shader.step(hit, record, child);
+    if (shader.hits_glow() && !was_known && hit.has_surface()) {
+      shine(hit.ray, shader.glow(hit));
+    }
+    if (has_child) {
+      return true;
+    }
+  }
+  return false;
+}
 
 }  // namespace dmpc::dataflow

@@ -18,8 +18,8 @@ using dataflow::FilmGather;
 namespace {
 
 struct FilmSender {
-  explicit FilmSender(std::uint32_t credits)
-      : single(FilmGather::layout() + nodes::credit_table(2), 0, 2), film(single.node, 1, credits) {}
+  explicit FilmSender(std::uint32_t credits, std::uint32_t at_once = 1)
+      : single(FilmGather::layout() + nodes::credit_table(2), 0, 2), film(single.node, 1, credits, at_once) {}
 
   void fill(std::uint32_t first_pixel) {
     for (std::uint32_t i = 0; i < dataflow::film_packet_entries; ++i) {
@@ -69,6 +69,21 @@ TEST_CASE("a full film packet leaves at once, a third waits until the host ackno
   CHECK_FALSE(sender.film.waits());
   CHECK(sender.single.post.parcels.size() == 3);
   CHECK(entry_in(sender.single.post.parcels.back(), 0).pixel == 200);
+}
+
+TEST_CASE("a packet waits for as long as it has no room for what may come at once") {
+  FilmSender sender(1, 4);
+  sender.fill(0);
+  CHECK(sender.single.take().payload.size() == dataflow::film_packet_bytes(dataflow::film_packet_entries - 3));
+  CHECK(sender.film.gathered() == 3);
+  std::uint32_t pixel = 100;
+  while (!sender.film.waits()) {
+    sender.film.add(pixel++, 0, {{1, 2, 3}});
+  }
+  for (int more = 0; more < 3; ++more) {
+    sender.film.add(pixel++, 0, {{1, 2, 3}});
+  }
+  CHECK_THROWS_AS(sender.film.add(pixel, 0, {{1, 2, 3}}), core::InternalError);
 }
 
 TEST_CASE("the film is settled when all has been sent and acknowledged") {

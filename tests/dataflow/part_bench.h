@@ -27,6 +27,9 @@ inline core::Region half(std::uint32_t index) {
   return dataflow::equal_size_bsp(whole().high, dataflow::axes_facing(part_subject().settings().camera), 2).region_at(index);
 }
 
+/// For children of hits that do not glow.
+inline constexpr auto no_shine = [](const core::Ray&, const core::Color&) {};
+
 /// In a memory that has room for the task and no more.
 template <class Task>
 struct PartBench {

@@ -230,6 +230,20 @@ TEST_CASE("a cutoff gives one picture, with fewer rays than without") {
   check_strategies(cut, {1, 5});
 }
 
+TEST_CASE("an ambient light, which every hit shows without a ray, gives one picture, with the rays of any other") {
+  core::Scene scene = tests::mirrors_and_glass();
+  tests::add_textured_walls(scene);
+  const Subject dark(scene, {.width = 24, .height = 20, .samples = 2});
+  scene.ambient = {0.5, 0.25, 0.75};
+  const Subject subject(scene, {.width = 24, .height = 20, .samples = 2});
+  CHECK(subject.outcome().film_hash != dark.outcome().film_hash);
+  CHECK(subject.outcome().rays == dark.outcome().rays);
+  check_strategies(subject, {1, 3, 16});
+  const Subject extents(scene, {.width = 24, .height = 20, .samples = 2},
+                        {.page_size_bytes = 512, .structure = core::Structure::extents});
+  CHECK(outcome_of(run_forest(extents, {.computer = {.node_count = 5}})) == subject.outcome());
+}
+
 TEST_CASE("twenty runs on 64 nodes give one picture") {
   const Subject subject(tests::mirrors_and_glass(), {scaled_edge(64), scaled_edge(64)});
   for (int run = 0; run < 20; ++run) {

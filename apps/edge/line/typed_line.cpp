@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "apps/edge/line/foreign_option.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 
@@ -207,12 +208,22 @@ class Reader {
     if (find_option(*here_, full) != nullptr) {
       fail(said + ". Did you mean " + full + "?");
     }
+    fail_if_foreign(name, said);
     const bool has_command = here_->commands.empty();
     const std::string other = has_command ? command_with(program_, full) : command_with(*here_, full, line_.command);
     if (!other.empty()) {
       fail(said + (has_command ? ", but of dmpc " + other : ": options follow their command, as in dmpc " + other + " " + full));
     }
     fail(said + "." + core::did_you_mean(full, long_names(*here_)));
+  }
+
+  /// Fails if other programs have such an option, and this command what it stands for.
+  void fail_if_foreign(const std::string& name, const std::string& said) const {
+    const std::optional<ForeignOption> foreign = foreign_option(name);
+    const OptionDescription* const ours = foreign ? find_option(*here_, foreign->ours) : nullptr;
+    if (ours != nullptr) {
+      fail(said + ": expected " + typed_form(*ours) + ", " + foreign->note);
+    }
   }
 
   /// What an option is to have and has not.
@@ -272,6 +283,9 @@ class Reader {
     const std::string name = "--" + word.substr(0, word.find('='));
     if (word.find('=') != std::string::npos && find_option(*here_, name) != nullptr) {
       fail(word + " is an argument too many. Did you mean --" + word + "?");
+    }
+    if (word.starts_with("+")) {
+      fail_if_foreign(word, word + " is no option");
     }
     if (here_->commands.empty()) {
       fail("'" + word + "' is an argument too many: expected " + usage_of(joined(program_.name, line_.command), *here_) +

@@ -1,8 +1,10 @@
 #include "apps/edge/run/time_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <numeric>
+#include <utility>
 
 #include "apps/edge/line/number_text.h"
 
@@ -11,13 +13,12 @@ namespace {
 
 TimePart wait_part(std::size_t kind, const WaitKinds& waits) {
   const auto is_one_of = [kind](std::uint32_t kinds) { return (kinds >> kind & 1U) != 0; };
-  if (is_one_of(waits.data_kinds)) {
-    return TimePart::data_wait;
-  }
-  if (is_one_of(waits.work_kinds)) {
-    return TimePart::work_wait;
-  }
-  return is_one_of(waits.end_kinds) ? TimePart::idle_at_end : TimePart::other_wait;
+  const std::array parts = {
+      std::pair(waits.data_kinds, TimePart::data_wait),   std::pair(waits.work_kinds, TimePart::work_wait),
+      std::pair(waits.token_kinds, TimePart::token_wait), std::pair(waits.credit_kinds, TimePart::credit_wait),
+      std::pair(waits.film_kinds, TimePart::film_wait),   std::pair(waits.end_kinds, TimePart::idle_at_end)};
+  const auto* const found = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return is_one_of(part.first); });
+  return found == parts.end() ? TimePart::other_wait : found->second;
 }
 
 }  // namespace
@@ -28,6 +29,12 @@ std::string words_of(TimePart part, const WaitKinds& waits) {
       return std::string(waits.data) + " wait";
     case TimePart::work_wait:
       return "work wait";
+    case TimePart::token_wait:
+      return "token wait";
+    case TimePart::credit_wait:
+      return "credit wait";
+    case TimePart::film_wait:
+      return "film wait";
     case TimePart::other_wait:
       return "other waits";
     case TimePart::idle_at_end:

@@ -12,10 +12,13 @@ namespace dmpc::apps {
 
 /// Which waits are what, for a strategy.
 struct WaitKinds {
-  const char* data = "";         ///< what travels: "page" or "ray"
-  std::uint32_t data_kinds = 0;  ///< a bit for each kind of packet that brings it
-  std::uint32_t work_kinds = 0;  ///< a bit for each kind that nodes without work exchange
-  std::uint32_t end_kinds = 0;   ///< a bit for each kind that ends a run
+  const char* data = "";           ///< what travels: "page" or "ray"
+  std::uint32_t data_kinds = 0;    ///< a bit for each kind of packet that brings it
+  std::uint32_t work_kinds = 0;    ///< a bit for each kind that nodes without work exchange
+  std::uint32_t token_kinds = 0;   ///< a bit for each kind that goes round to find out whether all is done
+  std::uint32_t credit_kinds = 0;  ///< a bit for each kind that says that there is room for a node's packets
+  std::uint32_t film_kinds = 0;    ///< a bit for each kind that the film's pixels need
+  std::uint32_t end_kinds = 0;     ///< a bit for each kind that ends a run
 };
 
 /// The parts of a time, in order.
@@ -23,16 +26,20 @@ enum class TimePart : std::uint8_t {
   computing,    ///< the operations charged
   data_wait,    ///< nothing to do until a page or rays came
   work_wait,    ///< nothing to do until work, or word of it, came
-  other_wait,   ///< nothing to do until another packet came, such as credit
+  token_wait,   ///< nothing to do until the token came that finds out whether all is done
+  credit_wait,  ///< nothing to do until there was room for what is to be sent
+  film_wait,    ///< nothing to do until the host had taken pixels
+  other_wait,   ///< nothing to do until another packet came
   stolen,       ///< service of interrupts while there was something to do
   lent,         ///< and while there was nothing
   messages,     ///< sending and receiving
   idle_at_end,  ///< nothing to do any more
 };
-inline constexpr std::size_t time_part_count = 8;
+inline constexpr std::size_t time_part_count = 11;
 /// As keys of the counters.
 inline constexpr std::array<const char*, time_part_count> time_part_names = {
-    "computing", "data_wait", "work_wait", "other_wait", "stolen", "lent", "messages", "idle_at_end"};
+    "computing",  "data_wait", "work_wait", "token_wait", "credit_wait", "film_wait",
+    "other_wait", "stolen",    "lent",      "messages",   "idle_at_end"};
 
 /// A time by TimePart. Thread-safe like any value.
 struct TimeParts {

@@ -75,15 +75,26 @@ Progress::~Progress() {
   }
 }
 
+bool Progress::is_due() {
+  const Clock::time_point now = Clock::now();
+  if (!shown_ || now < next_) {
+    return false;
+  }
+  next_ = now + std::chrono::milliseconds(100);
+  return true;
+}
+
+void Progress::show(const std::string& label, std::uint64_t done, std::uint64_t total) {
+  if (is_due()) {
+    output_ << clear_line << label << progress_line(done, total, 0) << std::flush;
+  }
+}
+
 void Progress::update(std::uint64_t done, std::uint64_t total) {
-  if (!shown_) {
+  if (!is_due()) {
     return;
   }
   const Clock::time_point now = Clock::now();
-  if (now < next_) {
-    return;
-  }
-  next_ = now + std::chrono::milliseconds(100);
   start_ = done < done_ ? now : start_;
   done_ = done;
   const double seconds = std::chrono::duration<double>(now - start_).count();

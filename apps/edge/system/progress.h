@@ -30,8 +30,13 @@ class Progress {
 
   /// Less done than before: another stretch has begun, with a total and a rate of its own.
   void update(std::uint64_t done, std::uint64_t total);
+  /// The same under another label, of what has no rate.
+  void show(const std::string& label, std::uint64_t done, std::uint64_t total);
 
  private:
+  /// Whether it is time for another line.
+  bool is_due();
+
   using Clock = std::chrono::steady_clock;
 
   std::ostream& output_;

@@ -16,11 +16,6 @@ inline constexpr double plain_grey = 0.6;
 /// By the table in apps/foreign/README.md. Colours are linear. Reflects and transmits no more light than arrives, in any channel.
 core::Material material_of(const aiMaterial& source);
 
-/// Phong's exponent for glTF's roughness, 0 to 1: half-vector exponent 2 / alpha^2 - 2 with alpha = roughness^2 (B. Walter and
-/// others, "Microfacet Models for Refraction through Rough Surfaces", 2007), a quarter of that around the mirror's direction
-/// (F. Fisher, A. Woo, "R.E versus N.H Specular Highlights", Graphics Gems IV, 1994); 1 to 10,000.
-double shine_of_roughness(double roughness);
-
 /// The names of its textures that are not looked at: all but those of its colour (apps/foreign/mesh/textures.h).
 void list_textures(const aiMaterial& source, std::set<std::string>& names);
 

@@ -55,16 +55,16 @@ std::string describe_landscape() {
          std::to_string(landscape_size_default) + ": 4^size textured triangles, as FILE.gltf with -o alone\n";
 }
 
-void write_landscape(int size, const fs::path& gltf) {
+void write_landscape(int size, const fs::path& gltf, const RowsDone& rows_done) {
   check_name(gltf);
   fs::path numbers = gltf, picture = gltf;
   numbers.replace_extension(".bin");
   picture.replace_filename(gltf.stem().string() + "-ground.png");  // so that a render to FILE.png leaves it alone
   OutputFile json_file(gltf), numbers_file(numbers), ground_file(picture);
   const LandscapeGltf text =
-      landscape_gltf(ground_mesh(size), lake_mesh(), numbers.filename().string(), picture.filename().string());
+      landscape_gltf(ground_mesh(size, rows_done), lake_mesh(), numbers.filename().string(), picture.filename().string());
   numbers_file.write(text.numbers);
-  ground_file.write(encoded_picture(picture, ground_picture(std::min(picture_side_max, 4 << size))));
+  ground_file.write(encoded_picture(picture, ground_picture(std::min(picture_side_max, 4 << size), rows_done)));
   json_file.write(text.json);
   ground_file.commit();
   numbers_file.commit();

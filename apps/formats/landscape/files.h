@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "apps/formats/landscape/rows_done.h"
+
 namespace dmpc::apps {
 
 inline constexpr int landscape_size_max = 11, landscape_size_default = 10;
@@ -21,6 +23,6 @@ std::string describe_landscape();
 /// picture (FILE-ground.png) of 2^(size + 2) texels a side, at most 4,096; none of them gets its name before all are written.
 /// Throws core::UsageError unless `gltf` ends in .gltf and its name has letters, digits, - and _ alone, core::InputError if a
 /// file cannot be written.
-void write_landscape(int size, const std::filesystem::path& gltf);
+void write_landscape(int size, const std::filesystem::path& gltf, const RowsDone& rows_done = {});
 
 }  // namespace dmpc::apps

@@ -28,7 +28,7 @@ void add_vertex(LandscapeMesh& mesh, const core::Vec3d& position, const core::Ve
 
 }  // namespace
 
-LandscapeMesh ground_mesh(int size) {
+LandscapeMesh ground_mesh(int size, const RowsDone& rows_done) {
   core::expect(size >= 1 && size <= 13, "a landscape has a size from 1 to 13");
   const std::uint32_t columns = 1U << static_cast<unsigned>(size), rows = columns / 2;
   const double step = 2.0 / columns;
@@ -37,6 +37,9 @@ LandscapeMesh ground_mesh(int size) {
     for (std::uint32_t column = 0; column <= columns; ++column) {
       const double x = column * step - 1, z = row * step - 0.5;
       add_vertex(mesh, {x, ground_height(x, z), z}, ground_normal(x, z, step));
+    }
+    if (rows_done) {
+      rows_done(row + std::uint64_t{1}, rows + std::uint64_t{1});
     }
   }
   add_squares(mesh, columns, rows);

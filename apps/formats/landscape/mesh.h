@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "apps/formats/landscape/rows_done.h"
+
 namespace dmpc::apps {
 
 /// What glTF calls a primitive: vertices, and three numbers of theirs a triangle, counter-clockwise as seen from above.
@@ -16,7 +18,7 @@ struct LandscapeMesh {
 };
 
 /// 4^size triangles over a lattice of 2^size by 2^(size - 1) squares, x from -1 to 1, z from -1/2 to 1/2; size from 1 to 13.
-LandscapeMesh ground_mesh(int size);
+LandscapeMesh ground_mesh(int size, const RowsDone& rows_done = {});
 
 /// Two triangles.
 LandscapeMesh lake_mesh();

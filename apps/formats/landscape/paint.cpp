@@ -14,6 +14,8 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::size_t rows_together = 16;
+/// Painted by all cores before word of it is given.
+constexpr std::size_t rows_told = 256;
 
 /// Paints some rows of a picture.
 class Painter {
@@ -59,14 +61,21 @@ class Painter {
 
 }  // namespace
 
-Image ground_picture(int side) {
+Image ground_picture(int side, const RowsDone& rows_done) {
   core::expect(side > 0, "a picture has a texel");
   Image image(side, side);
   const Painter painter(image);
   const auto rows = static_cast<std::size_t>(side);
-  core::Parallel(0).for_each(core::ceil_divide(rows, rows_together), [&](std::size_t band) {
-    painter.paint(band * rows_together, std::min(rows, (band + 1) * rows_together));
-  });
+  for (std::size_t first = 0; first < rows; first += rows_told) {
+    const std::size_t end = std::min(rows, first + rows_told);
+    core::Parallel(0).for_each(core::ceil_divide(end - first, rows_together), [&](std::size_t band) {
+      const std::size_t begin = first + band * rows_together;
+      painter.paint(begin, std::min(end, begin + rows_together));
+    });
+    if (rows_done) {
+      rows_done(end, rows);
+    }
+  }
   return image;
 }
 

@@ -1,12 +1,13 @@
 // The picture that covers the landscape's ground.
 #pragma once
 
+#include "apps/formats/landscape/rows_done.h"
 #include "apps/picture/image_file.h"
 
 namespace dmpc::apps {
 
 /// A picture of `side` x `side` texels, the one at the top left at (x, z) = (-1, -1/2); `side` > 0. Painted by all cores, the
 /// same whatever their number.
-Image ground_picture(int side);
+Image ground_picture(int side, const RowsDone& rows_done = {});
 
 }  // namespace dmpc::apps

@@ -142,7 +142,8 @@ std::vector<std::string> SpeedupStudy::notes(const std::string&) const {
       machine_text(*run.computer.machine) + ", " + computer_text(run) + ", " + what + ".",
       "Speedup and efficiency: against the first row with figures, in node-seconds, as if its own efficiency were 100 %.",
       "Parts of the nodes' time, summed over them: they add up to 100 %. data_wait is for pages or rays, work_wait for pixels of "
-      "other nodes, stolen and lent serve page requests while there is something else to do and while there is not.",
+      "other nodes, token_wait for the token that finds out whether all rays have ended, stolen and lent serve page requests "
+      "while there is something else to do and while there is not.",
       "Link wait: that messages stood before links that others held, summed. Node memory: of the fullest node."};
 }
 

@@ -185,6 +185,9 @@ void add_staging(Json& options, const Staging& staging) {
   for (const core::PointLight& light : staging.lights) {
     options["light"].push_back(text_of(light));
   }
+  options["fill"] = staging.fill ? Json(*staging.fill) : Json();
+  options["ambient"] = staging.ambient ? Json(text_of(*staging.ambient)) : Json();
+  options["background"] = staging.background ? Json(text_of(*staging.background)) : Json();
   options["scale"] = mesh.scale ? Json(*mesh.scale) : Json();
   options["up"] = mesh.up ? Json(text_of(*mesh.up)) : Json();
   options["smooth"] = mesh.smooth_degrees ? Json(*mesh.smooth_degrees) : Json();

@@ -48,6 +48,7 @@ TEST_CASE("whatever of the scene is changed, it is another picture") {
   CHECK(difference([](auto& scene) { scene.textures[0].levels[0].texels[5] ^= 1U; }) == "other textures");
   CHECK(difference([](auto& scene) { scene.lights[0].has_color = true; }) == "other lights or background");
   CHECK(difference([](auto& scene) { scene.background.z = 0; }) == "other lights or background");
+  CHECK(difference([](auto& scene) { scene.ambient.y = 0.1; }) == "other lights or background");
   CHECK(difference([](auto& scene) { scene.view.angle_degrees = 51; }) == "other view");
 }
 

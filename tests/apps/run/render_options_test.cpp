@@ -149,6 +149,27 @@ TEST_CASE("a quality chooses what no other option has said") {
   CHECK(contains(render_complaint({"--quality=best"}), "--quality"));
 }
 
+TEST_CASE("a mesh file is refined to the default error, without a cutoff, unless samples or a quality are asked for") {
+  const auto mesh = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "a.glb", "-o", "a.png"});
+    return parse_command_line(more).options<RenderOptions>().picture;
+  };
+  CHECK(mesh({}).is_refined);
+  CHECK(mesh({}).is_refined_unasked);
+  CHECK(mesh({}).samples == render({"--samples=auto"}).picture.samples);
+  CHECK(mesh({}).refinement.error == render({"--quality=default"}).picture.refinement.error);
+  CHECK(mesh({}).cutoff == 0);
+  CHECK_FALSE(mesh({"--samples=1"}).is_refined);
+  CHECK(mesh({"--quality=draft"}).refinement.error == render({"--quality=draft"}).picture.refinement.error);
+  CHECK_FALSE(mesh({"--quality=default"}).is_refined_unasked);
+  CHECK(mesh({"--error=0.5"}).refinement.error == 0.5);
+  CHECK_FALSE(mesh({"--error=0.5"}).is_refined_unasked);
+  for (const char* const scene : {"teapot-12", "a.nff", "./a"}) {
+    CHECK_FALSE(
+        parse_command_line(std::vector<std::string>{"render", scene, "-o", "a.png"}).options<RenderOptions>().picture.is_refined);
+  }
+}
+
 TEST_CASE("a cutoff is exact unless said otherwise") {
   CHECK(render().picture.cutoff == 0);
   CHECK(render({"--cutoff=0"}).picture.cutoff == 0);

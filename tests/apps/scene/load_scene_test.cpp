@@ -70,6 +70,18 @@ TEST_CASE("a mesh file is a scene, seen and lit as the options say") {
   CHECK(scene.lights.size() == 1);
 }
 
+TEST_CASE("a mesh that is looked at by a camera of one's own is upright, whatever camera its file has") {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "a.obj", tests::triangle_obj);
+  PictureOptions picture{.scene = folder / "a.obj"};
+  picture.staging = {.camera = parse_camera("9,0,0/0,0,0"), .mesh = {.up = UpAxis{2}}};
+  CHECK(load_scene(picture, LoadNotes::silent).view.up == core::Vec3d{0, 0, 1});
+  PictureOptions built_in{.scene = "tetra-1"};
+  const core::Vec3d up = load_scene(built_in).view.up;
+  built_in.staging.camera = parse_camera("9,0,0/0,0,0");
+  CHECK(load_scene(built_in).view.up == up);
+}
+
 TEST_CASE("the options of mesh files go with no other scene") {
   const std::vector<MeshOptions> all = {{.scale = 1}, {.up = UpAxis{1}}, {.smooth_degrees = 60}, {.allows_missing = true}};
   for (const MeshOptions& mesh : all) {

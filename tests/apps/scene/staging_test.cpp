@@ -113,6 +113,65 @@ TEST_CASE("a camera replaces what it names of the scene's view, lights replace a
   CHECK(scene.lights.size() == 1);
 }
 
+TEST_CASE("a camera asked for of a mesh has nothing of the file's: up is y, or what --up says, and the angle 45 degrees") {
+  core::Scene scene{.view = {.from = {0, 9, 0}, .up = {0, 0, -1}, .angle_degrees = 20, .width = 64}};
+  CHECK(apply({.camera = parse_camera("0,0,5/0,0,0")}, scene, SceneKind::mesh).empty());
+  CHECK(scene.view.up == Vec3d{0, 1, 0});
+  CHECK(scene.view.angle_degrees == 45);
+  CHECK(apply({.camera = parse_camera("0,9,0/0,0,0"), .mesh = {.up = UpAxis{2}}}, scene, SceneKind::mesh).empty());
+  CHECK(scene.view.up == Vec3d{0, 0, 1});
+  CHECK(apply({.camera = parse_camera("0,0,5/0,0,0/1,0,0/30")}, scene, SceneKind::mesh).empty());
+  CHECK(scene.view.up == Vec3d{1, 0, 0});
+  CHECK(scene.view.angle_degrees == 30);
+}
+
+TEST_CASE("a camera along what is up of a mesh is turned as who stands in front and looks up or down, and says so") {
+  core::Scene scene;
+  CHECK(apply({.camera = parse_camera("0,5,0/0,0,0")}, scene, SceneKind::mesh) ==
+        "--camera looks along the axis that points up: upwards in the picture is 0,0,-1, as by --camera=0,5,0/0,0,0/0,0,-1");
+  CHECK(scene.view.up == Vec3d{0, 0, -1});
+  CHECK_FALSE(apply({.camera = parse_camera("0,0,0/0,5,0")}, scene, SceneKind::mesh).empty());
+  CHECK(scene.view.up == Vec3d{0, 0, 1});
+  CHECK_FALSE(apply({.camera = parse_camera("0,0,5/0,0,0"), .mesh = {.up = UpAxis{2}}}, scene, SceneKind::mesh).empty());
+  CHECK(scene.view.up == Vec3d{0, 1, 0});
+}
+
+TEST_CASE("a fill is one more light in the eye, and leaves the others as bright as they are") {
+  core::Scene scene;
+  scene.lights.resize(4);
+  apply({.camera = parse_camera("0,1,2/0,0,0"), .fill = 0.25}, scene);
+  REQUIRE(scene.lights.size() == 5);
+  CHECK(scene.lights.back().position == Vec3d{0, 1, 2});
+  CHECK(intensity_of(scene.lights.back(), scene) == Vec3d{0.25, 0.25, 0.25});
+  CHECK(intensity_of(scene.lights.front(), scene) == Vec3d{0.5, 0.5, 0.5});
+  apply({.fill = 0}, scene);
+  CHECK(scene.lights.size() == 5);
+}
+
+TEST_CASE("an ambient light and a background are a colour or a grey, in place of the scene's") {
+  const Staging staging = staged({"--fill=0.3", "--ambient=0.1", "--background=0,0.5,1"});
+  CHECK(staging.fill == 0.3);
+  core::Scene scene{.background = {1, 1, 1}};
+  apply(staging, scene);
+  CHECK(scene.ambient == Vec3d{0.1, 0.1, 0.1});
+  CHECK(scene.background == Vec3d{0, 0.5, 1});
+  apply(staged({"--ambient=0.1,0.2,0.3"}), scene);
+  CHECK(scene.ambient == Vec3d{0.1, 0.2, 0.3});
+  CHECK(scene.background == Vec3d{0, 0.5, 1});
+}
+
+TEST_CASE("what is no brightness is refused with what was expected") {
+  for (const char* const option : {"--ambient=-1", "--ambient=1,2", "--ambient=0,0,-1", "--background=x", "--background=1e31",
+                                   "--background=1,2,3,4", "--ambient=nan"}) {
+    CAPTURE(option);
+    CHECK_THROWS_WITH_AS(staged({option}), Contains("expected R,G,B such as"), UsageError);
+  }
+  for (const char* const option : {"--fill=-0.1", "--fill=1e31", "--fill=0.3,0.3,0.3", "--fill=much"}) {
+    CAPTURE(option);
+    CHECK_THROWS_WITH_AS(staged({option}), Contains("expected a number from 0 to 1e30"), UsageError);
+  }
+}
+
 TEST_CASE("a camera along the scene's own up asks for another up") {
   core::Scene scene;
   CHECK_THROWS_WITH_AS(apply({.camera = parse_camera("0,5,0/0,0,0")}, scene), Contains("give UP, too"), UsageError);

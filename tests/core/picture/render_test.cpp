@@ -55,6 +55,21 @@ TEST_CASE("a sphere lit and seen from its centre is Kd everywhere") {
   CHECK(picture.operations.shadow_blocked == 0);
 }
 
+TEST_CASE("an ambient light shows the diffuse colour of what no light falls on, through mirrors, too, and nothing else") {
+  Scene scene;
+  scene.ambient = {0.5, 1, 2};
+  SceneBuilder builder(scene);
+  builder.material({.color = {1, 0.5, 0.25}, .diffuse = 0.5, .specular = 0.25});
+  builder.sphere({0, 0, 0}, 2);
+  scene.view = {.from = {0, 0, 0}, .at = {1, 2, 3}, .up = {0, 1, 0}, .angle_degrees = 100};
+  const Picture once = rendered(scene, 4, 1, {.depth_max = 1}), twice = rendered(scene, 4, 1, {.depth_max = 2});
+  for (std::uint32_t pixel = 0; pixel < 16; ++pixel) {
+    CHECK(once.film.radiance(pixel) == Vec3d{0.25, 0.25, 0.25});
+    CHECK(twice.film.radiance(pixel) == Vec3d{0.3125, 0.3125, 0.3125});
+  }
+  CHECK(once.operations.ray_count() == 16);
+}
+
 TEST_CASE("a glass ball in a white room takes from a ray what the depth limit cuts") {
   Scene scene;
   SceneBuilder builder(scene);

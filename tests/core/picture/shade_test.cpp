@@ -105,6 +105,8 @@ TEST_CASE("no ray finds more light than a bound by the scene's lights, materials
   CHECK(radiance_bound(scene, 1) == doctest::Approx(1.5));  // two lights, 0.5 diffuse and 0.25 in the highlight
   CHECK(radiance_bound(scene, 2) == doctest::Approx(1.5));
   CHECK(radiance_bound(scene, 3) == doctest::Approx(1.5 + 0.75 * 1.5));
+  scene.ambient = {0.5, 1, 0.25};
+  CHECK(radiance_bound(scene, 1) == doctest::Approx(2));  // and 0.5 of the ambient light
   scene.background = {0, 9, 0};
   CHECK(radiance_bound(scene, 2) == doctest::Approx(9));
   CHECK(radiance_bound(scene, 3) == doctest::Approx(9));

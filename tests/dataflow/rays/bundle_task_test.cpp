@@ -33,10 +33,11 @@ struct BenchOf : tests::PartBench<Task> {
   void trace() { this->task.trace(this->tracer, this->part.header, this->operations); }
   std::vector<core::Ray> next_children() {
     std::vector<core::Ray> children;
-    this->task.next_children(this->tracer, this->settings, this->operations, [&](const core::Ray& child) {
+    const auto shoot = [&](const core::Ray& child) {
       this->task.shoot(child);
       children.push_back(child);
-    });
+    };
+    this->task.next_children(this->tracer, this->settings, this->operations, shoot, tests::no_shine);
     return children;
   }
 };

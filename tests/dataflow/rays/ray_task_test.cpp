@@ -37,7 +37,8 @@ struct Bench : tests::PartBench<RayTask> {
   }
   std::optional<core::Ray> next_child() {
     std::optional<core::Ray> child;
-    task.next_children(tracer, settings, operations, [&](const core::Ray& ray) { child = ray; });
+    task.next_children(
+        tracer, settings, operations, [&](const core::Ray& ray) { child = ray; }, tests::no_shine);
     return child;
   }
 };

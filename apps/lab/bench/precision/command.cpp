@@ -145,7 +145,7 @@ struct Outcome {
 /// Pictures that are larger, smaller or deeper than measured, or seen or lit otherwise, are as any other.
 Expectation expected_of(const std::string& scene, const PrecisionOptions& options) {
   const bool is_as_measured = options.resolution.width == measured_side && options.resolution.height == measured_side &&
-                              options.depth == measured_depth && !options.staging.camera && options.staging.lights.empty();
+                              options.depth == measured_depth && options.staging.is_as_scene();
   return options.expected ? Expectation{*options.expected, "by --expect"}
          : is_as_measured ? expectation_of(scene)
                           : usual_expectation();

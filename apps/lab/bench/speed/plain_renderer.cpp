@@ -173,8 +173,8 @@ class PlainRenderer::Painter {
   }
 
   Color direct_light(const Surface& surface, const Vec3f& direction) {
-    Color sum{};
     const core::MaterialRecord& material = *surface.material;
+    Color sum = stage_.settings.header.ambient * (material.color * material.diffuse);
     const Vec3f mirror = mirrored(direction, surface.normal);
     for (const core::LightRecord& light : stage_.lights) {
       const Vec3f towards = light.position - surface.point;

@@ -45,7 +45,7 @@ Judgement PixelJudge::judge(std::uint32_t pixel, const core::Vec3d& radiance) co
   const AccurateRay primary = camera_.ray_through(pixel % width, pixel / width);
   const ProductLog product = logger_.log_of(pixel);
   Audit audit = audit_.of(product, primary);
-  if (audit.error.empty() && !is_light_of(product, radiance)) {
+  if (audit.error.empty() && !is_light_of(product, audit, radiance)) {
     audit.error = "its light is not that of its rays";
   }
   const PixelCause cause = !audit.error.empty() ? PixelCause::unexplained
@@ -55,11 +55,14 @@ Judgement PixelJudge::judge(std::uint32_t pixel, const core::Vec3d& radiance) co
 }
 
 /// The film rounds what each ray brings to a step of its own.
-bool PixelJudge::is_light_of(const ProductLog& product, const core::Vec3d& radiance) const {
-  const core::Vec3d light = product.light(scene_.background);
+bool PixelJudge::is_light_of(const ProductLog& product, const Audit& audit, const core::Vec3d& radiance) const {
+  const core::Vec3d light = product.light(scene_.background) + audit.glow;
   const double steps = core::film_resolution / options_.film_scale.factor() * static_cast<double>(product.rays.size());
-  const auto is_near = [steps](double a, double b) { return std::fabs(a - b) <= steps + light_rounding * std::fabs(b); };
-  return is_near(radiance.x, light.x) && is_near(radiance.y, light.y) && is_near(radiance.z, light.z);
+  const auto is_near = [&](std::size_t channel) {
+    const double allowed = steps + light_rounding * std::fabs(light[channel]) + audit.glow_doubt[channel];
+    return std::fabs(radiance[channel] - light[channel]) <= allowed;
+  };
+  return is_near(0) && is_near(1) && is_near(2);
 }
 
 PixelCause PixelJudge::cause_of_parting(const ProductLog& product, const RayLog& accurate, const Audit& audit) const {

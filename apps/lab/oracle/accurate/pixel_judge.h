@@ -47,7 +47,7 @@ class PixelJudge {
   Judgement judge(std::uint32_t pixel, const core::Vec3d& radiance) const;
 
  private:
-  bool is_light_of(const ProductLog& product, const core::Vec3d& radiance) const;
+  bool is_light_of(const ProductLog& product, const Audit& audit, const core::Vec3d& radiance) const;
   PixelCause cause_of_parting(const ProductLog& product, const RayLog& accurate, const Audit& audit) const;
   PixelCause cause_of_answers(const LoggedRay& product, const LoggedRay& accurate, const std::optional<Verdict>& doubt) const;
 

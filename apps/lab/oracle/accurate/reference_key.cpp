@@ -78,7 +78,15 @@ class HashingSink final : public core::SceneSink {
   Digest& digest_;
 };
 
-/// What replay() leaves out.
+/// What replay() leaves out; nothing where there is none.
+void add_ambient(const core::Scene& scene, Digest& digest) {
+  if (!(scene.ambient == Vec3d{})) {
+    digest.add(std::uint64_t{10});
+    digest.add(scene.ambient);
+  }
+}
+
+/// What replay() leaves out, too.
 void add_textures(const core::Scene& scene, Digest& digest) {
   for (const core::Texture& texture : scene.textures) {
     for (const std::uint64_t value : {std::uint64_t{9}, static_cast<std::uint64_t>(texture.format),
@@ -113,6 +121,7 @@ std::string reference_key(const core::Scene& scene, const Resolution& resolution
   }
   HashingSink sink(digest);
   core::replay(scene, sink);
+  add_ambient(scene, digest);
   add_textures(scene, digest);
   return digest.text();
 }

@@ -88,6 +88,7 @@ AccurateScene accurate_scene(const core::Scene& scene) {
   result.textures = scene.textures;
   result.materials = scene.materials;
   result.background = scene.background;
+  result.ambient = scene.ambient;
   for (const core::PointLight& light : scene.lights) {
     result.lights.push_back({light.position, core::intensity_of(light, scene)});
   }

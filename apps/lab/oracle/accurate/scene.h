@@ -24,7 +24,7 @@ struct AccurateScene {
   std::vector<core::Texture> textures;
   std::vector<core::Material> materials;
   std::vector<AccurateLight> lights;
-  core::Vec3d background;
+  core::Vec3d background, ambient;
   core::Box bounds;  ///< of all bodies
   double size = 1;   ///< the largest extent of `bounds`, above 0
 };

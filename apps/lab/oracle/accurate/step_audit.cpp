@@ -171,6 +171,7 @@ class StepAudit::Case {
       return complain(text_of(from) + " hits what double precision leaves out");
     }
     const AccurateHit hit = hit_of(index);
+    add_glow(from, hit);
     const Rays exact = AccurateTracer(audit_.scene_, audit_.finder_, audit_.options_).spawned(from, hit);
     const std::vector<Rays> trials = disturbed(from, hit);
     Rays found;
@@ -185,6 +186,23 @@ class StepAudit::Case {
         check_decision(ray, trials, false);
       }
     }
+  }
+
+  void add_glow(const AccurateRay& from, const AccurateHit& hit) {
+    if (audit_.scene_.ambient == Vec3d{}) {
+      return;
+    }
+    const Vec3d exact = AccurateTracer(audit_.scene_, audit_.finder_, audit_.options_).glow(from, hit);
+    Vec3d doubt = exact * weight_rounding;
+    for (std::uint64_t seed = 0; seed < trial_count; ++seed) {
+      Disturbance disturbance(audit_.unit_, seed);
+      const Vec3d other = AccurateTracer(audit_.scene_, audit_.finder_, audit_.options_, &disturbance).glow(from, hit);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        doubt[axis] = std::max(doubt[axis], steps_allowed * std::fabs(other[axis] - exact[axis]));
+      }
+    }
+    result_.glow = result_.glow + exact;
+    result_.glow_doubt = result_.glow_doubt + doubt;
   }
 
   /// `right`: the ray that it should be, or null.

@@ -19,6 +19,8 @@ struct Audit {
   double largest_step = 0;
   bool is_warned = false;  ///< an answer is farther off than pixels may be without a word, and no farther than was said
   std::string error;       ///< what cannot be explained, in words; empty if all can
+  /// What the hits send on by themselves, and by how much disturbances change that.
+  core::Vec3d glow, glow_doubt;
 };
 
 /// Takes the product's rays as they are, floats and all, and asks at each of them in double precision, of the scene as its file

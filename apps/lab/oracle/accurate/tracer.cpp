@@ -56,8 +56,9 @@ Vec3d AccurateTracer::radiance(AccurateRay ray) {
   if (!hit.found()) {
     return ray.weight * scene_.background;
   }
-  Vec3d sum;
-  for (AccurateRay& child : spawned(ray, hit)) {
+  const Touch met = touch(ray, hit);
+  Vec3d sum = glow(met);
+  for (AccurateRay& child : spawned(met)) {
     if (child.kind != RayKind::shadow) {
       sum = sum + radiance(child);
     } else if (!trace(child).found()) {
@@ -67,12 +68,21 @@ Vec3d AccurateTracer::radiance(AccurateRay ray) {
   return sum;
 }
 
+Vec3d AccurateTracer::glow(const AccurateRay& ray, const AccurateHit& hit) const { return glow(touch(ray, hit)); }
+
+Vec3d AccurateTracer::glow(const Touch& touch) const {
+  return touch.ray.weight * scene_.ambient * (touch.color * touch.material.diffuse);
+}
+
 std::vector<AccurateRay> AccurateTracer::spawned(const AccurateRay& ray, const AccurateHit& hit) const {
-  const Touch met = touch(ray, hit);
+  return spawned(touch(ray, hit));
+}
+
+std::vector<AccurateRay> AccurateTracer::spawned(const Touch& met) const {
   std::vector<AccurateRay> rays;
   rays.reserve(scene_.lights.size() + 2);
   add_shadow_rays(met, rays);
-  if (ray.depth < options_.depth_max && (met.material.specular > 0 || met.material.transmittance > 0)) {
+  if (met.ray.depth < options_.depth_max && (met.material.specular > 0 || met.material.transmittance > 0)) {
     add_children(met, rays);
   }
   return rays;

@@ -39,6 +39,8 @@ class AccurateTracer {
 
   /// Linear radiance that a ray brings, with all rays that follow from it.
   core::Vec3d radiance(AccurateRay ray);
+  /// What a hit sends back along `ray`, which is no shadow ray, by itself: of the ambient light what its diffuse part reflects.
+  core::Vec3d glow(const AccurateRay& ray, const AccurateHit& hit) const;
   /// The rays that start where `ray`, which is no shadow ray, meets `hit`, in the order in which they are traced.
   std::vector<AccurateRay> spawned(const AccurateRay& ray, const AccurateHit& hit) const;
   /// Rays traced so far, of all kinds.
@@ -50,6 +52,8 @@ class AccurateTracer {
   AccurateHit trace(AccurateRay& ray);
   Touch touch(const AccurateRay& ray, const AccurateHit& hit) const;
   core::Vec3d painted(const Touch& touch) const;
+  core::Vec3d glow(const Touch& touch) const;
+  std::vector<AccurateRay> spawned(const Touch& touch) const;
   AccurateRay child(const Touch& touch, const core::Vec3d& towards, core::RayKind kind) const;
   void add_shadow_rays(const Touch& touch, std::vector<AccurateRay>& rays) const;
   void add_children(const Touch& touch, std::vector<AccurateRay>& rays) const;

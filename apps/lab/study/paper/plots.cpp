@@ -64,9 +64,17 @@ PaperPlot plot_of_losses() {
             .y = {.label = "of the nodes' time (%)", .least = 0},
             .series = {},
             .is_stacked = true};
-  constexpr std::array<const char*, time_part_count> words = {
-      "computing", "page wait",      "work wait", "other waits", "stolen by others' requests", "lent to others' requests",
-      "messages",  "idle at the end"};
+  constexpr std::array<const char*, time_part_count> words = {"computing",
+                                                              "page wait",
+                                                              "work wait",
+                                                              "token wait",
+                                                              "credit wait",
+                                                              "film wait",
+                                                              "other waits",
+                                                              "stolen by others' requests",
+                                                              "lent to others' requests",
+                                                              "messages",
+                                                              "idle at the end"};
   for (std::size_t part = 1; part < time_part_count; ++part) {
     plot.series.push_back({words[part], time_part_names[part], {}, PlotMark::bars, part - 1});
   }

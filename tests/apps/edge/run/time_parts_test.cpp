@@ -8,7 +8,13 @@ namespace dmpc::apps::time_parts_test {
 
 namespace {
 
-constexpr WaitKinds waits = {.data = "page", .data_kinds = 0b1, .work_kinds = 0b110, .end_kinds = 0b1000};
+constexpr WaitKinds waits = {.data = "page",
+                             .data_kinds = 0b1,
+                             .work_kinds = 0b110,
+                             .token_kinds = 0b100000,
+                             .credit_kinds = 0b1000000,
+                             .film_kinds = 0b10000000,
+                             .end_kinds = 0b1000};
 
 std::uint64_t at(const TimeParts& parts, TimePart part) { return parts.ns[static_cast<std::size_t>(part)]; }
 
@@ -19,8 +25,8 @@ nodes::VirtualTimes powers() {
           .receiving_ns = 4,
           .stolen_ns = 8,
           .lent_ns = 16,
-          .waiting_ns = {32, 64, 128, 256, 512},
-          .end_ns = 1024};
+          .waiting_ns = {32, 64, 128, 256, 512, 1024, 2048, 4096},
+          .end_ns = 8192};
 }
 
 /// A time of two parts.
@@ -40,8 +46,11 @@ TEST_CASE("every nanosecond belongs to one part") {
   CHECK(at(parts, TimePart::lent) == 16);
   CHECK(at(parts, TimePart::data_wait) == 32);
   CHECK(at(parts, TimePart::work_wait) == 64 + 128);
-  CHECK(at(parts, TimePart::idle_at_end) == 256 + 1024);
+  CHECK(at(parts, TimePart::idle_at_end) == 256 + 8192);
   CHECK(at(parts, TimePart::other_wait) == 512);
+  CHECK(at(parts, TimePart::token_wait) == 1024);
+  CHECK(at(parts, TimePart::credit_wait) == 2048);
+  CHECK(at(parts, TimePart::film_wait) == 4096);
   CHECK(parts.total_ns() == powers().total_ns());
 }
 
@@ -57,7 +66,7 @@ TEST_CASE("a sum over the nodes is without the host, which is the last") {
   CHECK(sum.total_ns() == 2 * powers().total_ns());
   CHECK(sum.computing_ns == 2);
   CHECK(sum.waiting_ns[4] == 1024);
-  CHECK(sum.end_ns == 2048);
+  CHECK(sum.end_ns == 2 * 8192);
 }
 
 TEST_CASE("parts are told as people read them, without those that are nothing") {

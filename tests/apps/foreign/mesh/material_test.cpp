@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "apps/foreign/mesh/surface.h"
 #include "apps/formats/mesh_file.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"

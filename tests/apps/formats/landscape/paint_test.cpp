@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
 #include "core/base/expect.h"
 
@@ -21,6 +23,16 @@ TEST_CASE("the ground is painted the same every time, and not alike everywhere")
   const Image image = ground_picture(64);
   CHECK(image.rgb == ground_picture(64).rgb);
   CHECK(std::count(image.rgb.begin(), image.rgb.end(), image.rgb.front()) < 10);
+}
+
+TEST_CASE("how many rows are painted is told until all are, which changes no colour") {
+  std::vector<std::uint64_t> told;
+  const Image image = ground_picture(300, [&told](std::uint64_t done, std::uint64_t total) {
+    CHECK(total == 300);
+    told.push_back(done);
+  });
+  CHECK(told == std::vector<std::uint64_t>{256, 300});
+  CHECK(image.rgb == ground_picture(300).rgb);
 }
 
 TEST_CASE("a picture without texels is refused") { CHECK_THROWS_AS(ground_picture(0), core::InternalError); }

@@ -43,6 +43,17 @@ TEST_CASE("mirrors that multiply rounding part the renderers at silhouettes and 
   CHECK(causes.of(PixelCause::unexplained) == 0);
 }
 
+TEST_CASE("what hits show of an ambient light is explained, and one more of it is not") {
+  core::Scene scene = mirrors_and_glass();
+  add_textured_walls(scene);
+  scene.ambient = {0.5, 0.25, 1};
+  const Workbench bench(scene, 32);
+  CHECK(Causes(bench).of(PixelCause::unexplained) == 0);
+  core::Scene other = scene;
+  other.ambient.x = 0.501;
+  CHECK(Causes(Workbench(scene, other, 32)).of(PixelCause::unexplained) > 100);
+}
+
 /// A smaller polygon in front of another one by so much, and rising from left to right.
 core::Scene two_polygons(double before, double rise) {
   core::Scene scene;

@@ -1,0 +1,38 @@
+// Surfaces as files describe them, and as ours.
+#pragma once
+
+#include <optional>
+
+#include "core/base/vec.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+/// Phong's, as MTL has it. Colours are linear, in 0 to 1.
+struct PhongSurface {
+  core::Vec3d diffuse, specular;    ///< Kd, Ks
+  double shine = 0;                 ///< Ns; 0 or less: there is no highlight
+  double refraction_index = 1;      ///< Ni
+  double opacity = 1;               ///< d
+  std::optional<int> illumination;  ///< illum, if the file says it: 0 and 1 have no highlight, 3 to 9 mirror
+};
+
+/// glTF's. Colours are linear, in 0 to 1.
+struct MetallicSurface {
+  core::Vec3d base{1, 1, 1};
+  double metallic = 1, roughness = 1;
+  double transmission = 0;
+  double refraction_index = 1.5;  ///< 1 or less counts as 1.5
+  double opacity = 1;             ///< of what is blended; 1 of all else
+};
+
+/// By the table in apps/foreign/README.md. They reflect and transmit no more light than arrives, in any channel.
+core::Material material_of(const PhongSurface& surface);
+core::Material material_of(const MetallicSurface& surface);
+
+/// Phong's exponent for glTF's roughness, 0 to 1: half-vector exponent 2 / alpha^2 - 2 with alpha = roughness^2 (B. Walter and
+/// others, "Microfacet Models for Refraction through Rough Surfaces", 2007), a quarter of that around the mirror's direction
+/// (F. Fisher, A. Woo, "R.E versus N.H Specular Highlights", Graphics Gems IV, 1994); 1 to 10,000.
+double shine_of_roughness(double roughness);
+
+}  // namespace dmpc::apps

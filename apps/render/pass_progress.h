@@ -1,0 +1,34 @@
+// How far a picture is that is refined pass by pass.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "apps/edge/system/progress.h"
+
+namespace dmpc::apps {
+
+/// Passes become one stretch that never goes back: each has an equal share of it, whatever its pixels, and a picture that is good
+/// enough before the last one ends early. Not thread-safe.
+class PassProgress {
+ public:
+  /// `progress` outlives it. `first`: the pass with which it begins, from 1 on.
+  PassProgress(Progress& progress, std::uint32_t first, std::uint32_t passes_max)
+      : progress_(progress), pass_(first), passes_max_(passes_max) {}
+
+  /// `done` of a pass's `total` pixels; fewer than before, or of another total, are the next pass's.
+  void update(std::uint32_t done, std::uint32_t total);
+
+  /// "Pass 3 of at most 12:".
+  std::string label() const;
+  /// 0 to 1, of all passes.
+  double share() const { return share_; }
+
+ private:
+  Progress& progress_;
+  std::uint32_t pass_, passes_max_;
+  std::uint32_t done_ = 0, total_ = 0;
+  double share_ = 0;
+};
+
+}  // namespace dmpc::apps
