@@ -1,5 +1,6 @@
 #include "apps/foreign/mesh/placement.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/expect.h"
@@ -14,26 +15,30 @@ struct Visit {
 };
 
 void check(const aiNode& node, const Transform& world) {
-  const double determinant = world.determinant();
-  if (!std::isfinite(determinant) || !is_finite(world.shift)) {
+  if (!std::isfinite(world.determinant()) || !is_finite(world.shift)) {
     throw core::InputError("the transform of the node '" + std::string(node.mName.C_Str()) + "' is not finite; correct it");
   }
-  if (determinant == 0) {
-    throw core::InputError("the transform of the node '" + std::string(node.mName.C_Str()) +
-                           "' flattens what it places (its determinant is 0); correct it");
-  }
+}
+
+/// Onto a line or a point, where no face has an area: so exporters hide what a node places.
+bool leaves_no_area(const Transform& world) {
+  const Transform areas = world.of_normals();
+  return std::all_of(areas.rows.begin(), areas.rows.end(), [](const core::Vec3d& row) { return row == core::Vec3d{}; });
 }
 
 void place_meshes(const aiScene& scene, const aiNode& node, const Transform& world, std::vector<Placement>& placements) {
   if (node.mNumMeshes > 0) {
     check(node, world);
   }
+  const bool is_there = !leaves_no_area(world);
   for (std::size_t i = 0; i < node.mNumMeshes; ++i) {
     if (node.mMeshes[i] >= scene.mNumMeshes) {
       throw core::InputError("the node '" + std::string(node.mName.C_Str()) + "' places mesh " + std::to_string(node.mMeshes[i]) +
                              ", and there are but " + std::to_string(scene.mNumMeshes));
     }
-    placements.push_back({node.mMeshes[i], world});
+    if (is_there) {
+      placements.push_back({node.mMeshes[i], world});
+    }
   }
 }
 
