@@ -12,6 +12,7 @@
 #include "apps/foreign/mesh/material.h"
 #include "apps/foreign/mesh/placed_mesh.h"
 #include "apps/foreign/mesh/placement.h"
+#include "apps/foreign/mesh/skin.h"
 #include "apps/foreign/mesh/textures.h"
 #include "apps/foreign/polygon_formats.h"
 #include "apps/formats/whole_view.h"
@@ -231,6 +232,7 @@ void add_surroundings(core::Scene& scene, const aiScene* file, const MeshOptions
 /// What Assimp's types hold: nodes place meshes.
 MeshScene scene_of(const ImportedFile& file, const std::string& path, const MeshOptions& options, SceneFiles& files) {
   MeshScene result{.scene = {.name = path, .coordinate_rounding = float_rounding}, .notes = {}};
+  pose_skins(*file.scene, result.notes);
   std::vector<std::string> missing = file.missing;
   const Placements placements = find_placements(*file.scene, options.scale.value_or(1));
   const GeometrySize size = measure(*file.scene, placements, result.notes);

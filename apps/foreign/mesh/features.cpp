@@ -43,7 +43,8 @@ void note_meshes(const std::set<const aiMesh*>& meshes, std::vector<std::string>
        count(meshes, [](const aiMesh& mesh) { return mesh.HasVertexColors(0); }));
   note(notes, "meshes with several sets of texture coordinates, of which colours use one",
        count(meshes, [](const aiMesh& mesh) { return mesh.GetNumUVChannels() > 1; }));
-  note(notes, "meshes with a skin, shown at rest", count(meshes, [](const aiMesh& mesh) { return mesh.HasBones(); }));
+  note(notes, "meshes with a skin, shown in the pose in which their joints stand",
+       count(meshes, [](const aiMesh& mesh) { return mesh.HasBones(); }));
   note(notes, "meshes with morph targets, shown without them",
        count(meshes, [](const aiMesh& mesh) { return mesh.mNumAnimMeshes > 0; }));
 }

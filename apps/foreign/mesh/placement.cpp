@@ -26,7 +26,9 @@ bool leaves_no_area(const Transform& world) {
   return std::all_of(areas.rows.begin(), areas.rows.end(), [](const core::Vec3d& row) { return row == core::Vec3d{}; });
 }
 
-void place_meshes(const aiScene& scene, const aiNode& node, const Transform& world, std::vector<Placement>& placements) {
+/// What is posed stands in the root's own coordinates, `whole`.
+void place_meshes(const aiScene& scene, const aiNode& node, const Transform& world, const Transform& whole,
+                  std::vector<Placement>& placements) {
   if (node.mNumMeshes > 0) {
     check(node, world);
   }
@@ -36,8 +38,9 @@ void place_meshes(const aiScene& scene, const aiNode& node, const Transform& wor
       throw core::InputError("the node '" + std::string(node.mName.C_Str()) + "' places mesh " + std::to_string(node.mMeshes[i]) +
                              ", and there are but " + std::to_string(scene.mNumMeshes));
     }
-    if (is_there) {
-      placements.push_back({node.mMeshes[i], world});
+    const bool is_posed = scene.mMeshes[node.mMeshes[i]]->HasBones();
+    if (is_there || is_posed) {
+      placements.push_back({node.mMeshes[i], is_posed ? whole : world});
     }
   }
 }
@@ -54,7 +57,7 @@ std::vector<Placement> find_placements(const aiScene& scene, double scale) {
     const auto [node, parent] = waiting.back();
     waiting.pop_back();
     const Transform world = parent * node->mTransformation;
-    place_meshes(scene, *node, world, placements);
+    place_meshes(scene, *node, world, scaling(scale), placements);
     for (std::size_t i = node->mNumChildren; i-- > 0;) {
       waiting.push_back({node->mChildren[i], world});
     }

@@ -30,7 +30,8 @@ TEST_CASE("what is not shown is said once a kind, with its count") {
   CHECK(has(notes_of("OBJ/cube_with_vertexcolors.obj"), "meshes whose vertex colours are not used: 1"));
   CHECK(has(notes_of("glTF2/BoxTexcoords-glTF/boxTexcoords.gltf"),
             "meshes with several sets of texture coordinates, of which colours use one: 1"));
-  CHECK(has(notes_of("glTF2/simple_skin/simple_skin.gltf"), "meshes with a skin, shown at rest: 1"));
+  CHECK(has(notes_of("glTF2/simple_skin/simple_skin.gltf"),
+            "meshes with a skin, shown in the pose in which their joints stand: 1"));
   CHECK(has(notes_of("glTF2/simple_skin/simple_skin.gltf"), "animations not played: 1"));
   const Notes cube = notes_of("glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf");
   CHECK(has(cube, "meshes with morph targets, shown without them: 1"));
