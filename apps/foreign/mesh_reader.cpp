@@ -205,8 +205,10 @@ void add_geometry(core::Scene& scene, std::vector<PolygonMesh> meshes, const std
 std::string text_of(const core::Vec3d& point) { return rounded(point.x) + "," + rounded(point.y) + "," + rounded(point.z); }
 
 /// The whole in view; says how, as a start for a camera of one's own.
-core::View plain_view(const BoundingSphere& bounds, const MeshOptions& options, std::vector<std::string>& notes) {
-  const core::View view = whole_view(bounds, options.up.value_or(UpAxis{}));
+core::View plain_view(const BoundingSphere& bounds, const aiScene* file, const MeshOptions& options,
+                      std::vector<std::string>& notes) {
+  const auto said = options.up || file == nullptr ? options.up : up_axis_of(*file, notes);
+  const core::View view = whole_view(bounds, said.value_or(UpAxis{}));
   notes.push_back("the whole is in view, as by --camera=" + text_of(view.from) + "/" + text_of(view.at) + "/" + text_of(view.up));
   return view;
 }
@@ -219,8 +221,8 @@ void add_surroundings(core::Scene& scene, const aiScene* file, const MeshOptions
   // What is said of a view or of lights that others are put in place of would be untrue.
   std::vector<std::string> unsaid;
   std::vector<std::string>& view_notes = options.is_seen_otherwise ? unsaid : notes;
-  const auto camera = file == nullptr ? std::nullopt : camera_of(*file, scale, view_notes);
-  scene.view = camera ? *camera : plain_view(bounds, options, view_notes);
+  const auto camera = file == nullptr ? std::nullopt : camera_of(*file, options.size, scale, view_notes);
+  scene.view = camera ? *camera : plain_view(bounds, file, options, view_notes);
   if (file != nullptr) {
     scene.lights = lights_of(*file, bounds, scale, options.is_lit_otherwise ? unsaid : notes);
   }
@@ -244,6 +246,9 @@ MeshScene scene_of(const ImportedFile& file, const std::string& path, const Mesh
   judge_missing(missing, options, result.notes);
   add_geometry(result.scene, *file.scene, placements, materials, options);
   add_surroundings(result.scene, file.scene.get(), options, result.notes);
+  if (!options.scale) {
+    note_unit(*file.scene, result.notes);
+  }
   return result;
 }
 
