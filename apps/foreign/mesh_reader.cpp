@@ -155,9 +155,13 @@ void forget(aiScene& file, std::size_t mesh) {
   file.mMeshes[mesh] = nullptr;
 }
 
-void check_has_area(const GeometryWriter& writer) {
+/// Throws if nothing has an area; says what does not show.
+void judge(const GeometryWriter& writer, std::vector<std::string>& notes) {
   if (!writer.has_area()) {
     throw core::InputError("there is no triangle in it that has an area; expected a mesh of triangles or polygons");
+  }
+  if (writer.unplaced() > 0) {
+    notes.push_back("meshes whose texture is not shown, since no corner has a place on it: " + grouped(writer.unplaced()));
   }
 }
 
@@ -171,7 +175,7 @@ const MeshMaterial& material_for(const aiMesh& mesh, std::size_t index, const st
 
 /// Each mesh is freed after its last place.
 void add_geometry(core::Scene& scene, aiScene& file, const Placements& placements, const std::vector<MeshMaterial>& materials,
-                  const MeshOptions& options) {
+                  const MeshOptions& options, std::vector<std::string>& notes) {
   core::SceneBuilder builder(scene);
   GeometryWriter writer(builder, options.smooth_degrees);
   std::vector<std::size_t> uses = count_uses(file, placements);
@@ -183,12 +187,12 @@ void add_geometry(core::Scene& scene, aiScene& file, const Placements& placement
       forget(file, placement.mesh);
     }
   }
-  check_has_area(writer);
+  judge(writer, notes);
 }
 
 /// Takes the meshes of a file that a reader of our own has read, and frees each at once.
 void add_geometry(core::Scene& scene, std::vector<PolygonMesh> meshes, const std::vector<core::Material>& materials,
-                  const MeshOptions& options) {
+                  const MeshOptions& options, std::vector<std::string>& notes) {
   core::SceneBuilder builder(scene);
   GeometryWriter writer(builder, options.smooth_degrees);
   const double scale = options.scale.value_or(1);
@@ -199,7 +203,7 @@ void add_geometry(core::Scene& scene, std::vector<PolygonMesh> meshes, const std
     const core::Material& material = materials[mesh.material];
     writer.add(std::exchange(mesh, {}), material);
   }
-  check_has_area(writer);
+  judge(writer, notes);
 }
 
 std::string text_of(const core::Vec3d& point) { return rounded(point.x) + "," + rounded(point.y) + "," + rounded(point.z); }
@@ -244,7 +248,7 @@ MeshScene scene_of(const ImportedFile& file, const std::string& path, const Mesh
   result.notes.insert(result.notes.end(), file.notes.begin(), file.notes.end());
   const std::vector<MeshMaterial> materials = materials_of(file, placements, files, result, missing);
   judge_missing(missing, options, result.notes);
-  add_geometry(result.scene, *file.scene, placements, materials, options);
+  add_geometry(result.scene, *file.scene, placements, materials, options, result.notes);
   add_surroundings(result.scene, file.scene.get(), options, result.notes);
   if (!options.scale) {
     note_unit(*file.scene, result.notes);
@@ -264,7 +268,7 @@ MeshScene scene_of(PolygonFile file, const std::string& path, const MeshOptions&
   reserve(result.scene, size);
   const std::vector<core::Material> materials = materials_of(file, files, result, missing);
   judge_missing(missing, options, result.notes);
-  add_geometry(result.scene, std::move(file.meshes), materials, options);
+  add_geometry(result.scene, std::move(file.meshes), materials, options, result.notes);
   add_surroundings(result.scene, nullptr, options, result.notes);
   return result;
 }

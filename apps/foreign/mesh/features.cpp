@@ -5,6 +5,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/material.h"
+#include "apps/foreign/mesh/textures.h"
 
 namespace dmpc::apps {
 namespace {
@@ -55,6 +56,7 @@ void note_materials(const std::set<const aiMaterial*>& materials, std::vector<st
     list_textures(*material, textures);
   }
   note(notes, "textures not used, since they are not of a surface's colour", textures.size());
+  note(notes, "materials whose texture is laid on by a projection, shown without it", count(materials, has_projected_texture));
   note(notes, "materials whose texture is moved, turned or scaled, shown without that", count(materials, has_moved_texture));
   note(notes, "materials that emit light, shown without it", count(materials, is_emissive));
   note(notes, "materials with an alpha mask, shown opaque", count(materials, has_alpha_mask));
