@@ -1,6 +1,7 @@
 #include "apps/foreign/import.h"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/version.h>
 
 #include <algorithm>
 #include <assimp/IOStream.hpp>
@@ -23,6 +24,7 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/gltf/reader.h"
+#include "apps/foreign/mesh/collada_text.h"
 #include "apps/foreign/mesh/file_ending.h"
 #include "apps/foreign/mesh/mtl_text.h"
 #include "apps/foreign/mesh/obj_check.h"
@@ -118,7 +120,8 @@ class Files final : public Assimp::IOSystem {
  private:
   std::unique_ptr<FileBytes> opened(const std::string& path) {
     if (path == scene_) {
-      return open_scene(path, ending_of(path), files_);
+      std::unique_ptr<FileBytes> file = open_scene(path, ending_of(path), files_);
+      return ending_of(path) == "dae" ? std::make_unique<TextBytes>(collada_in_full(text_of(*file))) : std::move(file);
     }
     return ending_of(path) == "mtl" ? materials(path) : files_.open(path);
   }
@@ -245,6 +248,21 @@ void take_over(const MtlTextures& textures, ImportedFile& file) {
   }
 }
 
+/// A material's texture goes by the file's number of a set, and a mesh's sets are counted from 0 on.
+void count_texture_sets(aiScene& scene, const std::set<unsigned>& sets) {
+  for (aiMaterial* const material : std::span(scene.mMaterials, scene.mNumMaterials)) {
+    int set = 0;
+    if (material->Get(AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0), set) == aiReturn_SUCCESS) {
+      const auto place = sets.find(static_cast<unsigned>(set));
+      if (place != sets.end()) {
+        set = static_cast<int>(std::distance(sets.begin(), place));
+        material->RemoveProperty(AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0));
+        material->AddProperty(&set, 1, AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0));
+      }
+    }
+  }
+}
+
 void check_has_mesh(const aiScene& scene) {
   if (scene.mNumMeshes == 0 || is_figure_of_nodes(scene)) {
     throw core::InputError(
@@ -294,7 +312,12 @@ ImportedFile import_file(const std::string& path, SceneFiles& files) {
   }
   check_has_mesh(*importer.GetScene());
   file.scene.reset(importer.GetOrphanedScene());
+  file.notes.push_back("read by Assimp " + std::to_string(aiGetVersionMajor()) + "." + std::to_string(aiGetVersionMinor()) + "." +
+                       std::to_string(aiGetVersionPatch()) + ", single precision");
   take_over(textures, file);
+  if (ending == "dae") {
+    count_texture_sets(*file.scene, collada_texture_sets(text_of(*open_scene(path, ending, files))));
+  }
   return file;
 }
 

@@ -12,6 +12,7 @@
 #include "apps/foreign/mesh/material.h"
 #include "apps/foreign/mesh/placed_mesh.h"
 #include "apps/foreign/mesh/placement.h"
+#include "apps/foreign/mesh/skin.h"
 #include "apps/foreign/mesh/textures.h"
 #include "apps/foreign/polygon_formats.h"
 #include "apps/formats/whole_view.h"
@@ -154,9 +155,13 @@ void forget(aiScene& file, std::size_t mesh) {
   file.mMeshes[mesh] = nullptr;
 }
 
-void check_has_area(const GeometryWriter& writer) {
+/// Throws if nothing has an area; says what does not show.
+void judge(const GeometryWriter& writer, std::vector<std::string>& notes) {
   if (!writer.has_area()) {
     throw core::InputError("there is no triangle in it that has an area; expected a mesh of triangles or polygons");
+  }
+  if (writer.unplaced() > 0) {
+    notes.push_back("meshes whose texture is not shown, since no corner has a place on it: " + grouped(writer.unplaced()));
   }
 }
 
@@ -170,7 +175,7 @@ const MeshMaterial& material_for(const aiMesh& mesh, std::size_t index, const st
 
 /// Each mesh is freed after its last place.
 void add_geometry(core::Scene& scene, aiScene& file, const Placements& placements, const std::vector<MeshMaterial>& materials,
-                  const MeshOptions& options) {
+                  const MeshOptions& options, std::vector<std::string>& notes) {
   core::SceneBuilder builder(scene);
   GeometryWriter writer(builder, options.smooth_degrees);
   std::vector<std::size_t> uses = count_uses(file, placements);
@@ -182,12 +187,12 @@ void add_geometry(core::Scene& scene, aiScene& file, const Placements& placement
       forget(file, placement.mesh);
     }
   }
-  check_has_area(writer);
+  judge(writer, notes);
 }
 
 /// Takes the meshes of a file that a reader of our own has read, and frees each at once.
 void add_geometry(core::Scene& scene, std::vector<PolygonMesh> meshes, const std::vector<core::Material>& materials,
-                  const MeshOptions& options) {
+                  const MeshOptions& options, std::vector<std::string>& notes) {
   core::SceneBuilder builder(scene);
   GeometryWriter writer(builder, options.smooth_degrees);
   const double scale = options.scale.value_or(1);
@@ -198,14 +203,16 @@ void add_geometry(core::Scene& scene, std::vector<PolygonMesh> meshes, const std
     const core::Material& material = materials[mesh.material];
     writer.add(std::exchange(mesh, {}), material);
   }
-  check_has_area(writer);
+  judge(writer, notes);
 }
 
 std::string text_of(const core::Vec3d& point) { return shortest(point.x) + "," + shortest(point.y) + "," + shortest(point.z); }
 
 /// The whole in view; says how, to the last bit, as a start for a camera of one's own.
-core::View plain_view(const BoundingSphere& bounds, const MeshOptions& options, std::vector<std::string>& notes) {
-  const core::View view = whole_view(bounds, options.up.value_or(UpAxis{}));
+core::View plain_view(const BoundingSphere& bounds, const aiScene* file, const MeshOptions& options,
+                      std::vector<std::string>& notes) {
+  const auto said = options.up || file == nullptr ? options.up : up_axis_of(*file, notes);
+  const core::View view = whole_view(bounds, said.value_or(UpAxis{}));
   notes.push_back("the whole is in view, as by --camera=" + text_of(view.from) + "/" + text_of(view.at) + "/" + text_of(view.up));
   return view;
 }
@@ -218,8 +225,8 @@ void add_surroundings(core::Scene& scene, const aiScene* file, const MeshOptions
   // What is said of a view or of lights that others are put in place of would be untrue.
   std::vector<std::string> unsaid;
   std::vector<std::string>& view_notes = options.is_seen_otherwise ? unsaid : notes;
-  const auto camera = file == nullptr ? std::nullopt : camera_of(*file, scale, view_notes);
-  scene.view = camera ? *camera : plain_view(bounds, options, view_notes);
+  const auto camera = file == nullptr ? std::nullopt : camera_of(*file, options.size, scale, view_notes);
+  scene.view = camera ? *camera : plain_view(bounds, file, options, view_notes);
   if (file != nullptr) {
     scene.lights = lights_of(*file, bounds, scale, options.is_lit_otherwise ? unsaid : notes);
   }
@@ -231,6 +238,7 @@ void add_surroundings(core::Scene& scene, const aiScene* file, const MeshOptions
 /// What Assimp's types hold: nodes place meshes.
 MeshScene scene_of(const ImportedFile& file, const std::string& path, const MeshOptions& options, SceneFiles& files) {
   MeshScene result{.scene = {.name = path, .coordinate_rounding = float_rounding}, .notes = {}};
+  pose_skins(*file.scene, result.notes);
   std::vector<std::string> missing = file.missing;
   const Placements placements = find_placements(*file.scene, options.scale.value_or(1));
   const GeometrySize size = measure(*file.scene, placements, result.notes);
@@ -240,8 +248,11 @@ MeshScene scene_of(const ImportedFile& file, const std::string& path, const Mesh
   result.notes.insert(result.notes.end(), file.notes.begin(), file.notes.end());
   const std::vector<MeshMaterial> materials = materials_of(file, placements, files, result, missing);
   judge_missing(missing, options, result.notes);
-  add_geometry(result.scene, *file.scene, placements, materials, options);
+  add_geometry(result.scene, *file.scene, placements, materials, options, result.notes);
   add_surroundings(result.scene, file.scene.get(), options, result.notes);
+  if (!options.scale) {
+    note_unit(*file.scene, result.notes);
+  }
   return result;
 }
 
@@ -265,7 +276,7 @@ MeshScene scene_of(PolygonFile file, const std::string& path, const MeshOptions&
   note_colors(file.meshes, result.notes);
   const std::vector<core::Material> materials = materials_of(file, files, result, missing);
   judge_missing(missing, options, result.notes);
-  add_geometry(result.scene, std::move(file.meshes), materials, options);
+  add_geometry(result.scene, std::move(file.meshes), materials, options, result.notes);
   add_surroundings(result.scene, nullptr, options, result.notes);
   return result;
 }

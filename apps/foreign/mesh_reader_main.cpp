@@ -26,11 +26,18 @@ std::optional<UpAxis> take_up(Unpacker& fields) {
   return axis ? std::optional(UpAxis{*axis, is_negative}) : std::nullopt;
 }
 
+std::optional<Resolution> take_size(Unpacker& fields) {
+  const std::optional<int> width = take_choice<int>(fields);
+  const auto height = static_cast<int>(fields.take<double>());
+  return width ? std::optional(Resolution{*width, height}) : std::nullopt;
+}
+
 MeshOptions take_options(Unpacker& fields) {
   MeshOptions options;
   options.scale = take_choice<double>(fields);
   options.up = take_up(fields);
   options.smooth_degrees = take_choice<double>(fields);
+  options.size = take_size(fields);
   options.allows_missing = fields.take_flag();
   options.is_seen_otherwise = fields.take_flag();
   options.is_lit_otherwise = fields.take_flag();

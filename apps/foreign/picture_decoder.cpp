@@ -5,13 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "apps/foreign/opaque_picture.h"
 #include "apps/picture/picture_format.h"
 #include "apps/picture/texture_size.h"
 #include "core/base/expect.h"
@@ -32,6 +36,7 @@ std::size_t texel_count(const OIIO::ImageSpec& spec) {
 
 /// An open picture, with the memory that it is read from.
 struct Input {
+  std::optional<std::vector<std::byte>> opaque;  ///< in place of the file's own bytes
   std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
   std::unique_ptr<OIIO::ImageInput> image;
 
@@ -83,8 +88,9 @@ void check_masks(const EncodedPicture& picture) {
 Input open(const EncodedPicture& picture, bool unassociated) {
   check_masks(picture);
   Input input;
-  void* const begin = const_cast<std::byte*>(picture.bytes.data());
-  input.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(begin, picture.bytes.size());
+  input.opaque = unassociated ? made_opaque(picture.format, picture.bytes) : std::nullopt;
+  const std::span<const std::byte> bytes = input.opaque ? std::span<const std::byte>(*input.opaque) : picture.bytes;
+  input.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::byte*>(bytes.data()), bytes.size());
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", unassociated ? 1 : 0);
   void* const proxy = input.memory.get();
@@ -116,44 +122,75 @@ Input open_texture(const EncodedPicture& picture) {
   return input;
 }
 
+/// Of the channels from `first` on, `count` of them.
 template <class T>
-std::vector<T> read_values(const Input& input, const std::string& name, OIIO::TypeDesc type, int count) {
+std::vector<T> read_values(const Input& input, const std::string& name, OIIO::TypeDesc type, int first, int count) {
   std::vector<T> values(texel_count(input.spec()) * static_cast<std::size_t>(count));
-  if (!input.image->read_image(0, 0, 0, count, type, values.data())) {
+  if (!input.image->read_image(0, 0, first, first + count, type, values.data())) {
     throw core::InputError(name + ": cannot be read: " + input.image->geterror());
   }
   return values;
 }
 
+/// Whether the file itself holds colours that are multiplied by alpha, as TIFF and TGA may; EXR's are light, and stay as they
+/// are.
+bool is_associated(const EncodedPicture& picture, const OIIO::ImageSpec& spec) {
+  return (picture.format == "tiff" || picture.format == "targa") && spec.alpha_channel >= 0 &&
+         spec.get_int_attribute("oiio:UnassociatedAlpha") == 0;
+}
+
+/// Divides `count` values of each texel by its alpha, `whole` of which is 1; where that is 0 nothing is known.
+template <class T>
+void divide_by_alpha(std::vector<T>& values, const std::vector<T>& alpha, std::size_t count, float whole) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto share = static_cast<float>(alpha[i / count]);
+    const float divided =
+        share > 0 ? std::min(static_cast<float>(values[i]) * whole / share, whole) : static_cast<float>(values[i]);
+    values[i] = std::is_integral_v<T> ? static_cast<T>(std::lround(divided)) : static_cast<T>(divided);
+  }
+}
+
 /// Calls take(values of three channels) for each texel, row by row; integers come as 0 to 1.
 template <class T, class Take>
-void for_each_texel(const Input& input, const std::string& name, OIIO::TypeDesc type, const Take& take) {
+void for_each_texel(const Input& input, const EncodedPicture& picture, OIIO::TypeDesc type, const Take& take) {
   const int count = input.spec().nchannels < channels ? 1 : channels;
-  const std::vector<T> values = read_values<T>(input, name, type, count);
+  std::vector<T> values = read_values<T>(input, picture.name, type, 0, count);
+  if (is_associated(picture, input.spec())) {
+    const std::vector<T> alpha = read_values<T>(input, picture.name, type, input.spec().alpha_channel, 1);
+    divide_by_alpha(values, alpha, static_cast<std::size_t>(count), std::is_integral_v<T> ? 255 : 1);
+  }
   const std::size_t green = count == channels ? 1 : 0, blue = 2 * green;
   for (std::size_t first = 0; first < values.size(); first += static_cast<std::size_t>(count)) {
     take(values[first], values[first + green], values[first + blue]);
   }
 }
 
-bool is_linear(const OIIO::ImageSpec& spec) {
-  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-  return spec.format.is_floating_point() || space == "Linear" || space == "linear" || space == "scene_linear";
-}
-
-void read_bytes(const Input& input, const std::string& name, std::vector<std::uint32_t>& texels) {
+void read_bytes(const Input& input, const EncodedPicture& picture, std::vector<std::uint32_t>& texels) {
   using Byte = std::uint8_t;
-  for_each_texel<Byte>(input, name, OIIO::TypeDesc::UINT8, [&](Byte red, Byte green, Byte blue) {
+  for_each_texel<Byte>(input, picture, OIIO::TypeDesc::UINT8, [&](Byte red, Byte green, Byte blue) {
     texels.push_back(std::uint32_t{red} | std::uint32_t{green} << 8U | std::uint32_t{blue} << 16U);
   });
 }
 
-void read_light(const Input& input, const std::string& name, std::vector<std::uint32_t>& texels) {
-  const bool linear = is_linear(input.spec());
-  const auto light = [&](float value) { return linear ? double{value} : core::linear_from_srgb(double{value}); };
-  for_each_texel<float>(input, name, OIIO::TypeDesc::FLOAT, [&](float red, float green, float blue) {
-    texels.push_back(core::encoded(core::TexelFormat::shared_exponent, {light(red), light(green), light(blue)}));
+void read_fine(const Input& input, const EncodedPicture& picture, std::vector<std::uint32_t>& texels) {
+  const auto light = [](float value) { return core::linear_from_srgb(double{value}); };
+  for_each_texel<float>(input, picture, OIIO::TypeDesc::FLOAT, [&](float red, float green, float blue) {
+    texels.push_back(core::encoded(core::TexelFormat::fine_srgb, {light(red), light(green), light(blue)}));
   });
+}
+
+void read_light(const Input& input, const EncodedPicture& picture, std::vector<std::uint32_t>& texels) {
+  for_each_texel<float>(input, picture, OIIO::TypeDesc::FLOAT, [&](float red, float green, float blue) {
+    texels.push_back(core::encoded(core::TexelFormat::shared_exponent, {double{red}, double{green}, double{blue}}));
+  });
+}
+
+/// By the type of its numbers alone: what a file says besides of gamma or of a profile does not count for a surface's colour
+/// (glTF 2.0, 3.9.2), nor for others' textures, whose writers hardly mean it.
+core::TexelFormat format_for(const OIIO::ImageSpec& spec) {
+  return spec.format.is_floating_point()        ? core::TexelFormat::shared_exponent
+         : spec.format == OIIO::TypeDesc::UINT8 ? core::TexelFormat::srgb
+                                                : core::TexelFormat::fine_srgb;
 }
 
 void make_linear(std::vector<float>& values) {
@@ -188,12 +225,15 @@ void prepare_decoders() {
 core::Texture decode_texture(const EncodedPicture& picture) {
   const Input input = open_texture(picture);
   const OIIO::ImageSpec& spec = input.spec();
-  const bool keeps_bytes = spec.format == OIIO::TypeDesc::UINT8 && !is_linear(spec);
+  const core::TexelFormat format = format_for(spec);
   core::Texture texture{.name = picture.name,
-                        .format = keeps_bytes ? core::TexelFormat::srgb : core::TexelFormat::shared_exponent,
+                        .format = format,
                         .levels = {{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}}}};
   texture.levels.front().texels.reserve(texel_count(spec));
-  (keeps_bytes ? read_bytes : read_light)(input, picture.name, texture.levels.front().texels);
+  const auto read = format == core::TexelFormat::srgb        ? read_bytes
+                    : format == core::TexelFormat::fine_srgb ? read_fine
+                                                             : read_light;
+  read(input, picture, texture.levels.front().texels);
   return texture;
 }
 
@@ -201,7 +241,7 @@ Image decode_image(const EncodedPicture& picture) {
   const Input input = open(picture, false);
   const OIIO::ImageSpec& spec = input.spec();
   const int count = spec.nchannels < channels ? 1 : channels;
-  std::vector<float> values = read_values<float>(input, picture.name, OIIO::TypeDesc::FLOAT, count);
+  std::vector<float> values = read_values<float>(input, picture.name, OIIO::TypeDesc::FLOAT, 0, count);
   if (!spec.format.is_floating_point()) {
     make_linear(values);
   }

@@ -108,6 +108,9 @@ void MeshSession::ask() {
   add(fields, options_.up, static_cast<double>(up.axis));
   fields.add(static_cast<std::uint8_t>(up.is_negative));
   add(fields, options_.smooth_degrees, options_.smooth_degrees.value_or(0));
+  const Resolution size = options_.size.value_or(Resolution{});
+  add(fields, options_.size, static_cast<double>(size.width));
+  fields.add(static_cast<double>(size.height));
   for (const bool flag : {options_.allows_missing, options_.is_seen_otherwise, options_.is_lit_otherwise}) {
     fields.add(static_cast<std::uint8_t>(flag));
   }

@@ -50,7 +50,11 @@ const char* name_of(core::ObjectKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-const char* name_of(core::TexelFormat format) { return format == core::TexelFormat::srgb ? "srgb" : "shared exponent"; }
+const char* name_of(core::TexelFormat format) {
+  return format == core::TexelFormat::srgb        ? "srgb"
+         : format == core::TexelFormat::fine_srgb ? "srgb of 10 bits"
+                                                  : "shared exponent";
+}
 
 SceneFigures figures_of(const core::Scene& scene) {
   SceneFigures figures{.name = scene.name,

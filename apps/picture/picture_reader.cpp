@@ -177,7 +177,7 @@ PictureReader::Head PictureReader::receive_head(const PictureFile& file) {
   Head head{};
   head.width = fields.take<std::uint32_t>();
   head.height = fields.take<std::uint32_t>();
-  head.format = fields.take_choice(core::TexelFormat::shared_exponent);
+  head.format = fields.take_choice(core::TexelFormat::fine_srgb);
   fields.finish();
   Unpacker::require(head.width >= 1 && head.height >= 1 && head.width <= picture_side_max && head.height <= picture_side_max &&
                     decoded_bytes(head.width, head.height, 1) <= decoded_bytes_max(file.bytes));

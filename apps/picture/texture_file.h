@@ -16,10 +16,10 @@ struct TextureEdges {
 };
 
 /// Reads the first three channels (one or two: the first is taken thrice) of the first picture in the file, and makes its smaller
-/// levels. Alpha is left out, and the colours are as they are without it. Pictures of 8 bits that are not said to be linear keep
-/// their bytes as sRGB; all others are stored with a shared exponent, those of integers made linear by the sRGB curve unless said
-/// to be linear. Throws core::InputError if there is no such picture, if it is larger than core::Texture::size_max along a side
-/// or than any database, has no texels, several layers, or several samples a texel.
+/// levels. Alpha is left out, and the colours are as they are without it. Integers are taken as sRGB, whatever the file
+/// says of gamma or profiles: 8 bits are kept, more are stored as fine_srgb. Floats are linear, and stored with a shared
+/// exponent. Throws core::InputError if there is no such picture, if it is larger than core::Texture::size_max along a side or
+/// than any database, has no texels, several layers, or several samples a texel.
 core::Texture read_texture(const std::filesystem::path& path, const TextureEdges& edges);
 
 /// Reads a file that lies in memory, as in a scene's own file; `name` is for messages, `format_hint` an extension such as

@@ -18,7 +18,7 @@ inline constexpr std::size_t text_bytes_max = 32 * 1024;
 enum class Saying : std::uint8_t {
   // From dmpc.
   limits,         ///< bytes of memory: the first message
-  read_mesh,      ///< path, scale, up, smooth, and flags of MeshOptions
+  read_mesh,      ///< path, scale, up, smooth, size, and flags of MeshOptions
   read_texture,   ///< name, format hint, bytes of the file; with the file
   read_image,     ///< name, format hint, bytes of the file; with the file
   writes,         ///< an ending; answered by yes or no

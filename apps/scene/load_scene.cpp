@@ -119,6 +119,7 @@ void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
 core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened) {
   check_mesh_options(picture.scene, picture.staging.mesh);
   MeshOptions mesh = picture.staging.mesh;
+  mesh.size = picture.resolution;
   mesh.is_seen_otherwise = picture.staging.camera.has_value();
   mesh.is_lit_otherwise = !picture.staging.lights.empty();
   OpenedFiles read;

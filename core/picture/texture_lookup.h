@@ -26,7 +26,7 @@ struct TextureLookup {
   std::uint16_t width = 1, height = 1;
   std::uint16_t coarse_share = 0;  ///< of the coarser level, in 1/65536
   std::uint16_t end_share = 0;     ///< what there is of the first and of the last probe, in 1/65536: one more
-  TexelFormat format : 1 = {};
+  TexelFormat format : 2 = {};
   TextureWrap wrap_s : 2 = {}, wrap_t : 2 = {};
   std::uint32_t level : 4 = 0;      ///< the finer one
   std::uint32_t ends : 3 = 0;       ///< the number of probes on either side of the one in the middle

@@ -193,8 +193,9 @@ struct PatchNormals {
 static_assert(sizeof(PatchNormals) == 40);
 
 /// How a texel's 32 bits are read. srgb: red, green and blue from the lowest byte up, with the sRGB curve; shared_exponent:
-/// linear, from the lowest bit up three mantissas of 9 bits and an exponent of 5 (OpenGL's RGB9_E5).
-enum class TexelFormat : std::uint8_t { srgb, shared_exponent };
+/// linear, from the lowest bit up three mantissas of 9 bits and an exponent of 5 (OpenGL's RGB9_E5); fine_srgb: red, green and
+/// blue in 10 bits each from the lowest up, with the sRGB curve in 1020 steps, every fourth of which is a byte's.
+enum class TexelFormat : std::uint8_t { srgb, shared_exponent, fine_srgb };
 /// What lies beyond a texture's edges: itself again, itself mirrored, or its edge.
 enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
 

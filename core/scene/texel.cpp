@@ -23,6 +23,38 @@ constexpr std::array<float, 256> curve() {
 }
 constexpr std::array<float, 256> light_of_byte = curve();
 
+/// fine_srgb: four steps to each of a byte's.
+constexpr std::uint32_t fine_bits = 10, fine_mask = (1U << fine_bits) - 1, fine_steps = 4 * 255;
+
+constexpr std::array<float, fine_mask + 1> fine_curve() {
+  std::array<float, fine_mask + 1> light{};
+  for (std::size_t step = 0; step < light.size(); ++step) {
+    light[step] = static_cast<float>(linear_from_srgb(static_cast<double>(step) / fine_steps));
+  }
+  return light;
+}
+constexpr std::array<float, fine_mask + 1> light_of_step = fine_curve();
+
+/// The light half-way, on the curve's scale, between each step and the next.
+constexpr std::array<double, fine_steps> fine_limits() {
+  std::array<double, fine_steps> limits{};
+  for (std::size_t step = 0; step < limits.size(); ++step) {
+    limits[step] = linear_from_srgb((static_cast<double>(step) + 0.5) / fine_steps);
+  }
+  return limits;
+}
+
+std::uint32_t encoded_fine(const Vec3d& color) {
+  static constexpr std::array<double, fine_steps> limits = fine_limits();
+  std::uint32_t texel = 0;
+  for (std::uint32_t channel = 0; channel < 3; ++channel) {
+    const double light = color[channel] > 0 ? color[channel] : 0;
+    const auto above = std::lower_bound(limits.begin(), limits.end(), light);
+    texel |= static_cast<std::uint32_t>(above - limits.begin()) << channel * fine_bits;
+  }
+  return texel;
+}
+
 float mantissa(std::uint32_t texel, std::uint32_t channel) {
   return static_cast<float>(texel >> channel * mantissa_bits & ((1U << mantissa_bits) - 1));
 }
@@ -64,12 +96,18 @@ Color decoded(TexelFormat format, std::uint32_t texel) {
   if (format == TexelFormat::srgb) {
     return {light_of_byte[texel & 0xffU], light_of_byte[texel >> 8U & 0xffU], light_of_byte[texel >> 16U & 0xffU]};
   }
+  if (format == TexelFormat::fine_srgb) {
+    return {light_of_step[texel & fine_mask], light_of_step[texel >> fine_bits & fine_mask],
+            light_of_step[texel >> 2 * fine_bits & fine_mask]};
+  }
   const float unit = std::ldexp(1.0F, static_cast<int>(texel >> 3 * mantissa_bits) - exponent_bias - mantissa_bits);
   return Color{mantissa(texel, 0), mantissa(texel, 1), mantissa(texel, 2)} * unit;
 }
 
 std::uint32_t encoded(TexelFormat format, const Vec3d& color) {
-  return format == TexelFormat::srgb ? encoded_bytes(color) : encoded_exponent(color);
+  return format == TexelFormat::srgb        ? encoded_bytes(color)
+         : format == TexelFormat::fine_srgb ? encoded_fine(color)
+                                            : encoded_exponent(color);
 }
 
 }  // namespace dmpc::core

@@ -1,6 +1,9 @@
 #include "apps/foreign/gltf/buffers.h"
 
 #include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
 
 #include "apps/edge/system/base64.h"
 #include "apps/foreign/gltf/meshopt.h"
@@ -11,12 +14,58 @@ using Bytes = std::span<const std::byte>;
 
 bool is_data(const std::string& address) { return address.substr(0, 5) == "data:"; }
 
+namespace {
+
+enum class DataCoding : std::uint8_t { unknown, base64, percent };
+
+/// By RFC 2397: a kind of media, parameters "name=value", and perhaps ";base64" as the last.
+DataCoding coding_of(std::string_view head) {
+  constexpr std::string_view base64 = ";base64";
+  const bool is_base64 = head.ends_with(base64);
+  head.remove_suffix(is_base64 ? base64.size() : 0);
+  for (std::size_t at = head.find(';'); at != std::string_view::npos; at = head.find(';')) {
+    head.remove_prefix(at + 1);
+    if (head.substr(0, head.find(';')).find('=') == std::string_view::npos) {
+      return DataCoding::unknown;
+    }
+  }
+  return is_base64 ? DataCoding::base64 : DataCoding::percent;
+}
+
+/// Letters stand for themselves, "%89" for a byte. Nothing if a percent sign is not followed by two digits, or a letter is none
+/// that an address may have.
+std::optional<std::vector<std::byte>> bytes_of_percents(std::string_view text) {
+  std::vector<std::byte> bytes;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    auto byte = static_cast<unsigned char>(text[i]);
+    if (byte == '%') {
+      const std::string_view digits = text.substr(i + 1, 2);
+      if (digits.size() < 2 || std::from_chars(digits.begin(), digits.end(), byte, 16).ptr != digits.end()) {
+        return std::nullopt;
+      }
+      i += 2;
+    } else if (byte <= ' ' || byte > '~') {
+      return std::nullopt;
+    }
+    bytes.push_back(std::byte{byte});
+  }
+  return bytes;
+}
+
+}  // namespace
+
 std::vector<std::byte> bytes_of_data(const std::string& address, const Part& where) {
-  const std::size_t comma = address.find(',');
-  const bool is_coded = comma != std::string::npos && address.substr(0, comma).find(";base64") != std::string::npos;
-  auto bytes = is_coded ? bytes_of_base64(std::string_view(address).substr(comma + 1)) : std::nullopt;
+  const std::string_view whole = address;
+  const std::size_t comma = whole.find(',');
+  const DataCoding coding = comma == std::string_view::npos ? DataCoding::unknown : coding_of(whole.substr(0, comma));
+  std::optional<std::vector<std::byte>> bytes;
+  if (coding == DataCoding::base64) {
+    bytes = bytes_of_base64(whole.substr(comma + 1));
+  } else if (coding == DataCoding::percent) {
+    bytes = bytes_of_percents(whole.substr(comma + 1));
+  }
   if (!bytes) {
-    where.fail("these data are not in base 64, which is expected here");
+    where.fail("these data are not in base 64, nor in letters and percents of an address, one of which is expected here");
   }
   return *std::move(bytes);
 }

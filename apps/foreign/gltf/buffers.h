@@ -16,7 +16,8 @@ namespace dmpc::apps::gltf {
 /// Gives the bytes of the file that a scene refers to by this name, or throws core::InputError that says why there are none.
 using OpenNamed = std::function<std::vector<std::byte>(const std::string& name)>;
 
-/// The bytes of a "data:" address. Throws core::InputError, by `where`, if it is not in base 64.
+/// The bytes of a "data:" address (RFC 2397). Throws core::InputError, by `where`, if they are neither in base 64 nor in letters
+/// and percents.
 std::vector<std::byte> bytes_of_data(const std::string& address, const Part& where);
 bool is_data(const std::string& address);
 

@@ -98,7 +98,7 @@ void add_vertices(const Primitive& source, aiMesh& mesh) {
       mesh.mVertices = vectors_of(values);
     } else if (name == "NORMAL") {
       mesh.mNormals = vectors_of(values);
-    } else {
+    } else if (name.starts_with("TEXCOORD_")) {
       const std::size_t set = std::stoul(name.substr(name.find('_') + 1));
       if (set < AI_MAX_NUMBER_OF_TEXTURECOORDS) {
         mesh.mTextureCoords[set] = places_of_vertices(values);
@@ -108,16 +108,26 @@ void add_vertices(const Primitive& source, aiMesh& mesh) {
   }
 }
 
-/// What apps/foreign/mesh/features.h counts and nobody looks into: colours of vertices, skins and morph targets are there, or
-/// not.
+/// Throws, by its place, for joints without weights and the reverse.
+Influences influences_of(const Part& primitive, Primitive& source) {
+  Influences influences;
+  for (std::size_t set = 0; set < set_count(primitive.get("attributes"), "JOINTS"); ++set) {
+    const auto joints = source.attributes.find("JOINTS_" + std::to_string(set));
+    const auto weights = source.attributes.find("WEIGHTS_" + std::to_string(set));
+    if (joints == source.attributes.end() || weights == source.attributes.end()) {
+      primitive.fail("has JOINTS_" + std::to_string(set) + " without WEIGHTS_" + std::to_string(set) + " beside it");
+    }
+    influences.joints.push_back(std::move(joints->second));
+    influences.weights.push_back(std::move(weights->second));
+  }
+  return influences;
+}
+
+/// What apps/foreign/mesh/features.h counts and nobody looks into: colours of vertices and morph targets are there, or not.
 void mark_features(const Part& primitive, aiMesh& mesh) {
   const Part attributes = primitive.get("attributes");
   if (mesh.mNumVertices > 0 && set_count(attributes, "COLOR") > 0) {
     mesh.mColors[0] = new aiColor4D[mesh.mNumVertices];
-  }
-  if (set_count(attributes, "JOINTS") > 0) {
-    mesh.mBones = new aiBone* [1] { new aiBone };
-    mesh.mNumBones = 1;
   }
   if (!primitive.list("targets").empty()) {
     mesh.mAnimMeshes = new aiAnimMesh* [1] { new aiAnimMesh };
@@ -137,9 +147,9 @@ class Reader {
   Reader(const Document& document, Buffers& buffers, std::size_t material_count)
       : buffers_(buffers), accessors_(document, buffers), material_count_(material_count) {}
 
-  std::unique_ptr<aiMesh> mesh(const Part& primitive, const std::string& name, std::uint64_t& left_over) {
+  std::unique_ptr<aiMesh> mesh(const Part& primitive, const std::string& name, Meshes& result) {
     const Mode mode = mode_of(primitive);
-    const Primitive source = read_primitive(primitive, accessors_, buffers_);
+    Primitive source = read_primitive(primitive, accessors_, buffers_);
     check_size(primitive, source);
     auto mesh = std::make_unique<aiMesh>();
     mesh->mName = name;
@@ -149,8 +159,9 @@ class Reader {
     if (!source.attributes.empty()) {
       add_vertices(source, *mesh);
       add_faces(mode, source.indices, *mesh);
-      left_over += mode == Mode::triangles ? source.indices.size() % 3 : 0;
+      result.corners_left_over += mode == Mode::triangles ? source.indices.size() % 3 : 0;
     }
+    result.influences.push_back(source.attributes.empty() ? Influences{} : influences_of(primitive, source));
     mark_features(primitive, *mesh);
     return mesh;
   }
@@ -170,7 +181,7 @@ Meshes add_meshes(const Document& document, Buffers& buffers, aiScene& scene) {
   for (const Part& source : document.root().list("meshes")) {
     const auto first = static_cast<unsigned>(all.size());
     for (const Part& primitive : source.list("primitives")) {
-      all.push_back(reader.mesh(primitive, source.text("name", source.where()), result.corners_left_over));
+      all.push_back(reader.mesh(primitive, source.text("name", source.where()), result));
     }
     result.ranges.emplace_back(first, static_cast<unsigned>(all.size()));
   }

@@ -11,8 +11,14 @@
 
 namespace dmpc::apps::gltf {
 
+/// Which joints of a skin hold the vertices of a mesh, by how much: sets of four for each vertex.
+struct Influences {
+  std::vector<Values> joints, weights;  ///< as many sets
+};
+
 struct Meshes {
   std::vector<std::pair<unsigned, unsigned>> ranges;  ///< of each mesh of the document: the scene's first and one past its last
+  std::vector<Influences> influences;                 ///< of each of the scene's meshes; without sets if no skin holds it
   std::uint64_t corners_left_over = 0;                ///< of lists whose length is no multiple of three
 };
 

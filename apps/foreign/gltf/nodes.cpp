@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/foreign/gltf/skins.h"
+
 namespace dmpc::apps::gltf {
 namespace {
 
@@ -56,41 +58,36 @@ void give_children(aiNode& parent, Nodes& children) {
   }
 }
 
-void give_meshes(aiNode& node, const std::pair<unsigned, unsigned>& range) {
-  node.mMeshes = new unsigned[range.second - range.first + 1];
-  for (unsigned mesh = range.first; mesh < range.second; ++mesh) {
-    node.mMeshes[node.mNumMeshes] = mesh;
-    ++node.mNumMeshes;
-  }
-}
-
 class Tree {
  public:
   Tree(const Document& document, Accessors& accessors, const Meshes& meshes)
       : nodes_(document.root().list("nodes")), accessors_(accessors), meshes_(meshes) {}
 
   std::size_t count() const { return nodes_.size(); }
-  /// The node that `where` names, with all below it; none if it is hidden.
-  std::unique_ptr<aiNode> node(const Part& where, int level);
+  /// The node that `where` names, with all below it. A hidden one has nothing to show, and is there for the joints among them.
+  std::unique_ptr<aiNode> node(const Part& where, int level, bool is_below_hidden);
 
   /// The names of the nodes that have them, in the document's order of cameras and lights.
-  std::map<std::size_t, std::string> cameras, lights;
+  std::multimap<std::size_t, std::string> cameras, lights;
+  std::map<std::size_t, std::string> names;  ///< of all nodes, by their places in the document
+  std::vector<MeshUse> uses;
 
  private:
   std::string unique_name(const Part& node);
+  void add_shown(const Part& source, aiNode& node, Nodes& children);
   void add_instances(const Part& instancing, std::size_t mesh, Nodes& children);
 
   std::vector<Part> nodes_;
   Accessors& accessors_;
   const Meshes& meshes_;
   std::set<std::size_t> seen_;
-  std::set<std::string> names_;
+  std::set<std::string> taken_;
 };
 
 /// Cameras and lights find their nodes by name.
 std::string Tree::unique_name(const Part& node) {
   const std::string name = node.text("name", node.where());
-  return names_.insert(name).second ? name : name + " (" + node.where() + ")";
+  return taken_.insert(name).second ? name : name + " (" + node.where() + ")";
 }
 
 /// The numbers of one instance of many; a plain one where the attribute is not there.
@@ -121,11 +118,33 @@ void Tree::add_instances(const Part& instancing, std::size_t mesh, Nodes& childr
     children.back()->mTransformation =
         composed(vector_of(instance(moves, i, {0, 0, 0})), quaternion_of(instance(turns, i, {0, 0, 0, 1})),
                  vector_of(instance(scales, i, {1, 1, 1})));
-    give_meshes(*children.back(), meshes_.ranges[mesh]);
+    uses.push_back({children.back().get(), mesh, std::nullopt});
   }
 }
 
-std::unique_ptr<aiNode> Tree::node(const Part& where, int level) {
+/// The mesh, the camera and the light of a node.
+void Tree::add_shown(const Part& source, aiNode& node, Nodes& children) {
+  if (const auto mesh = source.index("mesh", meshes_.ranges.size(), "meshes")) {
+    const auto instancing = source.extension("EXT_mesh_gpu_instancing");
+    const auto skin = source.find("skin");
+    if (instancing && skin) {
+      source.fail("has instances of a mesh with a skin, of which EXT_mesh_gpu_instancing does not say where they stand");
+    }
+    if (instancing) {
+      add_instances(*instancing, *mesh, children);
+    } else {
+      uses.push_back({&node, *mesh, skin});
+    }
+  }
+  if (const auto camera = source.find("camera")) {
+    cameras.emplace(camera->as_whole(), node.mName.C_Str());
+  }
+  if (const auto light = source.extension("KHR_lights_punctual")) {
+    lights.emplace(light->get("light").as_whole(), node.mName.C_Str());
+  }
+}
+
+std::unique_ptr<aiNode> Tree::node(const Part& where, int level, bool is_below_hidden) {
   constexpr int levels_max = 2000;
   const std::size_t index = where.as_index(count(), "nodes");
   const Part& source = nodes_[index];
@@ -134,28 +153,18 @@ std::unique_ptr<aiNode> Tree::node(const Part& where, int level) {
                                   : "nodes that are recursive or shared: nodes[" + std::to_string(index) +
                                         "] hangs below two nodes, or below itself, and nodes must be a tree");
   }
-  if (is_hidden(source)) {
-    return nullptr;
-  }
+  const bool hides = is_below_hidden || is_hidden(source);
   auto result = std::make_unique<aiNode>(unique_name(source));
+  names.emplace(index, result->mName.C_Str());
   result->mTransformation = transform_of(source);
   Nodes children;
-  if (const auto mesh = source.index("mesh", meshes_.ranges.size(), "meshes")) {
-    const auto instancing = source.extension("EXT_mesh_gpu_instancing");
-    instancing ? add_instances(*instancing, *mesh, children) : give_meshes(*result, meshes_.ranges[*mesh]);
+  if (!hides) {
+    add_shown(source, *result, children);
   }
   for (const Part& child : source.list("children")) {
-    if (auto below = node(child, level + 1)) {
-      children.push_back(std::move(below));
-    }
+    children.push_back(node(child, level + 1, hides));
   }
   give_children(*result, children);
-  if (const auto camera = source.find("camera")) {
-    cameras.emplace(camera->as_whole(), result->mName.C_Str());
-  }
-  if (const auto light = source.extension("KHR_lights_punctual")) {
-    lights.emplace(light->get("light").as_whole(), result->mName.C_Str());
-  }
   return result;
 }
 
@@ -193,8 +202,8 @@ void fill(const Part& source, aiLight& light) {
 
 /// One of each of `names`, of what the document lists as `sources`.
 template <class T>
-void add_named(const std::map<std::size_t, std::string>& names, const std::vector<Part>& sources, const Part& root, T**& list,
-               unsigned& count, const std::string& what) {
+void add_named(const std::multimap<std::size_t, std::string>& names, const std::vector<Part>& sources, const Part& root,
+               T**& list, unsigned& count, const std::string& what) {
   list = names.empty() ? nullptr : new T*[names.size()];
   for (const auto& [index, name] : names) {
     if (index >= sources.size()) {
@@ -231,11 +240,10 @@ void add_nodes(const Document& document, Accessors& accessors, const Meshes& mes
   Nodes roots;
   scene.mName = shown.text("name", "");
   for (const Part& where : shown.list("nodes")) {
-    if (auto node = tree.node(where, 0)) {
-      roots.push_back(std::move(node));
-    }
+    roots.push_back(tree.node(where, 0, false));
   }
   scene.mRootNode = root_of(roots);
+  give_meshes(document, accessors, meshes, tree.uses, tree.names, scene);
   const auto punctual = root.extension("KHR_lights_punctual");
   add_named(tree.cameras, root.list("cameras"), root, scene.mCameras, scene.mNumCameras, "cameras");
   add_named(tree.lights, punctual ? punctual->list("lights") : std::vector<Part>(), root, scene.mLights, scene.mNumLights,

@@ -8,9 +8,9 @@
 
 namespace dmpc::apps::gltf {
 
-/// Gives the scene the nodes of the document's scene, the first if it names none; what is hidden (KHR_node_visibility) is left
-/// out, and instances (EXT_mesh_gpu_instancing) are nodes of their own. Throws core::InputError, by its place in the document,
-/// for nodes that are no tree.
+/// Gives the scene the nodes of the document's scene, the first if it names none; what hidden ones (KHR_node_visibility) would
+/// show is left out, and instances (EXT_mesh_gpu_instancing) are nodes of their own. Throws core::InputError, by its place in the
+/// document, for nodes that are no tree.
 void add_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, aiScene& scene);
 
 }  // namespace dmpc::apps::gltf

@@ -30,6 +30,11 @@ std::map<std::string, std::size_t> wanted(const Part& attributes) {
     for (std::size_t i = 0; i < set_count(attributes, "TEXCOORD"); ++i) {
       widths["TEXCOORD_" + std::to_string(i)] = 2;
     }
+    for (const std::string kind : {"JOINTS", "WEIGHTS"}) {
+      for (std::size_t i = 0; i < set_count(attributes, kind); ++i) {
+        widths[kind + "_" + std::to_string(i)] = 4;
+      }
+    }
   }
   return widths;
 }

@@ -11,7 +11,7 @@
 namespace dmpc::apps::gltf {
 
 struct Primitive {
-  std::map<std::string, Values> attributes;  ///< POSITION, NORMAL and all TEXCOORD_n that it has, with as many vectors each
+  std::map<std::string, Values> attributes;  ///< POSITION, NORMAL and all TEXCOORD_n, JOINTS_n and WEIGHTS_n, as many each
   std::vector<std::uint32_t> indices;        ///< of vertices that exist; 0, 1, 2, ... where the file has none
 };
 

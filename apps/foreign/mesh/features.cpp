@@ -5,6 +5,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/material.h"
+#include "apps/foreign/mesh/textures.h"
 
 namespace dmpc::apps {
 namespace {
@@ -43,7 +44,8 @@ void note_meshes(const std::set<const aiMesh*>& meshes, std::vector<std::string>
        count(meshes, [](const aiMesh& mesh) { return mesh.HasVertexColors(0); }));
   note(notes, "meshes with several sets of texture coordinates, of which colours use one",
        count(meshes, [](const aiMesh& mesh) { return mesh.GetNumUVChannels() > 1; }));
-  note(notes, "meshes with a skin, shown at rest", count(meshes, [](const aiMesh& mesh) { return mesh.HasBones(); }));
+  note(notes, "meshes with a skin, shown in the pose in which their joints stand",
+       count(meshes, [](const aiMesh& mesh) { return mesh.HasBones(); }));
   note(notes, "meshes with morph targets, shown without them",
        count(meshes, [](const aiMesh& mesh) { return mesh.mNumAnimMeshes > 0; }));
 }
@@ -54,6 +56,7 @@ void note_materials(const std::set<const aiMaterial*>& materials, std::vector<st
     list_textures(*material, textures);
   }
   note(notes, "textures not used, since they are not of a surface's colour", textures.size());
+  note(notes, "materials whose texture is laid on by a projection, shown without it", count(materials, has_projected_texture));
   note(notes, "materials whose texture is moved, turned or scaled, shown without that", count(materials, has_moved_texture));
   note(notes, "materials that emit light, shown without it", count(materials, is_emissive));
   note(notes, "materials with an alpha mask, shown opaque", count(materials, has_alpha_mask));

@@ -102,6 +102,7 @@ void GeometryWriter::add(PolygonMesh mesh, core::Material material) {
     mesh.normals = smooth_normals(mesh.vertices, mesh.faces, *smooth_degrees_);
   }
   if (mesh.places.empty()) {
+    unplaced_ += material.texture == core::Material::no_texture ? 0 : 1;
     material.texture = core::Material::no_texture;
   } else if (material.texture == core::Material::no_texture) {
     mesh.places.clear();

@@ -37,6 +37,8 @@ class GeometryWriter {
 
   /// Whether any face had an area.
   bool has_area() const { return has_area_; }
+  /// How many meshes had a material with a texture, and no corner of theirs a place on it.
+  std::uint64_t unplaced() const { return unplaced_; }
 
  private:
   /// The face of these corners.
@@ -46,6 +48,7 @@ class GeometryWriter {
   core::SceneBuilder& builder_;
   std::optional<double> smooth_degrees_;
   bool has_area_ = false;
+  std::uint64_t unplaced_ = 0;
   std::vector<core::Vec3d> face_vertices_, face_normals_;
   std::vector<core::TexturedCorner> face_corners_;
 };

@@ -53,12 +53,14 @@ void scale_down(std::vector<PointLight>& lights) {
   }
 }
 
+void note_count(const std::string& what, std::uint64_t count, std::vector<std::string>& notes) {
+  if (count > 0) {
+    notes.push_back(what + ": " + grouped(count));
+  }
+}
+
 void note_lights(std::map<aiLightSourceType, std::uint64_t>& counts, std::vector<std::string>& notes) {
-  const auto note = [&](aiLightSourceType type, const std::string& what) {
-    if (counts[type] > 0) {
-      notes.push_back(what + ": " + grouped(counts[type]));
-    }
-  };
+  const auto note = [&](aiLightSourceType type, const std::string& what) { note_count(what, counts[type], notes); };
   note(aiLightSource_POINT, "point lights whose fall-off with distance is ignored");
   note(aiLightSource_SPOT, "spot lights taken for point lights without fall-off");
   note(aiLightSource_DIRECTIONAL, "directional lights taken for point lights far away");
@@ -67,14 +69,15 @@ void note_lights(std::map<aiLightSourceType, std::uint64_t>& counts, std::vector
   note(aiLightSource_UNDEFINED, "lights of an unknown kind left out");
 }
 
-/// The angle whose tangent is that of `angle` (radians) times `share` (at most 1): Newton's method from the right, where the
-/// tangent is convex. A right angle and more stays what it is, to be refused.
-double narrowed(double angle, double share) {
-  if (!(angle < 1.5707963)) {
+/// The angle whose tangent is that of `angle` (radians) times `share`: Newton's method from the right, where the tangent is
+/// convex. A right angle and more stays what it is, to be refused.
+double with_tangent_times(double angle, double share) {
+  constexpr double nearly_right = 1.5707963;
+  if (!(angle < nearly_right)) {
     return angle;
   }
   const double tangent = core::tan_radians(angle) * share;
-  double result = angle;
+  double result = share <= 1 ? angle : nearly_right;
   for (int i = 0; i < 200; ++i) {
     const double here = core::tan_radians(result);
     result -= (here - tangent) / (1 + here * here);
@@ -92,27 +95,28 @@ bool has_vertical_angles(const aiScene& scene) {
   return is_ours || (is_gltf && aiGetVersionMajor() * 100 + aiGetVersionMinor() < 503);
 }
 
-/// Half of what is seen along the shorter side of a picture whose width is `aspect` times its height, in degrees.
-double half_degrees(const aiScene& scene, const aiCamera& camera, double aspect) {
+bool has_aspect(const aiCamera& camera) { return std::isfinite(camera.mAspect) && camera.mAspect > 0; }
+
+/// Half of what core::View calls the angle, in degrees, if the camera's spans the pixels of `size` from edge to edge.
+double half_degrees(const aiScene& scene, const aiCamera& camera, const Resolution& size) {
   constexpr double degrees_of_radian = 57.295779513082320877;
-  const double half = 0.5 * double{camera.mHorizontalFOV};
+  const double half = 0.5 * double{camera.mHorizontalFOV}, aspect = has_aspect(camera) ? double{camera.mAspect} : 0;
+  const int steps = std::max(1, std::min(size.width, size.height) - 1);
   if (has_vertical_angles(scene)) {
-    const double vertical = camera.mAspect > 0 ? half / double{camera.mAspect} : half;
-    return degrees_of_radian * (aspect < 1 ? narrowed(vertical, aspect) : vertical);
+    return degrees_of_radian * with_tangent_times(aspect > 0 ? half / aspect : half, double(steps) / size.height);
   }
-  return degrees_of_radian * (aspect > 1 ? narrowed(half, 1 / aspect) : half);
+  return degrees_of_radian * with_tangent_times(half, steps / (aspect > 0 ? aspect * size.height : double(size.width)));
 }
 
-core::View view_of(const aiScene& scene, const aiCamera& camera, const Transform& world) {
-  const bool has_aspect = std::isfinite(camera.mAspect) && camera.mAspect > 0;
-  const double aspect = has_aspect ? std::clamp(double{camera.mAspect}, 1 / aspect_max, aspect_max) : 1;
+core::View view_of(const aiScene& scene, const aiCamera& camera, const std::optional<Resolution>& size, const Transform& world) {
+  const double aspect = has_aspect(camera) ? std::clamp(double{camera.mAspect}, 1 / aspect_max, aspect_max) : 1;
   core::View view;
   view.from = world.point(has_vertical_angles(scene) ? Vec3d{} : to_vec(camera.mPosition));
   view.at = view.from + world.direction(to_vec(camera.mLookAt));
   view.up = world.direction(to_vec(camera.mUp));
   view.width = static_cast<int>(std::lround(shorter_side * std::max(aspect, 1.0)));
   view.height = static_cast<int>(std::lround(shorter_side * std::max(1 / aspect, 1.0)));
-  view.angle_degrees = 2 * half_degrees(scene, camera, aspect);
+  view.angle_degrees = 2 * half_degrees(scene, camera, size.value_or(Resolution{view.width, view.height}));
   return view;
 }
 
@@ -124,35 +128,74 @@ std::vector<PointLight> lights_of(const aiScene& scene, const BoundingSphere& bo
                                   std::vector<std::string>& notes) {
   std::vector<PointLight> lights;
   std::map<aiLightSourceType, std::uint64_t> counts;
+  std::uint64_t dark = 0, nowhere = 0;
   for (std::size_t i = 0; i < scene.mNumLights; ++i) {
     const aiLight& light = *scene.mLights[i];
     const PointLight ours{position_of(light, world_of(scene, light.mName, scale), bounds), color_of(light), true};
-    ++counts[light.mType];
-    if (is_shown(light) && is_in_reach(ours.position) && brightest(ours.color) > 0) {
-      lights.push_back(ours);
+    if (is_shown(light) && !(brightest(ours.color) > 0)) {
+      ++dark;
+    } else if (is_shown(light) && !is_in_reach(ours.position)) {
+      ++nowhere;
+    } else {
+      ++counts[light.mType];
+      if (is_shown(light)) {
+        lights.push_back(ours);
+      }
     }
   }
   scale_down(lights);
   note_lights(counts, notes);
+  const std::string instead = lights.empty() ? ", so that plain ones take their place" : "";
+  note_count("lights without any brightness left out" + instead, dark, notes);
+  note_count("lights without a place or direction left out" + instead, nowhere, notes);
   return lights;
 }
 
-std::optional<core::View> camera_of(const aiScene& scene, double scale, std::vector<std::string>& notes) {
-  if (scene.mNumCameras == 0) {
+std::optional<core::View> camera_of(const aiScene& scene, const std::optional<Resolution>& size, double scale,
+                                    std::vector<std::string>& notes) {
+  const std::string count = std::to_string(scene.mNumCameras);
+  for (unsigned i = 0; i < scene.mNumCameras; ++i) {
+    const aiCamera& camera = *scene.mCameras[i];
+    const core::View view = view_of(scene, camera, size, world_of(scene, camera.mName, scale));
+    if (!is_perspective(camera) || fault_of(view)) {
+      continue;
+    }
+    if (scene.mNumCameras > 1) {
+      notes.push_back((i == 0 ? "the first of " + count + " cameras is taken, '"
+                              : "camera " + std::to_string(i + 1) + " of " + count +
+                                    " is taken, the first that has a perspective and a direction, '") +
+                      camera.mName.C_Str() + "'");
+    }
+    return view;
+  }
+  if (scene.mNumCameras > 0) {
+    notes.push_back(scene.mNumCameras == 1
+                        ? "the file's camera is not taken, since it has no perspective or no direction"
+                        : "none of the file's " + count + " cameras is taken, since none has a perspective and a direction");
+  }
+  return std::nullopt;
+}
+
+std::optional<UpAxis> up_axis_of(const aiScene& scene, std::vector<std::string>& notes) {
+  const bool is_turned = aiGetVersionMajor() * 100 + aiGetVersionMinor() >= 503;  // by Assimp itself
+  std::int32_t axis = 0, sign = 1;
+  if (is_turned || scene.mMetaData == nullptr || !scene.mMetaData->Get("UpAxis", axis) || axis < 0 || axis > 2) {
     return std::nullopt;
   }
-  if (scene.mNumCameras > 1) {
-    notes.push_back("the first of " + std::to_string(scene.mNumCameras) + " cameras is taken");
+  scene.mMetaData->Get("UpAxisSign", sign);
+  const UpAxis up{static_cast<std::size_t>(axis), sign < 0};
+  if (up != UpAxis{}) {
+    notes.push_back(text_of(up) + " points up, as the file's UpAxis says");
   }
-  const aiCamera& camera = *scene.mCameras[0];
-  if (is_perspective(camera)) {
-    const core::View view = view_of(scene, camera, world_of(scene, camera.mName, scale));
-    if (!fault_of(view)) {
-      return view;
-    }
+  return up;
+}
+
+void note_unit(const aiScene& scene, std::vector<std::string>& notes) {
+  float centimetres = 1;
+  if (scene.mMetaData != nullptr && scene.mMetaData->Get("UnitScaleFactor", centimetres) && centimetres > 0 && centimetres != 1) {
+    notes.push_back("coordinates are in the file's own unit, " + rounded(double{centimetres}) +
+                    " cm; --scale turns them into another");
   }
-  notes.push_back("the file's camera is not taken, since it has no perspective or no direction");
-  return std::nullopt;
 }
 
 }  // namespace dmpc::apps

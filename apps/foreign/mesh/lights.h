@@ -7,20 +7,30 @@
 #include <string>
 #include <vector>
 
+#include "apps/formats/resolution.h"
+#include "apps/formats/up_axis.h"
 #include "apps/formats/whole_view.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
 
 /// Point lights as they are, spots as if they shone all round, directional ones as points 1,000 radii of the scene away; area and
-/// ambient lights are left out. Fall-off is ignored, since ours have none; so colours are scaled down together until the squares
-/// of their brightest channels sum up to 1, as lights without a colour do. `notes` gets a sentence for each kind that is not
-/// shown as it is.
+/// ambient lights, and what is dark or nowhere, are left out. Fall-off is ignored, since ours have none; so colours are scaled
+/// down together until the squares of their brightest channels sum up to 1, as lights without a colour do. `notes` gets a
+/// sentence for each kind that is not shown as it is.
 std::vector<core::PointLight> lights_of(const aiScene& scene, const BoundingSphere& bounds, double scale,
                                         std::vector<std::string>& notes);
 
-/// The first camera, if there is one that makes a picture; its picture's shorter side has 512 pixels. `notes` gets a sentence if
-/// there are more, or none that will do.
-std::optional<core::View> camera_of(const aiScene& scene, double scale, std::vector<std::string>& notes);
+/// The first camera that makes a picture, if there is one; its own picture's shorter side has 512 pixels. Its angle spans a
+/// picture of `size`, its own if none is given, from edge to edge (core::View's goes between the middles of pixels): of glTF the
+/// vertical one, of others the horizontal one, or the vertical one that the camera's aspect makes of it. `notes` gets a sentence
+/// if there are more, or none that will do.
+std::optional<core::View> camera_of(const aiScene& scene, const std::optional<Resolution>& size, double scale,
+                                    std::vector<std::string>& notes);
+
+/// Which axis points up, if the file says so and its importer has not turned it (FBX); `notes` gets a sentence if it is not y.
+std::optional<UpAxis> up_axis_of(const aiScene& scene, std::vector<std::string>& notes);
+/// Coordinates are in the file's own unit; `notes` gets a sentence if that is no centimetre (FBX).
+void note_unit(const aiScene& scene, std::vector<std::string>& notes);
 
 }  // namespace dmpc::apps

@@ -74,7 +74,7 @@ PolygonMesh placed_mesh(const aiMesh& mesh, std::size_t index, const Transform& 
   for (std::size_t i = 0; i < mesh.mNumVertices; ++i) {
     result.vertices.push_back(world.point(to_vec(mesh.mVertices[i])));
   }
-  if (mesh.HasNormals()) {
+  if (mesh.HasNormals() && world.determinant() != 0) {  // what is pressed flat has the normals of its plane
     read_normals(mesh, world, result);
   }
   if (material.material.texture != core::Material::no_texture && mesh.HasTextureCoords(material.coordinates)) {

@@ -1,5 +1,6 @@
 #include "apps/foreign/mesh/placement.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/expect.h"
@@ -14,26 +15,33 @@ struct Visit {
 };
 
 void check(const aiNode& node, const Transform& world) {
-  const double determinant = world.determinant();
-  if (!std::isfinite(determinant) || !is_finite(world.shift)) {
+  if (!std::isfinite(world.determinant()) || !is_finite(world.shift)) {
     throw core::InputError("the transform of the node '" + std::string(node.mName.C_Str()) + "' is not finite; correct it");
-  }
-  if (determinant == 0) {
-    throw core::InputError("the transform of the node '" + std::string(node.mName.C_Str()) +
-                           "' flattens what it places (its determinant is 0); correct it");
   }
 }
 
-void place_meshes(const aiScene& scene, const aiNode& node, const Transform& world, std::vector<Placement>& placements) {
+/// Onto a line or a point, where no face has an area: so exporters hide what a node places.
+bool leaves_no_area(const Transform& world) {
+  const Transform areas = world.of_normals();
+  return std::all_of(areas.rows.begin(), areas.rows.end(), [](const core::Vec3d& row) { return row == core::Vec3d{}; });
+}
+
+/// What is posed stands in the root's own coordinates, `whole`.
+void place_meshes(const aiScene& scene, const aiNode& node, const Transform& world, const Transform& whole,
+                  std::vector<Placement>& placements) {
   if (node.mNumMeshes > 0) {
     check(node, world);
   }
+  const bool is_there = !leaves_no_area(world);
   for (std::size_t i = 0; i < node.mNumMeshes; ++i) {
     if (node.mMeshes[i] >= scene.mNumMeshes) {
       throw core::InputError("the node '" + std::string(node.mName.C_Str()) + "' places mesh " + std::to_string(node.mMeshes[i]) +
                              ", and there are but " + std::to_string(scene.mNumMeshes));
     }
-    placements.push_back({node.mMeshes[i], world});
+    const bool is_posed = scene.mMeshes[node.mMeshes[i]]->HasBones();
+    if (is_there || is_posed) {
+      placements.push_back({node.mMeshes[i], is_posed ? whole : world});
+    }
   }
 }
 
@@ -49,7 +57,7 @@ std::vector<Placement> find_placements(const aiScene& scene, double scale) {
     const auto [node, parent] = waiting.back();
     waiting.pop_back();
     const Transform world = parent * node->mTransformation;
-    place_meshes(scene, *node, world, placements);
+    place_meshes(scene, *node, world, scaling(scale), placements);
     for (std::size_t i = node->mNumChildren; i-- > 0;) {
       waiting.push_back({node->mChildren[i], world});
     }

@@ -16,9 +16,10 @@ struct Placement {
   Transform world;
 };
 
-/// All nodes from the root down in the file's order, each mesh of each; coordinates are multiplied by `scale`. Throws
-/// core::InputError, with the node's name, for a transform that is not finite or flattens space, and for a mesh that does not
-/// exist.
+/// All nodes from the root down in the file's order, each mesh of each; coordinates are multiplied by `scale`. What a transform
+/// presses onto a line or a point, as a scale of 0 does, has no area and is left out; what it presses flat stays. Meshes with
+/// bones were posed (apps/foreign/mesh/skin.h), and no node moves them any more. Throws core::InputError, with the node's name,
+/// for a transform that is not finite and for a mesh that does not exist.
 std::vector<Placement> find_placements(const aiScene& scene, double scale);
 
 /// From the coordinates of the node of this name, which a camera or light shares, to the world's; the root's if there is none.

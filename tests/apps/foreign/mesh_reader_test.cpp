@@ -60,7 +60,8 @@ TEST_CASE("a triangle is the same in every format") {
     REQUIRE(file.scene.objects.size() == 1);
     CHECK(file.scene.objects[0].kind == ObjectKind::polygon);
     CHECK(file.scene.vertices == triangle);
-    CHECK(file.notes.size() == 1);
+    CHECK(notes(file, "the whole is in view"));
+    CHECK(file.notes.size() <= 2);  // and who read it
     CHECK(notes(file, "the whole is in view, as by --camera="));
   }
 }
@@ -181,7 +182,7 @@ TEST_CASE("the camera that is said for the whole gives the same view again, to t
   for (const std::string text : {"v 10 20 30\nv 14 20 30\nv 12 23 30\nf 1 2 3\n",
                                  "v 5000001 4000020 30\nv 5000014 4000020 30\nv 5000012 4000023 31\nf 1 2 3\n"}) {
     const MeshFile file = read("a.obj", text, {.up = UpAxis{2}});
-    const CameraChoice camera = parse_camera(file.notes.at(0).substr(file.notes[0].find('=') + 1));
+    const CameraChoice camera = parse_camera(file.notes.back().substr(file.notes.back().find('=') + 1));
     CHECK(camera.from == file.scene.view.from);
     CHECK(camera.at == file.scene.view.at);
     CHECK(camera.up == file.scene.view.up);
@@ -248,9 +249,30 @@ TEST_CASE("an index of a vertex that does not exist is refused where Assimp lets
   CHECK(contains(complaint("a.ply", text), "face 0 has a vertex that does not exist"));
 }
 
-TEST_CASE("a transform that flattens space is refused, with its node") {
-  Gltf gltf{.nodes = R"([{"mesh":0,"name":"press","scale":[1,0,1]}])"};
-  CHECK(contains(complaint("a.gltf", gltf.text()), "'press' flattens"));
+TEST_CASE("a transform that is not finite is refused, with its node") {
+  const Gltf gltf{.nodes = R"([{"mesh":0,"name":"press","scale":[1e300,1,1]}])"};
+  CHECK(contains(complaint("a.gltf", gltf.text()), "'press' is not finite"));
+}
+
+TEST_CASE("a node of scale 0 hides what stands at it and below, and nothing else") {
+  const Gltf gltf{.nodes = R"([{"mesh":0,"scale":[0,0,0],"children":[1]},{"mesh":0},{"mesh":0,"scale":[0,0,1]},)"
+                           R"({"mesh":0,"translation":[0,0,3]}])",
+                  .roots = "[0,2,3]"};
+  const MeshFile file = read(gltf);
+  REQUIRE(file.scene.objects.size() == 1);
+  CHECK(file.scene.vertices.size() == 3);
+  CHECK(file.scene.vertices[0] == Vec3d{0, 0, 3});
+  CHECK(contains(complaint("a.gltf", Gltf{.nodes = R"([{"mesh":0,"scale":[0,0,0]}])"}.text()), "no triangle"));
+}
+
+TEST_CASE("what is pressed flat shows its plane, with the plane's own normals") {
+  Gltf gltf{.nodes = R"([{"mesh":0,"scale":[1,1,0]}])"};
+  gltf.corners = {0, 0, 5, 2, 0, 7, 0, 1, 9};
+  gltf.normals = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const MeshFile file = read(gltf);
+  REQUIRE(file.scene.objects.size() == 1);
+  CHECK(file.scene.vertices[1] == Vec3d{2, 0, 0});
+  CHECK(file.scene.normals.empty());
 }
 
 }  // namespace dmpc::apps::mesh_reader_test

@@ -11,6 +11,7 @@
 
 #include "core/base/expect.h"
 #include "core/scene/texel.h"
+#include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::tests::texture_file_test {
@@ -35,6 +36,13 @@ std::string write(const std::filesystem::path& path, int width, int height, int 
   REQUIRE(output->write_image(type, values.data()));
   REQUIRE(output->close());
   return path.string();
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream bytes;
+  bytes << file.rdbuf();
+  return bytes.str();
 }
 
 core::Color color_at(const Texture& texture, std::size_t texel) {
@@ -76,6 +84,39 @@ TEST_CASE("colours are those of the file, however transparent the texel is") {
   }
 }
 
+/// 2x1 pixels of the same palette's entry 0, of 200 100 50, the first transparent by entry 1, which has the same colour.
+const std::string transparent_gif(
+    "GIF89a\2\0\1\0\x80\0\0\xc8\x64\x32\xc8\x64\x32!\xf9\4\1\0\0\1\0,\0\0\0\0\2\0\1\0\0\2\2\x0c\x0a\0;", 44);
+
+TEST_CASE("so they are of a GIF, and of a TIFF whose colours lie multiplied in the file") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.gif", transparent_gif);
+  CHECK(read_texture(folder / "a.gif", {}).levels[0].texels == std::vector<std::uint32_t>{0x3264c8, 0x3264c8});
+  const std::vector<std::uint8_t> texels{100, 50, 25, 128};
+  const Texture texture = read_texture(write(folder / "a.tif", 1, 1, 4, OIIO::TypeDesc::UINT8, texels), {});
+  CHECK(texture.levels[0].texels[0] == 0x3264c7);  // 100 * 255 / 128, and so on
+}
+
+/// A lossless pixel of 200 100 50 with alpha 128, written bit by bit by the specification of VP8L: each channel has a code of one
+/// symbol.
+const std::string lossless_webp("RIFF\030\000\000\000WEBPVP8L\014\000\000\000/\000\000\000\020(Y\221+S\300\000", 32);
+
+TEST_CASE("so they are of a WebP, lossy or not") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.webp", lossless_webp);
+  CHECK(read_texture(folder / "a.webp", {}).levels[0].texels == std::vector<std::uint32_t>{0x3264c8});
+  std::vector<std::uint8_t> texels;
+  for (int i = 0; i < 16 * 16; ++i) {
+    texels.insert(texels.end(), {200, 100, 50, static_cast<std::uint8_t>(i)});
+  }
+  const std::string lossy = text_of(write(folder / "b.webp", 16, 16, 4, OIIO::TypeDesc::UINT8, texels));
+  const std::size_t colours = lossy.find("VP8 ");
+  REQUIRE(lossy.find("ALPH") < colours);
+  std::string alone = "RIFF" + bytes_of(static_cast<std::uint32_t>(lossy.size() - colours + 4)) + "WEBP" + lossy.substr(colours);
+  write_text(folder / "c.webp", alone);
+  CHECK(read_texture(folder / "b.webp", {}).levels[0].texels == read_texture(folder / "c.webp", {}).levels[0].texels);
+}
+
 TEST_CASE("floats are linear light beyond 1, too") {
   const TemporaryFolder folder;
   const std::vector<float> light{0.5F, 2, 1000};
@@ -89,9 +130,31 @@ TEST_CASE("16 bits go through the sRGB curve, and keep more than 8") {
   const TemporaryFolder folder;
   const std::vector<std::uint16_t> values{65535, 32896, 0};
   const Texture texture = read_texture(write(folder / "a.png", 1, 1, 3, OIIO::TypeDesc::UINT16, values), {});
-  CHECK(texture.format == TexelFormat::shared_exponent);
+  CHECK(texture.format == TexelFormat::fine_srgb);
   CHECK(color_at(texture, 0).x == 1);
-  CHECK(color_at(texture, 0).y == doctest::Approx(0.2159).epsilon(0.005));
+  CHECK(color_at(texture, 0).y == doctest::Approx(0.2159).epsilon(0.0005));
+}
+
+TEST_CASE("a saturated colour of 16 bits is as good as one of 8 in each channel") {
+  const TemporaryFolder folder;
+  const std::vector<std::uint16_t> values{65535, 8000, 3341};
+  const Texture texture = read_texture(write(folder / "a.png", 1, 1, 3, OIIO::TypeDesc::UINT16, values), {});
+  CHECK(color_at(texture, 0).y == doctest::Approx(0.01383).epsilon(0.005));
+  CHECK(color_at(texture, 0).z == doctest::Approx(0.00405).epsilon(0.005));
+}
+
+TEST_CASE("what a picture says of gamma and profiles does not count") {
+  const TemporaryFolder folder;
+  const std::vector<std::uint8_t> gray{128, 128, 128};
+  const std::string plain = write(folder / "a.png", 1, 1, 3, OIIO::TypeDesc::UINT8, gray);
+  std::string text = text_of(plain);  // a chunk gAMA of 1.0 behind IHDR, which ends with byte 33
+  text.insert(33, std::string("\0\0\0\4gAMA\0\1\x86\xa0\x31\xe8\x96\x5f", 16));
+  write_text(folder / "gamma.png", text);
+  const Texture texture = read_texture(folder / "gamma.png", {});
+  CHECK(texture.format == TexelFormat::srgb);
+  CHECK(texture.levels[0].texels[0] == 0x808080);
+  const std::vector<std::uint8_t> tiff{128, 128, 128};
+  CHECK(read_texture(write(folder / "a.tif", 1, 1, 3, OIIO::TypeDesc::UINT8, tiff, "Linear"), {}).format == TexelFormat::srgb);
 }
 
 TEST_CASE("the edges asked for are noted") {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr auto srgb = TexelFormat::srgb;
 constexpr auto shared_exponent = TexelFormat::shared_exponent;
+constexpr auto fine_srgb = TexelFormat::fine_srgb;
 
 void check_kept(TexelFormat format, std::uint32_t texel) {
   CAPTURE(texel);
@@ -57,12 +58,35 @@ TEST_CASE("a mantissa that rounds up to 512 goes on with the next exponent") {
   CHECK(decoded(shared_exponent, encoded(shared_exponent, {0.99999, 0, 0})) == Color{1, 0, 0});
 }
 
+TEST_CASE("a fine texel has every byte's colour, and steps a quarter as wide") {
+  CHECK(decoded(fine_srgb, 0) == Color{0, 0, 0});
+  CHECK(decoded(fine_srgb, 1020U << 20U) == Color{0, 0, 1});
+  CHECK(decoded(fine_srgb, 4 * 128U << 10U).y == static_cast<float>(linear_from_srgb(128 / 255.0)));
+  for (std::uint32_t step = 0; step <= 1020; ++step) {
+    check_kept(fine_srgb, step | (1020 - step) << 10U | (step ^ 0x55U) % 1021 << 20U);
+    const double light = linear_from_srgb((step + 0.3) / 1020);
+    CHECK(encoded(fine_srgb, {light, 0, 0}) == std::min(step, 1020U));
+  }
+}
+
+TEST_CASE("a fine texel is at least as near to any colour from 0 to 1 as one of bytes is") {
+  for (std::uint32_t value = 0; value <= 65535; value += 7) {
+    const double light = linear_from_srgb(value / 65535.0);
+    const auto off = [&](TexelFormat format) {
+      return std::fabs(static_cast<double>(decoded(format, encoded(format, {light, light, light})).x) - light);
+    };
+    CHECK(off(fine_srgb) <= off(srgb) + 1e-7);
+  }
+}
+
 TEST_CASE("what no texel can hold is clamped") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-  for (const TexelFormat format : {srgb, shared_exponent}) {
+  for (const TexelFormat format : {srgb, shared_exponent, fine_srgb}) {
     CHECK(decoded(format, encoded(format, {-1, nan, -infinity})) == Color{0, 0, 0});
   }
   CHECK(decoded(srgb, encoded(srgb, {7, infinity, 1})) == Color{1, 1, 1});
+  CHECK(decoded(fine_srgb, encoded(fine_srgb, {7, infinity, 1})) == Color{1, 1, 1});
+  CHECK(decoded(fine_srgb, 0x3fffffff) == Color{1, 1, 1});
   CHECK(decoded(shared_exponent, encoded(shared_exponent, {1e9, infinity, 0})) == Color{65408, 65408, 0});
 }
 

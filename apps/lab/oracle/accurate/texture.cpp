@@ -19,15 +19,18 @@ constexpr double strides_max = 15;
 constexpr double cosine_min = 1e-6;
 
 /// IEC 61966-2-1.
-double light_of(std::uint32_t byte) {
-  const double signal = byte / 255.0;
-  return signal <= 0.04045 ? signal / 12.92 : std::pow((signal + 0.055) / 1.055, 2.4);
+double light_of_signal(double signal) { return signal <= 0.04045 ? signal / 12.92 : std::pow((signal + 0.055) / 1.055, 2.4); }
+
+/// Three channels of 10 bits, 1020 steps along the curve.
+Vec3d light_of_steps(std::uint32_t texel) {
+  const auto light = [](std::uint32_t step) { return light_of_signal(std::min(step, 1020U) / 1020.0); };
+  return {light(texel % 1024), light(texel / 1024 % 1024), light(texel / 1048576 % 1024)};
 }
 
 std::array<double, 256> light_of_bytes() {
   std::array<double, 256> light{};
   for (std::uint32_t byte = 0; byte < light.size(); ++byte) {
-    light[byte] = light_of(byte);
+    light[byte] = light_of_signal(byte / 255.0);
   }
   return light;
 }
@@ -42,6 +45,9 @@ Vec3d light_of_exponent(std::uint32_t texel) {
 
 Vec3d light_of(const core::Texture& texture, std::uint32_t texel) {
   static const std::array<double, 256> light = light_of_bytes();
+  if (texture.format == core::TexelFormat::fine_srgb) {
+    return light_of_steps(texel);
+  }
   return texture.format == core::TexelFormat::srgb
              ? Vec3d{light[texel % 256], light[texel / 256 % 256], light[texel / 65536 % 256]}
              : light_of_exponent(texel);

@@ -257,6 +257,19 @@ TEST_CASE("a mesh packed by Draco is the mesh that was packed") {
   CHECK(contains(complaint_about(document_of(bytes.substr(0, bytes.size() / 2))), "Draco cannot unpack it"));
 }
 
+TEST_CASE("bytes in letters and percents of an address are those that they stand for") {
+  const std::string plain = plain_quad();
+  const std::size_t begin = plain.find(";base64,"), end = plain.find('"', begin);
+  std::string percents, bytes = bytes_of(corners) + bytes_of(triangles);
+  for (const char byte : bytes) {
+    const auto code = static_cast<unsigned char>(byte);
+    constexpr const char* digits = "0123456789abCDEF";
+    percents += byte == 'B' ? std::string("B") : std::string{'%', digits[code / 16], digits[code % 16]};
+  }
+  const std::string text = plain.substr(0, begin) + ";charset=utf-8," + percents + plain.substr(end);
+  check_same(scene_of(text).scene, scene_of(plain).scene);
+}
+
 TEST_CASE("an index of a vertex that does not exist is refused, with its place") {
   GltfDocument document;
   const std::size_t positions = document.accessor(document.view(bytes_of(corners)), 5126, 4, "VEC3");
@@ -279,7 +292,9 @@ TEST_CASE("what reaches beyond its bytes or does not exist is refused, with its 
       {R"("indices":1)", R"("indices":1,"mode":7)", "mode: is 7, expected 0 to 6"},
       {R"("indices":1)", R"("indices":1,"material":0)", "refers to materials[0]"},
       {R"("version":"2.0")", R"("version":"3.0")", "the version is '3.0'"},
-      {"base64,", "base65,", "not in base 64"}};
+      {"base64,", "base65,", "not in base 64"},
+      {";base64,", ",%4-", "not in base 64"},
+      {";base64,", ",\\u00e9", "not in base 64"}};
   const std::string plain = plain_quad();
   CHECK(complaint_of_bytes(plain).empty());
   for (const auto& [found, instead, words] : faults) {

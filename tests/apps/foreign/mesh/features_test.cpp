@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/formats/mesh_file.h"
+#include "apps/picture/image_file.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,9 +21,30 @@ Notes notes_of(const std::string& model) { return read_mesh_file(std::string(DMP
 
 bool has(const Notes& notes, const std::string& note) { return std::find(notes.begin(), notes.end(), note) != notes.end(); }
 
+Notes notes_of_text(const std::string& name, const std::string& text) {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / name, text);
+  return read_mesh_file(folder / name).notes;
+}
+
 }  // namespace
 
-TEST_CASE("of a plain mesh nothing but the view is said") { CHECK(notes_of("STL/triangle.stl").size() == 1); }
+TEST_CASE("of a plain mesh nothing but the view is said, and who read it where we do not") {
+  CHECK(notes_of_text("a.gltf", tests::Gltf{}.text()).size() == 1);
+  const Notes notes = notes_of_text("a.dae", tests::collada(""));
+  CHECK(notes.size() == 2);
+  CHECK(notes.front().starts_with("read by Assimp "));
+  CHECK(notes.front().ends_with(", single precision"));
+}
+
+TEST_CASE("a texture whose mesh has no places on it is said") {
+  const tests::TemporaryFolder folder;
+  apps::write_image(folder / "a.png", apps::Image(1, 1));
+  tests::Gltf gltf{.materials = R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])"};
+  gltf.more = R"("textures":[{"source":0}],"images":[{"uri":"a.png"}])";
+  tests::write_text(folder / "a.gltf", gltf.text());
+  CHECK(has(read_mesh_file(folder / "a.gltf").notes, "meshes whose texture is not shown, since no corner has a place on it: 1"));
+}
 
 TEST_CASE("what is not shown is said once a kind, with its count") {
   CHECK(
@@ -30,7 +52,8 @@ TEST_CASE("what is not shown is said once a kind, with its count") {
   CHECK(has(notes_of("OBJ/cube_with_vertexcolors.obj"), "meshes whose vertex colours are not used: 1"));
   CHECK(has(notes_of("glTF2/BoxTexcoords-glTF/boxTexcoords.gltf"),
             "meshes with several sets of texture coordinates, of which colours use one: 1"));
-  CHECK(has(notes_of("glTF2/simple_skin/simple_skin.gltf"), "meshes with a skin, shown at rest: 1"));
+  CHECK(has(notes_of("glTF2/simple_skin/simple_skin.gltf"),
+            "meshes with a skin, shown in the pose in which their joints stand: 1"));
   CHECK(has(notes_of("glTF2/simple_skin/simple_skin.gltf"), "animations not played: 1"));
   const Notes cube = notes_of("glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf");
   CHECK(has(cube, "meshes with morph targets, shown without them: 1"));

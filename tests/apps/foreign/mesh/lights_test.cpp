@@ -28,12 +28,13 @@ MeshFile lit(const std::string& lights, const std::string& placed = R"("translat
 }
 
 /// The triangle seen by the first of `cameras`.
-MeshFile seen(const std::string& cameras, const std::string& placed = R"("translation":[0,0,5])") {
+MeshFile seen(const std::string& cameras, const std::string& placed = R"("translation":[0,0,5])",
+              const MeshOptions& options = {}) {
   const tests::TemporaryFolder folder;
   tests::Gltf gltf{.nodes = R"([{"mesh":0},{"camera":0,)" + placed + "}]", .roots = "[0,1]"};
   gltf.more = R"("cameras":)" + cameras;
   tests::write_text(folder / "a.gltf", gltf.text());
-  return read_mesh_file(folder / "a.gltf");
+  return read_mesh_file(folder / "a.gltf", options);
 }
 
 bool says(const MeshFile& file, const std::string& what) {
@@ -80,7 +81,20 @@ TEST_CASE("nothing is said of a file's lights where others take their place, nor
   CHECK(lit(lamp, place, {.is_seen_otherwise = true, .is_lit_otherwise = true}).notes.empty());
 }
 
-TEST_CASE("a light that is dark does not count") { CHECK(lit(R"([{"type":"point","intensity":0}])").scene.lights.size() == 2); }
+TEST_CASE("a light that is dark does not count, and that is said") {
+  const MeshFile file = lit(R"([{"type":"point","intensity":0}])");
+  CHECK(file.scene.lights.size() == 2);
+  CHECK(says(file, "lights without any brightness left out, so that plain ones take their place: 1"));
+  CHECK_FALSE(says(file, "fall-off"));
+}
+
+TEST_CASE("a light that several nodes have stands at each of them") {
+  const MeshFile file =
+      lit(R"([{"type":"point"}])", R"("translation":[0,0,7],"children":[2]},)"
+                                   R"({"translation":[1,0,0],"extensions":{"KHR_lights_punctual":{"light":0}})");
+  REQUIRE(file.scene.lights.size() == 2);
+  CHECK(file.scene.lights[1].position == Vec3d{1, 0, 7});
+}
 
 TEST_CASE("the camera looks along its node's -z with its node's y up") {
   const Scene scene = seen(R"([{"type":"perspective","perspective":{"yfov":1,"znear":0.1,"aspectRatio":1}}])",
@@ -89,18 +103,48 @@ TEST_CASE("the camera looks along its node's -z with its node's y up") {
   CHECK(scene.view.from == Vec3d{0, 0, 5});
   CHECK(length(scene.view.at - Vec3d{0, 0, 6}) < 1e-6);
   CHECK(length(scene.view.up - Vec3d{0, 1, 0}) < 1e-6);
-  CHECK(scene.view.angle_degrees == Approx(57.29578));
+  CHECK(scene.view.angle_degrees == Approx(57.201571742));  // 2 atan(tan(0.5) 511/512): between the middles of pixels
 }
 
 TEST_CASE("the angle spans the shorter side, and the aspect decides the size") {
   const Scene wide = seen(R"([{"type":"perspective","perspective":{"yfov":1,"znear":0.1,"aspectRatio":2}}])").scene;
-  CHECK(wide.view.angle_degrees == Approx(57.29578));
+  CHECK(wide.view.angle_degrees == Approx(57.201571742));
   CHECK(wide.view.width == 1024);
   CHECK(wide.view.height == 512);
   const Scene tall = seen(R"([{"type":"perspective","perspective":{"yfov":1,"znear":0.1,"aspectRatio":0.5}}])").scene;
   CHECK(tall.view.width == 512);
   CHECK(tall.view.height == 1024);
-  CHECK(tall.view.angle_degrees == Approx(30.555453));  // 2 atan(tan(0.5) / 2)
+  CHECK(tall.view.angle_degrees == Approx(30.498555189));  // 2 atan(tan(0.5) 511/1024)
+}
+
+TEST_CASE("the vertical angle spans the rows of the picture that is asked for, from edge to edge") {
+  const std::string camera = R"([{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}])",
+                    place = R"("translation":[0,0,5])";
+  const auto degrees = [&](int width, int height) {
+    return seen(camera, place, {.size = Resolution{width, height}}).scene.view.angle_degrees;
+  };
+  CHECK(degrees(32, 32) == Approx(55.778320010));  // 2 atan(tan(0.5) 31/32)
+  CHECK(degrees(64, 32) == Approx(55.778320010));
+  CHECK(degrees(16, 32) == Approx(28.727200284));  // 2 atan(tan(0.5) 15/32)
+  CHECK(degrees(1, 1) == Approx(57.29578));
+}
+
+TEST_CASE("a horizontal angle spans the columns, or the rows that the camera's aspect makes of it") {
+  const auto degrees = [](const std::string& more, int width, int height) {
+    const tests::TemporaryFolder folder;
+    tests::write_text(
+        folder / "a.dae",
+        tests::collada(
+            "",
+            R"(<library_cameras><camera id="c"><optics><technique_common><perspective>)" + more +
+                R"(<znear>0.1</znear><zfar>9</zfar></perspective></technique_common></optics></camera></library_cameras>)",
+            R"(<node id="n"><translate>0 0 5</translate><instance_camera url="#c"/></node>)"));
+    return read_mesh_file(folder / "a.dae", {.size = Resolution{width, height}}).scene.view.angle_degrees;
+  };
+  CHECK(degrees("<xfov>57.29578</xfov>", 64, 32) == Approx(29.643256070));  // 2 atan(tan(0.5) 31/64)
+  CHECK(degrees("<xfov>57.29578</xfov><aspect_ratio>2</aspect_ratio>", 64, 32) == Approx(29.643256070));
+  CHECK(degrees("<xfov>57.29578</xfov><aspect_ratio>0.5</aspect_ratio>", 32, 32) ==
+        Approx(93.253569106));  // 2 atan(tan(0.5) 31/16)
 }
 
 TEST_CASE("a camera without perspective is not taken, and that is said") {
@@ -109,8 +153,14 @@ TEST_CASE("a camera without perspective is not taken, and that is said") {
   CHECK(file.scene.view.up == Vec3d{0, 1, 0});
 }
 
-TEST_CASE("of several cameras the first is taken") {
+TEST_CASE("of several cameras the first that makes a picture is taken, and which is said") {
   const std::string camera = R"({"type":"perspective","perspective":{"yfov":1,"znear":0.1,"aspectRatio":1}})";
+  const std::string flat = R"({"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"zfar":9,"znear":0.1}})";
+  const std::string second = R"("translation":[0,0,5],"children":[2]},{"name":"eye","translation":[0,0,2],"camera":1)";
+  const MeshFile file = seen("[" + flat + "," + camera + "]", second);
+  CHECK(says(file, "camera 2 of 2 is taken, the first that has a perspective and a direction, 'eye'"));
+  CHECK(file.scene.view.from == Vec3d{0, 0, 7});
+  CHECK(says(seen("[" + flat + "," + flat + "]", second), "none of the file's 2 cameras is taken"));
   CHECK(says(seen("[" + camera + "," + camera + "]", R"("children":[2]},{"camera":1)"), "the first of 2 cameras"));
 }
 

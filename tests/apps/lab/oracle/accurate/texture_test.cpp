@@ -22,7 +22,8 @@ using core::Vec3d;
 TEST_CASE("a look-up in double is the one by the records but for rounding, for every format and way to go on beyond an edge") {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> place(-2.5, 3.5), step(-0.1, 0.1), detail(-1, 6), strides(1, core::probes_max);
-  for (const core::TexelFormat format : {core::TexelFormat::srgb, core::TexelFormat::shared_exponent}) {
+  for (const core::TexelFormat format :
+       {core::TexelFormat::srgb, core::TexelFormat::shared_exponent, core::TexelFormat::fine_srgb}) {
     for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirror, TextureWrap::clamp}) {
       ShownTexture shown(noise_texture(37, 20, wrap, wrap, format));
       for (int i = 0; i < 200; ++i) {
