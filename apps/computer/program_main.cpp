@@ -13,6 +13,7 @@
 
 #include "apps/computer/program_call.h"
 #include "apps/edge/line/exit_status.h"
+#include "apps/edge/line/fitted_help.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/edge/ranks/launcher.h"
 #include "apps/edge/ranks/rank_group.h"
@@ -29,7 +30,7 @@ int read_and_act(const ProgramCall& call, const ProgramMain& program, Interrupt&
   program.declare(line.own_options());
   const auto what = with_words_agreed([&] { return line.parse(call.words); }, CompanionOf::own_program);
   if (const HelpText* const help = std::get_if<HelpText>(&what)) {
-    std::cout << help->text;
+    print_help(std::cout, help->text);
     finish_output(std::cout, "the help");
     return 0;
   }

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "apps/edge/help/glossary.h"
+#include "apps/edge/line/fitted_help.h"
 #include "apps/edge/line/typed_line.h"
 #include "apps/edge/line/words.h"
 #include "apps/edge/machine/machines.h"
@@ -27,7 +28,7 @@ const char* const about =
 
 Command help_command(const HelpText& help) {
   return {help, false, [help](Interrupt&, std::ostream& output) {
-            output << help.text;
+            print_help(output, help.text);
             finish_output(output, "the help");
             return 0;
           }};

@@ -7,9 +7,6 @@ namespace dmpc::apps {
 
 namespace {
 
-/// Where explanations begin.
-constexpr std::size_t help_column = 36;
-
 /// A name, and beside it, or below where it is long, what it means.
 std::string explained(const std::string& name, const std::string& text) {
   std::string line = "  " + name;

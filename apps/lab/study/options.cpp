@@ -5,11 +5,11 @@
 namespace dmpc::apps {
 
 void add_options(OptionSet set, StudyOptions& options) {
+  std::visit([&](auto& study) { study.add_options({set, options.machine_name, options.database}); }, options.study);
   add_options(set, options.picture);
   add_options(set, options.database);
   add_options(set, options.table, TableExtras::plots_and_report);
   set.add_quiet(options.quiet);
-  std::visit([&](auto& study) { study.add_options({set, options.machine_name, options.database}); }, options.study);
 }
 
 }  // namespace dmpc::apps

@@ -44,7 +44,8 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 
 class ReferenceReader {
  public:
-  ReferenceReader(std::istream& input, std::string name) : input_(input), name_(std::move(name)) {}
+  ReferenceReader(std::istream& input, std::string name, const ReferenceColumns& wanted)
+      : input_(input), name_(std::move(name)), wanted_(wanted) {}
 
   ReferenceTrace read() {
     const Columns columns = read_columns();
@@ -85,14 +86,26 @@ class ReferenceReader {
   }
 
   int next_character() {
+    return guarded([this] { return input_.get(); });
+  }
+  int first_character() {
+    return guarded([this] { return input_.peek(); });
+  }
+
+  template <class Look>
+  int guarded(const Look& look) {
     try {
-      return input_.get();
+      return look();
     } catch (const core::InputError& error) {  // of a pipe that gives nothing, or too much
       throw core::InputError(name_ + ": " + error.what());
     }
   }
 
   Columns read_columns() {
+    constexpr int first_of_gzip = 0x1f;
+    if (first_character() == first_of_gzip) {
+      throw core::InputError(name_ + ": it is packed; expected a CSV file: zcat FILE | dmpc study references -");
+    }
     if (!next_line()) {
       fail("the file is empty; expected a line such as node,number,page,bytes, and one for each reference");
     }
@@ -101,11 +114,14 @@ class ReferenceReader {
       const auto found = std::find(names.begin(), names.end(), name);
       return found == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - names.begin()));
     };
-    const std::optional<std::size_t> page = place("page");
-    if (!page) {
-      fail("no column is called page; expected the names of the columns, such as node,number,page,bytes");
-    }
-    return {*page, place("node"), names.size()};
+    const auto required = [&](const std::string& name) {
+      const std::optional<std::size_t> found = place(name);
+      if (!found) {
+        fail("no column is called " + name + "; expected the names of the columns, such as node,number,page,bytes");
+      }
+      return *found;
+    };
+    return {required(wanted_.page), wanted_.node ? required(*wanted_.node) : place("node"), names.size()};
   }
 
   std::uint64_t number_in(std::string_view field, const char* column, std::uint64_t most) const {
@@ -157,6 +173,7 @@ class ReferenceReader {
 
   std::istream& input_;
   std::string name_;
+  ReferenceColumns wanted_;
   std::string line_;
   std::uint64_t line_number_ = 0;
   std::vector<std::vector<PageName>> names_;  ///< by node
@@ -175,16 +192,20 @@ void write_references(std::ostream& output, const std::vector<svm::ReferenceLog>
   }
 }
 
-ReferenceTrace read_references(std::istream& input, const std::string& name) { return ReferenceReader(input, name).read(); }
+ReferenceTrace read_references(std::istream& input, const std::string& name, const ReferenceColumns& columns) {
+  return ReferenceReader(input, name, columns).read();
+}
 
-ReferenceTrace read_references(const std::filesystem::path& path) {
+ReferenceTrace read_references(const std::filesystem::path& path, const ReferenceColumns& columns) {
+  const bool is_standard = path == "-";
+  const std::string name = is_standard ? "the standard input" : path.string();
   std::unique_ptr<TextInput> input;
   try {
-    input = std::make_unique<TextInput>(path);
+    input = std::make_unique<TextInput>(is_standard ? "/dev/stdin" : path);
   } catch (const core::InputError& error) {
-    throw core::InputError(path.string() + ": " + error.what() + "; a CSV file of page references was expected");
+    throw core::InputError(name + ": " + error.what() + "; a CSV file of page references was expected");
   }
-  return read_references(*input, path.string());
+  return read_references(*input, name, columns);
 }
 
 }  // namespace dmpc::apps

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <istream>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -24,11 +25,17 @@ struct ReferenceTrace {
 /// how many bytes it has.
 void write_references(std::ostream& output, const std::vector<svm::ReferenceLog>& logs, std::size_t page_bytes);
 
-/// Reads a file or a pipe with a column `page`, and perhaps `node` (else all are node 0's); others are passed over. Pages are
-/// whole numbers below 2^64, whatever they mean. Throws core::InputError naming the line, core::RoomError for more than 2^32 - 2
-/// references.
-ReferenceTrace read_references(const std::filesystem::path& path);
+/// What columns are called.
+struct ReferenceColumns {
+  std::string page = "page";
+  std::optional<std::string> node;  ///< must be there; nothing: "node", or all are node 0's
+};
+
+/// Reads a file or a pipe, or, as "-", the standard input, if that is one of them, with a column of pages, and perhaps one of
+/// nodes; others are passed over. Pages are whole numbers below 2^64, whatever they mean. Throws core::InputError naming the
+/// line, core::RoomError for more than 2^32 - 2 references.
+ReferenceTrace read_references(const std::filesystem::path& path, const ReferenceColumns& columns = {});
 /// Reads text that is called `name` in messages.
-ReferenceTrace read_references(std::istream& input, const std::string& name);
+ReferenceTrace read_references(std::istream& input, const std::string& name, const ReferenceColumns& columns = {});
 
 }  // namespace dmpc::apps

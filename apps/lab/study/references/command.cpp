@@ -20,7 +20,11 @@ constexpr const char* references_data_file = "references.csv";
 constexpr std::uint32_t references_size_count = 12;
 
 TableFiles files_of(const ReferencesOptions& options) {
-  return {options.table, {names_of(references_data_file, {CacheCurves::plot()})}, {.inputs = {{"FILE", options.file}}}};
+  std::vector<NamedFile> inputs;
+  if (options.file != "-") {
+    inputs.push_back({"FILE", options.file});
+  }
+  return {options.table, {names_of(references_data_file, {CacheCurves::plot()})}, {.inputs = std::move(inputs)}};
 }
 
 /// How many caches have been fed, on a terminal. Thread safety: count() from any thread.
@@ -68,13 +72,22 @@ Table table_of(const ReferenceTrace& trace, const ReferencesOptions& options, co
 void add_options(OptionSet set, ReferencesOptions& options) {
   set.add_argument(
       "FILE", [&options](const std::string& text) { options.file = text; },
-      "A CSV file whose first line names its columns: page, and perhaps node; others are passed over");
+      "A CSV file whose first line names its columns: page, and perhaps node; others are passed over. - is the standard input, "
+      "as "
+      "in zcat trace.csv.gz | dmpc study references -");
+  set.add_text(
+      "--page-column", "NAME [page]", [&options](const std::string& text) { options.columns.page = text; },
+      "The column that has the page");
+  set.add_text(
+      "--node-column", "NAME [node]", [&options](const std::string& text) { options.columns.node = text; },
+      "The column that has the node; without one all references are one node's");
   add_cache_pages(set, options.cache_pages);
   add_options(set, options.table, TableExtras::plots_and_report);
   set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
       "  dmpc study references trace.csv\n"
+      "  zcat trace.csv.gz | dmpc study references - --page-column=block --node-column=thread\n"
       "  dmpc study references trace.csv --cache-pages=16,64,256 --plots=plots --format=csv -o misses.csv\n"
       "A page is a whole number, whatever it stands for: the references may be any program's.");
 }
@@ -83,7 +96,7 @@ int study_references_command(const ReferencesOptions& options, Interrupt& interr
   const TableFiles files = files_of(options);
   const ReferenceTrace trace = [&] {
     const Interrupt::EndAtOnce end_at_once(interrupt);
-    return read_references(std::filesystem::path(options.file));
+    return read_references(std::filesystem::path(options.file), options.columns);
   }();
   std::optional<Table> table;
   const auto result = [&](bool) {

@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "apps/edge/line/command_line.h"
+#include "apps/edge/show/references/reference_file.h"
 #include "apps/edge/system/interrupt.h"
 #include "apps/edge/table/table_options.h"
 
 namespace dmpc::apps {
 
 struct ReferencesOptions {
-  std::string file;
+  std::string file;                        ///< "-": the standard input
+  ReferenceColumns columns;                ///< what those of the file are called
   std::vector<std::uint32_t> cache_pages;  ///< sizes in pages; empty: about 12, from 1 to all pages
   TableOutput table;
   bool quiet = false;  ///< no progress

@@ -54,6 +54,20 @@ TEST_CASE("a column of pages is enough, and repeats of a page count but are not 
   CHECK(trace.reference_count == 4);
 }
 
+TEST_CASE("columns are called as one says, and must be there then") {
+  std::istringstream input("time,block,thread\n0,5,1\n1,6,0\n");
+  const ReferenceTrace trace = apps::read_references(input, "t.csv", {.page = "block", .node = "thread"});
+  CHECK(trace.nodes.size() == 2);
+  CHECK(pages_of(trace, 1) == std::vector<std::uint32_t>{0});
+  std::istringstream other("time,page\n0,5\n");
+  CHECK_THROWS_WITH_AS(apps::read_references(other, "t.csv", {.node = "thread"}),
+                       doctest::Contains("t.csv:1: no column is called thread"), core::InputError);
+}
+
+TEST_CASE("a packed file is told to be unpacked on the way") {
+  check_refused("\x1f\x8b\x08 and so on", "t.csv: it is packed; expected a CSV file: zcat FILE | dmpc study references -");
+}
+
 TEST_CASE("what is wrong with a file is said with its line, and what was expected") {
   check_refused("", "t.csv:1: the file is empty; expected a line such as node,number,page,bytes");
   check_refused("node,number\n0,0\n", "t.csv:1: no column is called page");

@@ -77,6 +77,19 @@ TEST_CASE("the plain renderer shoots our rays, to rounding, and its picture is o
   }
 }
 
+TEST_CASE("the plain renderer shows an ambient light as ours does") {
+  for (const char* scene : {"teapot-3", "balls-2", "mount-4"}) {
+    CAPTURE(std::string(scene));
+    apps::Subject subject = small_subject(scene, {48, 40});
+    const Ours dark(subject);
+    subject.settings.header.ambient = {0.5F, 0.25F, 0.125F};
+    const Ours ours(subject);
+    CHECK(ours.operations.ray_count() == dark.operations.ray_count());
+    CHECK(ours.film.hash() != dark.film.hash());
+    CHECK_NOTHROW(apps::distance_to_ours(PlainRenderer(subject).render(1), ours.film, scene));
+  }
+}
+
 TEST_CASE("the plain renderer's picture is the same on any number of threads") {
   const apps::Subject subject = small_subject("teapot-3", {48, 40});
   const PlainRenderer renderer(subject);

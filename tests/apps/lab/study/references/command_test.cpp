@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -55,6 +56,17 @@ TEST_CASE("without sizes there are those from one page to all") {
   const std::string output = output_of("page\n1\n2\n3\n1\n", {});
   CHECK(output.find("\n1,") != std::string::npos);
   CHECK(output.find("\n3,100,75,3,") != std::string::npos);
+}
+
+TEST_CASE("references come from a pipe, whose columns are called as one says") {
+  const TemporaryFolder folder;
+  write_text(folder / "trace.csv", "thread,block\n0,1\n0,2\n0,1\n");
+  const std::string line = "cat " + (folder / "trace.csv").string() +
+                           " | " DMPC_PROGRAM
+                           " study references - --page-column=block --node-column=thread --cache-pages=2 --format=csv --quiet";
+  ChildProcess shell({"/bin/sh", "-c", line});
+  CHECK(shell.status() == 0);
+  CHECK(contains(shell.output(), "\n2,100,"));
 }
 
 TEST_CASE("a file that cannot be read leaves no table") { CHECK_THROWS_AS(output_of("x\n", {}), core::InputError); }
