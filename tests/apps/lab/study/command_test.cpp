@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/edge/show/page/escaped.h"
+#include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
@@ -182,6 +184,26 @@ TEST_CASE("every study's pictures show columns that its table has, under names o
       CHECK_NOTHROW(apps::script_of(plot, table, "t.csv"));
     }
     CHECK_FALSE(plots.empty());
+  }
+}
+
+TEST_CASE("every study draws its pictures and its page, of rows as they come") {
+  for (std::vector<std::string> words : std::vector<std::vector<std::string>>{{"balance", "--nodes=1,2", "--per-node"},
+                                                                              {"traffic", "--nodes=1,2"},
+                                                                              {"cache", "--nodes=2", "--cache-pages=2,8"},
+                                                                              {"speedup", "--nodes=1,2"},
+                                                                              {"systems", "--nodes=4"}}) {
+    CAPTURE(words[0]);
+    const TemporaryFolder folder;
+    words.insert(words.begin(), "study");
+    words.insert(words.end(), {"balls-1", "--resolution=16x16", "--plots=" + (folder / "plots").string(),
+                               "--report=" + (folder / "page.html").string()});
+    const StudyOptions options = apps::parse_command_line(words).options<StudyOptions>();
+    output_of(options);
+    for (const apps::Plot& plot : std::visit([](const auto& study) { return study.plots(); }, options.study)) {
+      CHECK(file_text(folder / "plots" / (plot.name + ".gnuplot")).size() > 100);
+      CHECK(contains(file_text(folder / "page.html"), "Plot: " + apps::html::escaped(plot.title)));
+    }
   }
 }
 
