@@ -16,6 +16,7 @@
 #include "apps/foreign/polygon/plain_material.h"
 #include "apps/foreign/polygon/reading_progress.h"
 #include "apps/foreign/polygon/text_words.h"
+#include "apps/foreign/text/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -80,7 +81,7 @@ void OffReader::read_header() {
     if (word == "BINARY") {
       words_.fail("OFF in binary is not read; write it as text");
     }
-  } else if (!decimal_of(word)) {
+  } else if (!decimal_number(word)) {
     words_.fail_at(word, "OFF, perhaps with ST, C or N before it, or the number of vertices");
   }
   read_counts(word);
@@ -103,7 +104,7 @@ void OffReader::read_counts(std::string_view first) {
 }
 
 std::uint64_t OffReader::count_of(std::string_view word, const char* what) const {
-  const auto count = decimal_of(word);
+  const auto count = decimal_number(word);
   if (!count || !(*count >= 0 && *count < 0x1p53 && std::floor(*count) >= *count)) {
     words_.fail_at(word, what);
   }
@@ -111,7 +112,7 @@ std::uint64_t OffReader::count_of(std::string_view word, const char* what) const
 }
 
 double OffReader::number_of(std::string_view word, const char* what) const {
-  const auto number = decimal_of(word);
+  const auto number = decimal_number(word);
   if (!number) {
     words_.fail_at(word, what);
   }
@@ -246,7 +247,7 @@ PolygonFile OffReader::read() {
   const std::string_view rest = words_.next();
   note("bytes behind the last face, which are not looked at", rest.empty() ? 0 : bytes_ - words_.position() + rest.size());
   if (!mesh_.colors.empty() && !mesh_.face_colors.empty()) {
-    note("colours of vertices, which are not shown beside those of faces", std::exchange(mesh_.colors, {}).size());
+    note("colours of faces, which are not shown beside those of vertices", std::exchange(mesh_.face_colors, {}).size());
   }
   make_light(mesh_.colors, mesh_.vertices.size());
   make_light(mesh_.face_colors, mesh_.faces.ends.size());

@@ -26,7 +26,7 @@ constexpr Color no_ply_color = {-1, -1, -1};
 
 /// What is counted on the way, and said in the end.
 struct PlyCounts {
-  std::uint64_t thin = 0, see_through = 0, materials_of_none = 0, textures_of_none = 0;
+  std::uint64_t thin = 0, see_through = 0, materials_of_none = 0, textures_of_none = 0, of_other_names = 0;
 };
 
 Color row_color(const PlyRow& row) {
@@ -89,6 +89,7 @@ class PlyReader {
   std::vector<std::string> notes_;
   std::vector<std::uint32_t> corners_;
   std::uint64_t vertex_count_ = 0;
+  std::size_t skipped_names_ = 0;
   bool has_materials_ = false;
   double coordinate_rounding_ = 0, vertex_light_ = 0, face_light_ = 0;
 };
@@ -267,7 +268,15 @@ void PlyReader::read_materials(const PlyElement& element) {
 void PlyReader::skip(const PlyElement& element) {
   PlyRow row(element, *values_, false);
   for_each(element, row, [](std::uint64_t /*number*/) {});
-  note_count(notes_, "elements '" + clipped(element.name, 40) + "', which are not shown", element.count);
+  constexpr std::size_t names_max = 8;
+  if (element.properties.empty() || element.count == 0) {
+    return;
+  }
+  if (++skipped_names_ <= names_max) {
+    note_count(notes_, "elements '" + clipped(element.name, 40) + "', which are not shown", element.count);
+  } else {
+    counts_.of_other_names += element.count;
+  }
 }
 
 void PlyReader::read_element(const PlyElement& element) {
@@ -319,6 +328,7 @@ void PlyReader::finish_colors() {
 }
 
 void PlyReader::note_all() {
+  note_count(notes_, "elements of more names, which are not shown", counts_.of_other_names);
   note_count(notes_, "points and lines left out", counts_.thin);
   note_count(notes_, "colours whose alpha is not shown", counts_.see_through);
   note_count(notes_, "faces with a material, of which the file has none", counts_.materials_of_none);

@@ -9,6 +9,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/polygon/text_words.h"
+#include "apps/foreign/text/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -65,7 +66,7 @@ double TextValues::next(PlyType type) {
   if (found.empty()) {
     throw PlyIsShort{};
   }
-  const auto value = decimal_of(found);
+  const auto value = decimal_number(found);
   if (!value) {
     words_.fail_at(found, "a number");
   }
@@ -81,7 +82,7 @@ std::uint64_t TextValues::next_length(PlyType /*count_type*/, PlyType /*type*/) 
   if (found.empty()) {
     throw PlyIsShort{};
   }
-  const auto length = decimal_of(found);
+  const auto length = decimal_number(found);
   if (!length || !is_whole_number(*length, 0, 0x1p32)) {
     words_.fail_at(found, "the length of a list");
   }

@@ -1,30 +1,23 @@
 #include "apps/foreign/polygon/text_words.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <system_error>
+#include <optional>
 
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/trimmed.h"
+#include "apps/foreign/text/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
 
-bool is_blank(char letter) { return letter == ' ' || letter == '\t' || letter == '\v' || letter == '\f'; }
-bool ends_line(char letter) { return letter == '\n' || letter == '\r'; }
-
-/// Whether a number that no double holds is one too small.
-bool is_tiny(std::string_view word) {
-  const std::size_t exponent = word.find_first_of("eE");
-  return exponent == std::string_view::npos || word.substr(exponent + 1).starts_with('-');
-}
+bool is_space(char letter) { return letter == ' ' || letter == '\t' || letter == '\v' || letter == '\f'; }
+bool is_line_end(char letter) { return letter == '\n' || letter == '\r'; }
 
 }  // namespace
 
 void TextWords::skip_blanks() {
-  while (at_ < text_.size() && is_blank(text_[at_])) {
+  while (at_ < text_.size() && is_space(text_[at_])) {
     ++at_;
   }
   if (at_ < text_.size() && is_at_remark()) {
@@ -39,14 +32,14 @@ void TextWords::skip_line_end() {
 
 std::string_view TextWords::word() {
   const std::size_t begin = at_;
-  while (at_ < text_.size() && !is_blank(text_[at_]) && !ends_line(text_[at_]) && !is_at_remark()) {
+  while (at_ < text_.size() && !is_space(text_[at_]) && !is_line_end(text_[at_]) && !is_at_remark()) {
     ++at_;
   }
   return text_.substr(begin, at_ - begin);
 }
 
 std::string_view TextWords::next() {
-  for (skip_blanks(); at_ < text_.size() && ends_line(text_[at_]); skip_blanks()) {
+  for (skip_blanks(); at_ < text_.size() && is_line_end(text_[at_]); skip_blanks()) {
     skip_line_end();
   }
   return word();
@@ -72,27 +65,11 @@ void TextWords::fail_at(std::string_view word, const std::string& expected) cons
 
 double TextWords::number(const std::string& what) {
   const std::string_view word = next();
-  const std::optional<double> value = decimal_of(word);
+  const std::optional<double> value = decimal_number(word);
   if (!value) {
     fail_at(word, what);
   }
   return *value;
-}
-
-std::optional<double> decimal_of(std::string_view word) {
-  if (word.starts_with('+')) {
-    word.remove_prefix(1);
-    if (word.starts_with('-')) {
-      return std::nullopt;
-    }
-  }
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  const bool is_whole = end == word.data() + word.size() && !word.empty();
-  if (is_whole && error == std::errc::result_out_of_range && is_tiny(word)) {
-    return 0;
-  }
-  return is_whole && error == std::errc{} && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace dmpc::apps

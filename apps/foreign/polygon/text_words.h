@@ -1,8 +1,8 @@
-// The words of a text that is read once, from its beginning to its end.
+// The words of a text that is read once, from its beginning to its end, whatever lines they stand in; where lines count, see
+// apps/foreign/text/words.h.
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -45,8 +45,5 @@ class TextWords {
   std::size_t at_ = 0, line_;
   char remark_;
 };
-
-/// A finite decimal number, and nothing else; a number too small for a double is 0.
-std::optional<double> decimal_of(std::string_view word);
 
 }  // namespace dmpc::apps

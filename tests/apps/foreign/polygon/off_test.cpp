@@ -61,6 +61,11 @@ TEST_CASE("faces of OFF of few colours have materials, those without one stay gr
   CHECK(color_of_object(file, 1).x == doctest::Approx(0.6));
 }
 
+TEST_CASE("where vertices and faces of OFF have colours the vertices' are shown, and this is said") {
+  const MeshFile file = read_mesh("a.off", "COFF 3 1\n0 0 0 9 9 9 255\n2 0 0 9 9 9 255\n0 1 0 9 9 9 255\n3 0 1 2 1 0 0\n");
+  CHECK(notes(file, "colours of faces, which are not shown beside those of vertices: 1"));
+}
+
 TEST_CASE("normals of NOFF are shown, texture coordinates of STOFF are not, of which OFF names no texture") {
   const std::string text = "STNOFF 3 1 0\n0 0 0 0 0 1 0 0\n2 0 0 0 1 1 1 0\n0 1 0 0 0 1 0 1\n3 0 1 2\n";
   const MeshFile file = read_mesh("a.off", text);
