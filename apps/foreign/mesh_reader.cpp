@@ -69,8 +69,11 @@ std::vector<MeshMaterial> materials_of(const ImportedFile& imported, const Place
   const std::vector<bool> used = used_materials(file, placements);
   std::vector<MeshMaterial> materials;
   for (std::size_t i = 0; i < file.mNumMaterials; ++i) {
-    MeshMaterial material{material_of(*file.mMaterials[i])};
-    const auto use = used[i] ? colour_texture(*file.mMaterials[i]) : std::nullopt;
+    MeshMaterial material{.material = material_of(*file.mMaterials[i]), .is_cut_away = is_cut_away(*file.mMaterials[i])};
+    auto use = used[i] && !material.is_cut_away ? colour_texture(*file.mMaterials[i]) : std::nullopt;
+    if (use) {
+      use->edges.keeps_alpha = material.material.alpha != core::AlphaUse::none;
+    }
     if (const auto texture = use ? textures.find(*use) : std::nullopt) {
       material.material.texture = *texture;
       material.coordinates = use->coordinates;
@@ -163,6 +166,10 @@ void judge(const GeometryWriter& writer, std::vector<std::string>& notes) {
   if (writer.unplaced() > 0) {
     notes.push_back("meshes whose texture is not shown, since no corner has a place on it: " + grouped(writer.unplaced()));
   }
+  if (writer.meshes_without_colors() > 0) {
+    notes.push_back("meshes whose vertex colours are not used, since there is a texture: " +
+                    grouped(writer.meshes_without_colors()));
+  }
 }
 
 const MeshMaterial& material_for(const aiMesh& mesh, std::size_t index, const std::vector<MeshMaterial>& materials) {
@@ -182,7 +189,11 @@ void add_geometry(core::Scene& scene, aiScene& file, const Placements& placement
   for (const Placement& placement : placements) {
     const aiMesh& mesh = *file.mMeshes[placement.mesh];
     const MeshMaterial& material = material_for(mesh, placement.mesh, materials);
-    writer.add(placed_mesh(mesh, placement.mesh, placement.world, material), material.material);
+    if (material.is_cut_away) {
+      writer.leave_out();
+    } else {
+      writer.add(placed_mesh(mesh, placement.mesh, placement.world, material), material.material);
+    }
     if (--uses[placement.mesh] == 0) {
       forget(file, placement.mesh);
     }
@@ -256,13 +267,6 @@ MeshScene scene_of(const ImportedFile& file, const std::string& path, const Mesh
   return result;
 }
 
-void note_colors(const std::vector<PolygonMesh>& meshes, std::vector<std::string>& notes) {
-  const auto coloured = std::count_if(meshes.begin(), meshes.end(), [](const PolygonMesh& mesh) { return !mesh.colors.empty(); });
-  if (coloured > 0) {
-    notes.push_back("meshes whose vertex colours are not used: " + grouped(static_cast<std::uint64_t>(coloured)));
-  }
-}
-
 /// What a reader of our own has read stands where it is.
 MeshScene scene_of(PolygonFile file, const std::string& path, const MeshOptions& options, SceneFiles& files) {
   MeshScene result{.scene = {.name = path, .coordinate_rounding = file.coordinate_rounding}, .notes = std::move(file.notes)};
@@ -273,7 +277,6 @@ MeshScene scene_of(PolygonFile file, const std::string& path, const MeshOptions&
   }
   check_size(size);
   reserve(result.scene, size);
-  note_colors(file.meshes, result.notes);
   const std::vector<core::Material> materials = materials_of(file, files, result, missing);
   judge_missing(missing, options, result.notes);
   add_geometry(result.scene, std::move(file.meshes), materials, options, result.notes);

@@ -193,6 +193,29 @@ core::TexelFormat format_for(const OIIO::ImageSpec& spec) {
                                                 : core::TexelFormat::fine_srgb;
 }
 
+/// Puts what the file says of alpha beside a texture's colours, if some of it is not 1. The colours are those that were read
+/// without it.
+void add_alpha(const EncodedPicture& picture, core::Texture& texture) {
+  const Input input = open(picture, false);
+  const int channel = input.spec().alpha_channel;
+  std::vector<std::uint32_t>& texels = texture.levels.front().texels;
+  std::vector<std::uint8_t> alpha(texels.size());
+  if (channel < 0) {
+    return;
+  }
+  if (!input.image->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::UINT8, alpha.data())) {
+    throw core::InputError(picture.name + ": cannot be read: " + input.image->geterror());
+  }
+  if (std::all_of(alpha.begin(), alpha.end(), [](std::uint8_t value) { return value == 255; })) {
+    return;
+  }
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    texels[i] =
+        core::encoded(core::TexelFormat::srgb_alpha, core::Vec3d(core::decoded(texture.format, texels[i])), alpha[i] / 255.0);
+  }
+  texture.format = core::TexelFormat::srgb_alpha;
+}
+
 void make_linear(std::vector<float>& values) {
   for (float& value : values) {
     value = static_cast<float>(core::linear_from_srgb(static_cast<double>(value)));
@@ -234,6 +257,9 @@ core::Texture decode_texture(const EncodedPicture& picture) {
                     : format == core::TexelFormat::fine_srgb ? read_fine
                                                              : read_light;
   read(input, picture, texture.levels.front().texels);
+  if (picture.keeps_alpha) {
+    add_alpha(picture, texture);
+  }
   return texture;
 }
 

@@ -14,6 +14,7 @@ struct EncodedPicture {
   std::span<const std::byte> bytes;  ///< the whole file
   std::string name;                  ///< for messages
   std::string format;                ///< OpenImageIO's name (apps/picture/picture_format.h)
+  bool keeps_alpha = false;          ///< of a texture, if some of it is not 1
 };
 
 /// Makes the library ready, after which it opens nothing and starts no threads.

@@ -19,7 +19,7 @@ void serve_picture(const Message& request, Line& line) {
   Unpacker fields(request.bytes);
   const std::string name = fields.take_text(), format = fields.take_text();
   const std::unique_ptr<FileBytes> file = map_file(request.file, fields.take<std::uint64_t>());
-  const EncodedPicture picture{file->bytes(), name, format};
+  const EncodedPicture picture{file->bytes(), name, format, fields.take_flag()};
   if (request.saying == Saying::read_texture) {
     const core::Texture texture = decode_texture(picture);
     const core::TextureLevel& finest = texture.levels.front();

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/edge/system/input_memory.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/formats/named_file.h"
@@ -57,8 +58,8 @@ ReaderLimits with_sandbox(ReaderLimits limits, Sandbox sandbox) {
 }
 
 TextureEdges take_edges(Unpacker& fields) {
-  const auto s = fields.take_choice(core::TextureWrap::clamp);
-  return {s, fields.take_choice(core::TextureWrap::clamp)};
+  const auto s = fields.take_choice(core::TextureWrap::clamp), t = fields.take_choice(core::TextureWrap::clamp);
+  return {s, t, fields.take_flag()};
 }
 
 }  // namespace
@@ -92,9 +93,22 @@ MeshFile MeshSession::read() {
         ? core::RoomError("the reader of " + format_of(path_) + " files " + text + ": make the scene smaller, or divide it")
         : error;
   }
+  note_alpha();
   result_.scene.name = path_;
   result_.opened = access_.opened();
   return std::move(result_);
+}
+
+/// Which textures have alpha is known here alone.
+void MeshSession::note_alpha() {
+  const auto& materials = result_.scene.materials;
+  const auto count = std::count_if(materials.begin(), materials.end(),
+                                   [](const core::Material& material) { return material.alpha != core::AlphaUse::none; });
+  if (count > 0) {
+    result_.notes.push_back(
+        "materials that alpha cuts out or blends, whose faces cast whole shadows, and each take one of --depth: " +
+        grouped(static_cast<std::uint64_t>(count)));
+  }
 }
 
 void MeshSession::ask() {
@@ -248,6 +262,7 @@ core::Texture MeshSession::texture_of_texels(Unpacker fields) {
   core::Texture texture{.name = name, .wrap_s = edges.s, .wrap_t = edges.t, .levels = {{width, height, {}}}};
   texture.levels.front().texels.resize(count);
   std::memcpy(texture.levels.front().texels.data(), bytes_.data(), bytes_.size());
+  texture.format = edges.keeps_alpha ? core::TexelFormat::srgb_alpha : core::TexelFormat::srgb;
   core::add_levels(texture);
   return texture;
 }

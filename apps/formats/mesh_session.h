@@ -37,6 +37,7 @@ class MeshSession {
   core::Texture texture_of_texels(Unpacker fields);
   void add_bytes(const std::string& bytes);
   void add_note(Unpacker fields);
+  void note_alpha();
   void show(Unpacker fields);
 
   std::string path_;

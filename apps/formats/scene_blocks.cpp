@@ -166,26 +166,36 @@ void SceneReceiver::check_object(const core::Object& object) const {
   };
   Unpacker::require(fits(object.first, scene_.vertices));
   Unpacker::require(object.kind != ObjectKind::patch || fits(object.first_normal, scene_.normals));
-  Unpacker::require(
-      object.kind != ObjectKind::textured ||
-      (fits(object.first_normal, scene_.corners) && scene_.materials[object.material].texture != core::Material::no_texture));
+  Unpacker::require(object.kind != ObjectKind::textured || fits(object.first_normal, scene_.corners));
 }
 
 void SceneReceiver::check_material(const core::Material& material) const {
   Unpacker::require(is_light(material.color) && is_weight(material.diffuse) && is_weight(material.specular) &&
                     is_weight(material.shine) && is_weight(material.transmittance) && is_weight(material.refraction_index));
+  Unpacker::require(is_light(material.specular_color) && is_light(material.emission) && is_weight(material.tinted_specular) &&
+                    is_weight(material.mirror) && is_weight(material.alpha_cutoff) && material.alpha <= core::AlphaUse::cut);
   Unpacker::require(material.texture == core::Material::no_texture || material.texture < scene_.textures.size());
 }
 
-/// Normals and places on textures may have any bits (core/database/conversion.cpp).
+/// A reader does not know whether a texture has alpha, which it asks dmpc to read.
+void SceneReceiver::drop_needless_alpha(core::Material& material) const {
+  if (material.texture != core::Material::no_texture &&
+      scene_.textures[material.texture].format != core::TexelFormat::srgb_alpha) {
+    material.alpha = core::AlphaUse::none;
+    material.alpha_cutoff = 0;
+  }
+}
+
+/// Normals and places on textures, or colours of corners, may have any bits (core/database/conversion.cpp).
 core::Scene SceneReceiver::finish() {
   const core::View& view = scene_.view;
   Unpacker::require(has_head_ && view.width >= 1 && view.height >= 1 && view.width <= resolution_max &&
                     view.height <= resolution_max && std::int64_t{view.width} * view.height <= picture_pixels_max);
   Unpacker::require(!fault_of(view) && is_point(view.from) && is_point(view.at) && is_point(view.up) && is_weight(view.hither));
   Unpacker::require(is_light(scene_.background));
-  for (const core::Material& material : scene_.materials) {
+  for (core::Material& material : scene_.materials) {
     check_material(material);
+    drop_needless_alpha(material);
   }
   for (const core::Object& object : scene_.objects) {
     check_object(object);

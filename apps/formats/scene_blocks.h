@@ -37,6 +37,7 @@ class SceneReceiver {
   static void append(std::vector<T>& pool, std::uint64_t announced, const std::string& bytes);
   void check_object(const core::Object& object) const;
   void check_material(const core::Material& material) const;
+  void drop_needless_alpha(core::Material& material) const;
 
   core::Scene scene_;
   Announced announced_;

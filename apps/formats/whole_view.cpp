@@ -17,6 +17,9 @@ BoundingSphere sphere_around_vertices(const core::Scene& scene) {
   for (const Vec3d& vertex : scene.vertices) {
     box.include(vertex);
   }
+  if (box.empty()) {
+    return {{}, 1};
+  }
   BoundingSphere bounds{box.center(), 0};
   double square = 0;
   for (const Vec3d& vertex : scene.vertices) {

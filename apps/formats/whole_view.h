@@ -14,7 +14,7 @@ struct BoundingSphere {
   core::Vec3d center;
   double radius = 0;
 };
-/// About the middle of their box. Requires a vertex.
+/// About the middle of their box; without any, of radius 1 about 0.
 BoundingSphere sphere_around_vertices(const core::Scene& scene);
 
 /// Light grey-blue, linear: dark and bright surfaces stand out from it.

@@ -19,8 +19,8 @@ std::array<std::uint64_t, object_kind_count> count_objects(const core::Scene& sc
 MaterialCounts count_materials(const core::Scene& scene) {
   MaterialCounts counts{.count = scene.materials.size()};
   for (const core::Material& material : scene.materials) {
-    counts.mirroring += material.specular > 0 ? 1 : 0;
-    counts.transmitting += material.transmittance > 0 ? 1 : 0;
+    counts.mirroring += material.specular_max() * material.mirror > 0 ? 1 : 0;
+    counts.transmitting += material.lets_through() ? 1 : 0;
     counts.textured += material.texture != core::Material::no_texture ? 1 : 0;
   }
   return counts;
@@ -51,9 +51,17 @@ const char* name_of(core::ObjectKind kind) {
 }
 
 const char* name_of(core::TexelFormat format) {
-  return format == core::TexelFormat::srgb        ? "srgb"
-         : format == core::TexelFormat::fine_srgb ? "srgb of 10 bits"
-                                                  : "shared exponent";
+  switch (format) {
+    case core::TexelFormat::srgb:
+      return "srgb";
+    case core::TexelFormat::fine_srgb:
+      return "srgb of 10 bits";
+    case core::TexelFormat::srgb_alpha:
+      return "srgb with alpha";
+    case core::TexelFormat::shared_exponent:
+      break;
+  }
+  return "shared exponent";
 }
 
 SceneFigures figures_of(const core::Scene& scene) {

@@ -29,7 +29,7 @@ struct TextureFigures {
   std::uint64_t tiles = 0, tile_bytes = 0;
   std::uint64_t entries = 0, table_bytes = 0;  ///< of its table of tiles
 };
-/// "srgb", "srgb of 10 bits" or "shared exponent".
+/// "srgb", "srgb of 10 bits", "srgb with alpha" or "shared exponent".
 const char* name_of(core::TexelFormat format);
 
 struct SceneFigures {

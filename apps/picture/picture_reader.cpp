@@ -77,7 +77,7 @@ PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name
 
 core::Texture PictureReader::read_texture(const PictureFile& file, const TextureEdges& edges) {
   core::Texture texture{.name = file.name, .wrap_s = edges.s, .wrap_t = edges.t, .levels = {}};
-  read(file, Saying::read_texture, [&] {
+  read(file, Saying::read_texture, edges.keeps_alpha, [&] {
     const Head head = receive_head(file);
     check_texture_size(file.name, head.width, head.height);
     take_room(head);
@@ -90,7 +90,7 @@ core::Texture PictureReader::read_texture(const PictureFile& file, const Texture
 
 Image PictureReader::read_image(const PictureFile& file) {
   Image image;
-  read(file, Saying::read_image, [&] {
+  read(file, Saying::read_image, false, [&] {
     const Head head = receive_head(file);
     image.width = static_cast<int>(head.width);
     image.height = static_cast<int>(head.height);
@@ -101,11 +101,11 @@ Image PictureReader::read_image(const PictureFile& file) {
 
 /// A process that said nonsense, or died, is no more.
 template <class Take>
-void PictureReader::read(const PictureFile& file, Saying request, const Take& take) {
+void PictureReader::read(const PictureFile& file, Saying request, bool keeps_alpha, const Take& take) {
   std::string format = "pictures";
   try {
     format = format_text(file);
-    ask(file, request);
+    ask(file, request, keeps_alpha);
     take();
     Unpacker::require(receive().saying == Saying::done);
   } catch (const ReaderDeath& death) {
@@ -131,7 +131,7 @@ void PictureReader::read(const PictureFile& file, Saying request, const Take& ta
   }
 }
 
-void PictureReader::ask(const PictureFile& file, Saying request) {
+void PictureReader::ask(const PictureFile& file, Saying request, bool keeps_alpha) {
   const std::uint64_t memory = memory_bytes_for(file.bytes);
   budget_.add_bytes(file.is_new ? file.bytes : 0);
   check_time();
@@ -140,7 +140,11 @@ void PictureReader::ask(const PictureFile& file, Saying request) {
     process_.emplace("dmpc_picture_reader", memory, budget_);
     memory_bytes_ = memory;
   }
-  const Packer fields = Packer().add_text(file.name).add_text(format_text(file)).add(static_cast<std::uint64_t>(file.bytes));
+  const Packer fields = Packer()
+                            .add_text(file.name)
+                            .add_text(format_text(file))
+                            .add(static_cast<std::uint64_t>(file.bytes))
+                            .add(static_cast<std::uint8_t>(keeps_alpha));
   process_->send(request, fields, &file.descriptor);
 }
 
@@ -177,7 +181,7 @@ PictureReader::Head PictureReader::receive_head(const PictureFile& file) {
   Head head{};
   head.width = fields.take<std::uint32_t>();
   head.height = fields.take<std::uint32_t>();
-  head.format = fields.take_choice(core::TexelFormat::fine_srgb);
+  head.format = fields.take_choice(core::TexelFormat::srgb_alpha);
   fields.finish();
   Unpacker::require(head.width >= 1 && head.height >= 1 && head.width <= picture_side_max && head.height <= picture_side_max &&
                     decoded_bytes(head.width, head.height, 1) <= decoded_bytes_max(file.bytes));

@@ -51,8 +51,8 @@ class PictureReader {
   };
 
   template <class Take>
-  void read(const PictureFile& file, Saying request, const Take& take);
-  void ask(const PictureFile& file, Saying request);
+  void read(const PictureFile& file, Saying request, bool keeps_alpha, const Take& take);
+  void ask(const PictureFile& file, Saying request, bool keeps_alpha);
   void check_time() const;
   void take_room(const Head& head);
   Head receive_head(const PictureFile& file);

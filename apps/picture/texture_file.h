@@ -10,16 +10,18 @@
 
 namespace dmpc::apps {
 
-/// How a texture goes on beyond its edges, along each side.
+/// How a texture goes on beyond its edges, along each side, and whether its alpha counts.
 struct TextureEdges {
   core::TextureWrap s = core::TextureWrap::repeat, t = core::TextureWrap::repeat;
+  bool keeps_alpha = false;
 };
 
 /// Reads the first three channels (one or two: the first is taken thrice) of the first picture in the file, and makes its smaller
-/// levels. Alpha is left out, and the colours are as they are without it. Integers are taken as sRGB, whatever the file
-/// says of gamma or profiles: 8 bits are kept, more are stored as fine_srgb. Floats are linear, and stored with a shared
-/// exponent. Throws core::InputError if there is no such picture, if it is larger than core::Texture::size_max along a side or
-/// than any database, has no texels, several layers, or several samples a texel.
+/// levels. Alpha is left out, and the colours are as they are without it; where it counts, and some of it is not 1, texels have 8
+/// bits a channel with it (core::TexelFormat::srgb_alpha). Integers are taken as sRGB, whatever the file says of gamma or
+/// profiles: 8 bits are kept, more are stored as fine_srgb. Floats are linear, and stored with a shared exponent. Throws
+/// core::InputError if there is no such picture, if it is larger than core::Texture::size_max along a side or than any database,
+/// has no texels, several layers, or several samples a texel.
 core::Texture read_texture(const std::filesystem::path& path, const TextureEdges& edges);
 
 /// Reads a file that lies in memory, as in a scene's own file; `name` is for messages, `format_hint` an extension such as

@@ -7,7 +7,7 @@
 namespace dmpc::apps {
 
 /// The version of the messages and of what they hold; processes of different builds do not understand each other.
-inline constexpr std::uint32_t protocol = 2;
+inline constexpr std::uint32_t protocol = 3;
 
 /// A message is no longer; more is sent in pieces.
 inline constexpr std::size_t message_bytes_max = 64 * 1024;
@@ -19,8 +19,8 @@ enum class Saying : std::uint8_t {
   // From dmpc.
   limits,         ///< bytes of memory: the first message
   read_mesh,      ///< path, scale, up, smooth, size, and flags of MeshOptions
-  read_texture,   ///< name, format hint, bytes of the file; with the file
-  read_image,     ///< name, format hint, bytes of the file; with the file
+  read_texture,   ///< name, format hint, bytes of the file, whether alpha counts; with the file
+  read_image,     ///< likewise
   writes,         ///< an ending; answered by yes or no
   write_picture,  ///< name, width, height, whether its values are floats; these follow as bytes; answered by bytes, then done
   file,           ///< bytes of the file; with the file

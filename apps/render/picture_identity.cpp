@@ -50,6 +50,16 @@ std::string objects_text(const core::Scene& scene) {
   return text_of(digest);
 }
 
+/// What few materials have, and NFF cannot say.
+void add_finish(Digest& digest, const core::Material& material) {
+  add(digest, material.specular_color);
+  add(digest, material.emission);
+  for (const double number : {material.tinted_specular, material.mirror, material.alpha_cutoff}) {
+    digest.add(number);
+  }
+  digest.add(static_cast<std::uint64_t>(material.alpha));
+}
+
 std::string materials_text(const core::Scene& scene) {
   Digest digest;
   for (const core::Material& material : scene.materials) {
@@ -59,6 +69,9 @@ std::string materials_text(const core::Scene& scene) {
       digest.add(number);
     }
     digest.add(std::uint64_t{material.texture});
+    if (material.has_finish()) {
+      add_finish(digest, material);
+    }
   }
   return text_of(digest);
 }

@@ -240,7 +240,7 @@ class Converter {
     for (std::size_t i = 0; i < 3; ++i) {
       const TexturedCorner& corner = scene_.corners[object.first_normal + corners[i]];
       textured.normals.normal[i] = unit_normal(turned(frame_.axes, corner.normal));
-      textured.place[i] = usable_place(corner.place);
+      textured.place[i] = index == Material::no_texture ? corner.place : usable_place(corner.place);
     }
     result_.textured.push_back({static_cast<std::uint32_t>(result_.primitives.size()), index, textured});
   }

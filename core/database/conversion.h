@@ -19,10 +19,10 @@ struct Conversion {
     std::uint32_t primitive;
     PatchNormals normals;
   };
-  /// A textured triangle, likewise; its reference to the texture is still to come.
+  /// A textured triangle, likewise; its reference to the texture, if its corners have no colours, is still to come.
   struct Textured {
     std::uint32_t primitive;
-    std::uint32_t texture;  ///< index into Scene::textures
+    std::uint32_t texture;  ///< index into Scene::textures, or Material::no_texture
     TexturedNormals normals;
   };
   std::vector<PrimitiveValues> primitives;

@@ -279,7 +279,7 @@ class Planes {
 /// By who shows where triangles cover each other: what transmits comes after what does not.
 void sort_by_precedence(Ids& set, const Conversion& conversion, std::span<const Material> materials) {
   std::stable_partition(set.begin(), set.end(),
-                        [&](std::uint32_t id) { return !(materials[conversion.shading[id].material()].transmittance > 0); });
+                        [&](std::uint32_t id) { return !materials[conversion.shading[id].material()].lets_through(); });
 }
 
 /// Takes out of a set, which comes by precedence, what has the corners of one before it.

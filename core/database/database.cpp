@@ -1,6 +1,7 @@
 #include "core/database/database.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "core/database/conversion.h"
 #include "core/database/coplanar.h"
 #include "core/database/empty_space.h"
+#include "core/database/material_records.h"
 #include "core/database/parallel.h"
 #include "core/database/record_writer.h"
 #include "core/database/texture_records.h"
@@ -181,18 +183,26 @@ class DatabaseBuilder {
       writer_.write(header().lights, i * sizeof(LightRecord),
                     LightRecord{.position = Vec3f(local(light.position)), .intensity = Color(intensity_of(light, scene_))});
     }
-    header().material_count = static_cast<std::uint32_t>(scene_.materials.size());
-    header().materials = writer_.allocate_array<MaterialRecord>(scene_.materials.size());
-    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-      const Material& from = scene_.materials[i];
-      writer_.write(header().materials, i * sizeof(MaterialRecord),
-                    MaterialRecord{Color(from.color), static_cast<float>(from.diffuse), static_cast<float>(from.specular),
-                                   static_cast<float>(from.shine), static_cast<float>(from.transmittance),
-                                   static_cast<float>(from.refraction_index)});
-    }
+    write_materials();
     for (const Texture& texture : scene_.textures) {
       textures_.push_back(reference_to(texture, writer_));
     }
+  }
+
+  /// Finishes behind all materials, in their order.
+  void write_materials() {
+    const MaterialRecords records = material_records(scene_.materials);
+    const std::size_t count = records.materials.size() + records.finishes.size();
+    expect(count <= 0x7fffffffU, "a database has no room for more materials");
+    header().material_count = count & 0x7fffffffU;
+    header().has_emission = std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                                        [](const Material& material) { return !(material.emission == Vec3d{}); })
+                                ? 1
+                                : 0;
+    header().materials = writer_.allocate_array<MaterialRecord>(count);
+    writer_.write(header().materials, 0, std::as_bytes(std::span(records.materials)));
+    writer_.write(header().materials, records.materials.size() * sizeof(MaterialRecord),
+                  std::as_bytes(std::span(records.finishes)));
   }
 
   void write_textures() {
@@ -213,7 +223,9 @@ class DatabaseBuilder {
     forget(conversion_.smooth);
     result_.records_.textured = conversion_.textured.size();
     for (Conversion::Textured& textured : conversion_.textured) {
-      textured.normals.texture = textures_[textured.texture];
+      if (textured.texture != Material::no_texture) {
+        textured.normals.texture = textures_[textured.texture];
+      }
       conversion_.shading[textured.primitive] = ShadingReference::smooth(writer_.add(textured.normals));
     }
     forget(conversion_.textured);

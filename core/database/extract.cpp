@@ -222,7 +222,9 @@ class Extractor {
     const auto [copy, is_new] = normals_.find_or_add(from);
     if (is_new && read<PatchNormals>(at(from)).is_textured()) {
       auto textured = read<TexturedNormals>(at(from));
-      textured.texture = copy_reference(textured);
+      if (textured.has_texture()) {
+        textured.texture = copy_reference(textured);
+      }
       copy = writer_.add(textured);
     } else if (is_new) {
       copy = writer_.add(read<PatchNormals>(at(from)));

@@ -92,6 +92,9 @@ class RegionRecords {
     const std::byte* const normals = at(address);
     if (read<PatchNormals>(normals).is_textured()) {
       const auto textured = read<TexturedNormals>(normals);
+      if (!textured.has_texture()) {
+        return;
+      }
       for_each_tile(textured, [&](std::uint32_t tile) {
         const Address entry = tile_entry_address(textured.texture, tile);
         (*visit_)(read<Address>(at(entry) + tile_entry_offset(tile)));

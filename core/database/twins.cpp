@@ -88,7 +88,7 @@ bool drop_twins(Conversion& conversion, const Scene& scene, const GridFrame& fra
   std::vector<Twin> triangles;
   for (std::uint32_t id = 0; id < conversion.primitives.size(); ++id) {
     if (conversion.primitives[id].kind == PrimitiveKind::triangle) {
-      const bool transmits = scene.materials[conversion.shading[id].material()].transmittance > 0;
+      const bool transmits = scene.materials[conversion.shading[id].material()].lets_through();
       triangles.push_back({sorted_corners(conversion.primitives[id]), transmits, id});
     }
   }

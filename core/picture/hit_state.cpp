@@ -37,6 +37,8 @@ Address record_needed(const HitState& state, const DatabaseHeader& header) {
     case HitState::Stage::material:
     case HitState::Stage::textured_material:
       return advance(header.materials, state.shading.material() * sizeof(MaterialRecord));
+    case HitState::Stage::finish:
+      return advance(header.materials, state.surface.material.finish() * sizeof(FinishRecord));
     case HitState::Stage::light:
       return advance(header.lights, state.surface.next_light * sizeof(LightRecord));
     default:

@@ -1,6 +1,8 @@
 // A hit being shaded: what of it is known, and what comes next.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -31,7 +33,8 @@ struct HitState {
     normals,
     texture,
     material,
-    textured_material,  ///< whose colour is multiplied by what the look-up gave
+    textured_material,  ///< whose colour is multiplied by what the look-up, or its corners, gave
+    finish,             ///< what the material has beyond NFF
     light,
     reflected,
     refracted,
@@ -44,7 +47,33 @@ struct HitState {
     std::uint32_t next_light = 0;
   };
 
+  /// What makes highlight and mirror of the material's `specular`, which is their brightest channel.
+  struct Gloss {
+    Color tint{1, 1, 1};  ///< 1 in the brightest channel
+    float mirror = 1;     ///< the share of them that mirrors
+  };
+
   HitState() : surface() {}
+
+  /// Once the material has been read: in the room of the weights, which nobody asks for any more.
+  Gloss gloss() const { return std::bit_cast<Gloss>(std::array{u, v}); }
+  void set_gloss(const Gloss& gloss) {
+    const auto bits = std::bit_cast<std::array<double, 2>>(gloss);
+    u = bits[0];
+    v = bits[1];
+  }
+  /// The surface's own light as far as it is there, once all is known of the surface of a scene where hits glow: in the room of
+  /// the ray's end and of what says where the hit was found.
+  Color emission() const { return {ray.t_max, std::bit_cast<float>(hit.block), coverage()}; }
+  void set_emission(const Color& light) {
+    ray.t_max = light.x;
+    hit.block = Address{std::bit_cast<std::uint32_t>(light.y)};
+    set_coverage(light.z);
+  }
+  /// What of the surface is there by the alpha of a texture or of its corners, 0 to 1, once they have been read: in the room of
+  /// the lane, since the block has been.
+  float coverage() const { return std::bit_cast<float>(hit.lane); }
+  void set_coverage(float coverage) { hit.lane = std::bit_cast<std::uint32_t>(coverage); }
 
   Ray ray;  ///< the ray that hit
   Hit hit;

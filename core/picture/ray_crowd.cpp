@@ -13,12 +13,16 @@ constexpr std::uint64_t looked_at = 64;
 /// Odd and near to what is left of the golden ratio: its multiples go all over the picture.
 constexpr std::uint64_t stride = 2'654'435'761;
 
+/// Of one with a finish the record does not say whether it has alpha, so that light may come through it.
+bool can_send_two(const MaterialRecord& material) {
+  return material.has_finish() || (material.specular > 0.0F && material.transmittance > 0.0F);
+}
+
 bool can_send_two(const Database& database) {
   const DatabaseHeader& header = database.header();
   const LocalRecords records(database.bytes());
-  for (std::uint32_t i = 0; i < header.material_count; ++i) {
-    const auto material = read<MaterialRecord>(records.find(advance(header.materials, i * sizeof(MaterialRecord))));
-    if (material.specular > 0.0F && material.transmittance > 0.0F) {
+  for (std::uint32_t i = 0; i < header.material_count; ++i) {  // finishes come last, and none is looked at before its material
+    if (can_send_two(read<MaterialRecord>(records.find(advance(header.materials, i * sizeof(MaterialRecord)))))) {
       return true;
     }
   }

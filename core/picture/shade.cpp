@@ -21,9 +21,21 @@ constexpr double light_gap = 1e-6;
 
 TexturePlace texture_place(const HitState& state) { return {state.u, state.v}; }
 
-/// What of the light found by a reflected ray counts: what cannot be transmitted is reflected, too.
+/// What of the light found by a reflected ray counts, in the brightest channel: what cannot be transmitted is reflected, too.
 float mirrored_share(const HitState& state) {
-  return state.surface.material.specular + (state.has_refraction ? 0.0F : state.surface.material.transmittance);
+  const MaterialRecord& material = state.surface.material;
+  return material.specular * state.gloss().mirror + (state.has_refraction ? 0.0F : material.transmittance);
+}
+
+/// The same in each channel, over that.
+Color mirrored_tint(const HitState& state) {
+  const MaterialRecord& material = state.surface.material;
+  const HitState::Gloss gloss = state.gloss();
+  const float mirrored = material.specular * gloss.mirror, total = state.has_refraction ? 0.0F : material.transmittance;
+  const float all = mirrored + total;
+  return all > 0.0F ? Color{(gloss.tint.x * mirrored + total) / all, (gloss.tint.y * mirrored + total) / all,
+                            (gloss.tint.z * mirrored + total) / all}
+                    : Color{1, 1, 1};
 }
 
 /// What its two children count for.
@@ -71,12 +83,40 @@ Ray shadow_ray(const HitState& state, const LightRecord& light, const LightFall&
 Color reflected_light(const HitState& state, const LightRecord& light, double cosine, double highlight) {
   const MaterialRecord& material = state.surface.material;
   const double mirrored_light = material.specular > 0.0F ? double{material.specular} * highlight : 0.0;
-  const Vec3d surface =
-      Vec3d(material.color) * (double{material.diffuse} * cosine) + Vec3d{mirrored_light, mirrored_light, mirrored_light};
+  const Vec3d surface = Vec3d(material.color) * (double{material.diffuse} * cosine) + Vec3d(state.gloss().tint) * mirrored_light;
   return Color(Vec3d(state.ray.weight) * Vec3d(light.intensity) * surface);
 }
 
 double brightest(const Vec3d& color) { return std::max({color.x, color.y, color.z, 0.0}); }
+
+/// Leaves a share of the surface there: through the rest the ray goes on.
+void cover(MaterialRecord& material, float share) {
+  material.diffuse *= share;
+  material.specular *= share;
+  material.transmittance = material.transmittance * share + (1.0F - share);
+}
+
+/// What alpha leaves of a surface with this finish. The weights of a look-up add up to 1 but for rounding, for the sake of which
+/// no ray is sent.
+float share_left(const FinishRecord& finish, float alpha) {
+  constexpr float rounding = 0x1p-16F;
+  const float share = alpha > 1.0F - rounding ? 1.0F : alpha < rounding ? 0.0F : alpha;
+  if (finish.alpha_cutoff == 0) {
+    return share;
+  }
+  return share * float{FinishRecord::share_max} < static_cast<float>(finish.alpha_cutoff) ? 0.0F : 1.0F;
+}
+
+/// Highlight and mirror, the surface's own colour being that of the material.
+HitState::Gloss gloss_of(MaterialRecord& material, const FinishRecord& finish) {
+  const Color color = finish.specular + material.color * material.specular;
+  material.specular = std::max({color.x, color.y, color.z});
+  HitState::Gloss gloss{.mirror = static_cast<float>(finish.mirror) / float{FinishRecord::share_max}};
+  if (material.specular > 0.0F) {
+    gloss.tint = {color.x / material.specular, color.y / material.specular, color.z / material.specular};
+  }
+  return gloss;
+}
 
 }  // namespace
 
@@ -88,9 +128,10 @@ double radiance_bound(const Scene& scene, int depth_max) {
   }
   for (const Material& material : scene.materials) {
     const double texture = material.texture == Material::no_texture ? 1 : scene.textures[material.texture].brightest;
-    const double diffuse = material.diffuse * brightest(material.color) * texture;
-    direct = std::max(direct, light * (diffuse + material.specular) + ambient * diffuse);
-    passed_on = std::max(passed_on, material.specular + material.transmittance);
+    const double diffuse = material.diffuse * brightest(material.color) * texture, specular = material.specular_max(texture);
+    direct = std::max(direct, light * (diffuse + specular) + ambient * diffuse + brightest(material.emission));
+    const double share = specular * material.mirror + material.transmittance;
+    passed_on = std::max(passed_on, material.alpha == AlphaUse::none ? share : std::max(share, 1.0));
   }
   const double background = brightest(scene.background);
   double bound = std::max(background, direct);
@@ -135,13 +176,39 @@ void Shader::begin_texture(HitState& state, const std::byte* record) const {
   const TextureFootprint footprint = footprint_of(textured, state.u, state.v, ellipse, width_at_hit(state));
   state.u = footprint.middle.s;
   state.v = footprint.middle.t;
+  state.set_coverage(textured.texture.format == TexelFormat::srgb_alpha ? 0.0F : 1.0F);
   std::construct_at(&state.lookup, begin_lookup(textured.texture, footprint));
   state.stage = Stage::texture;
 }
 
+/// Of a format with alpha the look-up adds up what is there of the light, and of alpha.
 void Shader::step_texture(HitState& state, const std::byte* record) const {
-  core::step(state.lookup, texture_place(state), record, operations_);
+  float alpha = state.coverage();
+  core::step(state.lookup, texture_place(state), record, operations_, alpha);
+  state.set_coverage(alpha);
   state.stage = is_finished(state.lookup) ? Stage::textured_material : Stage::texture;
+  if (is_finished(state.lookup) && state.lookup.format == TexelFormat::srgb_alpha) {
+    state.lookup.sum = alpha > 0.0F ? state.lookup.sum * (1.0F / alpha) : Color{};
+  }
+}
+
+/// The colours of a triangle's corners, between which lies that of the hit as what a texture would give.
+void Shader::read_corners(HitState& state, const std::byte* record) const {
+  const auto corners = read<TexturedNormals>(record);
+  const std::array<double, 3> weight{1.0 - state.u - state.v, state.u, state.v};
+  std::array<double, 4> sum{};
+  for (std::size_t corner = 0; corner < weight.size(); ++corner) {
+    const CornerColor color = corners.color(corner);
+    for (std::size_t channel = 0; channel < sum.size(); ++channel) {
+      sum[channel] += weight[corner] * color[channel];
+    }
+  }
+  for (double& channel : sum) {
+    channel /= corner_color_max;
+  }
+  std::construct_at(&state.lookup, TextureLookup{.sum = Color(Vec3d{sum[0], sum[1], sum[2]})});
+  state.set_coverage(static_cast<float>(sum[3]));
+  state.stage = Stage::textured_material;
 }
 
 /// Blends the vertex normals, turned to the winding's side and then to the ray's.
@@ -158,13 +225,15 @@ void Shader::read_normals(HitState& state, const std::byte* record) const {
   state.shading = ShadingReference::flat(normals.material());
   state.stage = Stage::material;
   if (normals.is_textured()) {
-    begin_texture(state, record);
+    read<TexturedNormals>(record).has_texture() ? begin_texture(state, record) : read_corners(state, record);
   }
 }
 
 Color Shader::glow(const HitState& state) const {
   const MaterialRecord& material = state.surface.material;
-  return Color(Vec3d(state.ray.weight) * Vec3d(header_.ambient) * (Vec3d(material.color) * double{material.diffuse}));
+  const Vec3d weight(state.ray.weight),
+      reflected = weight * Vec3d(header_.ambient) * (Vec3d(material.color) * double{material.diffuse});
+  return Color(weight * Vec3d(state.emission()) + reflected);
 }
 
 bool Shader::reflects(const HitState& state) const { return mirrored_share(state) > 0.0F || !skips_.zero_terms; }
@@ -206,9 +275,36 @@ void Shader::read_material(HitState& state, const std::byte* record) const {
   auto material = read<MaterialRecord>(record);
   if (state.stage == Stage::textured_material) {
     material.color = material.color * state.lookup.sum;
+  } else {
+    state.set_coverage(1.0F);
   }
   std::construct_at(&state.surface, HitState::Surface{.material = material, .next_light = 0});
   ++operations_.shadings;
+  state.set_gloss({});
+  if (material.has_finish()) {
+    state.stage = Stage::finish;
+  } else {
+    come_to_lights(state, {});
+  }
+}
+
+/// The surface shines by itself as far as it is there.
+void Shader::read_finish(HitState& state, const std::byte* record) const {
+  const auto finish = read<FinishRecord>(record);
+  MaterialRecord& material = state.surface.material;
+  const float share = share_left(finish, state.coverage());
+  state.set_gloss(gloss_of(material, finish));
+  material.refraction_index = finish.refraction_index;
+  if (share < 1.0F) {
+    cover(material, share);
+  }
+  come_to_lights(state, finish.emission * share);
+}
+
+void Shader::come_to_lights(HitState& state, const Color& emission) const {
+  if (hits_glow()) {
+    state.set_emission(emission);
+  }
   if (state.ray.depth < options_.depth_max) {
     judge_children(state);
   }
@@ -265,9 +361,13 @@ bool Shader::send(HitState& state, const Vec3d& towards, const RayStart& start, 
   expect(is_mirrored || state.stage == Stage::refracted, "a hit sends a ray when it has come to that");
   child = child_ray(state, towards, start, is_mirrored ? RayKind::reflected : RayKind::refracted);
   widen(state, child);
-  child.weight = state.ray.weight * (sends_one(state) ? both_shares(state)
-                                     : is_mirrored    ? mirrored_share(state)
-                                                      : state.surface.material.transmittance);
+  const float share = sends_one(state) ? both_shares(state)
+                      : is_mirrored    ? mirrored_share(state)
+                                       : state.surface.material.transmittance;
+  child.weight = state.ray.weight * share;
+  if (is_mirrored) {
+    child.weight = child.weight * mirrored_tint(state);
+  }
   state.stage = is_mirrored ? after_reflection(state) : Stage::finished;
   return is_worth_it(child);
 }
@@ -302,6 +402,9 @@ bool Shader::step(HitState& state, const std::byte* record, Ray& child) const {
     case Stage::material:
     case Stage::textured_material:
       read_material(state, record);
+      return false;
+    case Stage::finish:
+      read_finish(state, record);
       return false;
     case Stage::light:
       return read_light(state, record, child);

@@ -1,4 +1,5 @@
-// What a hit does: NFF's surface (diffuse, Phong highlight, mirror, transmission), one child ray a step.
+// What a hit does: NFF's surface (diffuse, Phong highlight, mirror, transmission), and what mesh files have beside (tinted
+// highlights, emission, alpha), one child ray a step.
 #pragma once
 
 #include <cstddef>
@@ -46,12 +47,12 @@ struct ShadeOptions {
 double sample_spacing(std::uint32_t sample, std::uint32_t first_samples);
 
 /// No reflected or refracted ray in the scene finds more light than this, in any channel: each hit reflects at most the share of
-/// all lights, and of the ambient one, that its material allows, and passes on at most its share of what a ray of the next depth
-/// finds.
+/// all lights, and of the ambient one, that its material allows, beside what that emits, and passes on at most its share of what
+/// a ray of the next depth finds.
 double radiance_bound(const Scene& scene, int depth_max);
 
-/// Whether hits send light by themselves, without a ray: what they reflect of an ambient light.
-inline bool hits_glow(const DatabaseHeader& header) { return !(header.ambient == Color{}); }
+/// Whether hits send light by themselves, without a ray: what they reflect of an ambient light, or their own.
+inline bool hits_glow(const DatabaseHeader& header) { return header.has_emission != 0 || !(header.ambient == Color{}); }
 
 /// Shades hits, one record a step. What it is made from outlives it.
 class Shader {
@@ -62,13 +63,15 @@ class Shader {
       : header_(header), options_(options), skips_(skips), operations_(operations), camera_(camera) {}
 
   /// One step. `record` is the record of record_needed() (nullptr if that was no_address). Returns whether `child` was set to a
-  /// ray to be shot; the caller shoots it, then goes on, until state.stage is finished.
+  /// ray to be shot; the caller shoots it, or deposits its light if it has_arrived(), then goes on, until state.stage is
+  /// finished. Before the stage `light` none but such a ray comes.
   bool step(HitState& state, const std::byte* record, Ray& child) const;
   /// Whether step() does to a hit's geometry what read_geometry() does, and no more.
   bool reads_beside() const { return !(options_.pixel_share > 0); }
   /// Whether glow() may tell of light.
   bool hits_glow() const { return core::hits_glow(header_); }
-  /// What a hit whose surface is known sends on by itself: of the ambient light what its diffuse part reflects.
+  /// What a hit whose surface is known sends on by itself: its own light, and of the ambient one what its diffuse part
+  /// reflects.
   Color glow(const HitState& state) const;
   /// Goes on with a hit at a light that is known to fall on it so; `highlight`: lobe_cosine() to the power of its shine.
   bool shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const;
@@ -80,7 +83,10 @@ class Shader {
   void read_normals(HitState& state, const std::byte* record) const;
   void begin_texture(HitState& state, const std::byte* record) const;
   void step_texture(HitState& state, const std::byte* record) const;
+  void read_corners(HitState& state, const std::byte* record) const;
   void read_material(HitState& state, const std::byte* record) const;
+  void read_finish(HitState& state, const std::byte* record) const;
+  void come_to_lights(HitState& state, const Color& emission) const;
   /// Whether `child` was set.
   bool read_light(HitState& state, const std::byte* record, Ray& child) const;
   bool send_alone(HitState& state, Ray& child) const;

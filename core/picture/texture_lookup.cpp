@@ -148,7 +148,7 @@ bool next_level(TextureLookup& lookup) {
 }
 
 /// Adds those of the four texels that lie in the tile of this quarter.
-void add_texels(TextureLookup& lookup, const ProbeView& view, const std::byte* tile) {
+void add_texels(TextureLookup& lookup, const ProbeView& view, const std::byte* tile, float& alpha) {
   const std::uint32_t tile_column = view.columns.tile(ProbeView::column_of(lookup.quarter));
   const std::uint32_t tile_row = view.rows.tile(ProbeView::row_of(lookup.quarter));
   for (std::size_t row = 0; row < 2; ++row) {
@@ -157,9 +157,13 @@ void add_texels(TextureLookup& lookup, const ProbeView& view, const std::byte* t
         continue;
       }
       const std::size_t index = view.rows.texel[row] % tile_side * tile_side + view.columns.texel[column] % tile_side;
-      const double weight = view.weight * view.rows.weight[row] * view.columns.weight[column];
-      const Color color = decoded(lookup.format, read<std::uint32_t>(tile + index * sizeof(std::uint32_t)));
-      lookup.sum = lookup.sum + color * static_cast<float>(weight);
+      auto weight = static_cast<float>(view.weight * view.rows.weight[row] * view.columns.weight[column]);
+      const auto texel = read<std::uint32_t>(tile + index * sizeof(std::uint32_t));
+      if (lookup.format == TexelFormat::srgb_alpha) {
+        weight *= alpha_of(lookup.format, texel);
+        alpha += weight;
+      }
+      lookup.sum = lookup.sum + decoded(lookup.format, texel) * weight;
     }
   }
 }
@@ -171,12 +175,12 @@ void take(TextureLookup& lookup, const TexturePlace& middle) {
 }
 
 /// Takes from a tile all that probes on its level find there one after the other.
-void read_tile(TextureLookup& lookup, const TexturePlace& middle, const std::byte* tile, Operations& operations) {
+void read_tile(TextureLookup& lookup, const TexturePlace& middle, const std::byte* tile, Operations& operations, float& alpha) {
   ProbeView view(lookup, middle);
   const std::uint32_t first_of_level = first_tile(reference_of(lookup), view.level);
   const std::uint32_t here = tile_of(lookup, view, first_of_level);
   for (;;) {
-    add_texels(lookup, view, tile);
+    add_texels(lookup, view, tile, alpha);
     ++operations.tile_reads;
     if (!next_quarter(lookup, view)) {
       if (!next_probe(lookup)) {
@@ -231,7 +235,7 @@ Address record_needed(const TextureLookup& lookup) {
   return lookup.is_found != 0 ? Address{lookup.tile} : tile_entry_address(reference_of(lookup), lookup.tile);
 }
 
-void step(TextureLookup& lookup, const TexturePlace& middle, const std::byte* record, Operations& operations) {
+void step(TextureLookup& lookup, const TexturePlace& middle, const std::byte* record, Operations& operations, float& alpha) {
   if (lookup.is_found == 0) {
     const auto address = read<Address>(record + tile_entry_offset(lookup.tile));
     expect(address != no_address, "whoever has a textured triangle has the tiles of its texture that it needs");
@@ -240,7 +244,7 @@ void step(TextureLookup& lookup, const TexturePlace& middle, const std::byte* re
     return;
   }
   lookup.is_found = 0;
-  read_tile(lookup, middle, record, operations);
+  read_tile(lookup, middle, record, operations, alpha);
 }
 
 }  // namespace dmpc::core

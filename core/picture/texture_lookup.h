@@ -39,13 +39,14 @@ static_assert(sizeof(TextureLookup) == 40 && std::is_trivially_copyable_v<Textur
 
 TextureLookup begin_lookup(const TextureReference& texture, const TextureFootprint& footprint);
 
-/// All has been read, and `sum` is the colour.
+/// All has been read, and `sum` is the colour; of a format with alpha it is what of it is there, which alpha divides.
 inline bool is_finished(const TextureLookup& lookup) { return lookup.is_done != 0; }
 
 /// What the next step reads. Requires a look-up that is not finished, here and below.
 Address record_needed(const TextureLookup& lookup);
 
-/// One step; `record` is that of record_needed(), `middle` the footprint's.
-void step(TextureLookup& lookup, const TexturePlace& middle, const std::byte* record, Operations& operations);
+/// One step; `record` is that of record_needed(), `middle` the footprint's. Of a format with alpha, adds to `alpha` what is met
+/// of it, by its weights.
+void step(TextureLookup& lookup, const TexturePlace& middle, const std::byte* record, Operations& operations, float& alpha);
 
 }  // namespace dmpc::core

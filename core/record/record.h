@@ -6,12 +6,13 @@
 //   directory   one DirectoryEntry a top cell of the grid
 //   bricks      Brick, the primitive blocks that it names, and its bricks in turn (top cells in Morton order)
 //   normals     PatchNormals, TexturedNormals         } shading data, read for final hits only
-//   materials   MaterialRecord                        }
+//   materials   MaterialRecord, then FinishRecord     }
 //   lights      LightRecord                           }
 //   textures    tables of addresses, and every TextureTile that they name: read where a final hit is textured
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -194,8 +195,9 @@ static_assert(sizeof(PatchNormals) == 40);
 
 /// How a texel's 32 bits are read. srgb: red, green and blue from the lowest byte up, with the sRGB curve; shared_exponent:
 /// linear, from the lowest bit up three mantissas of 9 bits and an exponent of 5 (OpenGL's RGB9_E5); fine_srgb: red, green and
-/// blue in 10 bits each from the lowest up, with the sRGB curve in 1020 steps, every fourth of which is a byte's.
-enum class TexelFormat : std::uint8_t { srgb, shared_exponent, fine_srgb };
+/// blue in 10 bits each from the lowest up, with the sRGB curve in 1020 steps, every fourth of which is a byte's; srgb_alpha: as
+/// srgb, with alpha, 255 where all is there, in the highest byte.
+enum class TexelFormat : std::uint8_t { srgb, shared_exponent, fine_srgb, srgb_alpha };
 /// What lies beyond a texture's edges: itself again, itself mirrored, or its edge.
 enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
 
@@ -218,21 +220,53 @@ struct TextureReference {
 };
 static_assert(sizeof(TextureReference) == 12);
 
-/// What shading needs of a textured triangle, smooth or not. A place on a texture: s to the right, t downwards, both from 0 to 1
-/// over the whole.
+/// A corner's colour, where there is no texture to have a place on: red, green and blue, linear, then alpha, from 0 to
+/// corner_color_max for 1.
+using CornerColor = std::array<std::uint16_t, 4>;
+inline constexpr std::uint16_t corner_color_max = 65535;
+
+/// What shading needs of a textured triangle, smooth or not, or of one whose corners have colours. A place on a texture: s to the
+/// right, t downwards, both from 0 to 1 over the whole.
 struct TexturedNormals {
   PatchNormals normals;
   TextureReference texture;
-  std::array<std::array<float, 2>, 3> place{};  ///< (s, t) of its corners
+  std::array<std::array<float, 2>, 3> place{};  ///< (s, t) of its corners, or the bits of their colours
   std::uint32_t padding = 0;
+
+  /// Or its corners have colours.
+  constexpr bool has_texture() const { return texture.tiles != no_address; }
+  CornerColor color(std::size_t corner) const { return std::bit_cast<CornerColor>(place[corner]); }
 };
 static_assert(sizeof(TexturedNormals) == 80 && sizeof(TexturedNormals) <= record_bytes_max);
 
+/// A surface as NFF knows it. Of one that has more, `specular` is the weight of what of its highlight and mirror has its own
+/// colour, and the place of the index, as a number that is none, names its FinishRecord.
 struct MaterialRecord {
   Color color;
   float diffuse = 0, specular = 0, shine = 0, transmittance = 0, refraction_index = 1;
+
+  static constexpr std::uint32_t finish_mark = 0xffc00000U, finish_max = ~finish_mark;
+
+  bool has_finish() const { return std::bit_cast<std::uint32_t>(refraction_index) > finish_mark; }
+  /// Which record from the first material on is the finish.
+  std::uint32_t finish() const { return std::bit_cast<std::uint32_t>(refraction_index) & finish_max; }
+  /// `record`: from 1 to finish_max.
+  void set_finish(std::uint32_t record) { refraction_index = std::bit_cast<float>(finish_mark | record); }
 };
 static_assert(sizeof(MaterialRecord) == 32);
+
+/// What a surface has that NFF cannot say. These records stand behind all materials, of which few have one.
+struct FinishRecord {
+  static constexpr std::uint16_t share_max = 65535;
+
+  Color specular;              ///< of highlight and mirror, but for what has the surface's own colour
+  Color emission;              ///< radiance
+  float refraction_index = 1;  ///< as a MaterialRecord has it
+  /// In 65535ths: where what alpha leaves of the surface is less, nothing is there, elsewhere all; 0: as much as alpha leaves.
+  std::uint16_t alpha_cutoff = 0;
+  std::uint16_t mirror = share_max;  ///< in 65535ths, the share of highlight and mirror that mirrors
+};
+static_assert(sizeof(FinishRecord) == sizeof(MaterialRecord));
 
 struct LightRecord {
   Vec3f position;  ///< grid-local
@@ -290,7 +324,8 @@ struct DatabaseHeader {
   Address materials = no_address;
   Address lights = no_address;
   std::uint32_t primitive_count = 0;
-  std::uint32_t material_count = 0;
+  std::uint32_t material_count : 31 = 0;  ///< with the FinishRecords, which stand behind
+  std::uint32_t has_emission : 1 = 0;     ///< some material shines by itself
   std::uint32_t light_count = 0;
   Color background;
   Color ambient;  ///< Scene::ambient

@@ -1,5 +1,6 @@
 #include "core/scene/scene.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -56,11 +57,30 @@ void replay_object(const Scene& scene, const Object& object, SceneSink& sink) {
 
 }  // namespace
 
+bool Material::has_finish() const {
+  return alpha != AlphaUse::none || !(specular_color == Vec3d{1, 1, 1}) || tinted_specular != 0 || mirror != 1 ||
+         !(emission == Vec3d{});
+}
+
+double Material::specular_max(double texture_max) const {
+  return specular * largest_component(specular_color) + tinted_specular * largest_component(color) * texture_max;
+}
+
+TexturedCorner colored_corner(const Vec3d& normal, const Vec3d& color, double alpha) {
+  const auto steps = [](double share) {
+    return static_cast<std::uint16_t>((share > 0 ? std::min(share, 1.0) : 0) * corner_color_max + 0.5);
+  };
+  const CornerColor bits{steps(color.x), steps(color.y), steps(color.z), steps(alpha)};
+  return {normal, std::bit_cast<std::array<float, 2>>(bits)};
+}
+
 std::size_t SceneBuilder::MaterialHash::operator()(const Material& material) const {
   std::size_t hash = 0;
   for (const double value :
        {material.color.x, material.color.y, material.color.z, material.diffuse, material.specular, material.shine,
-        material.transmittance, material.refraction_index, static_cast<double>(material.texture)}) {
+        material.transmittance, material.refraction_index, static_cast<double>(material.texture), material.specular_color.x,
+        material.specular_color.y, material.specular_color.z, material.tinted_specular, material.mirror, material.emission.x,
+        material.emission.y, material.emission.z, static_cast<double>(material.alpha), material.alpha_cutoff}) {
     hash = mix(hash, value);
   }
   return hash;
@@ -102,7 +122,8 @@ void SceneBuilder::patch(const std::vector<Vec3d>& vertices, const std::vector<V
 void SceneBuilder::textured(const std::vector<Vec3d>& vertices, const std::vector<TexturedCorner>& corners) {
   expect(vertices.size() >= 3 && vertices.size() == corners.size(), "a textured patch has a corner for each of its vertices");
   add(ObjectKind::textured, scene_.vertices.size(), vertices.size(), scene_.corners.size());
-  expect(scene_.materials[material_].texture < scene_.textures.size(), "a textured patch has a texture");
+  const std::uint32_t texture = scene_.materials[material_].texture;
+  expect(texture == Material::no_texture || texture < scene_.textures.size(), "a textured patch has a texture of the scene's");
   scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
   scene_.corners.insert(scene_.corners.end(), corners.begin(), corners.end());
 }

@@ -14,7 +14,11 @@
 
 namespace dmpc::core {
 
-/// NFF's `f`: what an object's surface does with light (E. Haines, SPD, NFF.TXT).
+/// What alpha, of a texture's texels or of corners' colours, does to a surface: nothing; what is there shows what is behind by
+/// the share that is not; or it is there altogether from a cutoff on, and below that not at all.
+enum class AlphaUse : std::uint8_t { none, blend, cut };
+
+/// NFF's `f`: what an object's surface does with light (E. Haines, SPD, NFF.TXT), and behind it what only other formats know.
 struct Material {
   Vec3d color{0.5, 0.5, 0.5};   ///< of the diffuse part, 0..1
   double diffuse = 1;           ///< Kd
@@ -24,9 +28,22 @@ struct Material {
   double refraction_index = 1;  ///< of the inside; meaningful when transmittance > 0 only
   /// What `color` is multiplied by on textured patches: index into Scene::textures.
   std::uint32_t texture = no_texture;
+  AlphaUse alpha = AlphaUse::none;
+  double alpha_cutoff = 0;        ///< of AlphaUse::cut: above 0, at most 1
+  Vec3d specular_color{1, 1, 1};  ///< of highlight and mirror: what `specular` is multiplied by
+  double tinted_specular = 0;     ///< weight of more highlight and mirror in the surface's own colour, as metals have
+  double mirror = 1;              ///< the share of both that mirrors; 0 where there is a highlight alone
+  Vec3d emission;                 ///< radiance of its own, which lights nothing else
 
   static constexpr std::uint32_t no_texture = 0xffffffffU;
   bool operator==(const Material&) const = default;
+
+  /// Whether NFF cannot say all of it: then the database has a FinishRecord for it.
+  bool has_finish() const;
+  /// Whether light may come through it somewhere.
+  bool lets_through() const { return transmittance > 0 || alpha != AlphaUse::none; }
+  /// The most of highlight and mirror in any channel, if `color` is multiplied by no more than `texture_max`.
+  double specular_max(double texture_max = 1) const;
 };
 
 /// NFF's `l`: a point light without fall-off.
@@ -58,11 +75,16 @@ struct Cone {
   double apex_radius = 1;
 };
 
-/// A vertex of a textured patch beside its position.
+/// A vertex of a textured or coloured patch beside its position.
 struct TexturedCorner {
-  Vec3d normal;                  ///< need not be of unit length; 0 at all corners of a flat patch
-  std::array<float, 2> place{};  ///< on the texture: s to the right, t downwards, 0 to 1 over the whole
+  Vec3d normal;  ///< need not be of unit length; 0 at all corners of a flat patch
+  /// On the texture: s to the right, t downwards, 0 to 1 over the whole. Where the material has no texture: the bits of a
+  /// CornerColor, by which the material's colour is multiplied.
+  std::array<float, 2> place{};
 };
+
+/// One with a linear colour; it and alpha are brought to 0 to 1, in steps of 1 in 65535.
+TexturedCorner colored_corner(const Vec3d& normal, const Vec3d& color, double alpha = 1);
 
 enum class ObjectKind : std::uint8_t { polygon, patch, textured, sphere, cone };
 
@@ -131,7 +153,8 @@ class SceneBuilder final : public SceneSink {
   void patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals) override;
   void sphere(const Vec3d& center, double radius) override;
   void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) override;
-  /// A patch, or a polygon, whose material has a texture. At least 3 vertices and a corner for each.
+  /// A patch, or a polygon, whose material has a texture, or whose corners have colours. At least 3 vertices and a corner for
+  /// each.
   void textured(const std::vector<Vec3d>& vertices, const std::vector<TexturedCorner>& corners);
 
  private:
@@ -148,7 +171,7 @@ class SceneBuilder final : public SceneSink {
 };
 
 /// Sends a whole scene in file order: background, view, lights, then the objects, with the material wherever it changes. Without
-/// its textures, which no sink knows: textured patches come as patches.
+/// its textures and corners' colours, which no sink knows: such patches come as plain ones.
 void replay(const Scene& scene, SceneSink& sink);
 
 }  // namespace dmpc::core

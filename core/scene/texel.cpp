@@ -93,7 +93,7 @@ std::uint32_t encoded_exponent(const Vec3d& color) {
 }  // namespace
 
 Color decoded(TexelFormat format, std::uint32_t texel) {
-  if (format == TexelFormat::srgb) {
+  if (format == TexelFormat::srgb || format == TexelFormat::srgb_alpha) {
     return {light_of_byte[texel & 0xffU], light_of_byte[texel >> 8U & 0xffU], light_of_byte[texel >> 16U & 0xffU]};
   }
   if (format == TexelFormat::fine_srgb) {
@@ -104,10 +104,22 @@ Color decoded(TexelFormat format, std::uint32_t texel) {
   return Color{mantissa(texel, 0), mantissa(texel, 1), mantissa(texel, 2)} * unit;
 }
 
-std::uint32_t encoded(TexelFormat format, const Vec3d& color) {
-  return format == TexelFormat::srgb        ? encoded_bytes(color)
-         : format == TexelFormat::fine_srgb ? encoded_fine(color)
-                                            : encoded_exponent(color);
+float alpha_of(TexelFormat format, std::uint32_t texel) {
+  return format == TexelFormat::srgb_alpha ? static_cast<float>(texel >> 24U) / 255.0F : 1.0F;
+}
+
+std::uint32_t encoded(TexelFormat format, const Vec3d& color, double alpha) {
+  switch (format) {
+    case TexelFormat::srgb:
+      return encoded_bytes(color);
+    case TexelFormat::fine_srgb:
+      return encoded_fine(color);
+    case TexelFormat::srgb_alpha:
+      return encoded_bytes(color) | static_cast<std::uint32_t>(bounded(alpha, 1) * 255 + 0.5) << 24U;
+    case TexelFormat::shared_exponent:
+      break;
+  }
+  return encoded_exponent(color);
 }
 
 }  // namespace dmpc::core

@@ -35,15 +35,20 @@ std::vector<Cover> covers_of(std::uint32_t coarse, std::uint32_t fine) {
   return covers;
 }
 
-Vec3d mean_of(const TextureLevel& level, TexelFormat format, const Cover& columns, const Cover& rows) {
+/// The mean of the light and, where the format says what of it is there, of alpha: then each counts by that.
+std::uint32_t mean_of(const TextureLevel& level, TexelFormat format, const Cover& columns, const Cover& rows) {
   Vec3d sum;
+  double alpha = 0;
   for (std::size_t row = 0; row < rows.share.size(); ++row) {
     const std::size_t first = (rows.first + row) * level.width + columns.first;
     for (std::size_t column = 0; column < columns.share.size(); ++column) {
-      sum = sum + Vec3d(decoded(format, level.texels[first + column])) * (rows.share[row] * columns.share[column]);
+      const std::uint32_t texel = level.texels[first + column];
+      const double share = rows.share[row] * columns.share[column] * double{alpha_of(format, texel)};
+      sum = sum + Vec3d(decoded(format, texel)) * share;
+      alpha += share;
     }
   }
-  return sum;
+  return encoded(format, format == TexelFormat::srgb_alpha && alpha > 0 ? sum * (1 / alpha) : sum, alpha);
 }
 
 TextureLevel halved(const TextureLevel& fine, TexelFormat format) {
@@ -52,7 +57,7 @@ TextureLevel halved(const TextureLevel& fine, TexelFormat format) {
   const std::vector<Cover> columns = covers_of(coarse.width, fine.width), rows = covers_of(coarse.height, fine.height);
   for (const Cover& row : rows) {
     for (const Cover& column : columns) {
-      coarse.texels.push_back(encoded(format, mean_of(fine, format, column, row)));
+      coarse.texels.push_back(mean_of(fine, format, column, row));
     }
   }
   return coarse;

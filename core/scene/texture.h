@@ -28,7 +28,8 @@ struct Texture {
 };
 
 /// Adds the smaller levels to `texture`, which has its finest, and finds the brightest channel. A texel is the mean, in linear
-/// light, of what it covers of the level above, whose texels count by the shares of them that it covers where a side is odd.
+/// light, of what it covers of the level above, whose texels count by the shares of them that it covers where a side is odd, and
+/// by their alpha.
 void add_levels(Texture& texture);
 
 }  // namespace dmpc::core

@@ -40,6 +40,7 @@ class ShownTexture {
     tile_steps = 0;
     core::TextureLookup lookup = core::begin_lookup(reference_, footprint);
     core::Operations operations;
+    alpha = 0;
     while (!core::is_finished(lookup)) {
       const core::Address address = core::record_needed(lookup);
       if (lookup.is_found) {
@@ -47,7 +48,7 @@ class ShownTexture {
         const bool is_new = tiles_read.insert(address).second;
         CHECK((is_new || footprint.strides > 1));  // a single probe reads none twice
       }
-      core::step(lookup, footprint.middle, records().find(address), operations);
+      core::step(lookup, footprint.middle, records().find(address), operations, alpha);
     }
     CHECK(operations.tile_reads >= tiles_read.size());
     return lookup.sum;
@@ -86,6 +87,7 @@ class ShownTexture {
                                      core::tile_entry_offset(number));
   }
   std::set<core::Address> tiles_read;  ///< by the last look-up
+  float alpha = 0;                     ///< what it found of that, in a format that has it
   int tile_steps = 0;                  ///< of it that read a tile
 
  private:

@@ -15,6 +15,7 @@
 #include "dataflow/run.h"
 #include "svm/run.h"
 #include "tests/support/covering_faces.h"
+#include "tests/support/mesh_surfaces.h"
 #include "tests/support/pairwise.h"
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
@@ -138,6 +139,11 @@ TEST_CASE("a thousand lights give one picture in every pair of choices") {
 
 TEST_CASE("concave and transparent gears give one picture in every pair of choices") {
   check_pairwise(tests::built_in("gears-1"), {scaled_edge(16), scaled_edge(16)});
+}
+
+TEST_CASE("what only mesh files say of surfaces gives one picture in every pair of choices, and by every strategy") {
+  check_pairwise(tests::mesh_surfaces(), {scaled_edge(40), scaled_edge(32)});
+  check_strategies(Subject(tests::mesh_surfaces(), {scaled_edge(24), scaled_edge(24)}));
 }
 
 TEST_CASE("interleaved pixels, with pages at home at the host or with the nodes, give one picture by every strategy of pixels") {

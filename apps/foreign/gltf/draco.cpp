@@ -18,9 +18,10 @@ std::unique_ptr<draco::Mesh> unpacked_mesh(const Part& packing, std::span<const 
   return std::move(mesh).value();
 }
 
-Values values_of(const draco::Mesh& mesh, const Part& id, std::size_t width) {
+Values values_of(const draco::Mesh& mesh, const Part& id, std::size_t wanted) {
   const draco::PointAttribute* const attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id.as_whole()));
-  if (attribute == nullptr || static_cast<std::size_t>(attribute->num_components()) != width) {
+  const std::size_t width = attribute == nullptr ? 0 : static_cast<std::size_t>(attribute->num_components());
+  if (width != wanted && !(wanted == color_width && width == opaque_color_width)) {
     id.fail(attribute == nullptr ? "the packed bytes have no such attribute"
                                  : "the packed attribute has another number of components");
   }

@@ -108,10 +108,14 @@ void add_extensions(const Part& source, aiMaterial& target) {
 
 void add_look(const Part& source, aiMaterial& target) {
   const std::vector<double> light = source.numbers("emissiveFactor", {0, 0, 0});
-  const aiColor3D emission(static_cast<ai_real>(light[0]), static_cast<ai_real>(light[1]), static_cast<ai_real>(light[2]));
+  const auto stronger = source.extension("KHR_materials_emissive_strength");
+  const double strength = stronger ? stronger->number("emissiveStrength", 1) : 1;
+  const auto channel = [&](std::size_t i) { return static_cast<ai_real>(light[i] * strength); };
+  const aiColor3D emission(channel(0), channel(1), channel(2));
   target.AddProperty(&emission, 1, AI_MATKEY_COLOR_EMISSIVE);
   const aiString mode(source.text("alphaMode", "OPAQUE")), name(source.text("name", ""));
   target.AddProperty(&mode, AI_MATKEY_GLTF_ALPHAMODE);
+  add_number(target, source.number("alphaCutoff", 0.5), AI_MATKEY_GLTF_ALPHACUTOFF);
   target.AddProperty(&name, AI_MATKEY_NAME);
 }
 
@@ -162,7 +166,9 @@ void Writer::add_others(const Part& source, aiMaterial& target, unsigned& number
     if (key == "baseColorTexture" || key == "diffuseTexture") {
       continue;
     }
-    if (is_texture(key)) {
+    if (key == "emissiveTexture") {
+      add_texture(part, target, aiTextureType_EMISSIVE, 0);
+    } else if (is_texture(key)) {
       add_texture(part, target, aiTextureType_UNKNOWN, number);
       ++number;
     } else if (key == "extensions" || key == "pbrMetallicRoughness" || key.substr(0, 4) == "KHR_") {

@@ -82,6 +82,15 @@ aiVector3D* vectors_of(const Values& values) {
   return vectors;
 }
 
+aiColor4D* colors_of(const Values& values) {
+  auto* const colors = new aiColor4D[values.count()];
+  for (std::size_t i = 0; i < values.count(); ++i) {
+    const auto color = values[i];
+    colors[i] = {color[0], color[1], color[2], values.width == color_width ? color[3] : 1};
+  }
+  return colors;
+}
+
 /// glTF's t grows downwards, Assimp's upwards.
 aiVector3D* places_of_vertices(const Values& values) {
   aiVector3D* const places = vectors_of(values);
@@ -98,6 +107,8 @@ void add_vertices(const Primitive& source, aiMesh& mesh) {
       mesh.mVertices = vectors_of(values);
     } else if (name == "NORMAL") {
       mesh.mNormals = vectors_of(values);
+    } else if (name == "COLOR_0") {
+      mesh.mColors[0] = colors_of(values);
     } else if (name.starts_with("TEXCOORD_")) {
       const std::size_t set = std::stoul(name.substr(name.find('_') + 1));
       if (set < AI_MAX_NUMBER_OF_TEXTURECOORDS) {
@@ -123,12 +134,8 @@ Influences influences_of(const Part& primitive, Primitive& source) {
   return influences;
 }
 
-/// What apps/foreign/mesh/features.h counts and nobody looks into: colours of vertices and morph targets are there, or not.
+/// What apps/foreign/mesh/features.h counts and nobody looks into: morph targets are there, or not.
 void mark_features(const Part& primitive, aiMesh& mesh) {
-  const Part attributes = primitive.get("attributes");
-  if (mesh.mNumVertices > 0 && set_count(attributes, "COLOR") > 0) {
-    mesh.mColors[0] = new aiColor4D[mesh.mNumVertices];
-  }
   if (!primitive.list("targets").empty()) {
     mesh.mAnimMeshes = new aiAnimMesh* [1] { new aiAnimMesh };
     mesh.mNumAnimMeshes = 1;

@@ -19,7 +19,7 @@ void check_sets(const Part& attributes) {
   }
 }
 
-/// Names of what is read, and how many numbers each has.
+/// Names of what is read, and how many numbers each has; colours may have one fewer.
 std::map<std::string, std::size_t> wanted(const Part& attributes) {
   std::map<std::string, std::size_t> widths;
   if (attributes.find("POSITION")) {
@@ -34,6 +34,9 @@ std::map<std::string, std::size_t> wanted(const Part& attributes) {
       for (std::size_t i = 0; i < set_count(attributes, kind); ++i) {
         widths[kind + "_" + std::to_string(i)] = 4;
       }
+    }
+    if (attributes.find("COLOR_0")) {
+      widths["COLOR_0"] = color_width;
     }
   }
   return widths;
@@ -64,7 +67,7 @@ Primitive read_plain(const Part& primitive, Accessors& accessors) {
   check_sets(attributes);
   Primitive result;
   for (const auto& [name, width] : wanted(attributes)) {
-    result.attributes[name] = accessors.values(attributes.get(name), width);
+    result.attributes[name] = accessors.values(attributes.get(name), width, name == "COLOR_0" ? opaque_color_width : 0);
   }
   if (const auto indices = primitive.find("indices")) {
     result.indices = accessors.indices(*indices);

@@ -11,9 +11,13 @@
 namespace dmpc::apps::gltf {
 
 struct Primitive {
-  std::map<std::string, Values> attributes;  ///< POSITION, NORMAL and all TEXCOORD_n, JOINTS_n and WEIGHTS_n, as many each
-  std::vector<std::uint32_t> indices;        ///< of vertices that exist; 0, 1, 2, ... where the file has none
+  /// POSITION, NORMAL, all TEXCOORD_n, JOINTS_n and WEIGHTS_n, and COLOR_0, those that it has, with as many vectors each.
+  std::map<std::string, Values> attributes;
+  std::vector<std::uint32_t> indices;  ///< of vertices that exist; 0, 1, 2, ... where the file has none
 };
+
+/// Numbers of a colour: with alpha, and without.
+inline constexpr std::size_t color_width = 4, opaque_color_width = 3;
 
 /// Plain or packed by Draco (KHR_draco_mesh_compression). One without POSITION is empty. Throws core::InputError, by its place in
 /// the document, for attributes of different counts and indices out of range.

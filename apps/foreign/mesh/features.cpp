@@ -40,8 +40,6 @@ void note_meshes(const std::set<const aiMesh*>& meshes, std::vector<std::string>
     thin += points_and_lines(*mesh);
   }
   note(notes, "points and lines left out", thin);
-  note(notes, "meshes whose vertex colours are not used",
-       count(meshes, [](const aiMesh& mesh) { return mesh.HasVertexColors(0); }));
   note(notes, "meshes with several sets of texture coordinates, of which colours use one",
        count(meshes, [](const aiMesh& mesh) { return mesh.GetNumUVChannels() > 1; }));
   note(notes, "meshes with a skin, shown in the pose in which their joints stand",
@@ -58,8 +56,9 @@ void note_materials(const std::set<const aiMaterial*>& materials, std::vector<st
   note(notes, "textures not used, since they are not of a surface's colour", textures.size());
   note(notes, "materials whose texture is laid on by a projection, shown without it", count(materials, has_projected_texture));
   note(notes, "materials whose texture is moved, turned or scaled, shown without that", count(materials, has_moved_texture));
-  note(notes, "materials that emit light, shown without it", count(materials, is_emissive));
-  note(notes, "materials with an alpha mask, shown opaque", count(materials, has_alpha_mask));
+  note(notes, "materials that shine by themselves, and light nothing else", count(materials, is_emissive));
+  note(notes, "materials whose own light is a texture's, shown without it", count(materials, has_emissive_texture));
+  note(notes, "materials cut away altogether by their alpha, whose faces are left out", count(materials, is_cut_away));
   note(notes, "materials with a clear coat, shown without it", count(materials, has_clear_coat));
 }
 

@@ -10,8 +10,8 @@
 
 namespace dmpc::apps {
 
-/// Appends a sentence, with a count, for each kind of thing that is there and not shown: textures, their transforms, emission,
-/// alpha masks, clear coats, vertex colours, second texture coordinates, skins, morph targets, points and lines, animations. Only
+/// Appends a sentence, with a count, for each kind of thing that is there and not shown: textures, their transforms, what
+/// surfaces' own light is not, clear coats, second texture coordinates, skins, morph targets, points and lines, animations. Only
 /// meshes that are placed count, and the materials that these have.
 void note_features(const aiScene& scene, const std::vector<Placement>& placements, std::vector<std::string>& notes);
 

@@ -52,6 +52,11 @@ bool spans_an_area(const std::vector<Vec3d>& corners) {
   return false;
 }
 
+Vec3d clamped(const Vec3d& color) {
+  const auto channel = [](double share) { return share > 0 ? std::min(share, 1.0) : 0; };
+  return {channel(color.x), channel(color.y), channel(color.z)};
+}
+
 void check_vertices(const PolygonMesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (!is_usable(mesh.vertices[i])) {
@@ -107,15 +112,43 @@ void GeometryWriter::add(PolygonMesh mesh, core::Material material) {
   } else if (material.texture == core::Material::no_texture) {
     mesh.places.clear();
   }
+  if (material.texture == core::Material::no_texture && mesh.alphas.empty()) {
+    material.alpha = core::AlphaUse::none;
+    material.alpha_cutoff = 0;
+  }
+  hides_colors_ = false;
   builder_.material(material);
   std::size_t first = 0;
   for (const std::uint32_t end : mesh.faces.ends) {
-    add_face(mesh, first, end);
+    add_face(mesh, material, first, end);
     first = end;
   }
+  meshes_without_colors_ += hides_colors_ ? 1 : 0;
 }
 
-void GeometryWriter::add_face(const PolygonMesh& mesh, std::size_t first, std::size_t end) {
+/// Gives a face the material of its colour, if that is one, and so few have others that each may have its own; else the mesh's.
+bool GeometryWriter::set_one_color(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end) {
+  constexpr std::size_t colors_max = 256;
+  const bool is_opaque = mesh.alphas.empty() || material.alpha == core::AlphaUse::none;
+  for (std::size_t i = first; i < end; ++i) {
+    if (!(mesh.colors[i] == mesh.colors[first]) || !(is_opaque || mesh.alphas[i] >= 1)) {
+      builder_.material(material);
+      return false;
+    }
+  }
+  core::Material face = material;
+  const std::array<double, 3> color{mesh.colors[first].x, mesh.colors[first].y, mesh.colors[first].z};
+  const bool is_one = face_colors_.contains(color) || (face_colors_.size() < colors_max && face_colors_.insert(color).second);
+  if (is_one) {
+    face.color = face.color * clamped(mesh.colors[first]);
+    face.alpha = mesh.places.empty() ? core::AlphaUse::none : face.alpha;
+    face.alpha_cutoff = mesh.places.empty() ? 0 : face.alpha_cutoff;
+  }
+  builder_.material(face);
+  return is_one;
+}
+
+void GeometryWriter::add_face(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end) {
   face_vertices_.clear();
   for (std::size_t i = first; i < end; ++i) {
     face_vertices_.push_back(mesh.vertices[mesh.faces.corners[i]]);
@@ -129,19 +162,31 @@ void GeometryWriter::add_face(const PolygonMesh& mesh, std::size_t first, std::s
       face_normals_.clear();
     }
   }
-  if (!mesh.places.empty()) {
-    add_textured(mesh, first, end);
-  } else if (face_normals_.empty()) {
+  const bool has_colors = !mesh.colors.empty() && !set_one_color(mesh, material, first, end);
+  hides_colors_ = hides_colors_ || (has_colors && !mesh.places.empty());
+  if (!mesh.places.empty() || has_colors) {
+    add_corners(mesh, material, first, end);
+  } else {
+    add_flat_or_smooth();
+  }
+}
+
+void GeometryWriter::add_flat_or_smooth() {
+  if (face_normals_.empty()) {
     builder_.polygon(face_vertices_);
   } else {
     builder_.patch(face_vertices_, face_normals_);
   }
 }
 
-void GeometryWriter::add_textured(const PolygonMesh& mesh, std::size_t first, std::size_t end) {
+/// With their places on the texture, or their colours; alpha counts where the material says so.
+void GeometryWriter::add_corners(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end) {
   face_corners_.clear();
   for (std::size_t i = first; i < end; ++i) {
-    face_corners_.push_back({face_normals_.empty() ? Vec3d{} : face_normals_[i - first], mesh.places[i]});
+    const Vec3d normal = face_normals_.empty() ? Vec3d{} : face_normals_[i - first];
+    const double alpha = mesh.alphas.empty() || material.alpha == core::AlphaUse::none ? 1 : mesh.alphas[i];
+    face_corners_.push_back(mesh.places.empty() ? core::colored_corner(normal, mesh.colors[i], alpha)
+                                                : core::TexturedCorner{normal, mesh.places[i]});
   }
   builder_.textured(face_vertices_, face_corners_);
 }

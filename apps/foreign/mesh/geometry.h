@@ -1,9 +1,11 @@
 // The faces of meshes as the objects of a scene.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "apps/foreign/mesh/polygon_mesh.h"
@@ -24,7 +26,8 @@ GeometrySize size_of(const FaceList& faces);
 void check_size(const GeometrySize& size);
 
 /// Adds meshes to a scene. Faces become polygons, or patches where they have vertex normals that are not the face's own, textured
-/// ones if the material has a texture and the mesh has places on it.
+/// ones if the material has a texture and the mesh has places on it, coloured ones if it has none and the mesh has colours. Faces
+/// of one colour have a material of that colour, as long as there are few such.
 class GeometryWriter {
  public:
   /// `smooth_degrees`: vertex normals are reckoned anew (apps/foreign/mesh/smooth.h), whatever the mesh has.
@@ -35,20 +38,28 @@ class GeometryWriter {
   /// not finite or beyond 1e30, an index of a vertex that does not exist, or a polygon with too many corners.
   void add(PolygonMesh mesh, core::Material material);
 
+  /// A mesh whose surface is not there: it counts for has_area() alone.
+  void leave_out() { has_area_ = true; }
+
   /// Whether any face had an area.
   bool has_area() const { return has_area_; }
   /// How many meshes had a material with a texture, and no corner of theirs a place on it.
   std::uint64_t unplaced() const { return unplaced_; }
+  /// Meshes some of whose faces show a texture, and not the colours that their corners have, too.
+  std::uint64_t meshes_without_colors() const { return meshes_without_colors_; }
 
  private:
   /// The face of these corners.
-  void add_face(const PolygonMesh& mesh, std::size_t first, std::size_t end);
-  void add_textured(const PolygonMesh& mesh, std::size_t first, std::size_t end);
+  void add_face(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end);
+  void add_corners(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end);
+  void add_flat_or_smooth();
+  bool set_one_color(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end);
 
   core::SceneBuilder& builder_;
   std::optional<double> smooth_degrees_;
-  bool has_area_ = false;
-  std::uint64_t unplaced_ = 0;
+  bool has_area_ = false, hides_colors_ = false;
+  std::uint64_t unplaced_ = 0, meshes_without_colors_ = 0;
+  std::set<std::array<double, 3>> face_colors_;  ///< of faces of one colour
   std::vector<core::Vec3d> face_vertices_, face_normals_;
   std::vector<core::TexturedCorner> face_corners_;
 };

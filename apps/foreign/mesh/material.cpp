@@ -40,30 +40,64 @@ std::optional<Vec3d> color(const aiMaterial& source, const Key& key) {
   return Vec3d{clamped(value.r), clamped(value.g), clamped(value.b)};
 }
 
+constexpr double light_max = 1e12;
+
+/// Of light, which may be brighter than white.
+Vec3d light(const aiMaterial& source, const Key& key) {
+  aiColor3D value;
+  if (source.Get(key.name, key.type, key.index, value) != aiReturn_SUCCESS || !is_finite(Vec3d{value.r, value.g, value.b})) {
+    return {};
+  }
+  const auto clamped = [](ai_real channel) { return std::clamp(double{channel}, 0.0, light_max); };
+  return {clamped(value.r), clamped(value.g), clamped(value.b)};
+}
+
+Vec3d emission(const aiMaterial& source) {
+  return has_emissive_texture(source) ? Vec3d{} : light(source, {AI_MATKEY_COLOR_EMISSIVE});
+}
+
 std::string alpha_mode(const aiMaterial& source) {
   aiString mode;
   return source.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS ? mode.C_Str() : "";
 }
 
+double alpha_cutoff(const aiMaterial& source) { return number(source, {AI_MATKEY_GLTF_ALPHACUTOFF}).value_or(0.5); }
+
 bool is_metallic_roughness(const aiMaterial& source) {
   return number(source, {AI_MATKEY_METALLIC_FACTOR}) || number(source, {AI_MATKEY_ROUGHNESS_FACTOR});
 }
 
+/// What a texture's alpha does, by which the material's own is multiplied.
+void set_alpha(const aiMaterial& source, Material& material) {
+  const double own = share(source, {AI_MATKEY_OPACITY}, 1), cutoff = alpha_cutoff(source);
+  const std::string mode = alpha_mode(source);
+  if (mode == "BLEND") {
+    material.alpha = core::AlphaUse::blend;
+  } else if (mode == "MASK" && cutoff > 0 && cutoff <= own) {
+    material.alpha = core::AlphaUse::cut;
+    material.alpha_cutoff = cutoff / own;
+  }
+}
+
 Material from_metallic_roughness(const aiMaterial& source) {
   const std::string mode = alpha_mode(source);
-  return material_of(MetallicSurface{
+  Material material = material_of(MetallicSurface{
       .base = color(source, {AI_MATKEY_BASE_COLOR}).value_or(color(source, {AI_MATKEY_COLOR_DIFFUSE}).value_or(Vec3d{1, 1, 1})),
+      .emission = emission(source),
       .metallic = share(source, {AI_MATKEY_METALLIC_FACTOR}, 0),
       .roughness = share(source, {AI_MATKEY_ROUGHNESS_FACTOR}, 1),
       .transmission = share(source, {AI_MATKEY_TRANSMISSION_FACTOR}, 0),
       .refraction_index = number(source, {AI_MATKEY_REFRACTI}).value_or(1.5),
       .opacity = mode.empty() || mode == "BLEND" ? share(source, {AI_MATKEY_OPACITY}, 1) : 1});
+  set_alpha(source, material);
+  return material;
 }
 
 Material from_phong(const aiMaterial& source) {
   PhongSurface surface{
       .diffuse = color(source, {AI_MATKEY_COLOR_DIFFUSE}).value_or(Vec3d{plain_grey, plain_grey, plain_grey}),
       .specular = color(source, {AI_MATKEY_COLOR_SPECULAR}).value_or(Vec3d{}) * share(source, {AI_MATKEY_SHININESS_STRENGTH}, 1),
+      .emission = emission(source),
       .shine = number(source, {AI_MATKEY_SHININESS}).value_or(0),
       .refraction_index = number(source, {AI_MATKEY_REFRACTI}).value_or(1),
       .opacity = share(source, {AI_MATKEY_OPACITY}, 1),
@@ -78,6 +112,10 @@ Material from_phong(const aiMaterial& source) {
 
 Material material_of(const aiMaterial& source) {
   return is_metallic_roughness(source) ? from_metallic_roughness(source) : from_phong(source);
+}
+
+bool is_cut_away(const aiMaterial& source) {
+  return alpha_mode(source) == "MASK" && share(source, {AI_MATKEY_OPACITY}, 1) < alpha_cutoff(source);
 }
 
 void list_textures(const aiMaterial& source, std::set<std::string>& names) {
@@ -95,9 +133,9 @@ void list_textures(const aiMaterial& source, std::set<std::string>& names) {
   }
 }
 
-bool is_emissive(const aiMaterial& source) { return color(source, {AI_MATKEY_COLOR_EMISSIVE}).value_or(Vec3d{}) != Vec3d{}; }
+bool is_emissive(const aiMaterial& source) { return !(emission(source) == Vec3d{}); }
 
-bool has_alpha_mask(const aiMaterial& source) { return alpha_mode(source) == "MASK"; }
+bool has_emissive_texture(const aiMaterial& source) { return source.GetTextureCount(aiTextureType_EMISSIVE) > 0; }
 
 bool has_moved_texture(const aiMaterial& source) {
   const auto is_moved = [&](aiTextureType type) {

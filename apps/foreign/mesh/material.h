@@ -13,15 +13,17 @@ namespace dmpc::apps {
 /// What each channel of a surface has of which a file says no colour.
 inline constexpr double plain_grey = 0.6;
 
-/// By the table in apps/foreign/README.md. Colours are linear. Reflects and transmits no more light than arrives, in any channel.
+/// By apps/foreign/mesh/surface.h. Its alpha is what that of a texture or of vertices' colours would do (core::Material::alpha).
 core::Material material_of(const aiMaterial& source);
+/// Whether nothing of the surface is there: its mode is MASK, and its alpha below the cutoff, whatever a texture's.
+bool is_cut_away(const aiMaterial& source);
 
 /// The names of its textures that are not looked at: all but those of its colour (apps/foreign/mesh/textures.h).
 void list_textures(const aiMaterial& source, std::set<std::string>& names);
 
 bool is_emissive(const aiMaterial& source);
-/// glTF's alpha mode MASK.
-bool has_alpha_mask(const aiMaterial& source);
+/// It says what it emits by a texture, which is not looked at; it is no emissive material then.
+bool has_emissive_texture(const aiMaterial& source);
 bool has_clear_coat(const aiMaterial& source);
 /// Whether the coordinates of its colour's texture are to be transformed, of which glTF's alone are
 /// (apps/foreign/mesh/texture_place.h).

@@ -49,6 +49,24 @@ void read_places(const aiMesh& mesh, const MeshMaterial& material, PolygonMesh& 
   }
 }
 
+/// None if all are white.
+void read_colors(const aiMesh& mesh, PolygonMesh& result) {
+  bool is_white = true, is_opaque = true;
+  for (const std::uint32_t vertex : result.faces.corners) {
+    const aiColor4D& color = mesh.mColors[0][vertex];
+    result.colors.push_back({double{color.r}, double{color.g}, double{color.b}});
+    result.alphas.push_back(double{color.a});
+    is_white = is_white && result.colors.back() == core::Vec3d{1, 1, 1};
+    is_opaque = is_opaque && color.a >= 1;
+  }
+  if (is_opaque) {
+    result.alphas.clear();
+  }
+  if (is_opaque && is_white) {
+    result.colors.clear();
+  }
+}
+
 }  // namespace
 
 std::string name_of(const aiMesh& mesh, std::size_t index) {
@@ -76,6 +94,9 @@ PolygonMesh placed_mesh(const aiMesh& mesh, std::size_t index, const Transform& 
   }
   if (mesh.HasNormals() && world.determinant() != 0) {  // what is pressed flat has the normals of its plane
     read_normals(mesh, world, result);
+  }
+  if (mesh.HasVertexColors(0)) {
+    read_colors(mesh, result);
   }
   if (material.material.texture != core::Material::no_texture && mesh.HasTextureCoords(material.coordinates)) {
     read_places(mesh, material, result);

@@ -19,6 +19,7 @@ struct MeshMaterial {
   core::Material material;
   unsigned coordinates = 0;  ///< which of a mesh's texture coordinates its texture goes by
   TexturePlace place{};      ///< where on its texture they lie
+  bool is_cut_away = false;  ///< nothing of it is there
 };
 
 /// "mesh 3 'wheel'", for messages.

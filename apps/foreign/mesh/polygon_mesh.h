@@ -25,6 +25,7 @@ struct PolygonMesh {
   std::vector<core::Vec3d> normals;          ///< a corner each, of any length, or none; where all of a face are 0 it is flat
   std::vector<std::array<float, 2>> places;  ///< on the texture, t downwards: a corner each, or none
   std::vector<core::Vec3d> colors;           ///< linear, 0 to 1, by which the material's is multiplied: a corner each, or none
+  std::vector<double> alphas;                ///< of `colors`, 0 to 1: a corner each, or none where all are 1
 };
 
 }  // namespace dmpc::apps

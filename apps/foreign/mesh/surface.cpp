@@ -12,10 +12,9 @@ constexpr double shine_max = 10'000;
 
 double mean(const Vec3d& v) { return (v.x + v.y + v.z) / 3; }
 
-/// What a dielectric reflects straight ahead (Fresnel); an index that says nothing counts as glass, 1.5.
+/// What a dielectric reflects straight ahead (Fresnel).
 double straight_reflection(double index) {
-  const double glass = index > 1 ? index : 1.5;
-  const double root = (glass - 1) / (glass + 1);
+  const double root = (index - 1) / (index + 1);
   return root * root;
 }
 
@@ -23,17 +22,16 @@ double straight_reflection(double index) {
 void cover(Material& material, double opacity) {
   material.diffuse *= opacity;
   material.specular *= opacity;
+  material.tinted_specular *= opacity;
+  material.emission = material.emission * opacity;
   material.transmittance = material.transmittance * opacity + (1 - opacity);
 }
 
-/// Ks as far as our surfaces can stand for it: highlight and mirror are one for them.
-double phong_specular(const PhongSurface& surface) {
-  const int illumination = surface.illumination.value_or(2);
-  const double weight = mean(surface.specular);
-  if (illumination >= 3 && illumination <= 9) {
-    return weight;
-  }
-  return illumination == 2 && surface.shine > 0 ? std::min(weight, straight_reflection(surface.refraction_index)) : 0;
+/// Highlight and mirror of this colour: where it is grey, without a tint.
+void set_specular(Material& material, const Vec3d& color) {
+  const bool is_grey = color.x == color.y && color.y == color.z;
+  material.specular = is_grey ? mean(color) : largest_component(color);
+  material.specular_color = is_grey ? Vec3d{1, 1, 1} : color * (1 / material.specular);
 }
 
 }  // namespace
@@ -45,28 +43,39 @@ double shine_of_roughness(double roughness) {
 
 Material material_of(const PhongSurface& surface) {
   constexpr double sharp = 1000;
+  const int illumination = surface.illumination.value_or(2);
+  const bool mirrors = illumination >= 3 && illumination <= 9;
   Material material;
   material.color = surface.diffuse;
-  material.specular = phong_specular(surface);
   material.shine = surface.shine > 0 ? std::min(surface.shine, shine_max) : sharp;
-  const double sum = std::max({material.color.x, material.color.y, material.color.z}) + material.specular;
-  material.diffuse = 1 / std::max(sum, 1.0);
-  material.specular *= material.diffuse;
   material.refraction_index = surface.refraction_index > 0 ? surface.refraction_index : 1;
+  material.emission = surface.emission;
+  if (mirrors || (illumination >= 2 && surface.shine > 0)) {
+    set_specular(material, surface.specular);
+  }
+  if (mirrors) {
+    material.diffuse = 1 / std::max(largest_component(surface.diffuse + surface.specular), 1.0);
+    material.specular *= material.diffuse;
+  } else if (material.specular > 0) {
+    material.mirror = 0;
+  }
   cover(material, surface.opacity);
   return material;
 }
 
 Material material_of(const MetallicSurface& surface) {
-  const double transmission = surface.transmission * (1 - surface.metallic), index = surface.refraction_index;
+  const double index = surface.refraction_index > 1 ? surface.refraction_index : 1.5;
+  const double smooth = 1 - surface.roughness, transmission = surface.transmission * (1 - surface.metallic);
   Material material;
   material.color = surface.base;
-  material.specular =
-      (1 - surface.roughness) * (surface.metallic * mean(surface.base) + (1 - surface.metallic) * straight_reflection(index));
+  material.specular = smooth * (1 - surface.metallic) * straight_reflection(index);
+  material.tinted_specular = smooth * surface.metallic;
   material.shine = shine_of_roughness(surface.roughness);
-  material.diffuse = (1 - material.specular) * (1 - transmission);
-  material.transmittance = (1 - material.specular) * transmission * mean(surface.base);
-  material.refraction_index = transmission > 0 ? (index > 1 ? index : 1.5) : 1;
+  const double rest = 1 - material.specular - material.tinted_specular;
+  material.diffuse = rest * (1 - transmission);
+  material.transmittance = rest * transmission * mean(surface.base);
+  material.refraction_index = transmission > 0 ? index : 1;
+  material.emission = surface.emission;
   cover(material, surface.opacity);
   return material;
 }

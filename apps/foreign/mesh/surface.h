@@ -8,25 +8,25 @@
 
 namespace dmpc::apps {
 
-/// Phong's, as MTL has it. Colours are linear, in 0 to 1.
+/// Phong's, as MTL has it. Colours are linear, in 0 to 1 but for emission.
 struct PhongSurface {
-  core::Vec3d diffuse, specular;    ///< Kd, Ks
-  double shine = 0;                 ///< Ns; 0 or less: there is no highlight
-  double refraction_index = 1;      ///< Ni
-  double opacity = 1;               ///< d
-  std::optional<int> illumination;  ///< illum, if the file says it: 0 and 1 have no highlight, 3 to 9 mirror
+  core::Vec3d diffuse, specular, emission;  ///< Kd, Ks, Ke
+  double shine = 0;                         ///< Ns; 0 or less: there is no highlight
+  double refraction_index = 1;              ///< Ni
+  double opacity = 1;                       ///< d
+  std::optional<int> illumination;          ///< illum, if the file says it: 0 and 1 have no highlight, 3 to 9 mirror
 };
 
-/// glTF's. Colours are linear, in 0 to 1.
+/// glTF's. Colours are linear, in 0 to 1 but for emission.
 struct MetallicSurface {
-  core::Vec3d base{1, 1, 1};
+  core::Vec3d base{1, 1, 1}, emission;
   double metallic = 1, roughness = 1;
   double transmission = 0;
   double refraction_index = 1.5;  ///< 1 or less counts as 1.5
   double opacity = 1;             ///< of what is blended; 1 of all else
 };
 
-/// By the table in apps/foreign/README.md. They reflect and transmit no more light than arrives, in any channel.
+/// By the table in apps/foreign/README.md. They mirror and transmit no more light than arrives, in any channel.
 core::Material material_of(const PhongSurface& surface);
 core::Material material_of(const MetallicSurface& surface);
 

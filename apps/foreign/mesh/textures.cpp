@@ -38,10 +38,11 @@ std::optional<TextureUse> texture_of(const aiMaterial& source, aiTextureType typ
 }
 
 /// Texels that the file holds ready.
-std::vector<std::uint32_t> texels_of(const aiTexture& source) {
+std::vector<std::uint32_t> texels_of(const aiTexture& source, bool keeps_alpha) {
   std::vector<std::uint32_t> texels;
   for (const aiTexel& texel : std::span(source.pcData, std::size_t{source.mWidth} * source.mHeight)) {
-    texels.push_back(std::uint32_t{texel.r} | std::uint32_t{texel.g} << 8U | std::uint32_t{texel.b} << 16U);
+    texels.push_back(std::uint32_t{texel.r} | std::uint32_t{texel.g} << 8U | std::uint32_t{texel.b} << 16U |
+                     (keeps_alpha ? std::uint32_t{texel.a} << 24U : 0));
   }
   return texels;
 }
@@ -80,15 +81,15 @@ void TextureReader::read(const TextureUse& use) {
   const std::string name = path_.string() + ", texture " + use.path;
   if (within->mHeight > 0) {
     check_texture_size(name, within->pcData == nullptr ? 0 : within->mWidth, within->mHeight);
-    return files_.add_texture(texels_of(*within), within->mWidth, within->mHeight, name, use.edges);
+    return files_.add_texture(texels_of(*within, use.edges.keeps_alpha), within->mWidth, within->mHeight, name, use.edges);
   }
   const auto* const bytes = reinterpret_cast<const std::byte*>(within->pcData);
   files_.add_texture({bytes, within->mWidth}, name, within->achFormatHint, use.edges);
 }
 
 std::optional<std::uint32_t> TextureReader::find(const TextureUse& use) {
-  const std::string key =
-      use.path + '\n' + std::to_string(static_cast<int>(use.edges.s)) + std::to_string(static_cast<int>(use.edges.t));
+  const std::string key = use.path + '\n' + std::to_string(static_cast<int>(use.edges.s)) +
+                          std::to_string(static_cast<int>(use.edges.t)) + (use.edges.keeps_alpha ? "a" : "");
   const auto [known, is_new] = known_.try_emplace(key);
   if (is_new) {
     try {

@@ -55,12 +55,13 @@ TEST_CASE("a triangle's tiles are all that any look-up on it asks for") {
       for (const TextureFootprint& footprint : footprints_on(triangle, random)) {
         TextureLookup lookup = begin_lookup(reference, footprint);
         Operations operations;
+        float alpha = 0;
         while (!is_finished(lookup)) {
           const Address address = record_needed(lookup);
           if (lookup.is_found) {
             CHECK(allowed.contains(address));
           }
-          step(lookup, footprint.middle, shown.records().find(address), operations);
+          step(lookup, footprint.middle, shown.records().find(address), operations, alpha);
         }
       }
     }

@@ -58,18 +58,53 @@ std::vector<Record> records_at(const core::LocalRecords& records, core::Address 
   return copies;
 }
 
+/// A surface with what its finish says of it. Where alpha tells, the picture is textured, and is compared with none.
+struct PlainMaterial : core::MaterialRecord {
+  Color highlight;  ///< of which `mirror` mirrors
+  float mirror = 1;
+  Color emission;
+
+  explicit PlainMaterial(const core::MaterialRecord& record)
+      : core::MaterialRecord(record), highlight{specular, specular, specular} {}
+  void add(const core::FinishRecord& finish) {
+    highlight = finish.specular + color * specular;
+    mirror = static_cast<float>(finish.mirror) / float{core::FinishRecord::share_max};
+    emission = finish.emission;
+    refraction_index = finish.refraction_index;
+  }
+  bool is_glossy() const { return !(highlight == Color{}); }
+};
+
+/// Of all records, finishes included, which nobody asks for by their number.
+std::vector<PlainMaterial> materials_in(const core::LocalRecords& records, const core::DatabaseHeader& header) {
+  std::vector<PlainMaterial> materials;
+  for (const auto& record : records_at<core::MaterialRecord>(records, header.materials, header.material_count)) {
+    materials.emplace_back(record);
+  }
+  std::size_t count = materials.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (materials[i].has_finish()) {
+      const std::uint32_t place = materials[i].finish();
+      count = std::min<std::size_t>(count, place);
+      materials[i].add(
+          core::read<core::FinishRecord>(records.find(core::advance(header.materials, place * sizeof(core::FinishRecord)))));
+    }
+  }
+  return materials;
+}
+
 /// What shading knows of a hit.
 struct Surface {
   Vec3f point;
   Vec3f geometric_normal, normal;  ///< of unit length; the latter the one to shade with, on the ray's side
-  const core::MaterialRecord* material = nullptr;
+  const PlainMaterial* material = nullptr;
   bool is_leaving = false;
 };
 
 Vec3f mirrored(const Vec3f& direction, const Vec3f& normal) { return direction - normal * (2 * dot(direction, normal)); }
 
-float highlight_of(const core::MaterialRecord& material, float lobe) {
-  return material.specular > 0 ? material.specular * std::pow(std::clamp(lobe, 0.0F, 1.0F), material.shine) : 0.0F;
+Color highlight_of(const PlainMaterial& material, float lobe) {
+  return material.is_glossy() ? material.highlight * std::pow(std::clamp(lobe, 0.0F, 1.0F), material.shine) : Color{};
 }
 
 }  // namespace
@@ -82,7 +117,7 @@ struct PlainRenderer::Stage {
         tree(subject.database.primitives(), EmbreeMode::robust, EmbreeQuality::high, 0),
         places(subject.database.find_places()),
         pinhole(settings.camera),
-        materials(records_at<core::MaterialRecord>(records, settings.header.materials, settings.header.material_count)),
+        materials(materials_in(records, settings.header)),
         lights(records_at<core::LightRecord>(records, settings.header.lights, settings.header.light_count)) {
     shading.reserve(tree.shapes().triangles.size());
     for (const std::uint32_t id : tree.shapes().triangles) {
@@ -98,7 +133,7 @@ struct PlainRenderer::Stage {
   EmbreeTree tree;
   std::vector<core::Database::Place> places;
   Pinhole pinhole;
-  std::vector<core::MaterialRecord> materials;
+  std::vector<PlainMaterial> materials;
   std::vector<core::LightRecord> lights;
   std::vector<core::ShadingReference> shading;  ///< of each triangle, as Embree numbers them
 };
@@ -173,8 +208,8 @@ class PlainRenderer::Painter {
   }
 
   Color direct_light(const Surface& surface, const Vec3f& direction) {
-    const core::MaterialRecord& material = *surface.material;
-    Color sum = stage_.settings.header.ambient * (material.color * material.diffuse);
+    const PlainMaterial& material = *surface.material;
+    Color sum = material.emission + stage_.settings.header.ambient * (material.color * material.diffuse);
     const Vec3f mirror = mirrored(direction, surface.normal);
     for (const core::LightRecord& light : stage_.lights) {
       const Vec3f towards = light.position - surface.point;
@@ -182,9 +217,9 @@ class PlainRenderer::Painter {
       if (!(cosine > 0)) {
         continue;
       }
-      const float scale = 1 / length(towards), highlight = highlight_of(material, dot(mirror, towards) * scale);
-      const Color brought =
-          light.intensity * (material.color * (material.diffuse * cosine * scale) + Color{highlight, highlight, highlight});
+      const float scale = 1 / length(towards);
+      const Color brought = light.intensity * (material.color * (material.diffuse * cosine * scale) +
+                                               highlight_of(material, dot(mirror, towards) * scale));
       if (!(brought == Color{}) && !is_blocked(start_of(surface, towards), light.position)) {
         sum = sum + brought;
       }
@@ -201,14 +236,15 @@ class PlainRenderer::Painter {
 
   /// What comes by reflection and refraction.
   Color passed_on(const Surface& surface, const Vec3f& direction, int depth) {
-    const core::MaterialRecord& material = *surface.material;
+    const PlainMaterial& material = *surface.material;
     const float inside = material.refraction_index > 0 ? material.refraction_index : 1;
     const float index = surface.is_leaving ? inside : 1 / inside, cosine = -dot(direction, surface.normal);
     const float behind = 1 - index * index * (1 - cosine * cosine);
     const bool is_total = index > 1 && behind < 0;
-    const float share = material.specular + (is_total ? material.transmittance : 0);
+    const float total = is_total ? material.transmittance : 0;
+    const Color share = material.highlight * material.mirror + Color{total, total, total};
     Color light{};
-    if (share > 0) {
+    if (!(share == Color{})) {
       const Vec3f towards = normalize(mirrored(direction, surface.normal));
       light = light_along(start_of(surface, towards), towards, depth + 1) * share;
     }

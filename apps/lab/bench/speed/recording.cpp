@@ -166,6 +166,7 @@ core::Ray bounce_ray(const core::Ray& primary, const core::Hit& hit, const core:
   const Vec3d normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
   state.normal = core::normalize(direction_about(normal, number) - Vec3d(primary.direction));
   state.stage = core::HitState::Stage::reflected;
+  state.set_gloss({});
   shader.step(state, nullptr, bounce);
   return bounce;
 }

@@ -120,7 +120,7 @@ void AccurateFinder::Parts::note_level(const AccurateHit& hit, Query& query) con
 
 AccurateHit AccurateFinder::Parts::shown(const Query& query) const {
   AccurateHit shown = query.best;
-  const auto transmits = [&](std::uint32_t body) { return scene->materials[scene->bodies[body].material].transmittance > 0; };
+  const auto transmits = [&](std::uint32_t body) { return scene->materials[scene->bodies[body].material].lets_through(); };
   for (std::size_t i = 0; i < query.level_count; ++i) {
     const std::uint32_t body = query.level[i].body;
     if (scene->bodies[body].object == scene->bodies[query.best.body].object) {

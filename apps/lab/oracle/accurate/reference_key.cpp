@@ -56,6 +56,11 @@ class HashingSink final : public core::SceneSink {
          {material.diffuse, material.specular, material.shine, material.transmittance, material.refraction_index}) {
       digest_.add(value);
     }
+    if (material.has_finish()) {
+      begin(10), digest_.add(material.specular_color), digest_.add(material.emission);
+      digest_.add(material.tinted_specular), digest_.add(material.mirror), digest_.add(material.alpha_cutoff);
+      digest_.add(static_cast<std::uint64_t>(material.alpha));
+    }
   }
   void polygon(const std::vector<Vec3d>& vertices) override { begin(5), add(vertices); }
   void patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals) override {

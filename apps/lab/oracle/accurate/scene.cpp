@@ -1,6 +1,7 @@
 #include "apps/lab/oracle/accurate/scene.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -33,15 +34,27 @@ AccuratePlace usable(const std::array<float, 2>& place) {
   return {usable(double{place[0]}), usable(double{place[1]})};
 }
 
+AccurateTexel color_of(const core::TexturedCorner& corner) {
+  const auto bits = std::bit_cast<core::CornerColor>(corner.place);
+  const auto share = [&bits](std::size_t channel) { return static_cast<double>(bits[channel]) / core::corner_color_max; };
+  return {{share(0), share(1), share(2)}, share(3)};
+}
+
 /// What the corners of a triangle have beside their positions.
 void add_corners(AccurateScene& to, const core::Scene& scene, const core::Object& object, AccurateBody& body) {
   const bool is_textured = object.kind == core::ObjectKind::textured;
+  const bool has_colors = is_textured && scene.materials[object.material].texture == core::Material::no_texture;
   body.first_normal = static_cast<std::uint32_t>(to.normals.size());
-  body.first_place = is_textured ? static_cast<std::uint32_t>(to.places.size()) : AccurateBody::flat;
+  if (is_textured) {
+    (has_colors ? body.first_color : body.first_place) =
+        static_cast<std::uint32_t>(has_colors ? to.colors.size() : to.places.size());
+  }
   for (const std::uint32_t index : body.corner) {
     const std::size_t corner = object.first_normal + index;
     to.normals.push_back(unit_or_zero(is_textured ? scene.corners[corner].normal : scene.normals[corner]));
-    if (is_textured) {
+    if (has_colors) {
+      to.colors.push_back(color_of(scene.corners[corner]));
+    } else if (is_textured) {
       to.places.push_back(usable(scene.corners[corner].place));
     }
   }
@@ -89,6 +102,8 @@ AccurateScene accurate_scene(const core::Scene& scene) {
   result.materials = scene.materials;
   result.background = scene.background;
   result.ambient = scene.ambient;
+  result.has_emission = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                    [](const core::Material& material) { return !(material.emission == Vec3d{}); });
   for (const core::PointLight& light : scene.lights) {
     result.lights.push_back({light.position, core::intensity_of(light, scene)});
   }

@@ -21,12 +21,17 @@ struct AccurateScene {
   std::vector<AccurateBody> bodies;
   std::vector<core::Vec3d> normals;   ///< of smooth triangles, of unit length; 0 for none
   std::vector<AccuratePlace> places;  ///< of textured triangles' corners
+  std::vector<AccurateTexel> colors;  ///< of corners that have one
   std::vector<core::Texture> textures;
   std::vector<core::Material> materials;
   std::vector<AccurateLight> lights;
   core::Vec3d background, ambient;
-  core::Box bounds;  ///< of all bodies
-  double size = 1;   ///< the largest extent of `bounds`, above 0
+  core::Box bounds;           ///< of all bodies
+  double size = 1;            ///< the largest extent of `bounds`, above 0
+  bool has_emission = false;  ///< of some material
+
+  /// Whether hits send light by themselves.
+  bool hits_glow() const { return has_emission || !(ambient == core::Vec3d{}); }
 };
 
 /// Lights without a colour get 1 / sqrt(their number), as in the product.

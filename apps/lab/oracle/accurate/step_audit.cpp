@@ -189,7 +189,7 @@ class StepAudit::Case {
   }
 
   void add_glow(const AccurateRay& from, const AccurateHit& hit) {
-    if (audit_.scene_.ambient == Vec3d{}) {
+    if (!audit_.scene_.hits_glow()) {
       return;
     }
     const Vec3d exact = AccurateTracer(audit_.scene_, audit_.finder_, audit_.options_).glow(from, hit);

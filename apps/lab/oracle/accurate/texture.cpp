@@ -43,14 +43,16 @@ Vec3d light_of_exponent(std::uint32_t texel) {
          std::ldexp(1.0, exponent);
 }
 
-Vec3d light_of(const core::Texture& texture, std::uint32_t texel) {
+AccurateTexel texel_of(const core::Texture& texture, std::uint32_t texel) {
   static const std::array<double, 256> light = light_of_bytes();
   if (texture.format == core::TexelFormat::fine_srgb) {
-    return light_of_steps(texel);
+    return {light_of_steps(texel), 1};
   }
-  return texture.format == core::TexelFormat::srgb
-             ? Vec3d{light[texel % 256], light[texel / 256 % 256], light[texel / 65536 % 256]}
-             : light_of_exponent(texel);
+  if (texture.format == core::TexelFormat::shared_exponent) {
+    return {light_of_exponent(texel), 1};
+  }
+  const double alpha = texture.format == core::TexelFormat::srgb_alpha ? texel / (1U << 24U) / 255.0 : 1;
+  return AccurateTexel{Vec3d{light[texel % 256], light[texel / 256 % 256], light[texel / 65536 % 256]} * alpha, alpha};
 }
 
 /// Which of a side's texels lies at `place`, in texels, on or beyond the texture.
@@ -65,26 +67,26 @@ std::size_t texel_at(double place, std::uint32_t size, TextureWrap wrap) {
 }
 
 /// Between the four texels about a place.
-Vec3d blend(const core::Texture& texture, const core::TextureLevel& level, const AccuratePlace& place) {
+AccurateTexel blend(const core::Texture& texture, const core::TextureLevel& level, const AccuratePlace& place) {
   const double x = place[0] * level.width - 0.5, y = place[1] * level.height - 0.5;
-  Vec3d sum;
+  AccurateTexel sum;
   for (int row = 0; row < 2; ++row) {
     for (int column = 0; column < 2; ++column) {
       const double left = std::floor(x) + column, top = std::floor(y) + row;
       const std::size_t index =
           texel_at(top, level.height, texture.wrap_t) * level.width + texel_at(left, level.width, texture.wrap_s);
-      sum = sum + light_of(texture, level.texels[index]) * ((1 - std::fabs(x - left)) * (1 - std::fabs(y - top)));
+      sum = sum + texel_of(texture, level.texels[index]) * ((1 - std::fabs(x - left)) * (1 - std::fabs(y - top)));
     }
   }
   return sum;
 }
 
 /// Between the two levels whose texels are next in size to `width` of the finest level's.
-Vec3d probe(const core::Texture& texture, double width, const AccuratePlace& place) {
+AccurateTexel probe(const core::Texture& texture, double width, const AccuratePlace& place) {
   const double coarsest = static_cast<double>(texture.levels.size()) - 1;
   const double detail = std::clamp(std::log2(std::max(width, 1.0)), 0.0, coarsest), level = std::floor(detail);
   const auto finer = static_cast<std::size_t>(level);
-  const Vec3d fine = blend(texture, texture.levels[finer], place);
+  const AccurateTexel fine = blend(texture, texture.levels[finer], place);
   return detail > level ? fine * (1 - (detail - level)) + blend(texture, texture.levels[finer + 1], place) * (detail - level)
                         : fine;
 }
@@ -167,12 +169,12 @@ AccurateFootprint footprint_of(const AccuratePaint& paint, const core::Texture& 
 }
 
 /// A probe a stride from the middle outwards; what is left at the ends counts as much as it is, with its outer edge at the end.
-Vec3d texture_color(const core::Texture& texture, const AccurateFootprint& footprint) {
+AccurateTexel texture_sum(const core::Texture& texture, const AccurateFootprint& footprint) {
   const auto at = [&](double offset) {
     return probe(texture, footprint.width,
                  {footprint.middle[0] + footprint.stride[0] * offset, footprint.middle[1] + footprint.stride[1] * offset});
   };
-  Vec3d sum = at(0);
+  AccurateTexel sum = at(0);
   const double half = footprint.strides / 2;
   for (double begin = 0.5; begin < half; begin += 1) {
     const double end = std::min(begin + 1, half);

@@ -35,7 +35,19 @@ AccurateReach cone_about(const core::Vec3d& direction, double width);
 AccurateFootprint footprint_of(const AccuratePaint& paint, const core::Texture& texture, const std::array<double, 3>& weight,
                                const core::Vec3d& direction, const AccurateReach& reach);
 
-/// The mean, in linear light.
-core::Vec3d texture_color(const core::Texture& texture, const AccurateFootprint& footprint);
+/// Linear light, and what of it is there.
+struct AccurateTexel {
+  core::Vec3d light;
+  double alpha = 0;
+
+  AccurateTexel operator+(const AccurateTexel& other) const { return {light + other.light, alpha + other.alpha}; }
+  AccurateTexel operator*(double share) const { return {light * share, alpha * share}; }
+};
+
+/// The mean of alpha and, in linear light, of what of the texels is there.
+AccurateTexel texture_sum(const core::Texture& texture, const AccurateFootprint& footprint);
+inline core::Vec3d texture_color(const core::Texture& texture, const AccurateFootprint& footprint) {
+  return texture_sum(texture, footprint).light;
+}
 
 }  // namespace dmpc::apps

@@ -15,6 +15,9 @@ constexpr double gap = 1e-13;
 /// A shadow ray ends this share of its length before the light, so that a surface through the light does not hide it.
 constexpr double light_gap = 1e-9;
 
+/// Nearer than this to all or nothing, alpha is that, as in the product.
+constexpr double alpha_rounding = 0x1p-16;
+
 Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) { return direction - normal * (2 * dot(direction, normal)); }
 
 double start_gap(const AccurateBody& body) {
@@ -41,14 +44,17 @@ struct AccurateTracer::Touch {
   double index = 1;       ///< of refraction: on the ray's side over the other one
   double cone = 0;        ///< the width here of the cones of the rays that leave
   AccurateReach reach{};  ///< of the ray itself
-  Vec3d color;            ///< of the diffuse part, with what a texture makes of it
+  Vec3d color;            ///< of the diffuse part, with what a texture or its corners make of it
+  Vec3d specular;         ///< of highlight and mirror
+  Vec3d emission;
+  double diffuse = 0, transmittance = 0;
 
   /// The square of the cosine behind the surface by Snell's law; below 0 all is reflected.
   double refracted_cosine_squared() const {
     const double cosine = dot(ray.direction, normal);
     return 1 - index * index * (1 - cosine * cosine);
   }
-  bool transmits() const { return material.transmittance > 0 && refracted_cosine_squared() >= 0; }
+  bool transmits() const { return transmittance > 0 && refracted_cosine_squared() >= 0; }
 };
 
 Vec3d AccurateTracer::radiance(AccurateRay ray) {
@@ -71,7 +77,7 @@ Vec3d AccurateTracer::radiance(AccurateRay ray) {
 Vec3d AccurateTracer::glow(const AccurateRay& ray, const AccurateHit& hit) const { return glow(touch(ray, hit)); }
 
 Vec3d AccurateTracer::glow(const Touch& touch) const {
-  return touch.ray.weight * scene_.ambient * (touch.color * touch.material.diffuse);
+  return touch.ray.weight * (touch.emission + scene_.ambient * (touch.color * touch.diffuse));
 }
 
 std::vector<AccurateRay> AccurateTracer::spawned(const AccurateRay& ray, const AccurateHit& hit) const {
@@ -82,7 +88,7 @@ std::vector<AccurateRay> AccurateTracer::spawned(const Touch& met) const {
   std::vector<AccurateRay> rays;
   rays.reserve(scene_.lights.size() + 2);
   add_shadow_rays(met, rays);
-  if (met.ray.depth < options_.depth_max && (met.material.specular > 0 || met.material.transmittance > 0)) {
+  if (met.ray.depth < options_.depth_max) {
     add_children(met, rays);
   }
   return rays;
@@ -102,7 +108,7 @@ AccurateHit AccurateTracer::trace(AccurateRay& ray) {
 
 AccurateTracer::Touch AccurateTracer::touch(const AccurateRay& ray, const AccurateHit& hit) const {
   const AccurateBody& body = scene_.bodies[hit.body];
-  Touch result{ray, hit.body, scene_.materials[body.material], surface_at(body, ray, hit.t), {}};
+  Touch result{ray, hit.body, scene_.materials[body.material], surface_at(body, ray, hit.t), {}, 1, 0, {}, {}, {}, {}};
   if (watcher_ != nullptr) {
     watcher_->touch(ray, body, result.surface);
   }
@@ -123,13 +129,23 @@ AccurateTracer::Touch AccurateTracer::touch(const AccurateRay& ray, const Accura
   result.cone = share * narrow_angle(ray) * (is_primary ? distance : hit.t) + (is_primary ? 0 : ray.cone);
   result.reach = is_primary ? AccurateReach{ray.apart[0] * (share * distance), ray.apart[1] * (share * distance)}
                             : cone_about(ray.direction, result.cone);
-  result.color = body.is_textured() ? painted(result) : result.material.color;
+  finish(result);
   return result;
 }
 
-/// The material's colour times the texture's.
-Vec3d AccurateTracer::painted(const Touch& touch) const {
+/// What a texture, or the colours of its corners, give there; alpha is none of the light's.
+AccurateTexel AccurateTracer::paint_of(const Touch& touch) const {
   const AccurateBody& body = scene_.bodies[touch.body];
+  if (body.has_colors()) {
+    AccurateTexel sum;
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum = sum + scene_.colors[body.first_color + k] * touch.surface.weight[k];
+    }
+    return sum;
+  }
+  if (!body.is_textured()) {
+    return {{1, 1, 1}, 1};
+  }
   AccuratePaint paint{.corner = body.place, .place = {}};
   std::copy_n(scene_.places.begin() + body.first_place, paint.place.size(), paint.place.begin());
   const core::Texture& texture = scene_.textures[touch.material.texture];
@@ -137,7 +153,26 @@ Vec3d AccurateTracer::painted(const Touch& touch) const {
   if (watcher_ != nullptr) {
     watcher_->look_up(footprint);
   }
-  return touch.material.color * texture_color(texture, footprint);
+  const AccurateTexel sum = texture_sum(texture, footprint);
+  return texture.format != core::TexelFormat::srgb_alpha
+             ? AccurateTexel{sum.light, 1}
+             : AccurateTexel{sum.light * (sum.alpha > 0 ? 1 / sum.alpha : 0), sum.alpha};
+}
+
+/// What the surface does with light there, as far as alpha leaves any of it.
+void AccurateTracer::finish(Touch& touch) const {
+  const core::Material& material = touch.material;
+  const AccurateTexel paint = paint_of(touch);
+  const double alpha = paint.alpha > 1 - alpha_rounding ? 1 : paint.alpha < alpha_rounding ? 0 : paint.alpha;
+  const double there = material.alpha == core::AlphaUse::none    ? 1
+                       : material.alpha == core::AlphaUse::blend ? alpha
+                       : alpha < material.alpha_cutoff           ? 0
+                                                                 : 1;
+  touch.color = material.color * paint.light;
+  touch.diffuse = material.diffuse * there;
+  touch.specular = (material.specular_color * material.specular + touch.color * material.tinted_specular) * there;
+  touch.transmittance = material.transmittance * there + (1 - there);
+  touch.emission = material.emission * there;
 }
 
 AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayKind kind) const {
@@ -156,7 +191,6 @@ AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayK
 
 /// Each with the diffuse light and Phong's highlight that it brings unless something hides the light.
 void AccurateTracer::add_shadow_rays(const Touch& touch, std::vector<AccurateRay>& rays) const {
-  const core::Material& material = touch.material;
   const Vec3d mirror = mirrored(touch.ray.direction, touch.normal);
   for (std::uint32_t index = 0; index < scene_.lights.size(); ++index) {
     const AccurateLight& light = scene_.lights[index];
@@ -173,9 +207,8 @@ void AccurateTracer::add_shadow_rays(const Touch& touch, std::vector<AccurateRay
     ray.weight = {};
     if (cosine > 0) {
       const double lobe = std::clamp(dot(mirror, towards) / distance, 0.0, 1.0);
-      const double highlight = material.specular > 0 ? material.specular * std::pow(lobe, material.shine) : 0;
-      ray.weight = touch.ray.weight * light.intensity *
-                   (touch.color * (material.diffuse * cosine) + Vec3d{highlight, highlight, highlight});
+      const double highlight = touch.specular == Vec3d{} ? 0 : std::pow(lobe, touch.material.shine);
+      ray.weight = touch.ray.weight * light.intensity * (touch.color * (touch.diffuse * cosine) + touch.specular * highlight);
     }
     if (options_.convention == core::Convention::paper || !brings_nothing(ray)) {
       rays.push_back(ray);
@@ -185,9 +218,9 @@ void AccurateTracer::add_shadow_rays(const Touch& touch, std::vector<AccurateRay
 
 /// The mirrored ray and the one through glass. What cannot be transmitted is reflected.
 void AccurateTracer::add_children(const Touch& touch, std::vector<AccurateRay>& rays) const {
-  const core::Material& material = touch.material;
-  const double mirrored_share = material.specular + (touch.transmits() ? 0 : material.transmittance);
-  if (mirrored_share > 0) {
+  const double total = touch.transmits() ? 0 : touch.transmittance;
+  const Vec3d mirrored_share = touch.specular * touch.material.mirror + Vec3d{total, total, total};
+  if (!(mirrored_share == Vec3d{})) {
     AccurateRay reflected = child(touch, mirrored(touch.ray.direction, touch.normal), RayKind::reflected);
     reflected.weight = reflected.weight * mirrored_share;
     rays.push_back(reflected);
@@ -196,7 +229,7 @@ void AccurateTracer::add_children(const Touch& touch, std::vector<AccurateRay>& 
     const double cosine = -dot(touch.ray.direction, touch.normal), behind = std::sqrt(touch.refracted_cosine_squared());
     const Vec3d through = touch.ray.direction * touch.index + touch.normal * (touch.index * cosine - behind);
     AccurateRay refracted = child(touch, through, RayKind::refracted);
-    refracted.weight = refracted.weight * material.transmittance;
+    refracted.weight = refracted.weight * touch.transmittance;
     rays.push_back(refracted);
   }
 }

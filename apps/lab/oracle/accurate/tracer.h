@@ -39,7 +39,8 @@ class AccurateTracer {
 
   /// Linear radiance that a ray brings, with all rays that follow from it.
   core::Vec3d radiance(AccurateRay ray);
-  /// What a hit sends back along `ray`, which is no shadow ray, by itself: of the ambient light what its diffuse part reflects.
+  /// What a hit sends back along `ray`, which is no shadow ray, by itself: its own light, and of the ambient one
+  /// what its diffuse part reflects.
   core::Vec3d glow(const AccurateRay& ray, const AccurateHit& hit) const;
   /// The rays that start where `ray`, which is no shadow ray, meets `hit`, in the order in which they are traced.
   std::vector<AccurateRay> spawned(const AccurateRay& ray, const AccurateHit& hit) const;
@@ -50,10 +51,11 @@ class AccurateTracer {
   struct Touch;
 
   AccurateHit trace(AccurateRay& ray);
+  std::vector<AccurateRay> spawned(const Touch& met) const;
   Touch touch(const AccurateRay& ray, const AccurateHit& hit) const;
-  core::Vec3d painted(const Touch& touch) const;
+  AccurateTexel paint_of(const Touch& touch) const;
+  void finish(Touch& touch) const;
   core::Vec3d glow(const Touch& touch) const;
-  std::vector<AccurateRay> spawned(const Touch& touch) const;
   AccurateRay child(const Touch& touch, const core::Vec3d& towards, core::RayKind kind) const;
   void add_shadow_rays(const Touch& touch, std::vector<AccurateRay>& rays) const;
   void add_children(const Touch& touch, std::vector<AccurateRay>& rays) const;

@@ -1,4 +1,4 @@
-#include "apps/foreign/mesh/material.h"
+#include "apps/foreign/mesh/surface.h"
 
 #include <doctest/doctest.h>
 
@@ -37,10 +37,13 @@ Material from_gltf(const std::string& material) {
 
 bool near(const Vec3d& a, const Vec3d& b) { return length(a - b) < 1e-6; }
 
+/// In the channel that sends on most, of what arrives.
 double most_light(const Material& material) {
-  return std::max({material.color.x, material.color.y, material.color.z}) * material.diffuse + material.specular +
-         material.transmittance;
+  const Vec3d mirrored = material.specular_color * material.specular + material.color * material.tinted_specular;
+  return largest_component(material.color * material.diffuse + mirrored * material.mirror) + material.transmittance;
 }
+
+Material from_phong(const PhongSurface& surface) { return material_of(surface); }
 
 }  // namespace
 
@@ -52,14 +55,38 @@ TEST_CASE("a diffuse paint keeps its colour, taken as linear") {
   CHECK(paint.transmittance == 0);
 }
 
-TEST_CASE("a highlight alone reflects no more than glass would, a mirror all of Ks") {
+TEST_CASE("a highlight is all of Ks, and mirrors nothing but where illum says so") {
   const std::string paint = "Kd 0.5 0.5 0.5\nKs 0.25 0.25 0.25\nNs 50\n";
   CHECK(from_mtl(paint + "illum 1\n").specular == 0);
-  CHECK(from_mtl(paint + "illum 2\n").specular == Approx(0.04));
-  CHECK(from_mtl(paint + "illum 2\nNi 3\n").specular == Approx(0.25));
+  CHECK(from_mtl(paint + "illum 2\n").specular == Approx(0.25));
+  CHECK(from_mtl(paint + "illum 2\n").mirror == 0);
+  CHECK(from_mtl(paint + "illum 2\n").diffuse == 1);
   CHECK(from_mtl(paint + "illum 3\n").specular == Approx(0.25));
+  CHECK(from_mtl(paint + "illum 3\n").mirror == 1);
   CHECK(from_mtl(paint + "illum 3\n").shine == 50);
   CHECK(from_mtl("Ks 0.5 0.5 0.5\nillum 2\n").specular == 0);
+}
+
+TEST_CASE("a paint with Ks and Ns that says no illum has a highlight") {
+  const Material paint = from_phong({.diffuse = {0.5, 0.5, 0.5}, .specular = {0.5, 0.5, 0.5}, .shine = 20});
+  CHECK(paint.specular == 0.5);
+  CHECK(paint.mirror == 0);
+  CHECK(paint.shine == 20);
+  CHECK(from_phong({.specular = {0.5, 0.5, 0.5}, .shine = 20, .illumination = 0}).specular == 0);
+  CHECK(from_phong({.specular = {0.5, 0.5, 0.5}}).specular == 0);
+}
+
+TEST_CASE("highlight and mirror have the colour of Ks, and what is grey has none") {
+  const Material gold = from_phong({.specular = {0.8, 0.6, 0.2}, .shine = 20, .illumination = 3});
+  CHECK(gold.specular == Approx(0.8));
+  CHECK(near(gold.specular_color, {1, 0.75, 0.25}));
+  CHECK(!from_phong({.specular = {0.3, 0.3, 0.3}, .shine = 20, .illumination = 3}).has_finish());
+}
+
+TEST_CASE("Ke is light of the surface's own") {
+  const Material lamp = from_phong({.emission = {0, 3, 0.5}, .opacity = 0.5});
+  CHECK(lamp.emission == Vec3d{0, 1.5, 0.25});
+  CHECK(near(from_mtl("Kd 0 0 0\nKe 0.25 0.5 1\n").emission, {0.25, 0.5, 1}));
 }
 
 TEST_CASE("opacity becomes transmittance, with the index of refraction") {
@@ -95,15 +122,41 @@ TEST_CASE("glTF: what is rough and no metal is diffuse") {
   CHECK(paint.specular == 0);
 }
 
-TEST_CASE("glTF: smooth things reflect, metals as much as their colour, others as glass does") {
+TEST_CASE("glTF: smooth things reflect, metals in their colour, others as glass does") {
   const auto smooth = [](const std::string& metallic) {
     return from_gltf(R"({"pbrMetallicRoughness":{"baseColorFactor":[0.9,0.6,0.3,1],"roughnessFactor":0,"metallicFactor":)" +
                      metallic + "}}");
   };
-  CHECK(smooth("1").specular == Approx(0.6));
+  CHECK(smooth("1").specular == 0);
+  CHECK(smooth("1").tinted_specular == 1);
+  CHECK(smooth("1").diffuse == 0);
   CHECK(smooth("0").specular == Approx(0.04));
-  CHECK(smooth("0.5").specular == Approx(0.32));
-  CHECK(smooth("1").diffuse == Approx(0.4));
+  CHECK(!smooth("0").has_finish());
+  CHECK(smooth("0.5").specular == Approx(0.02));
+  CHECK(smooth("0.5").tinted_specular == Approx(0.5));
+}
+
+TEST_CASE("glTF: a factor, and its strength, is light of the surface's own, unless a texture has its say") {
+  const std::string factor = R"({"emissiveFactor":[0.5,0.25,1])";
+  CHECK(near(from_gltf(factor + "}").emission, {0.5, 0.25, 1}));
+  CHECK(near(from_gltf(factor + R"(,"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":8}}})").emission,
+             {4, 2, 8}));
+}
+
+TEST_CASE("glTF: a mask with a constant alpha leaves all or nothing") {
+  const auto masked = [](const std::string& alpha, const std::string& more) {
+    const tests::TemporaryFolder folder;
+    tests::write_text(folder / "a.gltf", tests::Gltf{.materials = R"([{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,)" +
+                                                                  alpha + R"(]},"alphaMode":"MASK")" + more + "}]"}
+                                             .text());
+    return read_mesh_file(folder / "a.gltf");
+  };
+  CHECK(masked("0.3", "").scene.objects.empty());
+  CHECK(masked("0.5", "").scene.objects.size() == 1);
+  CHECK(!masked("0.5", "").scene.materials.at(0).lets_through());
+  CHECK(masked("0.3", R"(,"alphaCutoff":0.25)").scene.objects.size() == 1);
+  CHECK(masked("0.3", R"(,"alphaCutoff":0.75)").scene.objects.empty());
+  CHECK(masked("1", R"(,"alphaCutoff":1.5)").scene.objects.empty());
 }
 
 TEST_CASE("glTF: transmission refracts by its index, alpha goes straight through where it is blended") {

@@ -1,0 +1,20 @@
+// The records of a scene's materials.
+#pragma once
+
+#include <vector>
+
+#include "core/record/record.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::core {
+
+/// One behind the other they are what DatabaseHeader::materials is the address of.
+struct MaterialRecords {
+  std::vector<MaterialRecord> materials;  ///< of the scene's, in order
+  std::vector<FinishRecord> finishes;     ///< of those of them that have one, in order
+};
+
+/// Throws RoomError if more have a finish than a material's record can name.
+MaterialRecords material_records(const std::vector<Material>& materials);
+
+}  // namespace dmpc::core
