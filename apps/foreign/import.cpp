@@ -26,6 +26,7 @@
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/mesh/collada_text.h"
 #include "apps/foreign/mesh/file_ending.h"
+#include "apps/foreign/mesh/invented.h"
 #include "apps/foreign/mesh/mtl_text.h"
 #include "apps/foreign/mesh/obj_check.h"
 #include "core/base/expect.h"
@@ -315,6 +316,7 @@ ImportedFile import_file(const std::string& path, SceneFiles& files) {
   file.notes.push_back("read by Assimp " + std::to_string(aiGetVersionMajor()) + "." + std::to_string(aiGetVersionMinor()) + "." +
                        std::to_string(aiGetVersionPatch()) + ", single precision");
   take_over(textures, file);
+  take_back_invented(*file.scene, ending);
   if (ending == "dae") {
     count_texture_sets(*file.scene, collada_texture_sets(text_of(*open_scene(path, ending, files))));
   }

@@ -1,0 +1,54 @@
+#include "apps/foreign/mesh/invented.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "apps/formats/mesh_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests::invented_test {
+
+namespace {
+
+/// The first material of a triangle in FBX, shaded by this model with an exponent of 20 and a specular colour of 0.5.
+core::Material material_of_fbx(const std::string& model) {
+  const std::string triangle =
+      "Geometry: 100, \"Geometry::\", \"Mesh\" {\n Vertices: *9 {\n a: 0,0,0,2,0,0,0,1,0\n }\n PolygonVertexIndex: *3 {\n a: "
+      "0,1,-3\n }\n"
+      " LayerElementMaterial: 0 {\n  MappingInformationType: \"AllSame\"\n  ReferenceInformationType: \"IndexToDirect\"\n"
+      "  Materials: *1 {\n   a: 0\n  }\n }\n Layer: 0 {\n  LayerElement:  {\n   Type: \"LayerElementMaterial\"\n   TypedIndex: "
+      "0\n  }\n }\n}\nModel: 200, \"Model::a\", \"Mesh\" {\n Version: 232\n}\n";
+  const std::string material = "Material: 300, \"Material::m\", \"\" {\n ShadingModel: \"" + model +
+                               "\"\n Properties70:  {\n"
+                               "  P: \"DiffuseColor\", \"Color\", \"\", \"A\",1,0,0\n"
+                               "  P: \"SpecularColor\", \"Color\", \"\", \"A\",0.5,0.5,0.5\n"
+                               "  P: \"ShininessExponent\", \"Number\", \"\", \"A\",20\n }\n}\n";
+  const TemporaryFolder folder;
+  write_text(folder / "a.fbx",
+             "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n FBXHeaderVersion: 1003\n FBXVersion: 7400\n}\nObjects:  {\n" +
+                 triangle + material + "}\nConnections:  {\n C: \"OO\",200,0\n C: \"OO\",100,200\n C: \"OO\",300,200\n}\n");
+  return apps::read_mesh_file(folder / "a.fbx").scene.materials.at(0);
+}
+
+}  // namespace
+
+TEST_CASE("an FBX material mirrors by its own words alone: Phong's exponent is no roughness, and Lambert has no highlight") {
+  CHECK(material_of_fbx("phong").color == core::Vec3d{1, 0, 0});
+  CHECK(material_of_fbx("phong").shine == 20);
+  CHECK(material_of_fbx("phong").specular > 0);
+  CHECK(material_of_fbx("lambert").specular == 0);
+  CHECK(material_of_fbx("lambert").diffuse == 1);
+}
+
+TEST_CASE("an X3D shininess of 0.5 is an exponent of 64") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.x3d",
+             "<?xml version=\"1.0\"?><X3D version=\"3.0\"><Scene><Shape><Appearance><Material diffuseColor=\"1 0 0\" "
+             "specularColor=\"1 1 1\" shininess=\"0.5\"/></Appearance><IndexedFaceSet coordIndex=\"0 1 2 -1\"><Coordinate "
+             "point=\"0 0 0 2 0 0 0 1 0\"/></IndexedFaceSet></Shape></Scene></X3D>");
+  CHECK(apps::read_mesh_file(folder / "a.x3d").scene.materials.at(0).shine == 64);
+}
+
+}  // namespace dmpc::tests::invented_test
