@@ -1,10 +1,6 @@
 #include "apps/foreign/obj/meshes.h"
 
-#include <algorithm>
-#include <array>
-#include <map>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "apps/foreign/obj/part.h"
@@ -14,102 +10,74 @@ namespace dmpc::apps::obj {
 namespace {
 
 using core::Vec3d;
-using List = std::span<const std::uint32_t>;
 
-/// What faces of one mesh have in common.
-struct Kind {
+/// Faces of one mesh, which follow one another in the file.
+struct Stretch {
+  std::uint32_t first = 0, end = 0;
   std::uint32_t material = 0;
   bool has_places = false;  ///< on the material's texture
-  bool operator<(const Kind& other) const {
-    return std::pair(material, has_places) < std::pair(other.material, other.has_places);
-  }
 };
 
-/// The faces of each kind, one kind after the other.
-struct Sorted {
-  std::vector<Kind> kinds;
-  std::vector<std::uint32_t> faces, ends;  ///< the list, and of each kind one past its last
-};
-
-/// Calls take(face, its kind's number), and gives the kinds.
-template <class Take>
-std::vector<Kind> for_each_face(const Geometry& geometry, const std::vector<std::uint32_t>& run_materials,
-                                const std::vector<MaterialUse>& uses, const Take& take) {
-  std::vector<Kind> kinds;
-  std::map<Kind, std::uint32_t> numbers;
+std::vector<Stretch> stretches_of(const Geometry& geometry, const std::vector<std::uint32_t>& run_materials,
+                                  const std::vector<MaterialUse>& uses) {
+  std::vector<Stretch> all;
   for (std::size_t run = 0; run < geometry.runs.size(); ++run) {
     const bool is_last = run + 1 == geometry.runs.size();
     const auto end = is_last ? static_cast<std::uint32_t>(geometry.faces.ends.size()) : geometry.runs[run + 1].first_face;
     for (std::uint32_t face = geometry.runs[run].first_face; face < end; ++face) {
       const std::uint32_t material = run_materials[run];
-      const Kind kind{material, uses[material].texture && geometry.faces.has_places(face)};
-      const auto [known, is_new] = numbers.try_emplace(kind, static_cast<std::uint32_t>(kinds.size()));
-      if (is_new) {
-        kinds.push_back(kind);
+      const bool has_places = uses[material].texture && geometry.faces.has_places(face);
+      if (all.empty() || all.back().material != material || all.back().has_places != has_places) {
+        all.push_back({face, face, material, has_places});
       }
-      take(face, known->second);
+      all.back().end = face + 1;
     }
   }
-  return kinds;
-}
-
-Sorted sorted_faces(const Geometry& geometry, const std::vector<std::uint32_t>& run_materials,
-                    const std::vector<MaterialUse>& uses) {
-  Sorted sorted;
-  std::vector<std::uint32_t> next;  // first of each kind how many, then where its next face belongs
-  sorted.kinds = for_each_face(geometry, run_materials, uses, [&next](std::uint32_t, std::uint32_t kind) {
-    next.resize(std::max<std::size_t>(next.size(), kind + 1));
-    ++next[kind];
-  });
-  std::partial_sum(next.begin(), next.end(), std::back_inserter(sorted.ends));
-  std::exclusive_scan(next.begin(), next.end(), next.begin(), 0U);
-  sorted.faces.resize(geometry.faces.ends.size());
-  for_each_face(geometry, run_materials, uses,
-                [&](std::uint32_t face, std::uint32_t kind) { sorted.faces[next[kind]++] = face; });
-  return sorted;
+  return all;
 }
 
 template <class Take>
-void for_each_corner(const Faces& faces, List list, const Take& take) {
-  for (const std::uint32_t face : list) {
-    for (std::size_t i = faces.begin_of(face); i < faces.ends[face]; ++i) {
-      take(i);
-    }
+void for_each_corner(const Faces& faces, const Stretch& stretch, const Take& take) {
+  for (std::size_t i = faces.begin_of(stretch.first); i < faces.ends[stretch.end - 1]; ++i) {
+    take(i);
   }
 }
 
 /// `smooth` as group_normals() gives it.
-void add_normals(const Geometry& geometry, const std::vector<Vec3d>& smooth, List list, PolygonMesh& mesh) {
+void add_normals(const Geometry& geometry, const std::vector<Vec3d>& smooth, const Stretch& stretch, PolygonMesh& mesh) {
   const Faces& faces = geometry.faces;
-  const auto has_some = [&](std::uint32_t face) {
-    return faces.has_normals(face) || (!smooth.empty() && faces.groups[face] != 0);
-  };
-  if (!std::any_of(list.begin(), list.end(), has_some)) {
+  bool has_some = false;
+  for (std::uint32_t face = stretch.first; face < stretch.end && !has_some; ++face) {
+    has_some = faces.has_normals(face) || (!smooth.empty() && faces.groups[face] != 0);
+  }
+  if (!has_some) {
     return;
   }
   mesh.normals.reserve(mesh.faces.corners.size());
-  for_each_corner(faces, list, [&](std::size_t i) {
+  for_each_corner(faces, stretch, [&](std::size_t i) {
     const bool has_own = !faces.normals.empty() && faces.normals[i] != none;
     mesh.normals.push_back(has_own ? geometry.normals[faces.normals[i]] : smooth.empty() ? Vec3d{} : smooth[i]);
   });
 }
 
 /// A file's t grows upwards.
-void add_places(const Geometry& geometry, const TexturePlace& place, List list, PolygonMesh& mesh) {
+void add_places(const Geometry& geometry, const TexturePlace& place, const Stretch& stretch, PolygonMesh& mesh) {
   mesh.places.reserve(mesh.faces.corners.size());
-  for_each_corner(geometry.faces, list, [&](std::size_t i) {
+  for_each_corner(geometry.faces, stretch, [&](std::size_t i) {
     const auto& [u, v] = geometry.places[geometry.faces.places[i]];
     const auto [s, t] = place(u, 1 - v);
     mesh.places.push_back({static_cast<float>(s), static_cast<float>(t)});
   });
 }
 
-void add_vertices(Geometry& geometry, bool is_all, List list, PartFinder& finder, PolygonMesh& mesh) {
+void add_vertices(Geometry& geometry, bool is_all, const Stretch& stretch, PartFinder& finder, PolygonMesh& mesh) {
   if (is_all) {
     mesh.vertices = std::exchange(geometry.vertices, {});
     mesh.faces = {.corners = geometry.faces.vertices, .ends = geometry.faces.ends};
     return;
   }
+  std::vector<std::uint32_t> list(stretch.end - stretch.first);
+  std::iota(list.begin(), list.end(), stretch.first);
   Part part = finder.part(geometry.faces, list);
   mesh.faces = std::move(part.faces);
   mesh.vertices.reserve(part.vertices.size());
@@ -118,10 +86,10 @@ void add_vertices(Geometry& geometry, bool is_all, List list, PartFinder& finder
   }
 }
 
-void add_colors(const Geometry& geometry, List list, PolygonMesh& mesh) {
+void add_colors(const Geometry& geometry, const Stretch& stretch, PolygonMesh& mesh) {
   if (!geometry.colors.empty()) {
     mesh.colors.reserve(mesh.faces.corners.size());
-    for_each_corner(geometry.faces, list,
+    for_each_corner(geometry.faces, stretch,
                     [&](std::size_t i) { mesh.colors.push_back(geometry.colors[geometry.faces.vertices[i]]); });
   }
 }
@@ -131,22 +99,21 @@ void add_colors(const Geometry& geometry, List list, PolygonMesh& mesh) {
 std::vector<PolygonMesh> meshes_of(Geometry geometry, const std::vector<std::uint32_t>& run_materials,
                                    const std::vector<MaterialUse>& uses) {
   const std::vector<Vec3d> smooth = group_normals(geometry.vertices, geometry.faces);
-  const Sorted sorted = sorted_faces(geometry, run_materials, uses);
-  PartFinder finder(sorted.kinds.size() > 1 ? geometry.vertices.size() : 0);
+  const std::vector<Stretch> stretches = stretches_of(geometry, run_materials, uses);
+  const bool is_all = stretches.size() == 1;
+  PartFinder finder(is_all ? 0 : geometry.vertices.size());
   std::vector<PolygonMesh> meshes;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < sorted.kinds.size(); ++i) {
-    const List list(sorted.faces.data() + begin, sorted.ends[i] - begin);
-    const MaterialUse& use = uses[sorted.kinds[i].material];
-    PolygonMesh mesh{.name = use.name, .material = sorted.kinds[i].material};
-    add_vertices(geometry, sorted.kinds.size() == 1, list, finder, mesh);
-    add_normals(geometry, smooth, list, mesh);
-    if (sorted.kinds[i].has_places) {
-      add_places(geometry, *use.texture, list, mesh);
+  meshes.reserve(stretches.size());
+  for (const Stretch& stretch : stretches) {
+    const MaterialUse& use = uses[stretch.material];
+    PolygonMesh mesh{.name = use.name, .material = stretch.material};
+    add_vertices(geometry, is_all, stretch, finder, mesh);
+    add_normals(geometry, smooth, stretch, mesh);
+    if (stretch.has_places) {
+      add_places(geometry, *use.texture, stretch, mesh);
     }
-    add_colors(geometry, list, mesh);
+    add_colors(geometry, stretch, mesh);
     meshes.push_back(std::move(mesh));
-    begin = sorted.ends[i];
   }
   return meshes;
 }

@@ -18,8 +18,8 @@ struct MaterialUse {
   std::optional<TexturePlace> texture;  ///< where their places lie on it, if it has one
 };
 
-/// A mesh for each material, in the order in which faces have them, and another for those of its faces that have no place on its
-/// texture. `run_materials`: of each run, an index into `uses`.
+/// In the file's order, since of faces in one plane the first shows: a mesh for all that follow one another and have one
+/// material, and a place on its texture or none. `run_materials`: of each run, an index into `uses`.
 std::vector<PolygonMesh> meshes_of(Geometry geometry, const std::vector<std::uint32_t>& run_materials,
                                    const std::vector<MaterialUse>& uses);
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/formats/mesh_file.h"
 #include "apps/picture/image_file.h"
@@ -172,12 +174,15 @@ TEST_CASE("surveyed coordinates keep their digits") {
   CHECK(scene.coordinate_rounding == 0);
 }
 
-TEST_CASE("each material's faces have their own vertices") {
-  const Scene scene =
-      read("mtllib a.mtl\n" + square + "usemtl red\nf 1 2 3\nusemtl blue\nf 4 3 2\nusemtl red\nf 1 3 4\n", red_and_blue).scene;
-  REQUIRE(scene.objects.size() == 3);
-  CHECK(scene.vertices ==
-        std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}});
+TEST_CASE("faces stay in the file's order, whatever their materials") {
+  const MeshFile file =
+      read("mtllib a.mtl\n" + square + "usemtl red\nf 1 2 3\nusemtl blue\nf 4 3 2\nusemtl red\nf 1 3 4\n", red_and_blue);
+  REQUIRE(file.scene.objects.size() == 3);
+  const Vec3d a{0, 0, 0}, b{1, 0, 0}, c{1, 1, 0}, d{0, 1, 0};
+  CHECK(file.scene.vertices == std::vector<Vec3d>{a, b, c, d, c, b, a, c, d});
+  CHECK(color_of(file, 0) == red);
+  CHECK(color_of(file, 1) == blue);
+  CHECK(color_of(file, 2) == red);
 }
 
 }  // namespace dmpc::apps::obj_reader_test
