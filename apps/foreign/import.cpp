@@ -20,15 +20,11 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
-#include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/mesh/collada_text.h"
 #include "apps/foreign/mesh/file_ending.h"
 #include "apps/foreign/mesh/invented.h"
-#include "apps/foreign/mesh/mtl_text.h"
-#include "apps/foreign/mesh/obj_check.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -71,17 +67,6 @@ std::string_view text_of(const FileBytes& file) {
   return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
 }
 
-/// A part of another file's bytes.
-class LaterBytes final : public FileBytes {
- public:
-  LaterBytes(std::unique_ptr<FileBytes> whole, std::size_t begin) : whole_(std::move(whole)), begin_(begin) {}
-  std::span<const std::byte> bytes() const override { return whole_->bytes().subspan(begin_); }
-
- private:
-  std::unique_ptr<FileBytes> whole_;
-  std::size_t begin_;
-};
-
 class TextBytes final : public FileBytes {
  public:
   explicit TextBytes(std::string text) : text_(std::move(text)) {}
@@ -91,20 +76,10 @@ class TextBytes final : public FileBytes {
   std::string text_;
 };
 
-/// A scene's file, from where readers for files that end so look for their first word.
-std::unique_ptr<FileBytes> open_scene(const std::string& path, const std::string& ending, SceneFiles& files) {
-  std::unique_ptr<FileBytes> file = files.open(path);
-  const std::string_view text = text_of(*file);
-  const std::string_view rest = ending == "obj" ? without_mark(text) : text;
-  const std::size_t begin = text.size() - rest.size();
-  return begin == 0 ? std::move(file) : std::make_unique<LaterBytes>(std::move(file), begin);
-}
-
 /// As a reader of Assimp's sees them, with a list of what was asked for in vain.
 class Files final : public Assimp::IOSystem {
  public:
-  Files(const std::string& scene, SceneFiles& files, ImportedFile& result, MtlTextures& textures)
-      : scene_(scene), files_(files), result_(result), textures_(textures) {}
+  Files(const std::string& scene, SceneFiles& files, ImportedFile& result) : scene_(scene), files_(files), result_(result) {}
 
   bool Exists(const char* path) const override { return files_.exists(path); }
   char getOsSeparator() const override { return '/'; }
@@ -121,40 +96,11 @@ class Files final : public Assimp::IOSystem {
  private:
   std::unique_ptr<FileBytes> opened(const std::string& path) {
     if (path == scene_) {
-      std::unique_ptr<FileBytes> file = open_scene(path, ending_of(path), files_);
+      std::unique_ptr<FileBytes> file = files_.open(path);
       return ending_of(path) == "dae" ? std::make_unique<TextBytes>(collada_in_full(text_of(*file))) : std::move(file);
     }
-    return ending_of(path) == "mtl" ? materials(path) : files_.open(path);
+    return files_.open(path);
   }
-  /// One that is named again at once says nothing new.
-  std::unique_ptr<FileBytes> materials(const std::string& path) {
-    if (path == last_library_) {
-      return std::make_unique<TextBytes>("");
-    }
-    last_library_.clear();
-    const std::unique_ptr<FileBytes> file = library(path);
-    PlainMtl plain = plain_mtl(path, text_of(*file), textures_);
-    note_once(result_.notes, plain.note);
-    last_library_ = path;
-    return std::make_unique<TextBytes>(std::move(plain.text));
-  }
-  /// A library of materials, which may be called otherwise than the scene says.
-  std::unique_ptr<FileBytes> library(const std::string& path) {
-    try {
-      return files_.open(path);
-    } catch (const core::InputError&) {
-      const std::filesystem::path folder = std::filesystem::path(scene_).parent_path();
-      const std::string name = path.substr(folder.empty() ? 0 : std::min(path.size(), folder.string().size() + 1));
-      const std::vector<std::filesystem::path> found = files_.meant(folder, name);
-      if (found.empty()) {
-        throw;
-      }
-      note_once(result_.notes,
-                "a file of materials was found under another name: " + found.front().filename().string() + " for " + name);
-      return files_.open(found.front().string());
-    }
-  }
-
   /// Assimp may open a file again and again.
   static void note_once(std::vector<std::string>& notes, const std::string& note) {
     if (!note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) {
@@ -165,8 +111,6 @@ class Files final : public Assimp::IOSystem {
   std::string scene_;
   SceneFiles& files_;
   ImportedFile& result_;
-  MtlTextures& textures_;
-  std::string last_library_;  ///< of materials, as it was named
 };
 
 class LoadProgress final : public Assimp::ProgressHandler {
@@ -203,13 +147,6 @@ void rethrow_end_of_memory(const std::exception_ptr& caught) {
   }
 }
 
-/// What Assimp takes for a scene, although something of it is missing.
-void check_is_whole(const std::string& path, const std::string& ending, SceneFiles& files) {
-  if (ending == "obj") {
-    check_obj(text_of(*open_scene(path, ending, files)));
-  }
-}
-
 std::vector<std::byte> bytes_of_file(const std::string& path, SceneFiles& files) {
   const std::unique_ptr<FileBytes> file = files.open(path);
   return {file->bytes().begin(), file->bytes().end()};
@@ -237,16 +174,6 @@ bool is_figure_of_nodes(const aiScene& scene) {
   };
   return (scene.mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0 &&
          std::any_of(scene.mMaterials, scene.mMaterials + scene.mNumMaterials, is_named_so);
-}
-
-void take_over(const MtlTextures& textures, ImportedFile& file) {
-  for (const aiMaterial* const material : std::span(file.scene->mMaterials, file.scene->mNumMaterials)) {
-    const auto place = textures.places.find(material->GetName().C_Str());
-    file.texture_places.push_back(place == textures.places.end() ? TexturePlace{} : place->second);
-  }
-  for (const auto& [option, count] : textures.left_out) {
-    file.notes.push_back("textures' option " + option + ", which is not followed: " + grouped(count));
-  }
 }
 
 /// A material's texture goes by the file's number of a set, and a mesh's sets are counted from 0 on.
@@ -300,12 +227,10 @@ ImportedFile import_file(const std::string& path, SceneFiles& files) {
       return *std::move(file);
     }
   }
-  check_is_whole(path, ending, files);
   ImportedFile file;
   Assimp::Importer importer;
   keep_readers_of(ending, importer);
-  MtlTextures textures;
-  importer.SetIOHandler(new Files(path, files, file, textures));  // is the importer's from now on, and so is the next
+  importer.SetIOHandler(new Files(path, files, file));  // is the importer's from now on, and so is the next
   importer.SetProgressHandler(new LoadProgress(files));
   if (importer.ReadFile(path, 0) == nullptr) {
     rethrow_end_of_memory(importer.GetException());
@@ -315,10 +240,9 @@ ImportedFile import_file(const std::string& path, SceneFiles& files) {
   file.scene.reset(importer.GetOrphanedScene());
   file.notes.push_back("read by Assimp " + std::to_string(aiGetVersionMajor()) + "." + std::to_string(aiGetVersionMinor()) + "." +
                        std::to_string(aiGetVersionPatch()) + ", single precision");
-  take_over(textures, file);
   take_back_invented(*file.scene, ending);
   if (ending == "dae") {
-    count_texture_sets(*file.scene, collada_texture_sets(text_of(*open_scene(path, ending, files))));
+    count_texture_sets(*file.scene, collada_texture_sets(text_of(*files.open(path))));
   }
   return file;
 }

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "apps/foreign/mesh/file_ending.h"
+#include "apps/foreign/obj/reader.h"
 #include "apps/foreign/polygon/off.h"
 #include "apps/foreign/polygon/ply.h"
 #include "apps/foreign/polygon/stl.h"
@@ -17,7 +18,8 @@ struct Format {
   PolygonReader reader;
 };
 
-constexpr std::array<Format, 3> formats{{
+constexpr std::array<Format, 4> formats{{
+    {"obj", read_obj},
     {"off", read_off},
     {"ply", read_ply},
     {"stl", read_stl},

@@ -62,16 +62,36 @@ Vec3d area_vector(const std::vector<Vec3d>& vertices, const FaceList& faces, std
 
 bool within(const Vec3d& a, const Vec3d& b, double cosine) { return dot(a, b) >= cosine * length(a) * length(b); }
 
+/// Where every face counts: each point's sum once, so that many faces around one cost no more than their number.
+std::vector<Vec3d> sums_of_all(const FaceList& faces, const std::vector<std::uint32_t>& points, const std::vector<Vec3d>& areas) {
+  std::vector<Vec3d> sums(points.size()), normals(faces.corners.size());
+  for (std::size_t face = 0; face < areas.size(); ++face) {
+    for (std::size_t i = begin_of(faces.ends, face); i < faces.ends[face]; ++i) {
+      sums[points[faces.corners[i]]] = sums[points[faces.corners[i]]] + areas[face];
+    }
+  }
+  for (std::size_t face = 0; face < areas.size(); ++face) {
+    for (std::size_t i = begin_of(faces.ends, face); i < faces.ends[face]; ++i) {
+      normals[i] = areas[face] == Vec3d{} ? Vec3d{} : sums[points[faces.corners[i]]];
+    }
+  }
+  return normals;
+}
+
 }  // namespace
 
 std::vector<Vec3d> smooth_normals(const std::vector<Vec3d>& vertices, const FaceList& faces, double degrees) {
   const std::vector<std::uint32_t> points = points_of(vertices);
-  const Neighbours neighbours = neighbours_of(faces, points);
-  const double cosine = core::cos_degrees(degrees);
-  std::vector<Vec3d> areas(faces.ends.size()), normals(faces.corners.size());
+  std::vector<Vec3d> areas(faces.ends.size());
   for (std::size_t face = 0; face < areas.size(); ++face) {
     areas[face] = area_vector(vertices, faces, face);
   }
+  if (degrees >= 180) {
+    return sums_of_all(faces, points, areas);
+  }
+  std::vector<Vec3d> normals(faces.corners.size());
+  const Neighbours neighbours = neighbours_of(faces, points);
+  const double cosine = core::cos_degrees(degrees);
   for (std::size_t face = 0; face < areas.size(); ++face) {
     for (std::size_t i = begin_of(faces.ends, face); i < faces.ends[face]; ++i) {
       const std::uint32_t point = points[faces.corners[i]];

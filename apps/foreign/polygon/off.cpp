@@ -16,7 +16,7 @@
 #include "apps/foreign/polygon/plain_material.h"
 #include "apps/foreign/polygon/reading_progress.h"
 #include "apps/foreign/polygon/text_words.h"
-#include "apps/foreign/text/words.h"
+#include "apps/foreign/text/line_words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -9,7 +9,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/polygon/text_words.h"
-#include "apps/foreign/text/words.h"
+#include "apps/foreign/text/line_words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -5,7 +5,7 @@
 
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/trimmed.h"
-#include "apps/foreign/text/words.h"
+#include "apps/foreign/text/line_words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -1,5 +1,5 @@
 // The words of a text that is read once, from its beginning to its end, whatever lines they stand in; where lines count, see
-// apps/foreign/text/words.h.
+// apps/foreign/text/line_words.h.
 #pragma once
 
 #include <cstddef>

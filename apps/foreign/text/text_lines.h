@@ -19,7 +19,7 @@ class TextLines {
   /// 32 but blanks and line ends, and 127; one byte 26 at the end of all is passed over, with which DOS ended texts.
   bool next();
 
-  /// Without its end. Joined lines are one, with the backslash and the line end between them, which Words takes for blanks.
+  /// Without its end. Joined lines are one, with the backslash and the line end between them, which LineWords takes for blanks.
   std::string_view line() const { return line_; }
   /// Of the line, or of the first of those that are joined, as editors count, from 1.
   std::size_t number() const { return number_; }

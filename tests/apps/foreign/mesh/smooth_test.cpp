@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace dmpc::apps::smooth_test {
@@ -40,6 +42,23 @@ TEST_CASE("large faces count more than small ones") {
   std::vector<Vec3d> vertices = roof;
   vertices[5].z = -3;
   CHECK(along(smooth_normals(vertices, two_faces, 180)[0], {-3, 0, 1}));
+}
+
+TEST_CASE("where every face counts, normals are those of a little less") {
+  CHECK(smooth_normals(roof, two_faces, 180) == smooth_normals(roof, two_faces, 179));
+}
+
+TEST_CASE("many faces around one vertex are smooth in time of their number") {
+  constexpr std::uint32_t count = 200'000;
+  std::vector<Vec3d> vertices{{0, 0, 1}};
+  FaceList fan;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double angle = 6.28 * i / count;
+    vertices.push_back({std::cos(angle), std::sin(angle), 0});
+    fan.corners.insert(fan.corners.end(), {0, i + 1, i + 1 < count ? i + 2 : 1});
+    fan.ends.push_back(3 * (i + 1));
+  }
+  CHECK(along(smooth_normals(vertices, fan, 180)[0], smooth_normals(vertices, fan, 180)[3]));
 }
 
 TEST_CASE("a face without area has no normals and gives none") {

@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "apps/foreign/mesh/obj_check.h"
 #include "apps/formats/mesh_file.h"
 #include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
@@ -39,18 +38,6 @@ TEST_CASE("text of PLY, STL, OFF and OBJ may begin with a byte order mark") {
     CHECK(refusal_of(name, text) == "");
     CHECK(refusal_of(name, mark + text) == "");
   }
-}
-
-TEST_CASE("an OBJ file with an index of nothing is refused, be it of a vertex, a place or a normal") {
-  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
-  CHECK(refusal_of("a.obj", vertices + "f 1/1/1 2/1/1 3/1/1\n").empty());
-  const auto refusal = [&](const std::string& face) { return refusal_of("a.obj", vertices + face); };
-  CHECK(tests::contains(refusal("f 1/1/1 2/1/1 4/1/1\n"), "line 6: the face has vertex 4, which does not exist: there are 3"));
-  CHECK(tests::contains(refusal("f 1/1/1 2/2/1 3/1/1\n"), "texture coordinate 2, which does not exist: there are 1"));
-  CHECK(tests::contains(refusal("f 1//1 2//1 \\\n3//2\n"), "line 7: the face has normal 2, which does not exist: there are 1"));
-  CHECK(tests::contains(refusal("f 1 2 -4\n"), "vertex -4, which does not exist: there are 3 before it"));
-  CHECK_FALSE(refusal("f 1 2 0\n").empty());
-  check_obj(vertices + "f -3/-1/-1 -2/-1/-1 -1/-1/-1 # 9\nf 1 2 4\nv 0 0 1\n");
 }
 
 TEST_CASE("a Collada file without a mesh is refused, and no figure is shown in its place") {

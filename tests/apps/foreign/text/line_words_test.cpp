@@ -1,6 +1,6 @@
 // Lines, words and numbers of foreign files that are text.
 
-#include "apps/foreign/text/words.h"
+#include "apps/foreign/text/line_words.h"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 #include "apps/foreign/text/text_lines.h"
 #include "core/base/expect.h"
 
-namespace dmpc::apps::words_test {
+namespace dmpc::apps::line_words_test {
 
 namespace {
 
@@ -24,7 +24,7 @@ std::vector<std::string> lines_of(std::string_view file, LineJoin join = LineJoi
 
 std::vector<std::string> words_of(std::string_view line) {
   std::vector<std::string> all;
-  Words words(line, 1);
+  LineWords words(line, 1);
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     all.emplace_back(word);
   }
@@ -54,7 +54,7 @@ TEST_CASE("a line goes on behind a backslash, if lines may, but for one within a
   CHECK(lines_of("# C:\\\nv", LineJoin::backslash) == List{"1 # C:\\", "2 v"});
   CHECK(lines_of("a\\", LineJoin::backslash) == List{"1 a\\"});
   CHECK(lines_of("a\\\nb") == List{"1 a\\", "2 b"});
-  Words words("1 \\\n \\\n x", 7);
+  LineWords words("1 \\\n \\\n x", 7);
   words.next();
   CHECK_THROWS_WITH_AS(words.number(), "line 9: expected a number, found 'x'", core::InputError);
 }
@@ -70,9 +70,10 @@ TEST_CASE("a byte that no text has is refused with its line") {
 TEST_CASE("words are parted by blanks, and a remark is none") {
   CHECK(words_of(" \tf  1\t2 # 3") == List{"f", "1", "2"});
   CHECK(words_of("1#2") == List{"1"});
+  CHECK(words_of("-1.#IND 1.5#") == List{"-1.#IND", "1.5"});
   CHECK(words_of("# a").empty());
   CHECK(words_of(" \v\f").empty());
-  Words words("map_Kd  my #1 wood.png \t", 1);
+  LineWords words("map_Kd  my #1 wood.png \t", 1);
   words.next();
   CHECK(words.rest() == "my #1 wood.png");
   CHECK(without_remark("my #1 wood.png") == "my");
@@ -96,13 +97,13 @@ TEST_CASE("a decimal number is all of a word, and nothing else is a number") {
 }
 
 TEST_CASE("what is no number is refused with the line, and so is what follows") {
-  CHECK_THROWS_WITH_AS(Words("1x", 12).number(), "line 12: expected a number, found '1x'", core::InputError);
-  CHECK_THROWS_WITH_AS(Words(" # 1", 12).number(), "line 12: expected a number, found the end of the line", core::InputError);
-  CHECK(Words("+7", 1).integer() == 7);
-  CHECK_THROWS_WITH_AS(Words("7.5", 2).integer(), "line 2: expected a whole number, found '7.5'", core::InputError);
-  CHECK_THROWS_AS(Words("9223372036854775808", 2).integer(), core::InputError);
-  Words(" # x", 1).expect_end();
-  CHECK_THROWS_WITH_AS(Words("x", 3).expect_end(), "line 3: expected the end of the line, found 'x'", core::InputError);
+  CHECK_THROWS_WITH_AS(LineWords("1x", 12).number(), "line 12: expected a number, found '1x'", core::InputError);
+  CHECK_THROWS_WITH_AS(LineWords(" # 1", 12).number(), "line 12: expected a number, found the end of the line", core::InputError);
+  CHECK(LineWords("+7", 1).integer() == 7);
+  CHECK_THROWS_WITH_AS(LineWords("7.5", 2).integer(), "line 2: expected a whole number, found '7.5'", core::InputError);
+  CHECK_THROWS_AS(LineWords("9223372036854775808", 2).integer(), core::InputError);
+  LineWords(" # x", 1).expect_end();
+  CHECK_THROWS_WITH_AS(LineWords("x", 3).expect_end(), "line 3: expected the end of the line, found 'x'", core::InputError);
 }
 
-}  // namespace dmpc::apps::words_test
+}  // namespace dmpc::apps::line_words_test

@@ -14,18 +14,18 @@ namespace dmpc::apps {
 std::optional<double> decimal_number(std::string_view word);
 
 /// A line's words, one after the other. Blanks are spaces, tabulators, and a backslash before a line end (text_lines.h). What
-/// follows a # is a remark.
-class Words {
+/// follows a # is a remark, but for one behind a point, as in `1.#INF`.
+class LineWords {
  public:
   /// `number` is the line's, for messages. The line outlives this.
-  Words(std::string_view line, std::size_t number) : rest_(line), line_number_(number) {}
+  LineWords(std::string_view line, std::size_t number) : rest_(line), line_number_(number) {}
 
   /// The next; nothing at the line's end, or where a remark begins.
   std::string_view next();
   /// All that follows, without blanks around it, with what looks like a remark: names may have blanks and # in them.
   std::string_view rest() const;
   /// Whether a word follows.
-  bool has_next() const { return !Words(*this).next().empty(); }
+  bool has_next() const { return !LineWords(*this).next().empty(); }
 
   /// Throw core::InputError, with the line, for a word that is no number, or if there is none.
   double number();

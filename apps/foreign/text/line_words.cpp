@@ -1,4 +1,4 @@
-#include "apps/foreign/text/words.h"
+#include "apps/foreign/text/line_words.h"
 
 #include <algorithm>
 #include <cctype>
@@ -19,6 +19,9 @@ bool is_blank_letter(char letter) { return blank_letters.find(letter) != std::st
 
 /// Whether a line is joined to the next there.
 bool is_join(std::string_view text) { return text.size() > 1 && text[0] == '\\' && (text[1] == '\n' || text[1] == '\r'); }
+
+/// "-1.#IND", as one library writes what is no number, is one word: else it would read as -1.
+bool begins_remark(std::string_view text, std::size_t at) { return text[at] == '#' && (at == 0 || text[at - 1] != '.'); }
 
 std::string_view without_plus(std::string_view word) {
   const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
@@ -47,7 +50,7 @@ std::optional<double> decimal_number(std::string_view word) {
   return error == std::errc{} ? std::optional(value) : extreme_number(plain);
 }
 
-void Words::skip_blanks() {
+void LineWords::skip_blanks() {
   while (!rest_.empty()) {
     if (is_join(rest_)) {
       rest_.remove_prefix(rest_.substr(1).starts_with("\r\n") ? 3 : 2);
@@ -60,10 +63,10 @@ void Words::skip_blanks() {
   }
 }
 
-std::string_view Words::next() {
+std::string_view LineWords::next() {
   skip_blanks();
   std::size_t end = 0;
-  while (end < rest_.size() && !is_blank_letter(rest_[end]) && rest_[end] != '#' && !is_join(rest_.substr(end))) {
+  while (end < rest_.size() && !is_blank_letter(rest_[end]) && !begins_remark(rest_, end) && !is_join(rest_.substr(end))) {
     ++end;
   }
   const std::string_view word = rest_.substr(0, end);
@@ -71,17 +74,17 @@ std::string_view Words::next() {
   return word;
 }
 
-std::string_view Words::rest() const {
-  Words words = *this;
+std::string_view LineWords::rest() const {
+  LineWords words = *this;
   words.skip_blanks();
   return words.rest_.substr(0, words.rest_.find_last_not_of(blank_letters) + 1);
 }
 
-void Words::refuse(const std::string& what) const {
+void LineWords::refuse(const std::string& what) const {
   throw core::InputError("line " + std::to_string(line_number_) + ": " + what);
 }
 
-double Words::number() {
+double LineWords::number() {
   const std::string_view word = next();
   const auto value = decimal_number(word);
   if (!value) {
@@ -90,7 +93,7 @@ double Words::number() {
   return *value;
 }
 
-std::int64_t Words::integer() {
+std::int64_t LineWords::integer() {
   const std::string_view word = next(), plain = without_plus(word);
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
@@ -100,8 +103,8 @@ std::int64_t Words::integer() {
   return value;
 }
 
-void Words::expect_end() const {
-  Words words = *this;
+void LineWords::expect_end() const {
+  LineWords words = *this;
   if (const std::string_view word = words.next(); !word.empty()) {
     words.refuse("expected the end of the line, found '" + clipped(word, 60) + "'");
   }

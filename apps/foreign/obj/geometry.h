@@ -1,0 +1,46 @@
+// What an OBJ file says, before its materials are known.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/vec.h"
+
+namespace dmpc::apps::obj {
+
+inline constexpr std::uint32_t none = 0xffffffffU;
+
+/// Faces of three or more corners, one after the other. All of a face have a place, or none, and so with normals.
+struct Faces {
+  std::vector<std::uint32_t> vertices;  ///< a corner each
+  std::vector<std::uint32_t> places;    ///< a corner each, or `none`; empty until a corner has one
+  std::vector<std::uint32_t> normals;   ///< a corner each, or `none`; empty until a corner has one
+  std::vector<std::uint32_t> ends;      ///< of each face: one past its last corner
+  std::vector<std::uint32_t> groups;    ///< of each face: its smoothing group, 0 for none; empty if there is none in the file
+
+  std::size_t begin_of(std::size_t face) const { return face == 0 ? 0 : ends[face - 1]; }
+  bool has_places(std::size_t face) const { return !places.empty() && places[begin_of(face)] != none; }
+  bool has_normals(std::size_t face) const { return !normals.empty() && normals[begin_of(face)] != none; }
+};
+
+/// Faces that follow one another and have one material.
+struct Run {
+  std::uint32_t first_face;
+  std::uint32_t name;  ///< index into Geometry::material_names, or `none` before any usemtl
+};
+
+struct Geometry {
+  std::vector<core::Vec3d> vertices, normals;
+  std::vector<core::Vec3d> colors;            ///< a vertex each, white where it has none; empty if none has one
+  std::vector<std::array<double, 2>> places;  ///< t grows upwards
+  Faces faces;
+  std::vector<Run> runs;                    ///< in order, each with a face at least
+  std::vector<std::string> material_names;  ///< as usemtl says them, once each
+  std::vector<std::string> libraries;       ///< what follows mtllib, once each
+  std::vector<std::string> notes;           ///< what is not shown, a sentence each
+};
+
+}  // namespace dmpc::apps::obj

@@ -1,0 +1,222 @@
+#include "apps/foreign/obj/mtl.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
+#include "apps/foreign/mesh/material.h"
+#include "apps/foreign/mesh/surface.h"
+#include "apps/foreign/obj/small_letters.h"
+#include "apps/foreign/obj/tally.h"
+#include "apps/foreign/text/line_words.h"
+#include "apps/foreign/text/text_lines.h"
+
+namespace dmpc::apps::obj {
+namespace {
+
+using core::Vec3d;
+
+double in_unit(double value) { return std::clamp(value, 0.0, 1.0); }
+Vec3d in_unit(const Vec3d& v) { return {in_unit(v.x), in_unit(v.y), in_unit(v.z)}; }
+
+/// Those that a picture of ours does not need, or cannot show beside the ones that are read.
+constexpr std::array<std::string_view, 8> passed_over{"ka",    "sharpness", "ps",      "pcr",
+                                                      "aniso", "anisor",    "map_aat", "ke_intensity"};
+
+bool is_texture(const std::string& keyword) {
+  return (keyword.starts_with("map_") && keyword != "map_aat") || keyword == "bump" || keyword == "disp" || keyword == "norm" ||
+         keyword == "decal" || keyword == "refl";
+}
+
+class MtlParser {
+ public:
+  MtlParser(const std::function<void(MtlMaterial)>& take, std::vector<std::string>& notes) : take_(take), notes_(notes) {}
+
+  void read(std::string_view file);
+
+ private:
+  void statement(const std::string& keyword, LineWords& words);
+  bool color_statement(const std::string& keyword, LineWords& words);
+  bool number_statement(const std::string& keyword, LineWords& words);
+  void texture(const std::string& keyword, const LineWords& words);
+  void begin(const LineWords& words);
+  void finish();
+  std::optional<Vec3d> color(LineWords& words);
+  static double number(LineWords& words);
+
+  const std::function<void(MtlMaterial)>& take_;
+  std::vector<std::string>& notes_;
+  std::optional<MtlMaterial> material_;
+  std::size_t nameless_ = 0, first_nameless_ = 0;  ///< textures without a name, and the line of the first
+  UnknownWords unknown_;
+};
+
+void MtlParser::read(std::string_view file) {
+  for (TextLines lines(file); lines.next();) {
+    LineWords words(lines.line(), lines.number());
+    const std::string keyword = in_small_letters(words.next());
+    if (!keyword.empty()) {
+      statement(keyword, words);
+    }
+  }
+  finish();
+  if (nameless_ > 0) {
+    notes_.push_back("map_Kd names no file in line " + std::to_string(first_nameless_) +
+                     (nameless_ == 1 ? "" : " and " + std::to_string(nameless_ - 1) + " others") +
+                     ": there the plain colour is shown");
+  }
+  unknown_.note("unknown statements left out", notes_);
+}
+
+void MtlParser::statement(const std::string& keyword, LineWords& words) {
+  if (keyword == "newmtl") {
+    return begin(words);
+  }
+  if (!material_) {
+    words.refuse("expected 'newmtl NAME' before '" + clipped(keyword, 60) + "'");
+  }
+  if (is_texture(keyword)) {
+    return texture(keyword, words);
+  }
+  const bool is_known = color_statement(keyword, words) || number_statement(keyword, words) ||
+                        std::find(passed_over.begin(), passed_over.end(), keyword) != passed_over.end();
+  if (!is_known && unknown_.count++ == 0) {
+    unknown_.first = "'" + clipped(keyword, 60) + "' in line " + std::to_string(words.line_number());
+  }
+}
+
+void MtlParser::begin(const LineWords& words) {
+  finish();
+  material_.emplace();
+  material_->name = words.rest();
+}
+
+void MtlParser::finish() {
+  if (material_) {
+    take_(*std::exchange(material_, std::nullopt));
+  }
+}
+
+/// One number is all three channels. Nothing for a colour by spectral curves or CIE XYZ.
+std::optional<Vec3d> MtlParser::color(LineWords& words) {
+  LineWords ahead = words;
+  const std::string_view first = ahead.next();
+  if (first == "spectral" || first == "xyz") {
+    material_->has_other_colors = true;
+    return std::nullopt;
+  }
+  Vec3d color;
+  color.x = color.y = color.z = words.number();
+  if (words.has_next()) {
+    color.y = words.number();
+    color.z = words.number();
+    words.expect_end();
+  }
+  return color;
+}
+
+bool MtlParser::color_statement(const std::string& keyword, LineWords& words) {
+  MtlMaterial& material = *material_;
+  if (keyword == "kd") {
+    material.diffuse = color(words);
+  } else if (keyword == "ks") {
+    material.specular = color(words).value_or(Vec3d{});
+  } else if (keyword == "ke") {
+    material.emission = color(words).value_or(Vec3d{});
+  } else if (keyword == "tf") {
+    material.filter = color(words);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+double MtlParser::number(LineWords& words) {
+  const double value = words.number();
+  words.expect_end();
+  return value;
+}
+
+bool MtlParser::number_statement(const std::string& keyword, LineWords& words) {
+  MtlMaterial& material = *material_;
+  if (keyword == "ns") {
+    material.shine = number(words);
+  } else if (keyword == "ni") {
+    material.refraction_index = number(words);
+  } else if (keyword == "d") {
+    LineWords ahead = words;
+    words = ahead.next() == "-halo" ? ahead : words;
+    material.d = number(words);
+  } else if (keyword == "tr") {
+    material.transparency = number(words);
+  } else if (keyword == "illum") {
+    material.illumination = static_cast<int>(std::clamp(number(words), -1.0, 11.0));
+  } else if (keyword == "pr") {
+    material.roughness = number(words);
+  } else if (keyword == "pm") {
+    material.metallic = number(words);
+  } else if (keyword == "pc") {
+    material.has_clear_coat = number(words) > 0;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void MtlParser::texture(const std::string& keyword, const LineWords& words) {
+  TextureWords said = texture_words(words.rest());
+  if (keyword != "map_kd") {
+    if (!said.name.empty()) {
+      material_->other_textures.insert(said.name);
+      material_->has_light_texture = material_->has_light_texture || keyword == "map_ke";
+    }
+  } else if (without_remark(said.name).empty()) {
+    first_nameless_ = nameless_++ == 0 ? words.line_number() : first_nameless_;
+  } else {
+    material_->texture = std::move(said);
+  }
+}
+
+}  // namespace
+
+double opacity_of(const MtlMaterial& material) {
+  return in_unit(material.d ? *material.d : 1 - material.transparency.value_or(0));
+}
+
+bool contradicts_itself(const MtlMaterial& material) {
+  constexpr double rounding = 0.01;
+  return material.d && material.transparency && std::abs(*material.d + *material.transparency - 1) > rounding;
+}
+
+Vec3d emission_of(const MtlMaterial& material) {
+  const Vec3d& light = material.emission;
+  return material.has_light_texture ? Vec3d{} : Vec3d{std::max(light.x, 0.0), std::max(light.y, 0.0), std::max(light.z, 0.0)};
+}
+
+core::Material shown_material(const MtlMaterial& material) {
+  const Vec3d diffuse = in_unit(material.diffuse.value_or(Vec3d{plain_grey, plain_grey, plain_grey}));
+  if (material.roughness || material.metallic) {
+    return material_of(MetallicSurface{.base = diffuse,
+                                       .emission = emission_of(material),
+                                       .metallic = in_unit(material.metallic.value_or(0)),
+                                       .roughness = in_unit(material.roughness.value_or(1)),
+                                       .refraction_index = material.refraction_index,
+                                       .opacity = opacity_of(material)});
+  }
+  return material_of(PhongSurface{.diffuse = diffuse,
+                                  .specular = in_unit(material.specular),
+                                  .emission = emission_of(material),
+                                  .shine = material.shine,
+                                  .refraction_index = material.refraction_index,
+                                  .opacity = opacity_of(material),
+                                  .illumination = material.illumination});
+}
+
+void parse_mtl(std::string_view file, const std::function<void(MtlMaterial)>& take, std::vector<std::string>& notes) {
+  MtlParser(take, notes).read(file);
+}
+
+}  // namespace dmpc::apps::obj

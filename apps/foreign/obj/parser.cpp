@@ -1,0 +1,330 @@
+#include "apps/foreign/obj/parser.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
+#include "apps/foreign/mesh/geometry.h"
+#include "apps/foreign/obj/corner.h"
+#include "apps/foreign/obj/tally.h"
+#include "apps/foreign/text/line_words.h"
+#include "apps/foreign/text/text_lines.h"
+#include "apps/formats/nff_reader.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps::obj {
+namespace {
+
+using core::Vec3d;
+
+constexpr double coordinate_bound = 1e30;
+constexpr std::size_t libraries_max = 1000;
+constexpr const char* thin = "points and lines left out";
+constexpr const char* free_form = "statements about free-form curves and surfaces left out";
+constexpr const char* strange_colors = "vertices whose colour lies outside 0 to 1, brought into it";
+
+/// What is counted and said, by statement; those with no words change no picture of ours.
+struct LeftOut {
+  std::string_view statement;
+  const char* words;
+};
+constexpr std::array left_out{
+    LeftOut{"p", thin},
+    LeftOut{"l", thin},
+    LeftOut{"surf", "free-form surfaces left out"},
+    LeftOut{"bzp", "free-form surfaces left out"},
+    LeftOut{"bsp", "free-form surfaces left out"},
+    LeftOut{"cdp", "free-form surfaces left out"},
+    LeftOut{"curv", "free-form curves left out"},
+    LeftOut{"curv2", "free-form curves left out"},
+    LeftOut{"cdc", "free-form curves left out"},
+    LeftOut{"vp", free_form},
+    LeftOut{"cstype", free_form},
+    LeftOut{"deg", free_form},
+    LeftOut{"bmat", free_form},
+    LeftOut{"step", free_form},
+    LeftOut{"parm", free_form},
+    LeftOut{"trim", free_form},
+    LeftOut{"hole", free_form},
+    LeftOut{"scrv", free_form},
+    LeftOut{"sp", free_form},
+    LeftOut{"end", free_form},
+    LeftOut{"con", free_form},
+    LeftOut{"ctech", free_form},
+    LeftOut{"stech", free_form},
+    LeftOut{"res", free_form},
+    LeftOut{"o", nullptr},
+    LeftOut{"g", nullptr},
+    LeftOut{"mg", "merging groups not followed"},
+    LeftOut{"bevel", "statements bevel, which are not followed"},
+    LeftOut{"c_interp", "statements c_interp, which are not followed"},
+    LeftOut{"d_interp", "statements d_interp, which are not followed"},
+    LeftOut{"lod", "levels of detail not followed"},
+    LeftOut{"usemap", "statements usemap, whose textures are not shown"},
+    LeftOut{"maplib", "statements maplib, whose textures are not shown"},
+    LeftOut{"shadow_obj", "statements shadow_obj, whose files are not read"},
+    LeftOut{"trace_obj", "statements trace_obj, whose files are not read"},
+    LeftOut{"call", "statements call, which are not carried out"},
+    LeftOut{"csh", "statements csh, which are not carried out"},
+};
+
+class Parser {
+ public:
+  Geometry read(std::string_view file, const std::function<void(float)>& passed);
+
+ private:
+  void statement(LineWords& words);
+  void vertex(LineWords& words);
+  void place(LineWords& words);
+  void normal(LineWords& words);
+  void face(LineWords& words);
+  void smoothing(LineWords& words);
+  void material(const LineWords& words);
+  void library(const LineWords& words);
+  void other(std::string_view keyword, const LineWords& words);
+
+  Vec3d coordinates(LineWords& words);
+  void color(const Vec3d& color);
+  void add_face(const LineWords& words);
+  /// Corners' places or normals: all of a face have one, or none.
+  void add_named(Named what, std::vector<std::uint32_t>& list, const LineWords& words);
+  void start_run();
+  Counts counts() const { return {result_.vertices.size(), result_.places.size(), result_.normals.size()}; }
+
+  Geometry result_;
+  CornerReader corner_reader_;
+  std::vector<Corner> face_;  ///< the one that is read
+  GeometrySize size_;
+  std::uint32_t group_ = 0;        ///< of smoothing, for the faces that follow
+  std::uint32_t material_ = none;  ///< the same
+  std::unordered_map<std::string, std::uint32_t> names_;
+  std::unordered_set<std::string> libraries_;
+  Tally tally_;
+  UnknownWords unknown_;
+};
+
+Geometry Parser::read(std::string_view file, const std::function<void(float)>& passed) {
+  for (TextLines lines(file, LineJoin::backslash); lines.next();) {
+    LineWords words(lines.line(), lines.number());
+    statement(words);
+    passed(static_cast<float>(static_cast<double>(lines.bytes_passed()) / static_cast<double>(file.size())));
+  }
+  corner_reader_.check_named(counts());
+  tally_.note(result_.notes);
+  unknown_.note("unknown statements left out", result_.notes);
+  return std::move(result_);
+}
+
+void Parser::statement(LineWords& words) {
+  const std::string_view keyword = words.next();
+  if (keyword == "v") {
+    vertex(words);
+  } else if (keyword == "vt") {
+    place(words);
+  } else if (keyword == "vn") {
+    normal(words);
+  } else if (keyword == "f" || keyword == "fo") {
+    face(words);
+  } else if (keyword == "s") {
+    smoothing(words);
+  } else if (keyword == "usemtl") {
+    material(words);
+  } else if (keyword == "mtllib") {
+    library(words);
+  } else if (!keyword.empty()) {
+    other(keyword, words);
+  }
+}
+
+Vec3d Parser::coordinates(LineWords& words) {
+  Vec3d v;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    v[axis] = words.number();
+    if (!(std::abs(v[axis]) < coordinate_bound)) {
+      words.refuse("a coordinate is beyond 1e30; correct the file");
+    }
+  }
+  return v;
+}
+
+/// "x y z", "x y z w" or "x y z r g b".
+void Parser::vertex(LineWords& words) {
+  Vec3d position = coordinates(words);
+  if (words.has_next()) {
+    const double fourth = words.number();
+    if (words.has_next()) {
+      const double green = words.number(), blue = words.number();
+      color({fourth, green, blue});
+    } else if (fourth != 1) {
+      position = position * (1 / fourth);
+    }
+    if (!(std::abs(position.x) < coordinate_bound && std::abs(position.y) < coordinate_bound &&
+          std::abs(position.z) < coordinate_bound)) {
+      words.refuse("divided by its weight a coordinate is beyond 1e30; correct the file");
+    }
+    words.expect_end();
+  }
+  result_.vertices.push_back(position);
+  if (!result_.colors.empty()) {
+    result_.colors.resize(result_.vertices.size(), {1, 1, 1});
+  }
+  if (result_.vertices.size() >= none) {
+    throw core::RoomError("there are more than " + grouped(none - 1) + " vertices; divide the file");
+  }
+}
+
+/// Of the vertex that is read.
+void Parser::color(const Vec3d& color) {
+  const auto clamped = [](double channel) { return std::clamp(channel, 0.0, 1.0); };
+  const Vec3d shown{clamped(color.x), clamped(color.y), clamped(color.z)};
+  if (!(shown == color)) {
+    tally_.add(strange_colors);
+  }
+  result_.colors.resize(result_.vertices.size(), {1, 1, 1});
+  result_.colors.push_back(shown);
+}
+
+/// "u", "u v" or "u v w", of which w is of no use for a picture.
+void Parser::place(LineWords& words) {
+  std::array<double, 2> place{words.number(), 0};
+  if (words.has_next()) {
+    place[1] = words.number();
+  }
+  if (words.has_next()) {
+    words.number();
+    words.expect_end();
+  }
+  for (const double coordinate : place) {
+    if (!(std::abs(coordinate) < coordinate_bound)) {
+      words.refuse("a texture coordinate is beyond 1e30; correct the file");
+    }
+  }
+  result_.places.push_back(place);
+}
+
+void Parser::normal(LineWords& words) {
+  result_.normals.push_back(coordinates(words));
+  words.expect_end();
+}
+
+void Parser::face(LineWords& words) {
+  face_.clear();
+  const Counts so_far = counts();
+  for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+    face_.push_back(corner_reader_.read(word, words, so_far));
+    if (face_.size() > std::size_t{polygon_vertices_max}) {
+      words.refuse("the face has too many corners, more than " + grouped(polygon_vertices_max) + "; divide it");
+    }
+  }
+  if (face_.size() < 3) {
+    return tally_.add(face_.empty() ? "faces without a corner left out" : thin);
+  }
+  add_face(words);
+}
+
+void Parser::add_face(const LineWords& words) {
+  size_ += size_of_face(face_.size());
+  check_size(size_);
+  start_run();
+  Faces& faces = result_.faces;
+  add_named(Named::place, faces.places, words);
+  add_named(Named::normal, faces.normals, words);
+  for (const Corner& corner : face_) {
+    faces.vertices.push_back(corner[0]);
+  }
+  if (group_ != 0) {
+    faces.groups.resize(faces.ends.size());
+  }
+  if (group_ != 0 || !faces.groups.empty()) {
+    faces.groups.push_back(group_);
+  }
+  faces.ends.push_back(static_cast<std::uint32_t>(faces.vertices.size()));
+}
+
+void Parser::add_named(Named what, std::vector<std::uint32_t>& list, const LineWords& words) {
+  const auto kind = static_cast<std::size_t>(what);
+  const auto has_one = [kind](const Corner& corner) { return corner[kind] != none; };
+  const bool has_any = std::any_of(face_.begin(), face_.end(), has_one);
+  if (has_any && !std::all_of(face_.begin(), face_.end(), has_one)) {
+    words.refuse(std::string("the face has a ") + (what == Named::place ? "texture coordinate" : "normal") +
+                 " at some corners and none at others; expected it at all or at none");
+  }
+  if (!has_any && list.empty()) {
+    return;
+  }
+  list.resize(result_.faces.vertices.size(), none);
+  for (const Corner& corner : face_) {
+    list.push_back(corner[kind]);
+  }
+}
+
+/// Where the material is another than before.
+void Parser::start_run() {
+  const auto face = static_cast<std::uint32_t>(result_.faces.ends.size());
+  if (result_.runs.empty() || result_.runs.back().name != material_) {
+    result_.runs.push_back({face, material_});
+  }
+}
+
+void Parser::smoothing(LineWords& words) {
+  LineWords ahead = words;
+  if (ahead.next() == "off") {
+    words = ahead;
+    group_ = 0;
+  } else {
+    const std::int64_t group = words.integer();
+    if (group < 0 || group > std::numeric_limits<std::int32_t>::max()) {
+      words.refuse("expected a smoothing group, 0 or more, or 'off', found " + std::to_string(group));
+    }
+    group_ = static_cast<std::uint32_t>(group);
+  }
+  words.expect_end();
+}
+
+void Parser::material(const LineWords& words) {
+  const auto [known, is_new] =
+      names_.try_emplace(std::string(words.rest()), static_cast<std::uint32_t>(result_.material_names.size()));
+  if (is_new) {
+    result_.material_names.push_back(known->first);
+  }
+  material_ = known->second;
+}
+
+void Parser::library(const LineWords& words) {
+  const std::string_view names = words.rest();
+  if (without_remark(names).empty()) {
+    words.refuse("expected the name of a file of materials, found the end of the line");
+  }
+  if (!libraries_.insert(std::string(names)).second) {
+    return;
+  }
+  if (libraries_.size() > libraries_max) {
+    words.refuse("more than " + grouped(libraries_max) + " files of materials are named; join them");
+  }
+  result_.libraries.emplace_back(names);
+}
+
+void Parser::other(std::string_view keyword, const LineWords& words) {
+  const auto known =
+      std::find_if(left_out.begin(), left_out.end(), [keyword](const LeftOut& one) { return one.statement == keyword; });
+  if (known != left_out.end()) {
+    if (known->words != nullptr) {
+      tally_.add(known->words);
+    }
+  } else if (unknown_.count++ == 0) {
+    unknown_.first = "'" + clipped(keyword, 60) + "' in line " + std::to_string(words.line_number());
+  }
+}
+
+}  // namespace
+
+Geometry parse_obj(std::string_view file, const std::function<void(float)>& passed) { return Parser().read(file, passed); }
+
+}  // namespace dmpc::apps::obj

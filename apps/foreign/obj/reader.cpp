@@ -1,0 +1,47 @@
+#include "apps/foreign/obj/reader.h"
+
+#include <iterator>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/foreign/obj/libraries.h"
+#include "apps/foreign/obj/materials.h"
+#include "apps/foreign/obj/meshes.h"
+#include "apps/foreign/obj/parser.h"
+
+namespace dmpc::apps {
+namespace {
+
+obj::Geometry read_geometry(const std::string& path, SceneFiles& files) {
+  const std::unique_ptr<FileBytes> file = files.open(path);
+  const std::string_view text(reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size());
+  return obj::parse_obj(text, [&files](float share) { files.show_progress(share); });
+}
+
+void append(std::vector<std::string> more, std::vector<std::string>& all) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+}  // namespace
+
+PolygonFile read_obj(const std::string& path, SceneFiles& files) {
+  PolygonFile result;
+  obj::Geometry geometry = read_geometry(path, files);
+  obj::Libraries libraries(geometry.material_names, path, files);
+  for (const std::string& names : geometry.libraries) {
+    libraries.read(names);
+  }
+  obj::Materials materials = obj::materials_of(geometry, libraries);
+  result.notes = std::move(geometry.notes);
+  append(std::move(libraries.notes), result.notes);
+  libraries.note_repeated(result.notes);
+  append(std::move(materials.notes), result.notes);
+  result.materials = std::move(materials.list);
+  result.missing = std::move(libraries.missing);
+  result.meshes = obj::meshes_of(std::move(geometry), materials.of_runs, materials.uses);
+  return result;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,48 @@
+// What of a text is not followed, by kinds.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/edge/line/number_text.h"
+
+namespace dmpc::apps::obj {
+
+/// Few kinds, each counted.
+class Tally {
+ public:
+  void add(const std::string& kind) {
+    for (auto& [known, count] : counts_) {
+      if (known == kind) {
+        ++count;
+        return;
+      }
+    }
+    counts_.emplace_back(kind, 1);
+  }
+  /// Appends "KIND: COUNT" for each, in the order in which they were met.
+  void note(std::vector<std::string>& notes) const {
+    for (const auto& [kind, count] : counts_) {
+      notes.push_back(kind + ": " + grouped(count));
+    }
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::uint64_t>> counts_;
+};
+
+/// LineWords that no specification knows.
+struct UnknownWords {
+  std::uint64_t count = 0;
+  std::string first;  ///< "'foo' in line 3"
+
+  void note(const std::string& what, std::vector<std::string>& notes) const {
+    if (count > 0) {
+      notes.push_back(what + ": " + grouped(count) + (count == 1 ? ", " : ", the first ") + first);
+    }
+  }
+};
+
+}  // namespace dmpc::apps::obj
