@@ -28,7 +28,8 @@ class Losses {
  private:
   std::set<std::string> textures_;
   std::map<std::string, std::uint64_t> options_;
-  std::uint64_t emissive_ = 0, light_textures_ = 0, coated_ = 0, filtered_ = 0, other_colors_ = 0, contradictory_ = 0, beyond_ = 0;
+  std::uint64_t emissive_ = 0, light_textures_ = 0, coated_ = 0, filtered_ = 0, other_colors_ = 0, contradictory_ = 0,
+                beyond_ = 0;
 };
 
 bool is_beyond_unit(const Vec3d& v) { return std::min({v.x, v.y, v.z}) < 0 || std::max({v.x, v.y, v.z}) > 1; }

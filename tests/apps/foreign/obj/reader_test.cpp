@@ -157,9 +157,12 @@ TEST_CASE("what of materials is not shown is said once a kind, of those alone th
   const std::string paint =
       "newmtl red\nKd 2 0 0\nKe 1 1 1\nPc 1\nd 0.5\nTr 0.4\nTf 1 0 0\nKs xyz 1 1 1\nmap_Ks a.png\nbump b.png\n"
       "newmtl lamp\nKe 0.5 2 -1\nnewmtl screen\nKe 1 1 1\nmap_Ke c.png\n";
-  const MeshFile file = read("mtllib a.mtl\n" + square + "usemtl red\n" + face + "usemtl lamp\n" + face + "usemtl screen\n" + face, paint + "newmtl other\nKe 1 1 1\n");
+  const MeshFile file =
+      read("mtllib a.mtl\n" + square + "usemtl red\n" + face + "usemtl lamp\n" + face + "usemtl screen\n" + face,
+           paint + "newmtl other\nKe 1 1 1\n");
   for (const char* note :
-       {"textures not used, since they are not of a surface's colour: 3", "materials that shine by themselves, and light nothing else: 2",
+       {"textures not used, since they are not of a surface's colour: 3",
+        "materials that shine by themselves, and light nothing else: 2",
         "materials whose own light is a texture's, shown without it: 1", "materials with a clear coat, shown without it: 1",
         "materials that colour what shines through them (Tf), shown without that: 1",
         "materials with colours by spectral curves or CIE XYZ, which are not followed: 1",
