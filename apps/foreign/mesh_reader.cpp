@@ -166,6 +166,9 @@ void judge(const GeometryWriter& writer, std::vector<std::string>& notes) {
   if (writer.unplaced() > 0) {
     notes.push_back("meshes whose texture is not shown, since no corner has a place on it: " + grouped(writer.unplaced()));
   }
+  if (writer.unseen() > 0) {
+    notes.push_back("meshes that let all light through, so that nothing of them is seen: " + grouped(writer.unseen()));
+  }
   if (writer.meshes_without_colors() > 0) {
     notes.push_back("meshes whose vertex colours are not used, since there is a texture: " +
                     grouped(writer.meshes_without_colors()));

@@ -97,14 +97,14 @@ void cover(MaterialRecord& material, float share) {
 }
 
 /// What alpha leaves of a surface with this finish. The weights of a look-up add up to 1 but for rounding, for the sake of which
-/// no ray is sent.
+/// no ray is sent, and no texel of just the cutoff is cut away.
 float share_left(const FinishRecord& finish, float alpha) {
   constexpr float rounding = 0x1p-16F;
   const float share = alpha > 1.0F - rounding ? 1.0F : alpha < rounding ? 0.0F : alpha;
   if (finish.alpha_cutoff == 0) {
     return share;
   }
-  return share * float{FinishRecord::share_max} < static_cast<float>(finish.alpha_cutoff) ? 0.0F : 1.0F;
+  return share * float{FinishRecord::share_max} < static_cast<float>(finish.alpha_cutoff) - 0.5F ? 0.0F : 1.0F;
 }
 
 /// Highlight and mirror, the surface's own colour being that of the material.
@@ -294,7 +294,7 @@ void Shader::read_finish(HitState& state, const std::byte* record) const {
   MaterialRecord& material = state.surface.material;
   const float share = share_left(finish, state.coverage());
   state.set_gloss(gloss_of(material, finish));
-  material.refraction_index = finish.refraction_index;
+  material.refraction_index = share > 0.0F ? finish.refraction_index : 1.0F;  // a hole bends nothing
   if (share < 1.0F) {
     cover(material, share);
   }

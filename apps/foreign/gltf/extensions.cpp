@@ -64,11 +64,6 @@ std::vector<std::string> names_in(const Document& document, const std::string& k
   return names;
 }
 
-bool is_blended_by_texture(const Part& material) {
-  const auto base = material.find("pbrMetallicRoughness");
-  return material.text("alphaMode", "") == "BLEND" && base && base->find("baseColorTexture");
-}
-
 void note(const std::string& what, std::uint64_t count, std::vector<std::string>& notes) {
   if (count > 0 && !what.empty()) {
     notes.push_back(what + ": " + grouped(count));
@@ -87,14 +82,11 @@ void check_required(const Document& document) {
 
 void note_extensions(const Document& document, std::vector<std::string>& notes) {
   std::map<std::string, std::uint64_t> counts;
-  std::uint64_t blended = 0;
   for (const Part& material : document.root().list("materials")) {
-    blended += is_blended_by_texture(material) ? 1 : 0;
     for (const auto& [name, what] : materials) {
       counts[name] += material.extension(name) ? 1 : 0;
     }
   }
-  note("materials blended by the alpha of their texture, shown without it", blended, notes);
   for (const auto& [name, what] : materials) {
     note(what, counts[name], notes);
   }

@@ -75,6 +75,11 @@ void check_faces(const FaceList& faces, const std::string& name) {
   }
 }
 
+bool shows_nothing(const core::Material& material) {
+  return material.transmittance >= 1 && material.diffuse <= 0 && material.specular <= 0 && material.tinted_specular <= 0 &&
+         material.emission == Vec3d{} && !(material.refraction_index > 1);
+}
+
 }  // namespace
 
 GeometrySize size_of_face(std::uint64_t corners) { return corners < 3 ? GeometrySize{} : GeometrySize{corners - 2, 1, corners}; }
@@ -117,6 +122,7 @@ void GeometryWriter::add(PolygonMesh mesh, core::Material material) {
     material.alpha_cutoff = 0;
   }
   hides_colors_ = false;
+  unseen_ += shows_nothing(material) ? 1 : 0;
   builder_.material(material);
   std::size_t first = 0;
   for (const std::uint32_t end : mesh.faces.ends) {

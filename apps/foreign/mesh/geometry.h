@@ -45,6 +45,8 @@ class GeometryWriter {
   bool has_area() const { return has_area_; }
   /// How many meshes had a material with a texture, and no corner of theirs a place on it.
   std::uint64_t unplaced() const { return unplaced_; }
+  /// Meshes whose material lets all light through as it comes, and so shows nothing.
+  std::uint64_t unseen() const { return unseen_; }
   /// Meshes some of whose faces show a texture, and not the colours that their corners have, too.
   std::uint64_t meshes_without_colors() const { return meshes_without_colors_; }
 
@@ -58,7 +60,7 @@ class GeometryWriter {
   core::SceneBuilder& builder_;
   std::optional<double> smooth_degrees_;
   bool has_area_ = false, hides_colors_ = false;
-  std::uint64_t unplaced_ = 0, meshes_without_colors_ = 0;
+  std::uint64_t unplaced_ = 0, unseen_ = 0, meshes_without_colors_ = 0;
   std::set<std::array<double, 3>> face_colors_;  ///< of faces of one colour
   std::vector<core::Vec3d> face_vertices_, face_normals_;
   std::vector<core::TexturedCorner> face_corners_;

@@ -2,6 +2,7 @@
 
 #include <assimp/GltfMaterial.h>
 
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -32,6 +33,15 @@ void keep_words_of_x3d(aiMaterial& material) {
   }
 }
 
+/// Assimp gives AMF without colours black ones that nobody sees through.
+void drop_empty_colors(aiMesh& mesh) {
+  const auto is_nothing = [](const aiColor4D& color) { return color == aiColor4D(0, 0, 0, 0); };
+  if (mesh.mColors[0] != nullptr && std::all_of(mesh.mColors[0], mesh.mColors[0] + mesh.mNumVertices, is_nothing)) {
+    delete[] mesh.mColors[0];
+    mesh.mColors[0] = nullptr;
+  }
+}
+
 }  // namespace
 
 void take_back_invented(aiScene& scene, const std::string& ending) {
@@ -40,6 +50,11 @@ void take_back_invented(aiScene& scene, const std::string& ending) {
       keep_words_of_fbx(*material);
     } else if (ending == "x3d") {
       keep_words_of_x3d(*material);
+    }
+  }
+  if (ending == "amf") {
+    for (aiMesh* const mesh : std::span(scene.mMeshes, scene.mNumMeshes)) {
+      drop_empty_colors(*mesh);
     }
   }
 }

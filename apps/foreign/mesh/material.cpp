@@ -40,8 +40,6 @@ std::optional<Vec3d> color(const aiMaterial& source, const Key& key) {
   return Vec3d{clamped(value.r), clamped(value.g), clamped(value.b)};
 }
 
-constexpr double light_max = 1e12;
-
 /// Of light, which may be brighter than white.
 Vec3d light(const aiMaterial& source, const Key& key) {
   aiColor3D value;
@@ -135,7 +133,9 @@ void list_textures(const aiMaterial& source, std::set<std::string>& names) {
 
 bool is_emissive(const aiMaterial& source) { return !(emission(source) == Vec3d{}); }
 
-bool has_emissive_texture(const aiMaterial& source) { return source.GetTextureCount(aiTextureType_EMISSIVE) > 0; }
+bool has_emissive_texture(const aiMaterial& source) {
+  return source.GetTextureCount(aiTextureType_EMISSIVE) > 0 && !(light(source, {AI_MATKEY_COLOR_EMISSIVE}) == Vec3d{});
+}
 
 bool has_moved_texture(const aiMaterial& source) {
   const auto is_moved = [&](aiTextureType type) {

@@ -31,7 +31,8 @@ void cover(Material& material, double opacity) {
 void set_specular(Material& material, const Vec3d& color) {
   const bool is_grey = color.x == color.y && color.y == color.z;
   material.specular = is_grey ? mean(color) : largest_component(color);
-  material.specular_color = is_grey ? Vec3d{1, 1, 1} : color * (1 / material.specular);
+  material.specular_color =
+      is_grey ? Vec3d{1, 1, 1} : Vec3d{color.x / material.specular, color.y / material.specular, color.z / material.specular};
 }
 
 }  // namespace

@@ -8,6 +8,9 @@
 
 namespace dmpc::apps {
 
+/// The brightest light that a surface shines with by itself; more is as much.
+inline constexpr double light_max = 1e12;
+
 /// Phong's, as MTL has it. Colours are linear, in 0 to 1 but for emission.
 struct PhongSurface {
   core::Vec3d diffuse, specular, emission;  ///< Kd, Ks, Ke

@@ -83,6 +83,7 @@ class Resolver {
 
  private:
   std::uint32_t add(const MtlMaterial& source);
+  MtlMaterial colored(MtlMaterial material) const;
   std::uint32_t index_of(std::uint32_t name);
   /// Leaves textures out that lie on no face.
   void judge_textures();
@@ -95,8 +96,16 @@ class Resolver {
   std::vector<std::string> unknown_;
 };
 
+/// What names no colour is white below colours of vertices.
+MtlMaterial Resolver::colored(MtlMaterial material) const {
+  if (!material.diffuse && !geometry_.colors.empty()) {
+    material.diffuse = Vec3d{1, 1, 1};
+  }
+  return material;
+}
+
 std::uint32_t Resolver::add(const MtlMaterial& source) {
-  FileMaterial material{.material = shown_material(source), .texture = std::nullopt};
+  FileMaterial material{.material = shown_material(colored(source)), .texture = std::nullopt};
   MaterialUse use{.name = source.name.empty() ? "what has no material" : "what has material '" + clipped(source.name, 60) + "'",
                   .texture = std::nullopt};
   if (source.texture) {

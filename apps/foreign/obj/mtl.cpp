@@ -22,6 +22,9 @@ using core::Vec3d;
 double in_unit(double value) { return std::clamp(value, 0.0, 1.0); }
 Vec3d in_unit(const Vec3d& v) { return {in_unit(v.x), in_unit(v.y), in_unit(v.z)}; }
 
+/// More than any file's name has.
+constexpr std::size_t name_bytes_max = 4096;
+
 /// Those that a picture of ours does not need, or cannot show beside the ones that are read.
 constexpr std::array<std::string_view, 8> passed_over{"ka",    "sharpness", "ps",      "pcr",
                                                       "aniso", "anisor",    "map_aat", "ke_intensity"};
@@ -168,6 +171,10 @@ bool MtlParser::number_statement(const std::string& keyword, LineWords& words) {
 
 void MtlParser::texture(const std::string& keyword, const LineWords& words) {
   TextureWords said = texture_words(words.rest());
+  if (said.name.size() > name_bytes_max) {
+    words.refuse("the name of a texture has " + grouped(said.name.size()) + " bytes, and no file's has more than " +
+                 grouped(name_bytes_max));
+  }
   if (keyword != "map_kd") {
     if (!said.name.empty()) {
       material_->other_textures.insert(said.name);
@@ -192,8 +199,9 @@ bool contradicts_itself(const MtlMaterial& material) {
 }
 
 Vec3d emission_of(const MtlMaterial& material) {
+  const auto clamped = [](double channel) { return std::clamp(channel, 0.0, light_max); };
   const Vec3d& light = material.emission;
-  return material.has_light_texture ? Vec3d{} : Vec3d{std::max(light.x, 0.0), std::max(light.y, 0.0), std::max(light.z, 0.0)};
+  return material.has_light_texture ? Vec3d{} : Vec3d{clamped(light.x), clamped(light.y), clamped(light.z)};
 }
 
 core::Material shown_material(const MtlMaterial& material) {

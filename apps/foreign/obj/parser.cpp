@@ -13,11 +13,13 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/obj/corner.h"
+#include "apps/foreign/obj/small_letters.h"
 #include "apps/foreign/obj/tally.h"
 #include "apps/foreign/text/line_words.h"
 #include "apps/foreign/text/text_lines.h"
 #include "apps/formats/nff_reader.h"
 #include "core/base/expect.h"
+#include "core/base/srgb.h"
 
 namespace dmpc::apps::obj {
 namespace {
@@ -188,7 +190,8 @@ void Parser::color(const Vec3d& color) {
     tally_.add(strange_colors);
   }
   result_.colors.resize(result_.vertices.size(), {1, 1, 1});
-  result_.colors.push_back(shown);
+  const auto linear = [](double channel) { return core::linear_from_srgb(channel); };
+  result_.colors.push_back({linear(shown.x), linear(shown.y), linear(shown.z)});
 }
 
 /// "u", "u v" or "u v w", of which w is of no use for a picture.
@@ -273,15 +276,17 @@ void Parser::start_run() {
   }
 }
 
+/// A group is any number of 32 bits, as some write them as sets of bits.
 void Parser::smoothing(LineWords& words) {
   LineWords ahead = words;
-  if (ahead.next() == "off") {
+  const std::string word = in_small_letters(ahead.next());
+  if (word.empty() || word == "off" || word == "on") {
     words = ahead;
-    group_ = 0;
+    group_ = word == "on" ? 1 : 0;
   } else {
     const std::int64_t group = words.integer();
-    if (group < 0 || group > std::numeric_limits<std::int32_t>::max()) {
-      words.refuse("expected a smoothing group, 0 or more, or 'off', found " + std::to_string(group));
+    if (group < std::numeric_limits<std::int32_t>::min() || group > std::numeric_limits<std::uint32_t>::max()) {
+      words.refuse("expected a smoothing group, a number of 32 bits, or 'off', found " + std::to_string(group));
     }
     group_ = static_cast<std::uint32_t>(group);
   }

@@ -19,10 +19,11 @@ bool begins_with_solid(std::string_view text) {
          std::equal(solid.begin(), solid.end(), text.begin(), [](char a, unsigned char b) { return a == std::tolower(b); });
 }
 
+/// Without bytes that text has not, but behind its end.
 bool is_text(std::string_view file) {
-  constexpr std::size_t looked_through = 1000;
-  return begins_with_solid(without_mark(file)) && file.substr(0, looked_through).find('\0') == std::string_view::npos &&
-         !is_whole_stl_binary(file);
+  const std::string_view text = file.substr(0, file.find('\0'));
+  const bool is_whole = text.size() == file.size() || text.find("endsolid") != std::string_view::npos;
+  return begins_with_solid(without_mark(file)) && is_whole && !is_whole_stl_binary(file);
 }
 
 }  // namespace

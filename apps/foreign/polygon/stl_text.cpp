@@ -41,6 +41,10 @@ class StlTextReader {
 PolygonFile StlTextReader::read() {
   PolygonFile file{.materials = {{plain_material(), {}}}};
   for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
+    if (solids_ > 0 && !is_same(word, "solid")) {
+      file.notes.emplace_back("what follows the last solid is left out");
+      break;
+    }
     expect(word, "solid");
     read_solid(file);
   }

@@ -269,11 +269,14 @@ TEST_CASE("where pictures have taken the time of all, further ones are not begun
 TEST_CASE("questions about files are on the scene's budget, however many there are") {
   const TemporaryFolder folder;
   const std::string scene = write_textured_triangle(folder, "");
-  std::string libraries;
+  std::string materials, faces;
   for (int i = 0; i < 60'000; ++i) {
-    libraries += "mtllib nowhere" + std::to_string(i) + ".mtl\n";
+    const std::string name = std::to_string(i);
+    materials += "newmtl m" + name + "\nmap_Kd nowhere" + name + ".png\n";
+    faces += "usemtl m" + name + "\nf 1/1 2/2 3/3\n";
   }
-  write_text(scene, libraries + file_text(scene));
+  write_text(folder / "a.mtl", materials);
+  write_text(scene, file_text(scene) + faces);
   const apps::ReaderLimits limits{.seconds = 1, .bytes_a_second = std::uint64_t{1} << 40U, .wall_factor = 1000};
   CHECK(says(complaint_of([&] { read_mesh_file(scene, {}, false, limits); }),
              "the reader of OBJ files took more than 1 second of processor time"));
@@ -393,7 +396,7 @@ TEST_CASE("a texture without a name and one with an endless one are said") {
   const auto is_said = [](const std::string& note) { return note.find("map_Kd names no file in line 3 and 1 others") < 400; };
   CHECK(std::count_if(file.notes.begin(), file.notes.end(), is_said) == 1);
   const std::string text = mesh_complaint(write_textured_triangle(folder, std::string(200'000, 'x')));
-  CHECK(says(text, "a.mtl names a texture in 200000 bytes in line 3"));
+  CHECK(says(text, "a.mtl: line 3: the name of a texture has 200,000 bytes"));
   CHECK(text.size() < 1000);
 }
 
@@ -412,21 +415,23 @@ TEST_CASE("a reader that never ends is ended, and its file named") {
 
 TEST_CASE("a reader's crash is an error of the file, which is named") {
   const TemporaryFolder folder;
-  write_textured_triangle(folder, "");
-  write_text(folder / "a.mtl", "Ns 10\nmap_Kd -s 1 1 1 -o 0 0 a\nd 0.5\nillum 2\n");  // of no material
-  const std::string text = mesh_complaint(folder / "a.obj");
-  CHECK(says(text, "a.obj: "));
+  std::string frames = "xof 0303txt 0032\n";  // Assimp goes down into one after the other, until its stack ends
+  for (int i = 0; i < 100'000; ++i) {
+    frames += "Frame {\n";
+  }
+  write_text(folder / "a.x", frames);
+  const std::string text = mesh_complaint(folder / "a.x");
+  CHECK(says(text, "a.x: "));
 #if defined(__SANITIZE_ADDRESS__)  // which makes an exit of a crash
-  CHECK(says(text, "the reader of OBJ files ended with status 1"));
+  CHECK(says(text, "the reader of X files ended with status 1"));
 #else
-  CHECK(says(text, "the reader of OBJ files crashed (signal 11"));
+  CHECK(says(text, "the reader of X files crashed (signal 11"));
 #endif
-  CHECK(says(text, "a.mtl"));
 }
 
 TEST_CASE("a file is read as what its ending says, and by no reader of other files") {
   const TemporaryFolder folder;
-  for (const std::string name : {"a.gltf", "a.obj", "a.stl", "a.off"}) {
+  for (const std::string name : {"a.gltf", "a.x", "a.ac", "a.3ds"}) {
     for (const std::string beginning : {"IDPO", "IDP2", "MDL7", "MDL5"}) {
       CAPTURE(beginning);
       write_text(folder / name, beginning + std::string(400, '\1'));

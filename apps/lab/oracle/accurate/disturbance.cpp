@@ -61,6 +61,11 @@ void Disturbance::touch(const AccurateRay& ray, const AccurateBody& body, Accura
   if (body.kind != core::PrimitiveKind::sphere) {
     surface.normal = normalize(surface.normal + random_vector() * (rounding * unit_ / height_of(body)));
   }
+  if (body.kind == core::PrimitiveKind::triangle) {
+    for (double& weight : surface.weight) {
+      weight += rounding * unit_ / height_of(body) * random();
+    }
+  }
   normal_ = surface.normal;
   t_ = t;
   size_ = unit_ + std::fabs(body.radius[0]) + std::fabs(body.radius[1]);

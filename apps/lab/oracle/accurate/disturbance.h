@@ -21,7 +21,8 @@ inline constexpr double float_rounding = 0x1p-24;
 ///   a surface         u L against the ray, 2^-32 L if it is curved, which moves the hit the farther the more they graze each
 ///                     other; the radius is rounded likewise, which is as much along the ray, and point, normal and weights
 ///                     follow
-///   a triangle        its corners are rounded by u L, which turns it by that over its height; a cone's ends by 2^-32 L
+///   a triangle        its corners are rounded by u L, which turns it by that over its height, and changes a point's weights of
+///                     the corners, and so their colours and alpha, by as much; a cone's ends by 2^-32 L
 ///   a texture         the level of detail and the length of a line of probes by some 2^-16, in which the product counts shares
 class Disturbance final : public RayWatcher {
  public:

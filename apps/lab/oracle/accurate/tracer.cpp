@@ -159,6 +159,12 @@ AccurateTexel AccurateTracer::paint_of(const Touch& touch) const {
              : AccurateTexel{sum.light * (sum.alpha > 0 ? 1 / sum.alpha : 0), sum.alpha};
 }
 
+/// The file's cutoff, like its texels' alpha, is a number of few digits: what lies within half a 65,535th of it is there.
+bool is_cut_away(double alpha, const core::Material& material) {
+  constexpr double steps = 65535;
+  return alpha * steps < std::max(1.0, std::floor(material.alpha_cutoff * steps + 0.5)) - 0.5;
+}
+
 /// What the surface does with light there, as far as alpha leaves any of it.
 void AccurateTracer::finish(Touch& touch) const {
   const core::Material& material = touch.material;
@@ -166,13 +172,14 @@ void AccurateTracer::finish(Touch& touch) const {
   const double alpha = paint.alpha > 1 - alpha_rounding ? 1 : paint.alpha < alpha_rounding ? 0 : paint.alpha;
   const double there = material.alpha == core::AlphaUse::none    ? 1
                        : material.alpha == core::AlphaUse::blend ? alpha
-                       : alpha < material.alpha_cutoff           ? 0
+                       : is_cut_away(alpha, material)            ? 0
                                                                  : 1;
   touch.color = material.color * paint.light;
   touch.diffuse = material.diffuse * there;
   touch.specular = (material.specular_color * material.specular + touch.color * material.tinted_specular) * there;
   touch.transmittance = material.transmittance * there + (1 - there);
   touch.emission = material.emission * there;
+  touch.index = there > 0 ? touch.index : 1;
 }
 
 AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayKind kind) const {

@@ -74,8 +74,9 @@ TEST_CASE("parts are told as people read them, without those that are nothing") 
   CHECK(parts_text(computing_and_lent(7, 0), waits) == "computing 100.0 %");
   CHECK(parts_text(TimeParts(), waits) == "computing 100.0 %");
   CHECK(parts_text(parts_of(powers(), waits), waits) ==
-        "computing 0.0 %, page wait 1.6 %, work wait 9.4 %, other waits 25.0 %, stolen 0.4 %, lent 0.8 %, messages 0.3 %, "
-        "idle at the end 62.5 %");
+        "computing 0.0 %, page wait 0.2 %, work wait 1.2 %, token wait 6.2 %, credit wait 12.5 %, film wait 25.0 %, other waits "
+        "3.2 %, "
+        "stolen 0.0 %, lent 0.1 %, messages 0.0 %, idle at the end 51.6 %");
 }
 
 TEST_CASE("the figures of a line add up although they are rounded") {

@@ -34,6 +34,20 @@ core::Material material_of_fbx(const std::string& model) {
 
 }  // namespace
 
+TEST_CASE("AMF without colours is grey, not black") {
+  const TemporaryFolder folder;
+  std::string corners;
+  for (const char* place : {"<x>0</x><y>0</y><z>0</z>", "<x>1</x><y>0</y><z>0</z>", "<x>0</x><y>1</y><z>0</z>"}) {
+    corners += std::string("<vertex><coordinates>") + place + "</coordinates></vertex>";
+  }
+  write_text(folder / "a.amf",
+             "<?xml version=\"1.0\"?><amf><object id=\"0\"><mesh><vertices>" + corners +
+                 "</vertices><volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object>"
+                 "</amf>");
+  const core::Scene scene = apps::read_mesh_file(folder / "a.amf").scene;
+  CHECK(scene.materials.at(scene.objects.at(0).material).color == core::Vec3d{0.6, 0.6, 0.6});
+}
+
 TEST_CASE("an FBX material mirrors by its own words alone: Phong's exponent is no roughness, and Lambert has no highlight") {
   CHECK(material_of_fbx("phong").color == core::Vec3d{1, 0, 0});
   CHECK(material_of_fbx("phong").shine == 20);

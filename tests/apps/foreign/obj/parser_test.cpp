@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "core/base/srgb.h"
 
 namespace dmpc::apps::obj::parser_test {
 
@@ -44,7 +45,8 @@ TEST_CASE("a vertex has three coordinates as doubles, a weight by which they are
   CHECK(parse("v 2 4 6 2").vertices == std::vector<Vec3d>{{1, 2, 3}});
   CHECK(parse("v 2 4 6 1").colors.empty());
   const Geometry colored = parse("v 0 0 0\nv 1 2 3 0.5 0.25 1\nv 0 0 0");
-  CHECK(colored.colors == std::vector<Vec3d>{{1, 1, 1}, {0.5, 0.25, 1}, {1, 1, 1}});
+  CHECK(colored.colors ==
+        std::vector<Vec3d>{{1, 1, 1}, {core::linear_from_srgb(0.5), core::linear_from_srgb(0.25), 1}, {1, 1, 1}});
   CHECK(notes("v 0 0 0 255 0 -1", "vertices whose colour lies outside 0 to 1, brought into it: 1"));
   CHECK(refusal("v 1 2") == "line 1: expected a number, found the end of the line");
   CHECK(refusal("v 1 2 3 4 5") == "line 1: expected a number, found the end of the line");
@@ -115,7 +117,9 @@ TEST_CASE("a material holds from its name on, and a smoothing group from its num
   CHECK(geometry.faces.groups == Indices{0, 2, 2, 0});
   CHECK(parse(three + "s 0\nf 1 2 3\n").faces.groups.empty());
   CHECK(refusal("s on") == "line 1: expected a whole number, found 'on'");
-  CHECK(refusal("s -1") == "line 1: expected a smoothing group, 0 or more, or 'off', found -1");
+  CHECK(parse(three + "s on\nf 1 2 3\ns OFF\nf 1 2 3\ns -2147483648\nf 1 2 3\ns\nf 1 2 3\n").faces.groups ==
+        Indices{1, 0, 0x80000000U, 0});
+  CHECK(refusal("s 4294967296") == "line 1: expected a smoothing group, a number of 32 bits, or 'off', found 4294967296");
 }
 
 TEST_CASE("files of materials are kept as they are named, once each, and not too many") {

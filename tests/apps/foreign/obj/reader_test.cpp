@@ -62,6 +62,20 @@ bool notes(const MeshFile& file, const std::string& note) {
 
 }  // namespace
 
+TEST_CASE("what names no colour is white below colours of vertices, which are a screen's") {
+  const std::string colored = "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n";
+  CHECK(color_of(read(colored)) == Vec3d{1, 0, 0});
+  CHECK(color_of(read("mtllib a.mtl\nusemtl dull\n" + colored, "newmtl dull\nNs 10\n")) == Vec3d{1, 0, 0});
+  CHECK(color_of(read("mtllib a.mtl\nusemtl blue\n" + colored, "newmtl blue\nKd 0.5 0 1\n")) == Vec3d{0.5, 0, 0});
+}
+
+TEST_CASE("a surface that lets all light through is said, since nothing of it is seen") {
+  const std::string text = "mtllib a.mtl\n" + square + "usemtl glass\n" + face;
+  CHECK(notes(read(text, "newmtl glass\nd 0\n"), "meshes that let all light through, so that nothing of them is seen: 1"));
+  const MeshFile veil = read(text, "newmtl glass\nd 0.1\n");
+  CHECK(!notes(veil, "meshes that let all light through, so that nothing of them is seen: 1"));
+}
+
 TEST_CASE("faces before any usemtl are grey, whatever the files of materials hold") {
   const MeshFile file = read("mtllib a.mtl\n" + square + face + "usemtl red\n" + face, red_and_blue);
   CHECK(color_of(file, 0) == grey);

@@ -93,6 +93,14 @@ TEST_CASE("bytes behind the last facet of STL are said, and no reason to refuse 
   CHECK(notes(file, "bytes behind the last facet, which are not looked at: 10"));
 }
 
+TEST_CASE("what follows the last solid of STL in text is said, and no reason to refuse the file") {
+  for (const std::string& behind : {std::string(20, '\0'), std::string("\x1a"), std::string("made by hand\n")}) {
+    const MeshFile file = read_mesh("a.stl", tests::triangle_stl + behind);
+    CHECK(file.scene.objects.size() == 1);
+    CHECK(notes(file, "what follows the last solid is left out"));
+  }
+}
+
 TEST_CASE("an STL file that counts no facets has those that follow") {
   std::string text = binary({0, 0});
   text.replace(80, 4, std::string(4, '\0'));

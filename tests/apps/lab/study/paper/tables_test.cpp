@@ -121,7 +121,7 @@ TEST_CASE("caches have their efficiency, faults and traffic beside what they hol
   largest.references = 1'000;
   largest.faults = 77;
   largest.cache_pages = 1800;
-  largest.parts.ns = {60, 30, 0, 0, 10, 0, 0, 0};
+  largest.parts.ns = {60, 30, 0, 0, 0, 0, 0, 10, 0, 0, 0};
   const Table table = caches(catalogue, results);
   REQUIRE(table.rows().size() == 10);
   const std::vector<Cell>& last = table.rows().back();
@@ -155,7 +155,7 @@ TEST_CASE("work items have their seconds and where they go, static first") {
   const Catalogue catalogue = catalogue_of(16);
   PaperResults results(catalogue.runs.size());
   results[catalogue.items[0]] = result_of_seconds(700);
-  results[catalogue.items[0]]->parts.ns = {60, 0, 10, 0, 0, 0, 5, 25};
+  results[catalogue.items[0]]->parts.ns = {60, 0, 10, 0, 0, 0, 0, 0, 0, 5, 25};
   results[catalogue.items[3]] = result_of_seconds(604);
   results[catalogue.items_dealt[3]] = result_of_seconds(650);
   const Table table = work_items(catalogue, results);
