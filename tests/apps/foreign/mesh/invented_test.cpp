@@ -45,7 +45,7 @@ TEST_CASE("AMF without colours is grey, not black") {
                  "</vertices><volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object>"
                  "</amf>");
   const core::Scene scene = apps::read_mesh_file(folder / "a.amf").scene;
-  CHECK(scene.materials.at(scene.objects.at(0).material).color == core::Vec3d{0.6, 0.6, 0.6});
+  CHECK(length(scene.materials.at(scene.objects.at(0).material).color - core::Vec3d{0.6, 0.6, 0.6}) < 1e-6);
 }
 
 TEST_CASE("an FBX material mirrors by its own words alone: Phong's exponent is no roughness, and Lambert has no highlight") {
