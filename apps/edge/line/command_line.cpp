@@ -24,8 +24,13 @@ struct DeclaredCommand {
 
   /// `names`: of an option as the user types them, with commas between; of an argument none.
   OptionDescription& add(const std::string& names, const std::string& value, const std::string& meaning, const Take& take) {
-    std::vector<std::string> all = names.empty() ? std::vector<std::string>() : words_between(names, ',');
-    options.push_back({{.names = std::move(all), .value = value, .text = meaning, .group = group}, take});
+    Option option;  // filled in member by member: where memory ends in a nested list, GCC 12 frees parts of it twice
+    option.take = take;
+    option.described.names = names.empty() ? std::vector<std::string>() : words_between(names, ',');
+    option.described.value = value;
+    option.described.text = meaning;
+    option.described.group = group;
+    options.push_back(std::move(option));
     return options.back().described;
   }
   OptionDescription& add_list(const std::string& names, const std::string& value, const std::string& meaning, const Take& take) {

@@ -38,7 +38,10 @@ Vec3d Disturbance::random_vector() {
 }
 
 void Disturbance::shoot(AccurateRay& ray) {
-  const Vec3d end = ray.origin + ray.direction * ray.t_max + random_vector() * (float_rounding * unit_);
+  const Vec3d shift = random_vector() * (float_rounding * unit_), end = ray.origin + ray.direction * ray.t_max + shift;
+  if (const double cosine = dot(ray.direction, normal_); ray.kind == core::RayKind::shadow && cosine != 0) {
+    ray.weight = ray.weight * (1 + dot(shift, normal_) / (ray.t_max * cosine));
+  }
   ray.origin = ray.origin + random_vector() * (rest_rounding * unit_);
   if (ray.kind != core::RayKind::primary) {
     const double cosine = dot(ray.direction, normal_), gap = clearance * size_ + tie_clearance * t_;

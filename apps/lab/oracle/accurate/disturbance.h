@@ -17,7 +17,7 @@ inline constexpr double float_rounding = 0x1p-24;
 ///                     their way, and off a triangle that they graze across it
 ///   its direction     2^-45; behind glass or off a normal between those of vertices 4 u, as indices of refraction and such
 ///                     normals are rounded
-///   a light           u L
+///   a light           u L, and with it the cosine at which it falls on the surface
 ///   a surface         u L against the ray, 2^-32 L if it is curved, which moves the hit the farther the more they graze each
 ///                     other; the radius is rounded likewise, which is as much along the ray, and point, normal and weights
 ///                     follow
