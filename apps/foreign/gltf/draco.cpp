@@ -2,8 +2,10 @@
 
 #include <draco/compression/decode.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <string>
 
 namespace dmpc::apps::gltf {
 namespace {
@@ -18,7 +20,18 @@ std::unique_ptr<draco::Mesh> unpacked_mesh(const Part& packing, std::span<const 
   return std::move(mesh).value();
 }
 
-Values values_of(const draco::Mesh& mesh, const Part& id, std::size_t wanted) {
+/// Colours and weights are shares, which glTF keeps as numbers of bytes or words; some writers say so to the accessor alone, and
+/// not in the packed bytes (glTF 2.0, 3.7.2.1).
+float whole_of(const draco::PointAttribute& attribute, const std::string& name) {
+  const bool is_share = name.starts_with("COLOR") || name.starts_with("WEIGHTS");
+  if (!is_share || attribute.normalized()) {
+    return 1;
+  }
+  return attribute.data_type() == draco::DT_UINT8 ? 255.0F : attribute.data_type() == draco::DT_UINT16 ? 65535.0F : 1.0F;
+}
+
+/// Each value over `whole_of()` it.
+Values values_of(const draco::Mesh& mesh, const std::string& name, const Part& id, std::size_t wanted) {
   const draco::PointAttribute* const attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id.as_whole()));
   const std::size_t width = attribute == nullptr ? 0 : static_cast<std::size_t>(attribute->num_components());
   if (width != wanted && !(wanted == color_width && width == opaque_color_width)) {
@@ -33,6 +46,9 @@ Values values_of(const draco::Mesh& mesh, const Part& id, std::size_t wanted) {
       id.fail("the packed attribute has a value that cannot be read");
     }
   }
+  const float whole = whole_of(*attribute, name);
+  std::transform(values.numbers.begin(), values.numbers.end(), values.numbers.begin(),
+                 [whole](float value) { return value / whole; });
   return values;
 }
 
@@ -43,7 +59,7 @@ Primitive read_draco(const Part& packing, Buffers& buffers, const std::map<std::
   const auto mesh = unpacked_mesh(packing, view.bytes);
   Primitive result;
   for (const auto& [name, width] : widths) {
-    result.attributes[name] = values_of(*mesh, packing.get("attributes").get(name), width);
+    result.attributes[name] = values_of(*mesh, name, packing.get("attributes").get(name), width);
   }
   for (std::uint32_t face = 0; face < mesh->num_faces(); ++face) {
     for (const draco::PointIndex& corner : mesh->face(draco::FaceIndex(face))) {

@@ -228,33 +228,52 @@ TEST_CASE("sparse, interleaved and offset accessors are the plain ones that they
              plain);
 }
 
-TEST_CASE("a mesh packed by Draco is the mesh that was packed") {
+/// The quad, its vertices red by words that the packed bytes do not call shares of the largest.
+std::string packed_quad() {
   draco::Mesh mesh;
   mesh.set_num_points(4);
   mesh.AddFace({draco::PointIndex(0), draco::PointIndex(1), draco::PointIndex(2)});
   mesh.AddFace({draco::PointIndex(0), draco::PointIndex(2), draco::PointIndex(3)});
-  draco::GeometryAttribute format;
-  format.Init(draco::GeometryAttribute::POSITION, nullptr, 3, draco::DT_FLOAT32, false, 12, 0);
-  const int id = mesh.AddAttribute(format, true, 4);
+  draco::GeometryAttribute place, color;
+  place.Init(draco::GeometryAttribute::POSITION, nullptr, 3, draco::DT_FLOAT32, false, 12, 0);
+  color.Init(draco::GeometryAttribute::COLOR, nullptr, 3, draco::DT_UINT16, false, 6, 0);
+  draco::PointAttribute* const places = mesh.attribute(mesh.AddAttribute(place, true, 4));
+  draco::PointAttribute* const colors = mesh.attribute(mesh.AddAttribute(color, true, 4));
+  constexpr std::array<std::uint16_t, 3> red{65535, 0, 0};
   for (std::uint32_t i = 0; i < 4; ++i) {
-    mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &corners[3 * i]);
+    places->SetAttributeValue(draco::AttributeValueIndex(i), &corners[3 * i]);
+    colors->SetAttributeValue(draco::AttributeValueIndex(i), red.data());
   }
   draco::EncoderBuffer packed;
   draco::Encoder encoder;
   encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);  // keeps the order
   REQUIRE(encoder.EncodeMeshToBuffer(mesh, &packed).ok());
-  const auto document_of = [&](const std::string& bytes) {
-    GltfDocument document;
-    const std::size_t positions = document.accessor("", 5126, 4, "VEC3"), indices = document.accessor("", 5123, 6, "SCALAR");
-    return document.text(R"({"attributes":{"POSITION":)" + std::to_string(positions) + R"(},"indices":)" +
-                             std::to_string(indices) + R"(,"extensions":{"KHR_draco_mesh_compression":{"bufferView":)" +
-                             std::to_string(document.view(bytes)) + R"(,"attributes":{"POSITION":)" +
-                             std::to_string(mesh.attribute(id)->unique_id()) + "}}}}",
-                         R"("extensionsRequired":["KHR_draco_mesh_compression"])");
-  };
-  const std::string bytes(packed.data(), packed.size());
-  check_same(scene_of(document_of(bytes)).scene, scene_of(plain_quad()).scene);
-  CHECK(contains(complaint_about(document_of(bytes.substr(0, bytes.size() / 2))), "Draco cannot unpack it"));
+  return {packed.data(), packed.size()};
+}
+
+/// A document of these packed bytes: places, and colours if asked for.
+std::string draco_document(const std::string& bytes, bool has_colors) {
+  GltfDocument document;
+  const std::size_t positions = document.accessor("", 5126, 4, "VEC3"), indices = document.accessor("", 5123, 6, "SCALAR"),
+                    colors = document.accessor(R"("normalized":true)", 5123, 4, "VEC3");
+  return document.text(R"({"attributes":{"POSITION":)" + std::to_string(positions) +
+                           (has_colors ? R"(,"COLOR_0":)" + std::to_string(colors) : "") + R"(},"indices":)" +
+                           std::to_string(indices) + R"(,"extensions":{"KHR_draco_mesh_compression":{"bufferView":)" +
+                           std::to_string(document.view(bytes)) + R"(,"attributes":{"POSITION":0)" +
+                           (has_colors ? R"(,"COLOR_0":1)" : "") + "}}}}",
+                       R"("extensionsRequired":["KHR_draco_mesh_compression"])");
+}
+
+TEST_CASE("a mesh packed by Draco is the mesh that was packed") {
+  const std::string bytes = packed_quad();
+  check_same(scene_of(draco_document(bytes, false)).scene, scene_of(plain_quad()).scene);
+  CHECK(contains(complaint_about(draco_document(bytes.substr(0, bytes.size() / 2), false)), "Draco cannot unpack it"));
+}
+
+TEST_CASE("colours packed by Draco are shares of the largest number, whether or not the packed bytes say so") {
+  const core::Scene scene = scene_of(draco_document(packed_quad(), true)).scene;
+  CHECK(scene.materials.at(scene.objects.at(0).material).color == core::Vec3d{1, 0, 0});
+  CHECK(scene.objects.at(0).kind == core::ObjectKind::polygon);
 }
 
 TEST_CASE("bytes in letters and percents of an address are those that they stand for") {
