@@ -58,6 +58,7 @@ void note_materials(const std::set<const aiMaterial*>& materials, std::vector<st
   note(notes, "materials whose texture is moved, turned or scaled, shown without that", count(materials, has_moved_texture));
   note(notes, "materials that shine by themselves, and light nothing else", count(materials, is_emissive));
   note(notes, "materials whose own light is a texture's, shown without it", count(materials, has_emissive_texture));
+  note(notes, "materials that colour what shines through them, shown without that", count(materials, colors_what_shines_through));
   note(notes, "materials cut away altogether by their alpha, whose faces are left out", count(materials, is_cut_away));
   note(notes, "materials with a clear coat, shown without it", count(materials, has_clear_coat));
 }

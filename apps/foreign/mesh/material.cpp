@@ -77,16 +77,20 @@ void set_alpha(const aiMaterial& source, Material& material) {
   }
 }
 
+Vec3d base_color(const aiMaterial& source) {
+  return color(source, {AI_MATKEY_BASE_COLOR}).value_or(color(source, {AI_MATKEY_COLOR_DIFFUSE}).value_or(Vec3d{1, 1, 1}));
+}
+
 Material from_metallic_roughness(const aiMaterial& source) {
   const std::string mode = alpha_mode(source);
-  Material material = material_of(MetallicSurface{
-      .base = color(source, {AI_MATKEY_BASE_COLOR}).value_or(color(source, {AI_MATKEY_COLOR_DIFFUSE}).value_or(Vec3d{1, 1, 1})),
-      .emission = emission(source),
-      .metallic = share(source, {AI_MATKEY_METALLIC_FACTOR}, 0),
-      .roughness = share(source, {AI_MATKEY_ROUGHNESS_FACTOR}, 1),
-      .transmission = share(source, {AI_MATKEY_TRANSMISSION_FACTOR}, 0),
-      .refraction_index = number(source, {AI_MATKEY_REFRACTI}).value_or(1.5),
-      .opacity = mode.empty() || mode == "BLEND" ? share(source, {AI_MATKEY_OPACITY}, 1) : 1});
+  Material material =
+      material_of(MetallicSurface{.base = base_color(source),
+                                  .emission = emission(source),
+                                  .metallic = share(source, {AI_MATKEY_METALLIC_FACTOR}, 0),
+                                  .roughness = share(source, {AI_MATKEY_ROUGHNESS_FACTOR}, 1),
+                                  .transmission = share(source, {AI_MATKEY_TRANSMISSION_FACTOR}, 0),
+                                  .refraction_index = number(source, {AI_MATKEY_REFRACTI}).value_or(1.5),
+                                  .opacity = mode.empty() || mode == "BLEND" ? share(source, {AI_MATKEY_OPACITY}, 1) : 1});
   set_alpha(source, material);
   return material;
 }
@@ -135,6 +139,12 @@ bool is_emissive(const aiMaterial& source) { return !(emission(source) == Vec3d{
 
 bool has_emissive_texture(const aiMaterial& source) {
   return source.GetTextureCount(aiTextureType_EMISSIVE) > 0 && !(light(source, {AI_MATKEY_COLOR_EMISSIVE}) == Vec3d{});
+}
+
+bool colors_what_shines_through(const aiMaterial& source) {
+  const Vec3d base = base_color(source);
+  return is_metallic_roughness(source) && share(source, {AI_MATKEY_TRANSMISSION_FACTOR}, 0) > 0 &&
+         !(base.x == base.y && base.y == base.z);
 }
 
 bool has_moved_texture(const aiMaterial& source) {

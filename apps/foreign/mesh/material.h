@@ -24,6 +24,8 @@ void list_textures(const aiMaterial& source, std::set<std::string>& names);
 bool is_emissive(const aiMaterial& source);
 /// It says what it emits by a texture, which is not looked at; it is no emissive material then.
 bool has_emissive_texture(const aiMaterial& source);
+/// glTF's transmission through a base colour that is not grey: ours lets all colours through alike.
+bool colors_what_shines_through(const aiMaterial& source);
 bool has_clear_coat(const aiMaterial& source);
 /// Whether the coordinates of its colour's texture are to be transformed, of which glTF's alone are
 /// (apps/foreign/mesh/texture_place.h).

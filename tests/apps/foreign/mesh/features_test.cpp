@@ -61,6 +61,19 @@ TEST_CASE("what is not shown is said once a kind, with its count") {
   CHECK(has(coats, "materials whose own light is a texture's, shown without it: 1"));
 }
 
+TEST_CASE("glass that colours what shines through it is said, grey glass is not") {
+  const auto glass = [](const std::string& color) {
+    const tests::TemporaryFolder folder;
+    tests::write_text(folder / "a.gltf",
+                      tests::Gltf{.materials = R"([{"pbrMetallicRoughness":{"baseColorFactor":)" + color +
+                                               R"(},"extensions":{"KHR_materials_transmission":{"transmissionFactor":1}}}])"}
+                          .text());
+    return has(read_mesh_file(folder / "a.gltf").notes, "materials that colour what shines through them, shown without that: 1");
+  };
+  CHECK(glass("[1,0,0,1]"));
+  CHECK(!glass("[0.5,0.5,0.5,1]"));
+}
+
 TEST_CASE("what is cut away altogether is said, and a mask that cuts nothing is not") {
   const auto masked = [](const std::string& alpha) {
     const tests::TemporaryFolder folder;
