@@ -225,8 +225,11 @@ std::string text_of(const core::Vec3d& point) { return shortest(point.x) + "," +
 /// The whole in view; says how, to the last bit, as a start for a camera of one's own.
 core::View plain_view(const BoundingSphere& bounds, const aiScene* file, const MeshOptions& options,
                       std::vector<std::string>& notes) {
-  const auto said = options.up || file == nullptr ? options.up : up_axis_of(*file, notes);
+  const auto said = options.up || file == nullptr ? options.up : up_axis_of(*file, notes);  // which holds for any camera
   const core::View view = whole_view(bounds, said.value_or(UpAxis{}));
+  if (options.is_seen_otherwise) {
+    return view;
+  }
   notes.push_back("the whole is in view, as by --camera=" + text_of(view.from) + "/" + text_of(view.at) + "/" + text_of(view.up));
   return view;
 }
@@ -238,9 +241,9 @@ void add_surroundings(core::Scene& scene, const aiScene* file, const MeshOptions
   scene.background = plain_background;
   // What is said of a view or of lights that others are put in place of would be untrue.
   std::vector<std::string> unsaid;
-  std::vector<std::string>& view_notes = options.is_seen_otherwise ? unsaid : notes;
-  const auto camera = file == nullptr ? std::nullopt : camera_of(*file, options.size, scale, view_notes);
-  scene.view = camera ? *camera : plain_view(bounds, file, options, view_notes);
+  const bool has_camera = file != nullptr && !options.is_seen_otherwise;
+  const auto camera = has_camera ? camera_of(*file, options.size, scale, notes) : std::nullopt;
+  scene.view = camera ? *camera : plain_view(bounds, file, options, notes);
   if (file != nullptr) {
     scene.lights = lights_of(*file, bounds, scale, options.is_lit_otherwise ? unsaid : notes);
   }

@@ -106,10 +106,16 @@ std::string look(const CameraChoice& camera, core::View& view) {
   return "";
 }
 
-/// The file's own camera has no share in it.
+/// That of a view of the whole, which is the file's.
+UpAxis axis_of(const Vec3d& up) {
+  const std::size_t axis = std::abs(up.x) > 0.5 ? 0 : std::abs(up.y) > 0.5 ? 1 : 2;
+  return {axis, up[axis] < 0};
+}
+
+/// The file's own camera has no share in it: `view` is of the whole.
 std::string look_at_mesh(const Staging& staging, core::View& view) {
   const CameraChoice& camera = *staging.camera;
-  const SceneAxes axes = axes_of(staging.mesh.up.value_or(UpAxis{}));
+  const SceneAxes axes = axes_of(staging.mesh.up.value_or(axis_of(view.up)));
   const Vec3d direction = camera.at - camera.from;
   view.from = camera.from;
   view.at = camera.at;

@@ -113,8 +113,11 @@ TEST_CASE("a camera replaces what it names of the scene's view, lights replace a
   CHECK(scene.lights.size() == 1);
 }
 
-TEST_CASE("a camera asked for of a mesh has nothing of the file's: up is y, or what --up says, and the angle 45 degrees") {
-  core::Scene scene{.view = {.from = {0, 9, 0}, .up = {0, 0, -1}, .angle_degrees = 20, .width = 64}};
+TEST_CASE("a camera asked for of a mesh keeps what is up of it, or what --up says, and has 45 degrees") {
+  core::Scene turned{.view = {.up = {0, 0, -1}}};
+  CHECK(apply({.camera = parse_camera("0,9,0/0,0,0")}, turned, SceneKind::mesh).empty());
+  CHECK(turned.view.up == Vec3d{0, 0, -1});
+  core::Scene scene{.view = {.from = {0, 9, 0}, .up = {0, 1, 0}, .angle_degrees = 20, .width = 64}};
   CHECK(apply({.camera = parse_camera("0,0,5/0,0,0")}, scene, SceneKind::mesh).empty());
   CHECK(scene.view.up == Vec3d{0, 1, 0});
   CHECK(scene.view.angle_degrees == 45);
@@ -130,6 +133,7 @@ TEST_CASE("a camera along what is up of a mesh is turned as who stands in front 
   CHECK(apply({.camera = parse_camera("0,5,0/0,0,0")}, scene, SceneKind::mesh) ==
         "--camera looks along the axis that points up: upwards in the picture is 0,0,-1, as by --camera=0,5,0/0,0,0/0,0,-1");
   CHECK(scene.view.up == Vec3d{0, 0, -1});
+  scene.view = {};
   CHECK_FALSE(apply({.camera = parse_camera("0,0,0/0,5,0")}, scene, SceneKind::mesh).empty());
   CHECK(scene.view.up == Vec3d{0, 0, 1});
   CHECK_FALSE(apply({.camera = parse_camera("0,0,5/0,0,0"), .mesh = {.up = UpAxis{2}}}, scene, SceneKind::mesh).empty());
