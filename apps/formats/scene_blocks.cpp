@@ -175,6 +175,8 @@ void SceneReceiver::check_material(const core::Material& material) const {
   Unpacker::require(is_light(material.specular_color) && is_light(material.emission) && is_weight(material.tinted_specular) &&
                     is_weight(material.mirror) && is_weight(material.alpha_cutoff) && material.alpha <= core::AlphaUse::cut);
   Unpacker::require(material.texture == core::Material::no_texture || material.texture < scene_.textures.size());
+  Unpacker::require(material.mirror <= 1 && material.alpha_cutoff <= 1 && is_light(material.specular_color * material.specular) &&
+                    is_light(material.color * material.tinted_specular));  // what a record keeps of them is finite, too
 }
 
 /// A reader does not know whether a texture has alpha, which it asks dmpc to read.

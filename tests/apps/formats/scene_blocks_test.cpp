@@ -89,6 +89,13 @@ TEST_CASE("a scene that cannot be is refused, whatever is wrong with it") {
   CHECK(is_refused([](core::Scene& scene) { scene.objects[2].first_normal = 1; }));
   CHECK(is_refused([](core::Scene& scene) { scene.materials[1].texture = 1; }));
   CHECK(is_refused([](core::Scene& scene) { scene.materials[0].shine = -1; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.materials[0].mirror = 1.5; }));
+  CHECK(is_refused([](core::Scene& scene) {
+    scene.materials[0].specular_color = {1e20, 0, 0}, scene.materials[0].specular = 1e20;
+  }));
+  CHECK(is_refused([](core::Scene& scene) {
+    scene.materials[0].color = {1e20, 0, 0}, scene.materials[0].tinted_specular = 1e20;
+  }));
   CHECK(is_refused([](core::Scene& scene) { scene.materials[0].color.x = std::numeric_limits<double>::quiet_NaN(); }));
   CHECK(is_refused([](core::Scene& scene) { scene.vertices[0].x = std::numeric_limits<double>::infinity(); }));
   CHECK(is_refused([](core::Scene& scene) { scene.lights[0].position.x = 1e31; }));

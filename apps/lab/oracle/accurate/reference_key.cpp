@@ -106,8 +106,10 @@ void add_textures(const core::Scene& scene, Digest& digest) {
   for (const core::Object& object : scene.objects) {
     for (std::uint32_t i = 0; object.kind == core::ObjectKind::textured && i < object.vertex_count; ++i) {
       const core::TexturedCorner& corner = scene.corners[object.first_normal + i];
-      digest.add(double{corner.place[0]});
-      digest.add(double{corner.place[1]});
+      const bool is_color = scene.materials[object.material].texture == core::Material::no_texture;
+      for (const float place : corner.place) {  // a colour's bits may be those of no number, which conversion would change
+        is_color ? digest.add(std::uint64_t{std::bit_cast<std::uint32_t>(place)}) : digest.add(double{place});
+      }
       digest.add(std::uint64_t{scene.materials[object.material].texture});
     }
   }
