@@ -6,6 +6,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/import.h"
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/features.h"
 #include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/mesh/lights.h"
@@ -163,16 +164,9 @@ void judge(const GeometryWriter& writer, std::vector<std::string>& notes) {
   if (!writer.has_area()) {
     throw core::InputError("there is no triangle in it that has an area; expected a mesh of triangles or polygons");
   }
-  if (writer.unplaced() > 0) {
-    notes.push_back("meshes whose texture is not shown, since no corner has a place on it: " + grouped(writer.unplaced()));
-  }
-  if (writer.unseen() > 0) {
-    notes.push_back("meshes that let all light through, so that nothing of them is seen: " + grouped(writer.unseen()));
-  }
-  if (writer.meshes_without_colors() > 0) {
-    notes.push_back("meshes whose vertex colours are not used, since there is a texture: " +
-                    grouped(writer.meshes_without_colors()));
-  }
+  note_count(notes, "meshes whose texture is not shown, since no corner has a place on it", writer.unplaced());
+  note_count(notes, "meshes that let all light through, so that nothing of them is seen", writer.unseen());
+  note_count(notes, "meshes whose vertex colours are not used, since there is a texture", writer.meshes_without_colors());
 }
 
 const MeshMaterial& material_for(const aiMesh& mesh, std::size_t index, const std::vector<MeshMaterial>& materials) {

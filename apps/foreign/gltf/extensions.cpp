@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/foreign/mesh/count_note.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::gltf {
@@ -64,12 +64,6 @@ std::vector<std::string> names_in(const Document& document, const std::string& k
   return names;
 }
 
-void note(const std::string& what, std::uint64_t count, std::vector<std::string>& notes) {
-  if (count > 0 && !what.empty()) {
-    notes.push_back(what + ": " + grouped(count));
-  }
-}
-
 }  // namespace
 
 void check_required(const Document& document) {
@@ -88,7 +82,7 @@ void note_extensions(const Document& document, std::vector<std::string>& notes) 
     }
   }
   for (const auto& [name, what] : materials) {
-    note(what, counts[name], notes);
+    note_count(notes, what, what.empty() ? 0 : counts[name]);
   }
   const auto unknown = names_in(document, "extensionsUsed",
                                 [](const std::string& name) { return !shown.contains(name) && !materials.contains(name); });

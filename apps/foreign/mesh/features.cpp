@@ -3,19 +3,12 @@
 #include <cstdint>
 #include <set>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/material.h"
 #include "apps/foreign/mesh/textures.h"
 
 namespace dmpc::apps {
 namespace {
-
-/// Appends "what: count" unless the count is 0.
-void note(std::vector<std::string>& notes, const std::string& what, std::uint64_t count) {
-  if (count > 0) {
-    notes.push_back(what + ": " + grouped(count));
-  }
-}
 
 template <class List, class Predicate>
 std::uint64_t count(const List& list, const Predicate& predicate) {
@@ -39,13 +32,13 @@ void note_meshes(const std::set<const aiMesh*>& meshes, std::vector<std::string>
   for (const aiMesh* mesh : meshes) {
     thin += points_and_lines(*mesh);
   }
-  note(notes, "points and lines left out", thin);
-  note(notes, "meshes with several sets of texture coordinates, of which colours use one",
-       count(meshes, [](const aiMesh& mesh) { return mesh.GetNumUVChannels() > 1; }));
-  note(notes, "meshes with a skin, shown in the pose in which their joints stand",
-       count(meshes, [](const aiMesh& mesh) { return mesh.HasBones(); }));
-  note(notes, "meshes with morph targets, shown without them",
-       count(meshes, [](const aiMesh& mesh) { return mesh.mNumAnimMeshes > 0; }));
+  note_count(notes, "points and lines left out", thin);
+  note_count(notes, "meshes with several sets of texture coordinates, of which colours use one",
+             count(meshes, [](const aiMesh& mesh) { return mesh.GetNumUVChannels() > 1; }));
+  note_count(notes, "meshes with a skin, shown in the pose in which their joints stand",
+             count(meshes, [](const aiMesh& mesh) { return mesh.HasBones(); }));
+  note_count(notes, "meshes with morph targets, shown without them",
+             count(meshes, [](const aiMesh& mesh) { return mesh.mNumAnimMeshes > 0; }));
 }
 
 void note_materials(const std::set<const aiMaterial*>& materials, std::vector<std::string>& notes) {
@@ -53,14 +46,17 @@ void note_materials(const std::set<const aiMaterial*>& materials, std::vector<st
   for (const aiMaterial* material : materials) {
     list_textures(*material, textures);
   }
-  note(notes, "textures not used, since they are not of a surface's colour", textures.size());
-  note(notes, "materials whose texture is laid on by a projection, shown without it", count(materials, has_projected_texture));
-  note(notes, "materials whose texture is moved, turned or scaled, shown without that", count(materials, has_moved_texture));
-  note(notes, "materials that shine by themselves, and light nothing else", count(materials, is_emissive));
-  note(notes, "materials whose own light is a texture's, shown without it", count(materials, has_emissive_texture));
-  note(notes, "materials that colour what shines through them, shown without that", count(materials, colors_what_shines_through));
-  note(notes, "materials cut away altogether by their alpha, whose faces are left out", count(materials, is_cut_away));
-  note(notes, "materials with a clear coat, shown without it", count(materials, has_clear_coat));
+  note_count(notes, "textures not used, since they are not of a surface's colour", textures.size());
+  note_count(notes, "materials whose texture is laid on by a projection, shown without it",
+             count(materials, has_projected_texture));
+  note_count(notes, "materials whose texture is moved, turned or scaled, shown without that",
+             count(materials, has_moved_texture));
+  note_count(notes, "materials that shine by themselves, and light nothing else", count(materials, is_emissive));
+  note_count(notes, "materials whose own light is a texture's, shown without it", count(materials, has_emissive_texture));
+  note_count(notes, "materials that colour what shines through them, shown without that",
+             count(materials, colors_what_shines_through));
+  note_count(notes, "materials cut away altogether by their alpha, whose faces are left out", count(materials, is_cut_away));
+  note_count(notes, "materials with a clear coat, shown without it", count(materials, has_clear_coat));
 }
 
 }  // namespace
@@ -77,7 +73,7 @@ void note_features(const aiScene& scene, const std::vector<Placement>& placement
   }
   note_materials(materials, notes);
   note_meshes(meshes, notes);
-  note(notes, "animations not played", scene.mNumAnimations);
+  note_count(notes, "animations not played", scene.mNumAnimations);
 }
 
 }  // namespace dmpc::apps

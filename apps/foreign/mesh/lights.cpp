@@ -9,6 +9,7 @@
 #include <map>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/imported_file.h"
 #include "apps/foreign/mesh/placement.h"
 #include "apps/formats/view_faults.h"
@@ -53,14 +54,8 @@ void scale_down(std::vector<PointLight>& lights) {
   }
 }
 
-void note_count(const std::string& what, std::uint64_t count, std::vector<std::string>& notes) {
-  if (count > 0) {
-    notes.push_back(what + ": " + grouped(count));
-  }
-}
-
 void note_lights(std::map<aiLightSourceType, std::uint64_t>& counts, std::vector<std::string>& notes) {
-  const auto note = [&](aiLightSourceType type, const std::string& what) { note_count(what, counts[type], notes); };
+  const auto note = [&](aiLightSourceType type, const std::string& what) { note_count(notes, what, counts[type]); };
   note(aiLightSource_POINT, "point lights whose fall-off with distance is ignored");
   note(aiLightSource_SPOT, "spot lights taken for point lights without fall-off");
   note(aiLightSource_DIRECTIONAL, "directional lights taken for point lights far away");
@@ -146,8 +141,8 @@ std::vector<PointLight> lights_of(const aiScene& scene, const BoundingSphere& bo
   scale_down(lights);
   note_lights(counts, notes);
   const std::string instead = lights.empty() ? ", so that plain ones take their place" : "";
-  note_count("lights without any brightness left out" + instead, dark, notes);
-  note_count("lights without a place or direction left out" + instead, nowhere, notes);
+  note_count(notes, "lights without any brightness left out" + instead, dark);
+  note_count(notes, "lights without a place or direction left out" + instead, nowhere);
   return lights;
 }
 

@@ -7,17 +7,12 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
+#include "apps/foreign/mesh/count_note.h"
 
 namespace dmpc::apps::obj {
 namespace {
 
 using core::Vec3d;
-
-void note_count(std::vector<std::string>& notes, const std::string& what, std::uint64_t count) {
-  if (count > 0) {
-    notes.push_back(what + ": " + grouped(count));
-  }
-}
 
 /// What of the materials that some face has is not shown.
 class Losses {

@@ -12,6 +12,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/edge/system/byte_order_mark.h"
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
 #include "apps/foreign/polygon/plain_material.h"
 #include "apps/foreign/polygon/reading_progress.h"
@@ -236,11 +237,7 @@ PolygonFile OffReader::read() {
     progress_.show(words_.position());
   }
   PolygonFile file;
-  const auto note = [&file](const std::string& what, std::uint64_t count) {
-    if (count > 0) {
-      file.notes.push_back(what + ": " + grouped(count));
-    }
-  };
+  const auto note = [&file](const std::string& what, std::uint64_t count) { note_count(file.notes, what, count); };
   note("points and lines left out", thin_);
   note("colours by their number in a map, which are not shown", from_map_);
   note("colours whose alpha is not shown", see_through_);

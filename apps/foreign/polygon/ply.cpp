@@ -1,13 +1,14 @@
 #include "apps/foreign/polygon/ply.h"
+#include "apps/foreign/mesh/count_note.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/edge/system/byte_order_mark.h"
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
 #include "apps/foreign/polygon/ply_header.h"
 #include "apps/foreign/polygon/ply_row.h"
@@ -42,12 +43,6 @@ double full_light_of(PlyType type) {
 bool is_see_through(const PlyRow& row) {
   const double full = row.has(alpha) ? full_light_of(row.type_of(alpha)) : 0;
   return row.has(alpha) && row[alpha] < (full > 0 ? full : 1);
-}
-
-void note_count(std::vector<std::string>& notes, const std::string& what, std::uint64_t count) {
-  if (count > 0) {
-    notes.push_back(what + ": " + grouped(count));
-  }
 }
 
 class PlyReader {
