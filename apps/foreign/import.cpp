@@ -63,10 +63,6 @@ class Stream final : public Assimp::IOStream {
   std::size_t position_ = 0;
 };
 
-std::string_view text_of(const FileBytes& file) {
-  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
-}
-
 class TextBytes final : public FileBytes {
  public:
   explicit TextBytes(std::string text) : text_(std::move(text)) {}

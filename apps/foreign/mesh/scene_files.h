@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/picture/texture_file.h"
@@ -19,6 +20,11 @@ class FileBytes {
   virtual ~FileBytes() = default;
   virtual std::span<const std::byte> bytes() const = 0;
 };
+
+/// As characters, as long as it lives.
+inline std::string_view text_of(const FileBytes& file) {
+  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
+}
 
 class SceneFiles {
  public:

@@ -55,9 +55,8 @@ void Libraries::read_file(const std::string& name) {
   }
   std::vector<std::string> said;
   try {
-    const std::string_view text(reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size());
     parse_mtl(
-        text, [this](MtlMaterial material) { take(std::move(material)); }, said);
+        text_of(*file), [this](MtlMaterial material) { take(std::move(material)); }, said);
   } catch (const core::InputError& error) {
     throw core::InputError(clipped(name) + ": " + error.what());
   }

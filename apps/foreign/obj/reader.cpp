@@ -16,8 +16,7 @@ namespace {
 
 obj::Geometry read_geometry(const std::string& path, SceneFiles& files) {
   const std::unique_ptr<FileBytes> file = files.open(path);
-  const std::string_view text(reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size());
-  return obj::parse_obj(text, [&files](float share) { files.show_progress(share); });
+  return obj::parse_obj(text_of(*file), [&files](float share) { files.show_progress(share); });
 }
 
 void append(std::vector<std::string> more, std::vector<std::string>& all) {

@@ -258,7 +258,7 @@ PolygonFile OffReader::read() {
 
 PolygonFile read_off(const std::string& path, SceneFiles& files) {
   const std::unique_ptr<FileBytes> bytes = files.open(path);
-  const std::string_view file(reinterpret_cast<const char*>(bytes->bytes().data()), bytes->bytes().size());
+  const std::string_view file = text_of(*bytes);
   ReadingProgress progress(files, file.size());
   PolygonFile result = OffReader(without_mark(file), progress).read();
   check_has_faces(result);

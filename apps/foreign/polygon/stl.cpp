@@ -30,7 +30,7 @@ bool is_text(std::string_view file) {
 
 PolygonFile read_stl(const std::string& path, SceneFiles& files) {
   const std::unique_ptr<FileBytes> bytes = files.open(path);
-  const std::string_view file(reinterpret_cast<const char*>(bytes->bytes().data()), bytes->bytes().size());
+  const std::string_view file = text_of(*bytes);
   ReadingProgress progress(files, file.size());
   PolygonFile result = is_text(file) ? read_stl_text(without_mark(file), progress) : read_stl_binary(file, progress);
   check_has_faces(result);
