@@ -10,9 +10,6 @@
 
 namespace dmpc::apps {
 
-/// What each channel of a surface has of which a file says no colour.
-inline constexpr double plain_grey = 0.6;
-
 /// By apps/foreign/mesh/surface.h. Its alpha is what that of a texture or of vertices' colours would do (core::Material::alpha).
 core::Material material_of(const aiMaterial& source);
 /// Whether nothing of the surface is there: its mode is MASK, and its alpha below the cutoff, whatever a texture's.

@@ -64,6 +64,8 @@ Material material_of(const PhongSurface& surface) {
   return material;
 }
 
+Material plain_material(const Vec3d& color) { return material_of(PhongSurface{.diffuse = color}); }
+
 Material material_of(const MetallicSurface& surface) {
   const double index = surface.refraction_index > 1 ? surface.refraction_index : 1.5;
   const double smooth = 1 - surface.roughness, transmission = surface.transmission * (1 - surface.metallic);

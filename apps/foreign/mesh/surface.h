@@ -8,6 +8,9 @@
 
 namespace dmpc::apps {
 
+/// What each channel of a surface has of which a file says no colour.
+inline constexpr double plain_grey = 0.6;
+
 /// The brightest light that a surface shines with by itself; more is as much.
 inline constexpr double light_max = 1e12;
 
@@ -32,6 +35,8 @@ struct MetallicSurface {
 /// By the table in apps/foreign/README.md. They mirror and transmit no more light than arrives, in any channel.
 core::Material material_of(const PhongSurface& surface);
 core::Material material_of(const MetallicSurface& surface);
+/// Of what says no more of itself than its colour, or nothing at all.
+core::Material plain_material(const core::Vec3d& color = {plain_grey, plain_grey, plain_grey});
 
 /// Phong's exponent for glTF's roughness, 0 to 1: half-vector exponent 2 / alpha^2 - 2 with alpha = roughness^2 (B. Walter and
 /// others, "Microfacet Models for Refraction through Rough Surfaces", 2007), a quarter of that around the mirror's direction

@@ -7,7 +7,6 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
-#include "apps/foreign/mesh/material.h"
 #include "apps/foreign/mesh/surface.h"
 #include "apps/foreign/obj/small_letters.h"
 #include "apps/foreign/obj/tally.h"

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "apps/foreign/mesh/material.h"
-#include "apps/foreign/polygon/plain_material.h"
+#include "apps/foreign/mesh/surface.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/foreign/mesh/surface.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
-#include "apps/foreign/polygon/plain_material.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

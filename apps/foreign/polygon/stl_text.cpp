@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "apps/edge/line/shown_text.h"
+#include "apps/foreign/mesh/surface.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
-#include "apps/foreign/polygon/plain_material.h"
 #include "apps/foreign/polygon/text_words.h"
 
 namespace dmpc::apps {
