@@ -83,7 +83,9 @@ class Files final : public Assimp::IOSystem {
     try {
       return new Stream(opened(path));
     } catch (const core::InputError& error) {
-      note_once(result_.missing, error.what());
+      if (std::find(result_.missing.begin(), result_.missing.end(), error.what()) == result_.missing.end()) {
+        result_.missing.emplace_back(error.what());  // Assimp may open a file again and again
+      }
       return nullptr;
     }
   }
@@ -96,12 +98,6 @@ class Files final : public Assimp::IOSystem {
       return ending_of(path) == "dae" ? std::make_unique<TextBytes>(collada_in_full(text_of(*file))) : std::move(file);
     }
     return files_.open(path);
-  }
-  /// Assimp may open a file again and again.
-  static void note_once(std::vector<std::string>& notes, const std::string& note) {
-    if (!note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) {
-      notes.push_back(note);
-    }
   }
 
   std::string scene_;
