@@ -1,17 +1,16 @@
 // By what a file's name ends.
 #pragma once
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string>
+
+#include "apps/foreign/text/small_letters.h"
 
 namespace dmpc::apps {
 
 /// "obj": without the dot, in small letters; nothing if there is none.
 inline std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = in_small_letters(std::filesystem::path(path).extension().string());
   return ending.empty() ? ending : ending.substr(1);
 }
 

@@ -33,7 +33,7 @@ class Tally {
   std::vector<std::pair<std::string, std::uint64_t>> counts_;
 };
 
-/// LineWords that no specification knows.
+/// Words that no specification knows.
 struct UnknownWords {
   std::uint64_t count = 0;
   std::string first;  ///< "'foo' in line 3"

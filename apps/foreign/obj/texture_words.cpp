@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "apps/foreign/mesh/trimmed.h"
-#include "apps/foreign/obj/small_letters.h"
 #include "apps/foreign/text/line_words.h"
+#include "apps/foreign/text/small_letters.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::apps::obj {

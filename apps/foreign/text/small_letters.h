@@ -1,4 +1,4 @@
-// LineWords of MTL, which may be written in any letters.
+// Words that files may write in any letters.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace dmpc::apps::obj {
+namespace dmpc::apps {
 
 inline std::string in_small_letters(std::string_view text) {
   std::string small(text);
@@ -15,4 +15,4 @@ inline std::string in_small_letters(std::string_view text) {
   return small;
 }
 
-}  // namespace dmpc::apps::obj
+}  // namespace dmpc::apps
