@@ -12,7 +12,7 @@ namespace dmpc::nodes {
 
 /// How many classes of operations there are. To the computer they are numbers with a price; what they mean is the programs'
 /// business.
-inline constexpr std::size_t charge_count = 12;
+inline constexpr std::size_t charge_count = 13;
 
 /// Operations of each class: what a program has done since the start.
 struct Charges {

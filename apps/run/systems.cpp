@@ -9,17 +9,25 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<SystemDescription, 10> descriptions = {{
+constexpr std::array<SystemDescription, 12> descriptions = {{
     {System::replicated, "replicated", "every node has the whole scene and renders its part of the picture"},
     {System::replicated_extents, "replicated-extents", "the same with one tree of boxes for the scene"},
     {System::svm, "svm", "a shared virtual memory (Badouel, Bouatouch, Priol 1994): pages travel from node to node"},
+    {System::svm_resident, "svm-resident",
+     "the same with what helps green-paddon: the host deals all work, and half of what a node keeps is what a small picture uses "
+     "most"},
     {System::pixel_machine, "pixel-machine",
      "after the Pixel Machine (Potmesil, Hoffert 1989): each node has every m-th pixel of every n-th line for good, and pages "
      "come from the host, where the article of 1994 says that virtual memory was"},
     {System::green_paddon, "green-paddon",
      "after Green and Paddon (1989): the host has all pages and deals all work, nodes ask their parents in a tree for pages, and "
-     "half of what a node keeps is what a small picture uses most"},
-    {System::forest, "forest", "Goldsmith and Salmon (1988): the top of one tree is everywhere, owners of subtrees are asked"},
+     "half of what a node keeps is what a small picture uses most; the top of their octree, which every node had, is paged, too"},
+    {System::forest, "forest",
+     "after Goldsmith and Salmon (1988): the top of one tree is everywhere, owners of subtrees are asked; idle nodes get pixels "
+     "of "
+     "busy ones, which they did not"},
+    {System::forest_static, "forest-static",
+     "after Goldsmith and Salmon (1988): the same, but each node has every m-th pixel of every n-th line for good"},
     {System::equal_size, "equal-size", "after Cleary and others (1986): rays travel between regions of equal size"},
     {System::scattered, "scattered",
      "after Kobayashi and others (1988): rays travel between regions of equal size, 16 a node, neighbours on different nodes"},
@@ -64,10 +72,17 @@ constexpr SystemSettings settings_of(System system) {
               .work_item_side = 0,
               .pixel_shares = PixelShares::interleaved,
               .homes = PageHomes::host};
+    case System::svm_resident:
+      return {.work_giver = svm::WorkGiver::host, .resident_percent = 50, .homes = PageHomes::spread};
     case System::green_paddon:
       return {.work_giver = svm::WorkGiver::host, .resident_percent = 50, .homes = PageHomes::tree};
     case System::forest:
       return {.strategy = Strategy::forest, .structure = Structure::extents};
+    case System::forest_static:
+      return {.strategy = Strategy::forest,
+              .structure = Structure::extents,
+              .work_item_side = 0,
+              .pixel_shares = PixelShares::interleaved};
     case System::equal_size:
       return {.strategy = Strategy::dataflow, .balance = Balance::equal_size};
     case System::scattered:

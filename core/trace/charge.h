@@ -23,11 +23,12 @@ enum class Charge : std::uint8_t {
   cached_lookup,  ///< of a record in a page of another home
   page_install,   ///< a page that has come put into a frame
   ray_packing,    ///< a ray put into a packet or taken out of one
-  tile_read       ///< a tile of a texture found and read
+  tile_read,      ///< a tile of a texture found and read
+  question_setup  ///< a walk broken off for a question about a ray, or taken up where it is answered
 };
-inline constexpr std::array<std::string_view, 12> charge_names = {"ray_setup",     "cell_step",    "brick_read",  "triangle_test",
-                                                                  "sphere_test",   "cone_test",    "shading",     "home_lookup",
-                                                                  "cached_lookup", "page_install", "ray_packing", "tile_read"};
+inline constexpr std::array<std::string_view, 13> charge_names = {
+    "ray_setup",   "cell_step",     "brick_read",   "triangle_test", "sphere_test", "cone_test",     "shading",
+    "home_lookup", "cached_lookup", "page_install", "ray_packing",   "tile_read",   "question_setup"};
 
 /// A number for each Charge.
 using ChargeCounts = std::array<std::uint64_t, charge_names.size()>;

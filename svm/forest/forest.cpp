@@ -218,7 +218,7 @@ PageCounters Forest::counters() const {
 
 void Forest::add_charges(nodes::Charges& charges) const {
   const QuestionCounters& questions = questions_counted_;
-  charges[core::Charge::ray_setup] += questions.rays_answered;
+  charges[core::Charge::question_setup] += questions.rays_asked + questions.rays_answered;
   charges[core::Charge::home_lookup] += counters_.home_hits;
   charges[core::Charge::cached_lookup] += counters_.misses;
   charges[core::Charge::ray_packing] +=

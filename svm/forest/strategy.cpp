@@ -11,8 +11,6 @@
 namespace dmpc::svm {
 namespace {
 
-/// A node whose pixel waits for an answer has others to go on with.
-constexpr std::uint32_t default_tasks = 16;
 /// Room for packets of questions that a node keeps, about.
 constexpr std::size_t question_room_wanted_bytes = std::size_t{64} << 10U;
 constexpr std::uint32_t question_credits_max = 4;
@@ -38,7 +36,7 @@ class ForestStrategy final : public Strategy {
         "=forest needs one tree of boxes whose subtrees lie in pages: ", core::field_of<&core::BuildOptions::structure>(),
         "=extents and ", core::field_of<&core::BuildOptions::record_order>(), "=spatial");
   }
-  std::uint32_t usual_tasks(const PlanRequest& /*request*/) const override { return default_tasks; }
+  std::uint32_t usual_tasks(const PlanRequest& /*request*/) const override { return forest_usual_in_flight; }
   std::uint32_t leading_pages(const PlanRequest& request) const override { return request.forest_page_count; }
 
   /// Packets of questions: no more than tasks, each of which asks one at a time.

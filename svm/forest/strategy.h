@@ -1,9 +1,15 @@
 // The strategy by which questions travel: J. Goldsmith and J. Salmon's, over one tree of boxes.
 #pragma once
 
+#include <cstdint>
+
 #include "svm/strategy.h"
 
 namespace dmpc::svm {
+
+/// Pixels that a node has under way unless asked otherwise. One whose pixel waits for an answer has others to go on with, and the
+/// more there are, the fuller are packets of questions (svm/RESULTS.md).
+inline constexpr std::uint32_t forest_usual_in_flight = 256;
 
 /// Every node holds the upper part of the tree, and asks the owners of its subtrees what rays meet there.
 const Strategy* forest_strategy();

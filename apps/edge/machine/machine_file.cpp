@@ -150,10 +150,16 @@ nodes::MessageCost message_of(const Fields& fields) {
           .byte_ps = fields.number("byte_ps", byte_ps_max)};
 }
 
+/// Of `operation_ps`; a file from before questions had a price of their own charges one as a ray, as it was then.
 std::array<std::uint64_t, nodes::charge_count> operations_of(const Fields& fields) {
+  constexpr auto newest = static_cast<std::size_t>(core::Charge::question_setup);
+  const Keys all(core::charge_names.begin(), core::charge_names.end());
+  const Fields given =
+      fields.object("operation_ps", Keys(all.begin(), all.begin() + newest), Keys(all.begin() + newest, all.end()));
   std::array<std::uint64_t, nodes::charge_count> costs_ps{};
   for (std::size_t i = 0; i < nodes::charge_count; ++i) {
-    costs_ps[i] = fields.number(core::charge_names[i], operation_ps_max);
+    const bool is_as_ray = i == newest && !given.json().contains(std::string(all[newest]));
+    costs_ps[i] = given.number(all[is_as_ray ? static_cast<std::size_t>(core::Charge::ray_setup) : i], operation_ps_max);
   }
   return costs_ps;
 }
@@ -200,7 +206,6 @@ void check_format(const Fields& fields) {
 MachineDescription description_of(const Fields& fields) {
   check_format(fields);
   const Keys message_keys = {"send_ns", "latency_ns", "receive_ns", "byte_ps"};
-  const Keys operation_keys(core::charge_names.begin(), core::charge_names.end());
   return {.machine = {.name = machine_name_in(fields),
                       .topology = topology_of(fields),
                       .uplinks = uplinks_of(fields),
@@ -210,7 +215,7 @@ MachineDescription description_of(const Fields& fields) {
                       .long_message = message_of(fields.object("long_message", message_keys)),
                       .hop_ns = fields.number("hop_ns", time_ns_max),
                       .service_ns = fields.number("service_ns", time_ns_max),
-                      .cost_ps = operations_of(fields.object("operation_ps", operation_keys)),
+                      .cost_ps = operations_of(fields),
                       .has_contention = fields.flag("has_contention"),
                       .has_memory_port = has_memory_port(fields)},
           .sources = sources_of(fields)};

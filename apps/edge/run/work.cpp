@@ -19,7 +19,7 @@ using core::Charge;
 constexpr nodes::ChargeBits shade_bits = bits_of({Charge::shading, Charge::tile_read});
 constexpr nodes::ChargeBits trace_bits =
     bits_of({Charge::ray_setup, Charge::cell_step, Charge::brick_read, Charge::triangle_test, Charge::sphere_test,
-             Charge::cone_test, Charge::home_lookup, Charge::cached_lookup});
+             Charge::cone_test, Charge::home_lookup, Charge::cached_lookup, Charge::question_setup});
 constexpr nodes::ChargeBits install_bits = bits_of({Charge::page_install}), pack_bits = bits_of({Charge::ray_packing});
 
 Work work_for(Doing doing) {

@@ -340,6 +340,8 @@ TEST_CASE("a system by name stands for its options") {
   CHECK(options_of(System::pixel_machine) ==
         "--strategy=svm --structure=extents --work-item=0 --pixels=interleaved --homes=host");
   CHECK(options_of(System::green_paddon) == "--strategy=svm --structure=grid --work-giver=host --resident=50 --homes=tree");
+  CHECK(options_of(System::svm_resident) == "--strategy=svm --structure=grid --work-giver=host --resident=50 --homes=spread");
+  CHECK(options_of(System::forest_static) == "--strategy=forest --structure=extents --work-item=0 --pixels=interleaved");
   CHECK(render({"--system=green-paddon", "--tree-arity=2"}).pages.tree_arity == 2);
   const RenderOptions forest = render({"--system=forest"});
   CHECK(forest.strategy == Strategy::forest);

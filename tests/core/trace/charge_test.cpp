@@ -17,7 +17,7 @@ TEST_CASE("each class of operations has a name of its own") {
   const std::set<std::string_view> names(charge_names.begin(), charge_names.end());
   CHECK(names.size() == charge_names.size());
   CHECK(names.count("") == 0);
-  CHECK(charge_names[static_cast<std::size_t>(Charge::tile_read)] == "tile_read");
+  CHECK(charge_names[static_cast<std::size_t>(Charge::question_setup)] == "question_setup");
 }
 
 TEST_CASE("operations are charged by class, and what strategies count is left to them") {

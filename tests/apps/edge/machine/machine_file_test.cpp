@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "core/trace/charge.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -81,12 +82,28 @@ TEST_CASE("a machine file is of a format that it may leave out, and of no other"
         "m.json: format: expected 1, for files of this dmpc, got 2");
 }
 
+TEST_CASE("a machine file from before questions had a price has them charged as rays") {
+  const std::string key = ",\n    \"question_setup\": ", text = plain_text();
+  const std::size_t begin = text.find(key);
+  REQUIRE(begin != std::string::npos);
+  std::string older = text;
+  older.erase(begin, text.find_first_of(",\n}", begin + key.size()) - begin);
+  const auto price = [](const nodes::Machine& machine, core::Charge charge) {
+    return machine.cost_ps[static_cast<std::size_t>(charge)];
+  };
+  const nodes::Machine was = parse_machine(older, "m.json").machine, is = parse_machine(text, "m.json").machine;
+  CHECK(price(was, core::Charge::question_setup) == price(is, core::Charge::ray_setup));
+  CHECK(price(is, core::Charge::question_setup) < price(is, core::Charge::ray_setup));
+  CHECK(machine_complaint_with("\"ray_setup\"", "\"ray_set_up\"").find("unknown key") != std::string::npos);
+}
+
 TEST_CASE("every figure reaches its own field") {
   const std::string text = R"({"name": "mine", "topology": "torus", "uplinks": 1, "switching": "packet", "short_bytes_max": 1,
     "short_message": {"send_ns": 2, "latency_ns": 3, "receive_ns": 4, "byte_ps": 5},
     "long_message": {"byte_ps": 9, "send_ns": 6, "latency_ns": 7, "receive_ns": 8}, "hop_ns": 10, "service_ns": 11,
     "operation_ps": {"ray_setup": 12, "cell_step": 13, "brick_read": 14, "triangle_test": 15, "sphere_test": 16, "cone_test": 17,
-      "shading": 18, "home_lookup": 19, "cached_lookup": 20, "page_install": 21, "ray_packing": 22, "tile_read": 23}, "has_contention": false,
+      "shading": 18, "home_lookup": 19, "cached_lookup": 20, "page_install": 21, "ray_packing": 22, "tile_read": 23,
+      "question_setup": 24}, "has_contention": false,
     "has_memory_port": false})";
   const MachineDescription description = parse_machine(text, "m.json");
   const nodes::Machine& machine = description.machine;
@@ -100,7 +117,7 @@ TEST_CASE("every figure reaches its own field") {
   CHECK(std::vector{large.send_ns, large.latency_ns, large.receive_ns, large.byte_ps} == std::vector<std::uint64_t>{6, 7, 8, 9});
   CHECK(machine.hop_ns == 10);
   CHECK(machine.service_ns == 11);
-  CHECK(machine.cost_ps == std::array<std::uint64_t, nodes::charge_count>{12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23});
+  CHECK(machine.cost_ps == std::array<std::uint64_t, nodes::charge_count>{12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24});
   CHECK_FALSE(machine.has_contention);
   CHECK_FALSE(machine.has_memory_port);
   CHECK(parse_machine(with(plain_text(), "\"has_memory_port\": false", "\"has_memory_port\": true"), "m.json")

@@ -134,6 +134,12 @@ TEST_CASE("expectations are held against the figures") {
   CHECK(moving[0] ==
         "Expected: where hits crowd, regions that move while rays travel are faster than those that stay. Held on 4 nodes, "
         "memory auto: moving 2 s, subsampled 3 s.");
+  const std::vector<std::string> homes =
+      verdicts_of(times({{"svm", "auto", 9}, {"svm-resident", "auto", 1}, {"green-paddon", "auto", 2}}));
+  REQUIRE(homes.size() == 1);
+  CHECK(homes[0] ==
+        "Expected: whatever the memory, with all else equal the host is a slower home than all nodes together. Held on 4 nodes, "
+        "memory auto: svm-resident 1 s, green-paddon 2 s.");
   CHECK(verdicts_of(times({})).empty());
 }
 
