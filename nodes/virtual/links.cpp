@@ -30,33 +30,28 @@ std::uint64_t Links::pass(NodeId source, NodeId target, std::uint64_t now_ns, st
   find_route(source, target);
   ++traffic_.messages;
   traffic_.hops += hop_count;
-  return machine_.switching == Switching::circuit ? pass_circuit(now_ns, bytes, hop_count * machine_.hop_ns + bytes_ns)
-                                                  : pass_packet(now_ns, bytes, bytes_ns);
+  return pass_along_route(now_ns, bytes, bytes_ns);
 }
 
-/// All links at once. The wait is charged to the one that is free last, the first of them if several are.
-std::uint64_t Links::pass_circuit(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t passage_ns) {
-  Wire* last = route_.front();
-  for (Wire* const wire : route_) {
-    last = wire->free_at_ns > last->free_at_ns ? wire : last;
-  }
-  const std::uint64_t begin_ns = start_ns(*last, now_ns);
-  for (Wire* const wire : route_) {
-    hold(*wire, begin_ns, passage_ns, bytes);
-  }
-  return begin_ns + passage_ns;
-}
-
-/// Link by link: the header goes on after a hop, while the bytes behind it still pass. A memory port is no hop.
-std::uint64_t Links::pass_packet(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t bytes_ns) {
+/// Link by link: the header goes on after a hop. A circuit keeps what it has until the message has arrived, of a packet the bytes
+/// pass each link behind the header. A memory port is no hop.
+std::uint64_t Links::pass_along_route(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t bytes_ns) {
   std::uint64_t at_ns = now_ns;
   for (std::size_t i = 0; i < route_.size(); ++i) {
-    const bool is_port = links_[i].from > host_place() || links_[i].to > host_place();
-    const std::uint64_t begin_ns = start_ns(*route_[i], at_ns), hop_ns = is_port ? 0 : machine_.hop_ns;
-    hold(*route_[i], begin_ns, hop_ns + bytes_ns, bytes);
-    at_ns = begin_ns + hop_ns;
+    begins_ns_[i] = start_ns(*route_[i], at_ns);
+    at_ns = begins_ns_[i] + hop_ns(links_[i]);
   }
-  return at_ns + bytes_ns;
+  const std::uint64_t arrives_ns = at_ns + bytes_ns;
+  for (std::size_t i = 0; i < route_.size(); ++i) {
+    const bool is_circuit = machine_.switching == Switching::circuit;
+    hold(*route_[i], begins_ns_[i], is_circuit ? arrives_ns - begins_ns_[i] : hop_ns(links_[i]) + bytes_ns, bytes);
+  }
+  return arrives_ns;
+}
+
+std::uint64_t Links::hop_ns(const Link& link) const {
+  const bool is_port = link.from > host_place() || link.to > host_place();
+  return is_port ? 0 : machine_.hop_ns;
 }
 
 /// When the link is free for a message that is there now, which waits until then.
@@ -167,6 +162,7 @@ void Links::find_route(NodeId source, NodeId target) {
   for (const Link& link : links_) {
     route_.push_back(&wire(link));
   }
+  begins_ns_.resize(route_.size());
 }
 
 }  // namespace dmpc::nodes

@@ -17,7 +17,7 @@ struct LinkUse {
   std::uint64_t messages = 0;  ///< that passed it
   std::uint64_t bytes = 0;     ///< of them, headers included
   std::uint64_t busy_ns = 0;   ///< held by them
-  std::uint64_t wait_ns = 0;   ///< that messages waited for it; a circuit waits for the last of its links to become free
+  std::uint64_t wait_ns = 0;   ///< that messages waited for it
 };
 
 /// What the links of a run have carried together.
@@ -30,11 +30,10 @@ struct LinkTraffic {
   std::uint64_t wait_ns = 0;   ///< that messages stood before links that others held, summed
 };
 
-/// A message waits for what it holds of its route, as the machine's Switching says: in circuits for all links at once, as a
-/// packet for one after the other. Links are given in the order in which messages enter the network. The host hangs on node 0 by
-/// a link of its own in each direction. If the machine has memory ports, every node but the host, whose only link is one, has one
-/// in each direction: the first and the last link of a route. Without contention nothing is ever waited for. Deterministic;
-/// belongs to one run.
+/// A message takes one link of its route after the other, and holds them as the machine's Switching says. Links are given in the
+/// order in which messages enter the network. The host hangs on node 0 by a link of its own in each direction. If the machine has
+/// memory ports, every node but the host, whose only link is one, has one in each direction: the first and the last link of a
+/// route. Without contention nothing is ever waited for. Deterministic; belongs to one run.
 class Links {
  public:
   /// `node_count` is without the host, at least 1.
@@ -68,8 +67,8 @@ class Links {
   std::string place_name(std::uint32_t place) const;
   Wire& wire(const Link& link);
   void find_route(NodeId source, NodeId target);
-  std::uint64_t pass_circuit(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t passage_ns);
-  std::uint64_t pass_packet(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t bytes_ns);
+  std::uint64_t pass_along_route(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t bytes_ns);
+  std::uint64_t hop_ns(const Link& link) const;
   std::uint64_t start_ns(Wire& wire, std::uint64_t now_ns);
   void hold(Wire& wire, std::uint64_t from_ns, std::uint64_t busy_ns, std::uint64_t bytes);
 
@@ -78,6 +77,7 @@ class Links {
   std::vector<std::vector<Wire>> wires_;  ///< by the place where they begin, then by that where they end
   std::vector<Link> links_;               ///< of the message that is passing, memory ports included
   std::vector<Wire*> route_;              ///< the same links' wires
+  std::vector<std::uint64_t> begins_ns_;  ///< from when on it has each of them
   LinkTraffic traffic_;
 };
 

@@ -89,10 +89,7 @@ constexpr Preset presets[] = {
     {.name = "paragon",
      .title = "Intel Paragon of 1993: i860XP processors, two-dimensional mesh",
      .topology = {TopologyKind::mesh, "two-dimensional mesh, wormhole routing along x, then y: quoted, high"},
-     .switching =
-         {Switching::circuit,
-          "wormhole routing: what waits holds the links behind it, as a circuit does, medium; a circuit holds those ahead "
-          "of it, too: assumed, low"},
+     .switching = {Switching::circuit, "wormhole routing: what waits holds the links behind it, as a circuit does, medium"},
      .long_message =
          {{.send_ns = 20'000, .latency_ns = 30'000, .receive_ns = 20'000, .byte_ps = 5'882},
           "70 us in all and 170 MB/s with SUNMOS: NASA Ames, RNR-94-016, 1994, high; the 20 us of each processor: assumed, low"},

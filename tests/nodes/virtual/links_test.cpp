@@ -146,7 +146,7 @@ TEST_CASE("other links and the same link's other direction are free") {
   CHECK(links.traffic().wait_ns == 0);
 }
 
-TEST_CASE("a message waits for the last of its links and holds all of them from then on") {
+TEST_CASE("a circuit takes one link after the other and keeps what it has until its message has arrived") {
   Links links = links_of(TopologyKind::hypercube, 8);
   CHECK(links.pass(node(1), node(3), 0, 100) == 100);  // holds 1-3
   CHECK(links.pass(node(3), node(7), 0, 40) == 40);    // holds 3-7
@@ -217,22 +217,22 @@ TEST_CASE("each topology has as many links as its drawing") {
   }
 }
 
-TEST_CASE("each link knows what it carried, and the wait is that of the link that was free last") {
+TEST_CASE("each link knows what it carried, and a circuit that waits holds those that it has") {
   Links links = links_of(TopologyKind::hypercube, 8);
   links.pass(node(1), node(3), 0, 100);
   links.pass(node(3), node(7), 0, 40);
-  links.pass(node(0), node(7), 10, 20);  // over 0-1, 1-3 and 3-7 from 100 on
+  links.pass(node(0), node(7), 10, 20);  // over 0-1 from 10 on, over 1-3 and 3-7 from 100 on
   CHECK(texts_of(links) == std::vector<std::string>{"node 1 - node 3: 2 messages, 120 bytes, busy 120, wait 90",
-                                                    "node 3 - node 7: 2 messages, 60 bytes, busy 60, wait 0",
-                                                    "node 0 - node 1: 1 messages, 20 bytes, busy 20, wait 0"});
+                                                    "node 0 - node 1: 1 messages, 20 bytes, busy 110, wait 0",
+                                                    "node 3 - node 7: 2 messages, 60 bytes, busy 60, wait 0"});
   CHECK(links.traffic().hops == 5);
   CHECK(links.traffic().passages == 5);
   CHECK(links.traffic().bytes == 200);
-  CHECK(links.traffic().busy_ns == 200);
+  CHECK(links.traffic().busy_ns == 290);
   CHECK(links.traffic().wait_ns == 90);
 }
 
-TEST_CASE("of links that are free at the same time the first on the way is charged") {
+TEST_CASE("of links that are free at the same time the first on the way is waited for") {
   Links links = links_of(TopologyKind::mesh, 9);
   links.pass(node(0), node(2), 0, 50);
   links.pass(node(0), node(2), 20, 50);

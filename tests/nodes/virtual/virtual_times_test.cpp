@@ -132,11 +132,11 @@ TEST_CASE("messages over one link arrive one after the other, or at once without
   for (const std::uint32_t count : {1U, 2U, 9U}) {
     Machine machine = toy_model();
     const std::uint64_t passage = passage_ns(machine, long_bytes, 2);
+    const std::uint64_t held = passage_ns(machine, long_bytes, 1);  // the host's link, before which the next ones' headers wait
     const std::uint64_t enters = machine.long_message.send_ns + machine.long_message.latency_ns;
     const ScriptedRun run = run_scripts(all_to_host(count, long_bytes), machine);
-    CHECK(run.report.total_ns == enters + count * passage + machine.long_message.receive_ns);
-    CHECK(run.report.links.wait_ns == passage * count * (count - 1) / 2);
-    CHECK(run.report.busiest_links.front().busy_ns == count * passage);
+    CHECK(run.report.total_ns == enters + machine.hop_ns + count * held + machine.long_message.receive_ns);
+    CHECK(run.report.links.wait_ns == held * count * (count - 1) / 2);
 
     machine.has_contention = false;
     const ScriptedRun free = run_scripts(all_to_host(count, long_bytes), machine);
@@ -149,15 +149,17 @@ TEST_CASE("all to one: the last message arrives when those over the same link ha
   struct Case {
     TopologyKind topology;
     std::uint32_t node_count;
-    std::uint32_t messages, hops;       // over the link into node 0 that most need, and all hops of these
+    std::uint32_t messages, hops;       // over the link into node 0 that most need, and the hops that it waits for
     std::uint32_t last_together;        // arrivals at that time, by other links too
     std::uint32_t most_hops, farthest;  // the longest way to node 0, and how many have such a one
   };
-  const std::vector<Case> cases = {{TopologyKind::crossbar, 9, 1, 1, 8, 1, 8},                  // a link for each
-                                   {TopologyKind::hypercube, 8, 4, 1 + 2 + 2 + 3, 1, 3, 1},     // 4-0: from 4, 5, 6, 7
-                                   {TopologyKind::mesh, 9, 6, 1 + 2 + 3 + 2 + 3 + 4, 1, 4, 1},  // 3-0: from 3 to 8
-                                   {TopologyKind::torus, 9, 3, 1 + 2 + 2, 2, 2, 4},  // 3-0: from 3, 4, 5; 6-0: from 6, 7, 8
-                                   {TopologyKind::fat_tree, 16, 15, 3 * 2 + 12 * 4, 1, 4, 12}};  // switch 0 to 0: all
+  // A header that waits before that link needs one hop more, one that waits behind another's circuit those from there on.
+  const std::vector<Case> cases = {
+      {TopologyKind::crossbar, 9, 1, 1, 8, 1, 8},                  // a link for each
+      {TopologyKind::hypercube, 8, 4, 1 + 1 + 1 + 2, 1, 3, 1},     // 4-0: from 4, 5, 6, and 7 behind 6
+      {TopologyKind::mesh, 9, 6, 1 + 1 + 2 + 1 + 2 + 3, 1, 4, 1},  // 3-0: from 3, 4, 5 behind 4, 6, 7 behind 6, 8 behind 7
+      {TopologyKind::torus, 9, 3, 1 + 1 + 1, 2, 2, 4},             // 3-0: from 3, 4, 5; 6-0: from 6, 7, 8
+      {TopologyKind::fat_tree, 16, 15, (2 + 1 + 1) + (1 + 9) + 2 * (2 + 9), 1, 4, 12}};  // switch 0 to 0: all
   for (const Case& one : cases) {
     CAPTURE(name_of(one.topology));
     Machine machine = toy_model(one.topology);
@@ -177,7 +179,9 @@ TEST_CASE("all to one: the last message arrives when those over the same link ha
     machine = toy_model(one.topology);
     machine.has_memory_port = true;  // node 0 takes in one after the other, whatever links they come by
     const VirtualReport ported = run_scripts(scripts, machine).report;
-    CHECK(ported.total_ns == enters + queued.links.hops * machine.hop_ns + (one.node_count - 1) * bytes_ns + receive);
+    const std::uint64_t all_bytes_ns = enters + (one.node_count - 1) * bytes_ns + receive;
+    CHECK(ported.total_ns >= all_bytes_ns + machine.hop_ns);
+    CHECK(ported.total_ns <= all_bytes_ns + queued.links.hops * machine.hop_ns);
   }
 }
 
@@ -189,7 +193,7 @@ TEST_CASE("a link that two nodes saturate carries their messages without a gap, 
   scripts[2].quanta.push_back({0, letters});
   scripts[3].quanta.push_back({0, letters});
   const VirtualReport report = run_scripts(scripts, machine).report;
-  const std::uint64_t busy = count * (passage_ns(machine, long_bytes, 1) + passage_ns(machine, long_bytes, 2));
+  const std::uint64_t busy = 2 * count * passage_ns(machine, long_bytes, 1);  // headers of node 3 wait before it, at node 2
   const std::uint64_t enters = machine.long_message.send_ns + machine.long_message.latency_ns;
   CHECK(report.total_ns == enters + busy + machine.long_message.receive_ns);
   CHECK(report.busiest_links.front().from == "node 2");
