@@ -151,6 +151,55 @@ TEST_CASE("faces that nobody had the time to look at lie in no order, and are sa
   CHECK(none.pairs == 0);
 }
 
+/// A unit in the last place of a t from 4 to 8, grid-local.
+constexpr double unit_of_t = 0x1p-21;
+
+/// Eight squares above each other, which by their normals go up, so many units of t below a border between two top cells; next
+/// above the border is one that belongs to no others.
+class Tower {
+ public:
+  explicit Tower(double units_below) {
+    pile_up({.finest_cell = 0}, 0);  // the bounds and the number of primitives, hence the grid, will be the same
+    pile_up(core::build_database(scene_, options()).header().frame, units_below);
+  }
+
+  const Scene& scene() const { return scene_; }
+  static core::BuildOptions options() { return {.cells_per_primitive = 448}; }
+
+ private:
+  void pile_up(const core::GridFrame& frame, double units_below) {
+    const auto above_border = [&](double units) {
+      return frame.origin.z + (core::plane_at(frame, 2, core::finest_per_top) + units * unit_of_t) / frame.scale;
+    };
+    scene_ = lit_scene();
+    core::SceneBuilder builder(scene_);
+    builder.material(floor_material);
+    builder.polygon({{-1.1, -1.1, -1.1}, {-1, -1.1, -1.1}, {-1.1, -1, -1.1}});
+    builder.polygon({{1.1, 1.1, 1.1}, {1, 1.1, 1.1}, {1.1, 1, 1.1}});
+    const auto add_square = [&](double height) {
+      builder.polygon(rectangle({-0.4, -0.4, height}, {0.4, 0.4, height}, false));
+    };
+    for (int i = 1; i <= core::plane_layers_max; ++i) {
+      add_square(above_border(-units_below) - 1e-9 * (core::plane_layers_max - i));
+    }
+    add_square(above_border(0.6));
+    scene_ = apps::seen_from(scene_, 7);
+  }
+
+  Scene scene_;
+};
+
+TEST_CASE("a face that its layer brings before another one is found in whatever cell it lies, however far away the eye is") {
+  for (double units_below = 4; units_below < 9; units_below += 0.125) {
+    CAPTURE(units_below);
+    const Database database = core::build_database(Tower(units_below).scene(), Tower::options());
+    const core::GridFrame& frame = database.header().frame;
+    const Vec3d middle = core::to_local(frame, {0.1, 0.05, 0});
+    const Ray ray = apps::ray_through({middle.x, middle.y, core::plane_at(frame, 2, core::finest_per_top) + 4.02}, middle);
+    CHECK(apps::same_hit(apps::shoot(database, ray), brute_force(database, ray)));
+  }
+}
+
 core::Film rendered(const Scene& scene) {
   const Database database = database_of(scene);
   core::LocalRecords records(database.bytes());
