@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "apps/lab/bench/stability/random.h"
@@ -149,6 +150,58 @@ TEST_CASE("faces that nobody had the time to look at lie in no order, and are sa
   CHECK(few.layers.size() == 5);
   CHECK(few.blurred.size() == 2);
   CHECK(none.pairs == 0);
+}
+
+core::Face exact_face(const std::array<Vec3d, 3>& corners, std::uint32_t id) { return {corners, Vec3d(), 0x1p-49, id, id}; }
+
+/// The staves of a barrel, and a label around it, whose staves each lie on two of the barrel's. First those, then these; two
+/// triangles each.
+std::vector<core::Face> barrel_with_label(int staves) {
+  const double radius = 0.4, angle = 2 * std::numbers::pi / staves, bulge = radius * angle * angle / 8;
+  std::vector<core::Face> faces;
+  const auto add_stave = [&](double first, double around, double half_height) {
+    const auto at = [&](double place, double height) {
+      return Vec3d{around * std::cos(place * angle), around * std::sin(place * angle), height};
+    };
+    const std::uint32_t id = static_cast<std::uint32_t>(faces.size());
+    faces.push_back(exact_face({at(first, -half_height), at(first + 1, -half_height), at(first + 1, half_height)}, id));
+    faces.push_back(exact_face({at(first, -half_height), at(first + 1, half_height), at(first, half_height)}, id));
+  };
+  for (int i = 0; i < staves; ++i) {
+    add_stave(i, radius, 0.5);
+  }
+  for (int i = 0; i < staves; ++i) {
+    add_stave(i + 0.5, radius + bulge + 1e-7, 0.2);
+  }
+  return faces;
+}
+
+TEST_CASE("a label that goes round a barrel is before it on all sides") {
+  constexpr int staves = 512;
+  const std::vector<core::Face> faces = barrel_with_label(staves);
+  core::StackBudget budget;
+  const core::FaceStack stack = core::stack_faces(faces, budget);
+  CHECK(stack.blurred.empty());
+  CHECK(stack.layers.size() == 2 * staves);
+  int above = 0, outwards = 0;
+  for (const core::FaceStack::Layer& layer : stack.layers) {
+    above += layer.plane.kept_as == core::BlockHeader::exact_plane + (layer.ids[0] < 2 * staves ? 0 : 1) ? 1 : 0;
+    outwards += dot(layer.plane.normal, faces[layer.ids[0]].middle()) > 0 ? 1 : 0;
+  }
+  CHECK(above == 2 * staves);
+  CHECK(outwards == (outwards == 0 ? 0 : 2 * staves));
+}
+
+TEST_CASE("a face that is above another one here and below it there is said to be swapped with it, whatever layers they are in") {
+  const std::vector<core::Face> faces{exact_face({{{-0.4, -0.4, 0}, {0.4, -0.4, 0}, {0, 0.4, 0}}}, 0),
+                                      exact_face({{{-0.25, -0.1, 1e-9}, {-0.1, -0.1, 1e-9}, {-0.2, 0.1, 1e-9}}}, 1),
+                                      exact_face({{{-0.2, -0.05, 3e-9}, {0.2, -0.05, -3e-9}, {-0.2, 0.05, 3e-9}}}, 2)};
+  core::StackBudget budget;
+  const core::FaceStack stack = core::stack_faces(faces, budget);
+  REQUIRE(stack.blurred.size() == 1);
+  CHECK(stack.blurred[0].layers == 2);
+  CHECK(stack.blurred[0].least == 0);
+  CHECK(double{stack.blurred[0].most} == doctest::Approx(3e-9));
 }
 
 /// A unit in the last place of a t from 4 to 8, grid-local.
