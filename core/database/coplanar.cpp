@@ -28,6 +28,7 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 struct CoveringPairs {
   Pairs coplanar;  ///< in one plane, by what records say of them
   Pairs close;     ///< these, and what is near
+  Ids unseen;      ///< nobody looked for what covers these
 
   void look_at(std::span<const Face> faces, const BucketSize& size) {
     const PlaneBuckets buckets = fill_plane_buckets(faces, size);
@@ -40,6 +41,7 @@ struct CoveringPairs {
     }
     coplanar.insert(coplanar.end(), finder.coplanar().begin(), finder.coplanar().end());
     close.insert(close.end(), finder.close().begin(), finder.close().end());
+    unseen.insert(unseen.end(), finder.unseen().begin(), finder.unseen().end());
   }
 };
 
@@ -66,6 +68,7 @@ CoveringPairs covering_pairs(const Exactly& exactly, std::span<const std::uint32
     CoveringPairs by_doubles;
     by_doubles.look_at(faces, coarse_buckets);
     pairs.close.insert(pairs.close.end(), by_doubles.close.begin(), by_doubles.close.end());
+    pairs.unseen.insert(pairs.unseen.end(), by_doubles.unseen.begin(), by_doubles.unseen.end());
   }
   return pairs;
 }
@@ -110,6 +113,7 @@ class FaceSets {
 /// Triangles that cover each other.
 struct CoveringSets {
   FaceSets coplanar, close;
+  Ids unseen;  ///< ascending, once each
 };
 
 CoveringSets covering_sets(const Exactly& exactly, const TopCells& cells, const Parallel& parallel) {
@@ -117,11 +121,14 @@ CoveringSets covering_sets(const Exactly& exactly, const TopCells& cells, const 
   parallel.for_each(cells.size(), [&](std::size_t cell) { pairs[cell] = covering_pairs(exactly, cells.ids(cell)); });
   const bool is_none = std::all_of(pairs.begin(), pairs.end(), [](const CoveringPairs& some) { return some.close.empty(); });
   const std::size_t count = is_none ? 0 : exactly.conversion.primitives.size();
-  CoveringSets sets{FaceSets(count), FaceSets(count)};
+  CoveringSets sets{FaceSets(count), FaceSets(count), {}};
   for (const CoveringPairs& some : pairs) {
     sets.coplanar.add_all(some.coplanar);
     sets.close.add_all(some.close);
+    sets.unseen.insert(sets.unseen.end(), some.unseen.begin(), some.unseen.end());
   }
+  std::sort(sets.unseen.begin(), sets.unseen.end());
+  sets.unseen.erase(std::unique(sets.unseen.begin(), sets.unseen.end()), sets.unseen.end());
   return sets;
 }
 
@@ -396,6 +403,14 @@ bool add_polygons(const Exactly& exactly, FaceSets& close, StackBudget& budget, 
   return found;
 }
 
+/// Those that nobody looked at may be swapped with others all over.
+void say_unseen(const Ids& unseen, Conversion& conversion) {
+  for (const std::uint32_t id : unseen) {
+    const Face face(conversion.primitives[id], id, conversion.sources[id].object);
+    conversion.close_faces.push_back({.place = Vec3f(face.middle()), .size = static_cast<float>(face.longest())});
+  }
+}
+
 /// Returns whether there are any.
 bool settle(Conversion& conversion, std::span<const Material> materials, std::vector<Ids> sets, std::vector<FaceStack> stacks) {
   if (sets.empty() && stacks.empty()) {
@@ -418,6 +433,7 @@ bool settle_coplanar(Conversion& conversion, const TopCells& cells, const Scene&
                      const Parallel& parallel) {
   const Exactly exactly{conversion, scene, frame};
   CoveringSets found = covering_sets(exactly, cells, parallel);
+  say_unseen(found.unseen, conversion);
   std::vector<FaceStack> stacks;
   std::vector<bool> is_stacked(conversion.primitives.size());
   StackBudget budget;

@@ -253,6 +253,42 @@ TEST_CASE("a face that its layer brings before another one is found in whatever 
   }
 }
 
+/// So many planes, each `step` above the last one, of so many triangles that lie across each other.
+Scene heap(int planes, int triangles, double step) {
+  Random random(5);
+  Scene scene = lit_scene();
+  core::SceneBuilder builder(scene);
+  builder.material(floor_material);
+  for (int plane = 0; plane < planes; ++plane) {
+    for (int i = 0; i < triangles; ++i) {
+      const Vec3d middle = random.in_box(-0.3, 0.3);
+      std::vector<Vec3d> corners;
+      for (int corner = 0; corner < 3; ++corner) {
+        const double angle = middle.z * 10 + corner * 2 * std::numbers::pi / 3;
+        corners.push_back(tilted({middle.x + std::cos(angle), middle.y + std::sin(angle), step * plane}));
+      }
+      builder.polygon(corners);
+    }
+  }
+  return scene;
+}
+
+TEST_CASE("a poster next to its wall lies where doubles say even where a heap in the wall's plane leaves no time for pairs") {
+  Scene scene = heap(1, 3000, 0);
+  core::SceneBuilder builder(scene);
+  builder.polygon(rectangle({3, 3, 0}, {5, 5, 0}, true));
+  builder.polygon(rectangle({3.5, 3.5, 2e-6}, {4.5, 4.5, 2e-6}, true));
+  const Database database = core::build_database(scene, {.cells_per_primitive = 1e-3});  // one top cell
+  const core::PrimitiveValues& poster = database.primitives().back();
+  REQUIRE(poster.needs_plane());
+  CHECK(core::BlockHeader{.plane = database.planes()[poster.plane() - 1].kept_as}.has_exact_plane());
+}
+
+TEST_CASE("where more planes lie next to each other than there is time for, the faces in them are said to be in no order") {
+  CHECK(database_of(heap(60, 50, 1e-5)).close_faces().empty());
+  CHECK(database_of(heap(150, 20, 1e-5)).close_faces().size() > 100);
+}
+
 core::Film rendered(const Scene& scene) {
   const Database database = database_of(scene);
   core::LocalRecords records(database.bytes());
