@@ -144,13 +144,13 @@ class ExactSets {
   }
 
   const std::vector<Ids>& sets() const { return sets_; }
-  FaceStack stack_of(const Ids& set, StackBudget& budget) const {
+  std::vector<Face> faces_of(const Ids& set) const {
     std::vector<Face> faces;
     faces.reserve(set.size());
     for (const std::uint32_t id : set) {
       faces.push_back(faces_[static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin())]);
     }
-    return stack_faces(faces, budget);
+    return faces;
   }
 
  private:
@@ -382,25 +382,27 @@ bool is_level(const Exactly& exactly, const Ids& whole) {
   return false;
 }
 
-/// Adds to sets that doubles take apart the other triangles of their polygons, and to `merged` what they cannot. Returns whether
-/// there are any of the former.
-bool add_polygons(const Exactly& exactly, FaceSets& close, StackBudget& budget, std::vector<CloseFaces>& merged) {
+/// The sets that doubles take apart, with the other triangles of their polygons; what doubles cannot goes to `merged`.
+std::vector<Ids> sets_to_stack(const Exactly& exactly, FaceSets& close, std::vector<CloseFaces>& merged) {
   std::vector<Ids> doubtful = close.sets();
   std::erase_if(doubtful, [&](const Ids& set) { return is_level(exactly, set); });
   const ExactSets exact(exactly, std::move(doubtful));
-  bool found = false;
+  std::vector<bool> is_apart(exactly.conversion.primitives.size());
   for (const Ids& set : exact.sets()) {
-    const FaceStack stack = exact.stack_of(set, budget);
-    if (stack.layers.size() > 1) {
-      for (const std::uint32_t id : one_of_each_polygon(exactly.conversion, set)) {
-        add_polygon(exactly.conversion, id, close);
-      }
-      found = true;
-    } else {
-      merged.insert(merged.end(), stack.blurred.begin(), stack.blurred.end());
+    if (const auto in_one_plane = merged_in_one_plane(exact.faces_of(set))) {
+      merged.insert(merged.end(), in_one_plane->begin(), in_one_plane->end());
+      continue;
+    }
+    is_apart[set[0]] = true;
+    for (const std::uint32_t id : one_of_each_polygon(exactly.conversion, set)) {
+      add_polygon(exactly.conversion, id, close);
     }
   }
-  return found;
+  std::vector<Ids> sets = close.sets();
+  std::erase_if(sets, [&](const Ids& set) {
+    return std::none_of(set.begin(), set.end(), [&](std::uint32_t id) { return is_apart[id]; });
+  });
+  return sets;
 }
 
 /// Those that nobody looked at may be swapped with others all over.
@@ -437,16 +439,12 @@ bool settle_coplanar(Conversion& conversion, const TopCells& cells, const Scene&
   std::vector<FaceStack> stacks;
   std::vector<bool> is_stacked(conversion.primitives.size());
   StackBudget budget;
-  if (add_polygons(exactly, found.close, budget, conversion.close_faces)) {
-    const ExactSets exact(exactly, found.close.sets());
-    for (const Ids& set : exact.sets()) {
-      FaceStack stack = exact.stack_of(set, budget);
-      if (stack.layers.size() > 1) {
-        conversion.close_faces.insert(conversion.close_faces.end(), stack.blurred.begin(), stack.blurred.end());
-        stacks.push_back(std::move(stack));
-        std::for_each(set.begin(), set.end(), [&](std::uint32_t id) { is_stacked[id] = true; });
-      }
-    }
+  const ExactSets exact(exactly, sets_to_stack(exactly, found.close, conversion.close_faces));
+  for (const Ids& set : exact.sets()) {
+    stacks.push_back(stack_faces(exact.faces_of(set), budget));
+    const std::vector<CloseFaces>& blurred = stacks.back().blurred;
+    conversion.close_faces.insert(conversion.close_faces.end(), blurred.begin(), blurred.end());
+    std::for_each(set.begin(), set.end(), [&](std::uint32_t id) { is_stacked[id] = true; });
   }
   std::vector<Ids> sets = found.coplanar.sets();
   std::erase_if(sets, [&](const Ids& set) { return is_stacked[set[0]]; });

@@ -18,20 +18,33 @@ using Places = std::vector<std::uint32_t>;  ///< of faces
 
 bool is_smaller(const Face& a, const Face& b) { return a.altitude < b.altitude; }
 
+/// Faces that have a plane.
+Places flat_ones(std::span<const Face> faces) {
+  Places places;
+  for (std::uint32_t i = 0; i < faces.size(); ++i) {
+    if (faces[i].altitude > altitude_least) {
+      places.push_back(i);
+    }
+  }
+  return places;
+}
+
+/// The first of the largest.
+std::uint32_t place_of_largest(std::span<const Face> faces, const Places& places) {
+  return *std::max_element(places.begin(), places.end(),
+                           [&](std::uint32_t a, std::uint32_t b) { return is_smaller(faces[a], faces[b]); });
+}
+
+const Face& largest_of(std::span<const Face> faces, const Places& places) { return faces[place_of_largest(faces, places)]; }
+
 /// The largest face, all that lie in its plane, the largest of the others, and so on.
 std::vector<Places> by_plane(std::span<const Face> faces, StackBudget& budget) {
   std::vector<Places> planes;
-  Places rest;
-  for (std::uint32_t i = 0; i < faces.size(); ++i) {
-    if (faces[i].altitude > altitude_least) {
-      rest.push_back(i);
-    }
-  }
+  Places rest = flat_ones(faces);
   for (std::size_t left = std::min(looks_max, budget.planes); !rest.empty() && rest.size() <= left;) {
     left -= rest.size();
     budget.planes -= rest.size();
-    const std::uint32_t largest = *std::max_element(
-        rest.begin(), rest.end(), [&](std::uint32_t a, std::uint32_t b) { return is_smaller(faces[a], faces[b]); });
+    const std::uint32_t largest = place_of_largest(faces, rest);
     const auto others = std::stable_partition(rest.begin(), rest.end(), [&](std::uint32_t face) {
       return face == largest || are_coplanar(faces[face], faces[largest]);
     });
@@ -42,11 +55,6 @@ std::vector<Places> by_plane(std::span<const Face> faces, StackBudget& budget) {
     planes.push_back({face});
   }
   return planes;
-}
-
-const Face& largest_of(std::span<const Face> faces, const Places& places) {
-  return faces[*std::max_element(places.begin(), places.end(),
-                                 [&](std::uint32_t a, std::uint32_t b) { return is_smaller(faces[a], faces[b]); })];
 }
 
 FacePlane facing(const FacePlane& plane, const Vec3d& up) {
@@ -126,7 +134,8 @@ class Layers {
     for (const Pair& pair : pairs_) {
       const auto layers = static_cast<std::uint32_t>(std::abs(layer_[pair.lower] - layer_[pair.upper]));
       if (layers == 0 || !pair.is_ordered) {
-        swapped.emplace_back(pair.small, close_to(faces_[pair.small], pair.least, pair.most, layers));
+        const std::uint32_t small = small_face(pair);
+        swapped.emplace_back(small, close_to(faces_[small], double{pair.least}, double{pair.most}, layers));
       }
     }
     const auto reach = [](const CloseFaces& faces) { return faces.most / static_cast<float>(faces.layers + 1); };
@@ -155,10 +164,13 @@ class Layers {
   struct Pair {
     std::uint32_t lower, upper;            ///< planes, in any order
     std::uint32_t lower_face, upper_face;  ///< one of each
-    std::uint32_t small = 0;               ///< the smaller one
-    double least = 0, most = 0;            ///< how far apart
+    float least = 0, most = 0;             ///< how far apart
     bool is_ordered = false;               ///< whether one is before the other everywhere
   };
+  /// The smaller one.
+  std::uint32_t small_face(const Pair& pair) const {
+    return is_smaller(faces_[pair.upper_face], faces_[pair.lower_face]) ? pair.upper_face : pair.lower_face;
+  }
 
   void find_pairs(StackBudget& budget) {
     const std::size_t most = std::min(pairs_max, budget.pairs);
@@ -228,10 +240,9 @@ class Layers {
     if (pair.is_ordered) {
       steps.push_back(rise.is_above() ? Step{pair.lower, pair.upper} : Step{pair.upper, pair.lower});
     }
-    pair.small = is_smaller(upper, lower) ? pair.upper_face : pair.lower_face;
     const double low = std::fabs(rise.least), high = std::fabs(rise.most);
-    pair.least = rise.is_above() || rise.is_below() ? std::min(low, high) : 0.0;
-    pair.most = std::max(low, high);
+    pair.least = rise.is_above() || rise.is_below() ? static_cast<float>(std::min(low, high)) : 0.0F;
+    pair.most = static_cast<float>(std::max(low, high));
   }
 
   std::span<const Face> faces_;
@@ -255,6 +266,20 @@ void add_merged(std::span<const Face> faces, const Places& plane, const Face& ba
 }
 
 }  // namespace
+
+std::optional<std::vector<CloseFaces>> merged_in_one_plane(std::span<const Face> faces) {
+  const Places places = flat_ones(faces);
+  std::vector<CloseFaces> merged;
+  if (!places.empty()) {
+    const Face& largest = largest_of(faces, places);
+    const auto is_in_it = [&](std::uint32_t place) { return &faces[place] == &largest || are_coplanar(faces[place], largest); };
+    if (!std::all_of(places.begin(), places.end(), is_in_it)) {
+      return std::nullopt;
+    }
+    add_merged(faces, places, largest, merged);
+  }
+  return merged;
+}
 
 FaceStack stack_faces(std::span<const Face> faces, StackBudget& budget) {
   FaceStack stack;

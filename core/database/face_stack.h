@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,10 @@ struct FaceStack {
 struct StackBudget {
   std::size_t planes = std::size_t{1} << 28U, pairs = std::size_t{1} << 24U;
 };
+
+/// Whether faces, as doubles have them, lie in one plane: then those that it takes from where the file has them, as in
+/// FaceStack::blurred; else nothing. Takes time in proportion to the faces.
+std::optional<std::vector<CloseFaces>> merged_in_one_plane(std::span<const Face> faces);
 
 /// Sorts faces, as doubles have them, by their planes. Planes face the side that those do which they cover; each is in a layer
 /// above those that it covers from there, as far as plane_layers_max goes. Planes that cut each other where their faces cover each
