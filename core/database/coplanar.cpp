@@ -28,6 +28,7 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 struct CoveringPairs {
   Pairs coplanar;  ///< in one plane, by what records say of them
   Pairs close;     ///< these, and what is near
+  Ids unseen;      ///< nobody looked for what covers these
 
   void look_at(std::span<const Face> faces, const BucketSize& size) {
     const PlaneBuckets buckets = fill_plane_buckets(faces, size);
@@ -40,6 +41,7 @@ struct CoveringPairs {
     }
     coplanar.insert(coplanar.end(), finder.coplanar().begin(), finder.coplanar().end());
     close.insert(close.end(), finder.close().begin(), finder.close().end());
+    unseen.insert(unseen.end(), finder.unseen().begin(), finder.unseen().end());
   }
 };
 
@@ -66,6 +68,7 @@ CoveringPairs covering_pairs(const Exactly& exactly, std::span<const std::uint32
     CoveringPairs by_doubles;
     by_doubles.look_at(faces, coarse_buckets);
     pairs.close.insert(pairs.close.end(), by_doubles.close.begin(), by_doubles.close.end());
+    pairs.unseen.insert(pairs.unseen.end(), by_doubles.unseen.begin(), by_doubles.unseen.end());
   }
   return pairs;
 }
@@ -110,6 +113,7 @@ class FaceSets {
 /// Triangles that cover each other.
 struct CoveringSets {
   FaceSets coplanar, close;
+  Ids unseen;  ///< ascending, once each
 };
 
 CoveringSets covering_sets(const Exactly& exactly, const TopCells& cells, const Parallel& parallel) {
@@ -117,11 +121,14 @@ CoveringSets covering_sets(const Exactly& exactly, const TopCells& cells, const 
   parallel.for_each(cells.size(), [&](std::size_t cell) { pairs[cell] = covering_pairs(exactly, cells.ids(cell)); });
   const bool is_none = std::all_of(pairs.begin(), pairs.end(), [](const CoveringPairs& some) { return some.close.empty(); });
   const std::size_t count = is_none ? 0 : exactly.conversion.primitives.size();
-  CoveringSets sets{FaceSets(count), FaceSets(count)};
+  CoveringSets sets{FaceSets(count), FaceSets(count), {}};
   for (const CoveringPairs& some : pairs) {
     sets.coplanar.add_all(some.coplanar);
     sets.close.add_all(some.close);
+    sets.unseen.insert(sets.unseen.end(), some.unseen.begin(), some.unseen.end());
   }
+  std::sort(sets.unseen.begin(), sets.unseen.end());
+  sets.unseen.erase(std::unique(sets.unseen.begin(), sets.unseen.end()), sets.unseen.end());
   return sets;
 }
 
@@ -137,13 +144,13 @@ class ExactSets {
   }
 
   const std::vector<Ids>& sets() const { return sets_; }
-  FaceStack stack_of(const Ids& set, StackBudget& budget) const {
+  std::vector<Face> faces_of(const Ids& set) const {
     std::vector<Face> faces;
     faces.reserve(set.size());
     for (const std::uint32_t id : set) {
       faces.push_back(faces_[static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin())]);
     }
-    return stack_faces(faces, budget);
+    return faces;
   }
 
  private:
@@ -375,25 +382,35 @@ bool is_level(const Exactly& exactly, const Ids& whole) {
   return false;
 }
 
-/// Adds to sets that doubles take apart the other triangles of their polygons, and to `merged` what they cannot. Returns whether
-/// there are any of the former.
-bool add_polygons(const Exactly& exactly, FaceSets& close, StackBudget& budget, std::vector<CloseFaces>& merged) {
+/// The sets that doubles take apart, with the other triangles of their polygons; what doubles cannot goes to `merged`.
+std::vector<Ids> sets_to_stack(const Exactly& exactly, FaceSets& close, std::vector<CloseFaces>& merged) {
   std::vector<Ids> doubtful = close.sets();
   std::erase_if(doubtful, [&](const Ids& set) { return is_level(exactly, set); });
   const ExactSets exact(exactly, std::move(doubtful));
-  bool found = false;
+  std::vector<bool> is_apart(exactly.conversion.primitives.size());
   for (const Ids& set : exact.sets()) {
-    const FaceStack stack = exact.stack_of(set, budget);
-    if (stack.layers.size() > 1) {
-      for (const std::uint32_t id : one_of_each_polygon(exactly.conversion, set)) {
-        add_polygon(exactly.conversion, id, close);
-      }
-      found = true;
-    } else {
-      merged.insert(merged.end(), stack.blurred.begin(), stack.blurred.end());
+    if (const auto in_one_plane = merged_in_one_plane(exact.faces_of(set))) {
+      merged.insert(merged.end(), in_one_plane->begin(), in_one_plane->end());
+      continue;
+    }
+    is_apart[set[0]] = true;
+    for (const std::uint32_t id : one_of_each_polygon(exactly.conversion, set)) {
+      add_polygon(exactly.conversion, id, close);
     }
   }
-  return found;
+  std::vector<Ids> sets = close.sets();
+  std::erase_if(sets, [&](const Ids& set) {
+    return std::none_of(set.begin(), set.end(), [&](std::uint32_t id) { return is_apart[id]; });
+  });
+  return sets;
+}
+
+/// Those that nobody looked at may be swapped with others all over.
+void say_unseen(const Ids& unseen, Conversion& conversion) {
+  for (const std::uint32_t id : unseen) {
+    const Face face(conversion.primitives[id], id, conversion.sources[id].object);
+    conversion.close_faces.push_back({.place = Vec3f(face.middle()), .size = static_cast<float>(face.longest())});
+  }
 }
 
 /// Returns whether there are any.
@@ -418,19 +435,16 @@ bool settle_coplanar(Conversion& conversion, const TopCells& cells, const Scene&
                      const Parallel& parallel) {
   const Exactly exactly{conversion, scene, frame};
   CoveringSets found = covering_sets(exactly, cells, parallel);
+  say_unseen(found.unseen, conversion);
   std::vector<FaceStack> stacks;
   std::vector<bool> is_stacked(conversion.primitives.size());
   StackBudget budget;
-  if (add_polygons(exactly, found.close, budget, conversion.close_faces)) {
-    const ExactSets exact(exactly, found.close.sets());
-    for (const Ids& set : exact.sets()) {
-      FaceStack stack = exact.stack_of(set, budget);
-      if (stack.layers.size() > 1) {
-        conversion.close_faces.insert(conversion.close_faces.end(), stack.blurred.begin(), stack.blurred.end());
-        stacks.push_back(std::move(stack));
-        std::for_each(set.begin(), set.end(), [&](std::uint32_t id) { is_stacked[id] = true; });
-      }
-    }
+  const ExactSets exact(exactly, sets_to_stack(exactly, found.close, conversion.close_faces));
+  for (const Ids& set : exact.sets()) {
+    stacks.push_back(stack_faces(exact.faces_of(set), budget));
+    const std::vector<CloseFaces>& blurred = stacks.back().blurred;
+    conversion.close_faces.insert(conversion.close_faces.end(), blurred.begin(), blurred.end());
+    std::for_each(set.begin(), set.end(), [&](std::uint32_t id) { is_stacked[id] = true; });
   }
   std::vector<Ids> sets = found.coplanar.sets();
   std::erase_if(sets, [&](const Ids& set) { return is_stacked[set[0]]; });

@@ -184,18 +184,21 @@ void CoverFinder::judge(std::uint32_t a, std::uint32_t b, std::size_t axis) {
   }
 }
 
-/// Takes the largest, all that lie in its plane, the largest of the others, and so on.
+/// Takes the largest, all that lie in its plane or near to it, the largest of the others, and so on.
 void CoverFinder::look_at_planes(std::span<const std::uint32_t> some) {
   std::vector<std::uint32_t> rest(some.begin(), some.end());
   for (std::size_t planes = 0; planes < planes_max && rest.size() > 1; ++planes) {
     const std::uint32_t largest = *std::max_element(
         rest.begin(), rest.end(), [&](std::uint32_t a, std::uint32_t b) { return faces_[a].altitude < faces_[b].altitude; });
     const auto others = std::partition(rest.begin(), rest.end(), [&](std::uint32_t face) {
-      return face != largest && !are_coplanar(faces_[face], faces_[largest]);
+      return face != largest && !are_coplanar(faces_[face], faces_[largest]) && !are_near(faces_[face], faces_[largest]);
     });
-    std::for_each(others, rest.end(), [&](std::uint32_t face) { merge(face, largest, true); });
+    std::for_each(others, rest.end(), [&](std::uint32_t face) {
+      merge(face, largest, face == largest || are_coplanar(faces_[face], faces_[largest]));
+    });
     rest.erase(others, rest.end());
   }
+  std::for_each(rest.begin(), rest.end(), [&](std::uint32_t face) { unseen_.push_back(faces_[face].id); });
 }
 
 /// By doubles what is coplanar is merely close.

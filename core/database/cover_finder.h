@@ -26,7 +26,7 @@ class MergedSets {
 
 /// Finds faces of different objects that lie in one plane, or in two that are near, and cover each other. Looks at those alone
 /// that share a square of a raster, as many as a number in proportion to the faces allows; beyond that it takes all that lie in
-/// the plane of the largest for covering it.
+/// the plane of the largest, or near to it, for covering it.
 class CoverFinder {
  public:
   /// The faces, of ascending ids, outlive the finder.
@@ -38,6 +38,8 @@ class CoverFinder {
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& coplanar() const { return coplanar_.pairs; }
   /// The same of all that covers each other in one plane or near to it.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& close() const { return close_.pairs; }
+  /// Ids of faces for which there was no time: others may cover them in their plane, or near to it.
+  const std::vector<std::uint32_t>& unseen() const { return unseen_; }
 
  private:
   /// A face as seen along the axis.
@@ -73,6 +75,7 @@ class CoverFinder {
 
   std::span<const Face> faces_;
   Found coplanar_, close_;
+  std::vector<std::uint32_t> unseen_;
   std::vector<Seen> seen_;
   std::vector<Entry> entries_, sorted_;
   std::vector<std::uint32_t> next_;  ///< by square: where its next entry goes

@@ -72,6 +72,7 @@ class DatabaseBuilder {
       forget_objects(*expendable_);
     }
     if (is_rearranged) {
+      set_pad();  // there are layers now
       cells = sort_into_top_cells();
     }
     if (options_.structure == Structure::extents) {
@@ -118,7 +119,16 @@ class DatabaseBuilder {
     set_pad();
   }
 
-  void set_pad() { result_.pad_ = options_.pad_share * insertion_pad(header().frame, view_distance_); }
+  void set_pad() { result_.pad_ = options_.pad_share * insertion_pad(header().frame, view_distance_, layers_above()); }
+
+  /// The highest layer of a plane.
+  std::int32_t layers_above() const {
+    std::int32_t layers = 0;
+    for (const KeptPlane& plane : conversion_.planes) {
+      layers = std::max(layers, plane.kept_as - std::int32_t{BlockHeader::exact_plane});
+    }
+    return layers;
+  }
 
   Vec3d local(const Vec3d& point) const { return to_local(result_.header_.frame, point); }
 

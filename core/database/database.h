@@ -43,11 +43,13 @@ struct CollapsedPrimitive {
 };
 
 /// Two faces that cover each other in planes of which neither is before the other everywhere, or next to which too many others
-/// lie, or that not even doubles tell apart on a ray: where t is the same for both, the first in the file shows.
+/// lie, or that not even doubles tell apart on a ray: where t is the same for both, the first in the file shows, and where their
+/// layers move it by more than they are apart, the one of them.
 struct CloseFaces {
   Vec3f place;                ///< of the smaller one, grid-local
   float size = 0;             ///< its longest edge
   float least = 0, most = 0;  ///< how far one is from the plane of the other
+  std::uint32_t layers = 0;   ///< between them
 };
 
 /// A plane that blocks tell, and what their headers say of it.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <cstdlib>
 #include <utility>
 
 namespace dmpc::core {
@@ -18,20 +18,33 @@ using Places = std::vector<std::uint32_t>;  ///< of faces
 
 bool is_smaller(const Face& a, const Face& b) { return a.altitude < b.altitude; }
 
+/// Faces that have a plane.
+Places flat_ones(std::span<const Face> faces) {
+  Places places;
+  for (std::uint32_t i = 0; i < faces.size(); ++i) {
+    if (faces[i].altitude > altitude_least) {
+      places.push_back(i);
+    }
+  }
+  return places;
+}
+
+/// The first of the largest.
+std::uint32_t place_of_largest(std::span<const Face> faces, const Places& places) {
+  return *std::max_element(places.begin(), places.end(),
+                           [&](std::uint32_t a, std::uint32_t b) { return is_smaller(faces[a], faces[b]); });
+}
+
+const Face& largest_of(std::span<const Face> faces, const Places& places) { return faces[place_of_largest(faces, places)]; }
+
 /// The largest face, all that lie in its plane, the largest of the others, and so on.
 std::vector<Places> by_plane(std::span<const Face> faces, StackBudget& budget) {
   std::vector<Places> planes;
-  Places rest;
-  for (std::uint32_t i = 0; i < faces.size(); ++i) {
-    if (faces[i].altitude > altitude_least) {
-      rest.push_back(i);
-    }
-  }
+  Places rest = flat_ones(faces);
   for (std::size_t left = std::min(looks_max, budget.planes); !rest.empty() && rest.size() <= left;) {
     left -= rest.size();
     budget.planes -= rest.size();
-    const std::uint32_t largest = *std::max_element(
-        rest.begin(), rest.end(), [&](std::uint32_t a, std::uint32_t b) { return is_smaller(faces[a], faces[b]); });
+    const std::uint32_t largest = place_of_largest(faces, rest);
     const auto others = std::stable_partition(rest.begin(), rest.end(), [&](std::uint32_t face) {
       return face == largest || are_coplanar(faces[face], faces[largest]);
     });
@@ -74,52 +87,65 @@ Rise rise_of(const Face& above, const Face& below, const Vec3d& up) {
   return first.is_above() || first.is_below() || !(second.is_above() || second.is_below()) ? first : second;
 }
 
-CloseFaces close_to(const Face& small, double least, double most) {
-  return {Vec3f(small.middle()), static_cast<float>(small.longest()), static_cast<float>(least), static_cast<float>(most)};
+/// No t, of up to 8, is moved farther by layers: what is farther apart is met in order.
+constexpr double layers_reach = plane_layers_max * 0x1p-21;
+
+/// Whether they may be next to each other, one over the other: what leans more is cut through, in a line.
+bool lie_on_each_other(const Face& a, const Face& b) {
+  const Rise rise = rise_of(a, b, b.plane.normal);
+  return std::fabs(dot(a.plane.normal, b.plane.normal)) > 0.5 && rise.least <= layers_reach && rise.most >= -layers_reach;
 }
 
-/// Finds which planes are above which.
+CloseFaces close_to(const Face& small, double least, double most, std::uint32_t layers = 0) {
+  return {Vec3f(small.middle()), static_cast<float>(small.longest()), static_cast<float>(least), static_cast<float>(most), layers};
+}
+
+/// Finds which planes are above which. Each faces as those do that it is next to, so a set may go round a barrel.
 class Layers {
  public:
-  Layers(std::span<const Face> faces, const std::vector<Places>& planes, const Face& base)
-      : faces_(faces), planes_(planes), up_(base.plane.normal), axis_(base.main_axis()), layer_(planes.size()) {}
+  Layers(std::span<const Face> faces, const std::vector<Places>& planes)
+      : faces_(faces), planes_(planes), layer_(planes.size()) {
+    for (const Places& plane : planes) {
+      up_.push_back(largest_of(faces, plane).plane.normal);
+    }
+  }
 
   void find(StackBudget& budget) {
-    const std::size_t most = std::min(pairs_max, budget.pairs);
-    left_ = most;
-    for (std::uint32_t upper = 1; upper < planes_.size(); ++upper) {
-      bool are_all_seen = true;
-      for (std::uint32_t lower = 0; lower < upper && are_all_seen; ++lower) {
-        are_all_seen = compare(upper, lower);
-      }
-      if (!are_all_seen) {
-        unordered_.push_back(upper);
-      }
+    find_pairs(budget);
+    turn_to_one_side();
+    std::vector<Step> steps;
+    for (Pair& pair : pairs_) {
+      judge(pair, steps);
     }
-    budget.pairs -= most - left_;
     for (std::int32_t round = 1; round < plane_layers_max; ++round) {
-      for (const Step& step : steps_) {
+      for (const Step& step : steps) {
         layer_[step.upper] = std::max(layer_[step.upper], std::min(layer_[step.lower] + 1, plane_layers_max - 1));
       }
     }
   }
-  std::uint8_t kept_as(std::size_t plane) const { return static_cast<std::uint8_t>(BlockHeader::exact_plane + layer_[plane]); }
-  const Vec3d& up() const { return up_; }
+  KeptPlane plane(std::size_t plane) const {
+    return {facing(largest_of(faces_, planes_[plane]).plane, up_[plane]),
+            static_cast<std::uint8_t>(BlockHeader::exact_plane + layer_[plane])};
+  }
 
-  /// Of each face the nearest to it in its layer, and all of planes that were not looked at.
+  /// Of each face the one that it is swapped with first, and all of planes that were not looked at.
   std::vector<CloseFaces> blurred() const {
-    std::vector<const Pair*> in_one_layer;
+    std::vector<std::pair<std::uint32_t, CloseFaces>> swapped;
     for (const Pair& pair : pairs_) {
-      if (layer_[pair.step.upper] == layer_[pair.step.lower]) {
-        in_one_layer.push_back(&pair);
+      const auto layers = static_cast<std::uint32_t>(std::abs(layer_[pair.lower] - layer_[pair.upper]));
+      if (layers == 0 || !pair.is_ordered) {
+        const std::uint32_t small = small_face(pair);
+        swapped.emplace_back(small, close_to(faces_[small], double{pair.least}, double{pair.most}, layers));
       }
     }
-    std::sort(in_one_layer.begin(), in_one_layer.end(),
-              [](const Pair* a, const Pair* b) { return std::tie(a->small, a->faces.most) < std::tie(b->small, b->faces.most); });
+    const auto reach = [](const CloseFaces& faces) { return faces.most / static_cast<float>(faces.layers + 1); };
+    std::sort(swapped.begin(), swapped.end(), [&](const auto& a, const auto& b) {
+      return std::pair(a.first, reach(a.second)) < std::pair(b.first, reach(b.second));
+    });
     std::vector<CloseFaces> result;
-    for (std::size_t i = 0; i < in_one_layer.size(); ++i) {
-      if (i == 0 || in_one_layer[i]->small != in_one_layer[i - 1]->small) {
-        result.push_back(in_one_layer[i]->faces);
+    for (std::size_t i = 0; i < swapped.size(); ++i) {
+      if (i == 0 || swapped[i].first != swapped[i - 1].first) {
+        result.push_back(swapped[i].second);
       }
     }
     for (const std::uint32_t plane : unordered_) {
@@ -134,51 +160,97 @@ class Layers {
   struct Step {
     std::uint32_t lower, upper;  ///< planes
   };
+  /// Two faces that cover each other, and their planes.
   struct Pair {
-    Step step;
-    std::uint32_t small;  ///< the smaller face
-    CloseFaces faces;
+    std::uint32_t lower, upper;            ///< planes, in any order
+    std::uint32_t lower_face, upper_face;  ///< one of each
+    float least = 0, most = 0;             ///< how far apart
+    bool is_ordered = false;               ///< whether one is before the other everywhere
   };
+  /// The smaller one.
+  std::uint32_t small_face(const Pair& pair) const {
+    return is_smaller(faces_[pair.upper_face], faces_[pair.lower_face]) ? pair.upper_face : pair.lower_face;
+  }
+
+  void find_pairs(StackBudget& budget) {
+    const std::size_t most = std::min(pairs_max, budget.pairs);
+    std::size_t left = most;
+    for (std::uint32_t upper = 1; upper < planes_.size(); ++upper) {
+      bool are_all_seen = true;
+      for (std::uint32_t lower = 0; lower < upper && are_all_seen; ++lower) {
+        are_all_seen = compare(upper, lower, left);
+      }
+      if (!are_all_seen) {
+        unordered_.push_back(upper);
+      }
+    }
+    budget.pairs -= most - left;
+  }
 
   /// False if there are too many pairs.
-  bool compare(std::uint32_t upper, std::uint32_t lower) {
-    if (planes_[upper].size() * planes_[lower].size() > left_) {
+  bool compare(std::uint32_t upper, std::uint32_t lower, std::size_t& left) {
+    const std::size_t pairs = planes_[upper].size() * planes_[lower].size();
+    if (pairs > left) {
       return false;
     }
-    left_ -= planes_[upper].size() * planes_[lower].size();
+    left -= pairs;
     for (const std::uint32_t a : planes_[upper]) {
       for (const std::uint32_t b : planes_[lower]) {
-        if (faces_[a].object != faces_[b].object && cover(faces_[a], faces_[b], axis_)) {
-          note({lower, upper}, a, b);
+        const Face &one = faces_[a], &other = faces_[b];
+        const std::size_t axis = (is_smaller(one, other) ? other : one).main_axis();
+        if (one.object != other.object && cover(one, other, axis) && lie_on_each_other(one, other)) {
+          pairs_.push_back({.lower = lower, .upper = upper, .lower_face = b, .upper_face = a});
         }
       }
     }
     return true;
   }
 
-  void note(const Step& step, std::uint32_t a, std::uint32_t b) {
-    const Face &upper = faces_[a], &lower = faces_[b];
-    const Rise rise = rise_of(upper, lower, up_);
-    if (rise.is_above()) {
-      steps_.push_back(step);
-    } else if (rise.is_below()) {
-      steps_.push_back({step.upper, step.lower});
+  /// From the first plane to those that cover it, and on from them; whatever these do not lead to faces as the first does.
+  void turn_to_one_side() {
+    std::vector<Places> beside(planes_.size());
+    for (const Pair& pair : pairs_) {
+      beside[pair.lower].push_back(pair.upper);
+      beside[pair.upper].push_back(pair.lower);
     }
-    const std::uint32_t small = is_smaller(upper, lower) ? a : b;
+    std::vector<bool> is_turned(planes_.size());
+    for (std::uint32_t first = 0; first < planes_.size(); ++first) {
+      Places turned;
+      const auto turn = [&](std::uint32_t plane, const Vec3d& way) {
+        if (!is_turned[plane]) {
+          is_turned[plane] = true;
+          up_[plane] = dot(up_[plane], way) < 0.0 ? -up_[plane] : up_[plane];
+          turned.push_back(plane);
+        }
+      };
+      turn(first, up_[0]);
+      for (std::size_t next = 0; next < turned.size(); ++next) {
+        const std::uint32_t from = turned[next];
+        std::for_each(beside[from].begin(), beside[from].end(), [&](std::uint32_t plane) { turn(plane, up_[from]); });
+      }
+    }
+  }
+
+  /// Where a set goes round a strip with a twist two planes face each other whatever way they are turned.
+  void judge(Pair& pair, std::vector<Step>& steps) const {
+    const Face &upper = faces_[pair.upper_face], &lower = faces_[pair.lower_face];
+    const Rise rise = rise_of(upper, lower, up_[pair.lower]);
+    const bool is_one_way = dot(up_[pair.lower], up_[pair.upper]) > 0.0;
+    pair.is_ordered = is_one_way && (rise.is_above() || rise.is_below());
+    if (pair.is_ordered) {
+      steps.push_back(rise.is_above() ? Step{pair.lower, pair.upper} : Step{pair.upper, pair.lower});
+    }
     const double low = std::fabs(rise.least), high = std::fabs(rise.most);
-    const bool is_cut = !rise.is_above() && !rise.is_below();
-    pairs_.push_back({step, small, close_to(faces_[small], is_cut ? 0.0 : std::min(low, high), std::max(low, high))});
+    pair.least = rise.is_above() || rise.is_below() ? static_cast<float>(std::min(low, high)) : 0.0F;
+    pair.most = static_cast<float>(std::max(low, high));
   }
 
   std::span<const Face> faces_;
   const std::vector<Places>& planes_;
-  Vec3d up_;
-  std::size_t axis_;
+  std::vector<Vec3d> up_;  ///< by plane: the side that it faces
   std::vector<std::int32_t> layer_;
-  std::vector<Step> steps_;
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> unordered_;  ///< planes
-  std::size_t left_ = 0;                  ///< of the budget
 };
 
 /// Level faces of one plane that the file has at different heights, though by less than a ray could tell.
@@ -195,20 +267,30 @@ void add_merged(std::span<const Face> faces, const Places& plane, const Face& ba
 
 }  // namespace
 
+std::optional<std::vector<CloseFaces>> merged_in_one_plane(std::span<const Face> faces) {
+  const Places places = flat_ones(faces);
+  std::vector<CloseFaces> merged;
+  if (!places.empty()) {
+    const Face& largest = largest_of(faces, places);
+    const auto is_in_it = [&](std::uint32_t place) { return &faces[place] == &largest || are_coplanar(faces[place], largest); };
+    if (!std::all_of(places.begin(), places.end(), is_in_it)) {
+      return std::nullopt;
+    }
+    add_merged(faces, places, largest, merged);
+  }
+  return merged;
+}
+
 FaceStack stack_faces(std::span<const Face> faces, StackBudget& budget) {
   FaceStack stack;
   const std::vector<Places> planes = by_plane(faces, budget);
-  const auto largest_of = [&](const Places& places) -> const Face& {
-    return faces[*std::max_element(places.begin(), places.end(),
-                                   [&](std::uint32_t a, std::uint32_t b) { return is_smaller(faces[a], faces[b]); })];
-  };
   if (planes.empty()) {
     return stack;
   }
-  Layers layers(faces, planes, largest_of(planes[0]));
+  Layers layers(faces, planes);
   layers.find(budget);
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    FaceStack::Layer layer{{facing(largest_of(planes[i]).plane, layers.up()), layers.kept_as(i)}, {}};
+    FaceStack::Layer layer{layers.plane(i), {}};
     for (const std::uint32_t place : planes[i]) {
       layer.ids.push_back(faces[place].id);
     }
@@ -217,7 +299,7 @@ FaceStack stack_faces(std::span<const Face> faces, StackBudget& budget) {
   }
   stack.blurred = layers.blurred();
   for (const Places& plane : planes) {
-    add_merged(faces, plane, largest_of(plane), stack.blurred);
+    add_merged(faces, plane, largest_of(faces, plane), stack.blurred);
   }
   return stack;
 }

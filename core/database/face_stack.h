@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,8 +27,8 @@ struct FaceStack {
     std::vector<std::uint32_t> ids;  ///< of the faces, ascending
   };
   std::vector<Layer> layers;
-  /// Of those that cover another one and are in its layer, in two planes or in one for want of digits: once each, the smaller
-  /// one.
+  /// Of those that cover another one and are in its layer, in two planes or in one for want of digits, or in another layer but on
+  /// both sides of it: once each, the smaller one.
   std::vector<CloseFaces> blurred;
 };
 
@@ -37,9 +38,13 @@ struct StackBudget {
   std::size_t planes = std::size_t{1} << 28U, pairs = std::size_t{1} << 24U;
 };
 
-/// Sorts faces, as doubles have them, by their planes. The planes face one side; each is in a layer above those that it covers
-/// from there, as far as plane_layers_max goes. Planes that cut each other where their faces cover each other may be in one
-/// layer.
+/// Whether faces, as doubles have them, lie in one plane: then those that it takes from where the file has them, as in
+/// FaceStack::blurred; else nothing. Takes time in proportion to the faces.
+std::optional<std::vector<CloseFaces>> merged_in_one_plane(std::span<const Face> faces);
+
+/// Sorts faces, as doubles have them, by their planes. Planes face the side that those do which they cover; each is in a layer
+/// above those that it covers from there, as far as plane_layers_max goes. Planes that cut each other where their faces cover each
+/// other may be in any.
 FaceStack stack_faces(std::span<const Face> faces, StackBudget& budget);
 
 }  // namespace dmpc::core

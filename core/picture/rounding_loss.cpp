@@ -118,7 +118,8 @@ class LossFinder {
   void count_swapped() {
     for (const CloseFaces& faces : database_.close_faces()) {
       const Vec3d offset = Vec3d(faces.place) - camera_.eye();
-      const double distance = length(offset), tie = tie_rounding * distance, least{faces.least}, most{faces.most};
+      const double distance = length(offset), tie = tie_rounding * distance * (1.0 + faces.layers);
+      const double least{faces.least}, most{faces.most};
       const double share = tie >= most ? 1.0 : tie > least ? (tie - least) / (most - least) : 0.0;
       const double across = share * pixels(double{faces.size}, distance);
       if (camera_.on_film(offset).z > 0 && across > rounding_allowed_pixels) {

@@ -79,10 +79,11 @@ GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells
   return frame;
 }
 
-double insertion_pad(const GridFrame& frame, double distance) {
+double insertion_pad(const GridFrame& frame, double distance, std::int32_t layers) {
   const double finest = double{frame.finest_cell};
   const double extent = finest * finest_per_cell * *std::max_element(frame.resolution.begin(), frame.resolution.end());
-  return std::max(1e-3 * finest, 0x1p-21 * extent * (1.0 + distance)) + 1e-6 * extent;
+  const double farthest = extent * (1.0 + distance), by_layers = 0x1p-23 * farthest * layers;
+  return std::max(1e-3 * finest, 0x1p-21 * farthest) + by_layers + 1e-6 * extent;
 }
 
 }  // namespace dmpc::core

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "apps/lab/bench/stability/random.h"
@@ -149,6 +150,143 @@ TEST_CASE("faces that nobody had the time to look at lie in no order, and are sa
   CHECK(few.layers.size() == 5);
   CHECK(few.blurred.size() == 2);
   CHECK(none.pairs == 0);
+}
+
+core::Face exact_face(const std::array<Vec3d, 3>& corners, std::uint32_t id) { return {corners, Vec3d(), 0x1p-49, id, id}; }
+
+/// The staves of a barrel, and a label around it, whose staves each lie on two of the barrel's. First those, then these; two
+/// triangles each.
+std::vector<core::Face> barrel_with_label(int staves) {
+  const double radius = 0.4, angle = 2 * std::numbers::pi / staves, bulge = radius * angle * angle / 8;
+  std::vector<core::Face> faces;
+  const auto add_stave = [&](double first, double around, double half_height) {
+    const auto at = [&](double place, double height) {
+      return Vec3d{around * std::cos(place * angle), around * std::sin(place * angle), height};
+    };
+    const std::uint32_t id = static_cast<std::uint32_t>(faces.size());
+    faces.push_back(exact_face({at(first, -half_height), at(first + 1, -half_height), at(first + 1, half_height)}, id));
+    faces.push_back(exact_face({at(first, -half_height), at(first + 1, half_height), at(first, half_height)}, id));
+  };
+  for (int i = 0; i < staves; ++i) {
+    add_stave(i, radius, 0.5);
+  }
+  for (int i = 0; i < staves; ++i) {
+    add_stave(i + 0.5, radius + bulge + 1e-7, 0.2);
+  }
+  return faces;
+}
+
+TEST_CASE("a label that goes round a barrel is before it on all sides") {
+  constexpr int staves = 512;
+  const std::vector<core::Face> faces = barrel_with_label(staves);
+  core::StackBudget budget;
+  const core::FaceStack stack = core::stack_faces(faces, budget);
+  CHECK(stack.blurred.empty());
+  CHECK(stack.layers.size() == 2 * staves);
+  int above = 0, outwards = 0;
+  for (const core::FaceStack::Layer& layer : stack.layers) {
+    above += layer.plane.kept_as == core::BlockHeader::exact_plane + (layer.ids[0] < 2 * staves ? 0 : 1) ? 1 : 0;
+    outwards += dot(layer.plane.normal, faces[layer.ids[0]].middle()) > 0 ? 1 : 0;
+  }
+  CHECK(above == 2 * staves);
+  CHECK(outwards == (outwards == 0 ? 0 : 2 * staves));
+}
+
+TEST_CASE("a face that is above another one here and below it there is said to be swapped with it, whatever layers they are in") {
+  const std::vector<core::Face> faces{exact_face({{{-0.4, -0.4, 0}, {0.4, -0.4, 0}, {0, 0.4, 0}}}, 0),
+                                      exact_face({{{-0.25, -0.1, 1e-9}, {-0.1, -0.1, 1e-9}, {-0.2, 0.1, 1e-9}}}, 1),
+                                      exact_face({{{-0.2, -0.05, 3e-9}, {0.2, -0.05, -3e-9}, {-0.2, 0.05, 3e-9}}}, 2)};
+  core::StackBudget budget;
+  const core::FaceStack stack = core::stack_faces(faces, budget);
+  REQUIRE(stack.blurred.size() == 1);
+  CHECK(stack.blurred[0].layers == 2);
+  CHECK(stack.blurred[0].least == 0);
+  CHECK(double{stack.blurred[0].most} == doctest::Approx(3e-9));
+}
+
+/// A unit in the last place of a t from 4 to 8, grid-local.
+constexpr double unit_of_t = 0x1p-21;
+
+/// Eight squares above each other, which by their normals go up, so many units of t below a border between two top cells; next
+/// above the border is one that belongs to no others.
+class Tower {
+ public:
+  explicit Tower(double units_below) {
+    pile_up({.finest_cell = 0}, 0);  // the bounds and the number of primitives, hence the grid, will be the same
+    pile_up(core::build_database(scene_, options()).header().frame, units_below);
+  }
+
+  const Scene& scene() const { return scene_; }
+  static core::BuildOptions options() { return {.cells_per_primitive = 448}; }
+
+ private:
+  void pile_up(const core::GridFrame& frame, double units_below) {
+    const auto above_border = [&](double units) {
+      return frame.origin.z + (core::plane_at(frame, 2, core::finest_per_top) + units * unit_of_t) / frame.scale;
+    };
+    scene_ = lit_scene();
+    core::SceneBuilder builder(scene_);
+    builder.material(floor_material);
+    builder.polygon({{-1.1, -1.1, -1.1}, {-1, -1.1, -1.1}, {-1.1, -1, -1.1}});
+    builder.polygon({{1.1, 1.1, 1.1}, {1, 1.1, 1.1}, {1.1, 1, 1.1}});
+    const auto add_square = [&](double height) {
+      builder.polygon(rectangle({-0.4, -0.4, height}, {0.4, 0.4, height}, false));
+    };
+    for (int i = 1; i <= core::plane_layers_max; ++i) {
+      add_square(above_border(-units_below) - 1e-9 * (core::plane_layers_max - i));
+    }
+    add_square(above_border(0.6));
+    scene_ = apps::seen_from(scene_, 7);
+  }
+
+  Scene scene_;
+};
+
+TEST_CASE("a face that its layer brings before another one is found in whatever cell it lies, however far away the eye is") {
+  for (double units_below = 4; units_below < 9; units_below += 0.125) {
+    CAPTURE(units_below);
+    const Database database = core::build_database(Tower(units_below).scene(), Tower::options());
+    const core::GridFrame& frame = database.header().frame;
+    const Vec3d middle = core::to_local(frame, {0.1, 0.05, 0});
+    const Ray ray = apps::ray_through({middle.x, middle.y, core::plane_at(frame, 2, core::finest_per_top) + 4.02}, middle);
+    CHECK(apps::same_hit(apps::shoot(database, ray), brute_force(database, ray)));
+  }
+}
+
+/// So many planes, each `step` above the last one, of so many triangles that lie across each other.
+Scene heap(int planes, int triangles, double step) {
+  Random random(5);
+  Scene scene = lit_scene();
+  core::SceneBuilder builder(scene);
+  builder.material(floor_material);
+  for (int plane = 0; plane < planes; ++plane) {
+    for (int i = 0; i < triangles; ++i) {
+      const Vec3d middle = random.in_box(-0.3, 0.3);
+      std::vector<Vec3d> corners;
+      for (int corner = 0; corner < 3; ++corner) {
+        const double angle = middle.z * 10 + corner * 2 * std::numbers::pi / 3;
+        corners.push_back(tilted({middle.x + std::cos(angle), middle.y + std::sin(angle), step * plane}));
+      }
+      builder.polygon(corners);
+    }
+  }
+  return scene;
+}
+
+TEST_CASE("a poster next to its wall lies where doubles say even where a heap in the wall's plane leaves no time for pairs") {
+  Scene scene = heap(1, 3000, 0);
+  core::SceneBuilder builder(scene);
+  builder.polygon(rectangle({3, 3, 0}, {5, 5, 0}, true));
+  builder.polygon(rectangle({3.5, 3.5, 2e-6}, {4.5, 4.5, 2e-6}, true));
+  const Database database = core::build_database(scene, {.cells_per_primitive = 1e-3});  // one top cell
+  const core::PrimitiveValues& poster = database.primitives().back();
+  REQUIRE(poster.needs_plane());
+  CHECK(core::BlockHeader{.plane = database.planes()[poster.plane() - 1].kept_as}.has_exact_plane());
+}
+
+TEST_CASE("where more planes lie next to each other than there is time for, the faces in them are said to be in no order") {
+  CHECK(database_of(heap(60, 50, 1e-5)).close_faces().empty());
+  CHECK(database_of(heap(150, 20, 1e-5)).close_faces().size() > 100);
 }
 
 core::Film rendered(const Scene& scene) {
