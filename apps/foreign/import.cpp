@@ -21,10 +21,15 @@
 #include <utility>
 
 #include "apps/edge/line/shown_text.h"
+#include "apps/foreign/assimp_log.h"
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/mesh/collada_text.h"
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/file_ending.h"
+#include "apps/foreign/mesh/file_numbers.h"
+#include "apps/foreign/mesh/hidden_nodes.h"
 #include "apps/foreign/mesh/invented.h"
+#include "apps/foreign/mesh/without_area.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -159,34 +164,10 @@ std::optional<ImportedFile> import_gltf(const std::string& path, SceneFiles& fil
   return gltf::read_gltf(document, open);
 }
 
-/// Whether Assimp has put a figure of its own in place of the meshes that the file does not have: one for its tree of nodes.
-bool is_figure_of_nodes(const aiScene& scene) {
-  const auto is_named_so = [](const aiMaterial* material) {
-    return std::string(material->GetName().C_Str()) == "SkeletonMaterial";
-  };
-  return (scene.mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0 &&
-         std::any_of(scene.mMaterials, scene.mMaterials + scene.mNumMaterials, is_named_so);
-}
-
-/// A material's texture goes by the file's number of a set, and a mesh's sets are counted from 0 on.
-void count_texture_sets(aiScene& scene, const std::set<unsigned>& sets) {
-  for (aiMaterial* const material : std::span(scene.mMaterials, scene.mNumMaterials)) {
-    int set = 0;
-    if (material->Get(AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0), set) == aiReturn_SUCCESS) {
-      const auto place = sets.find(static_cast<unsigned>(set));
-      if (place != sets.end()) {
-        set = static_cast<int>(std::distance(sets.begin(), place));
-        material->RemoveProperty(AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0));
-        material->AddProperty(&set, 1, AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0));
-      }
-    }
-  }
-}
-
-void check_has_mesh(const aiScene& scene) {
-  if (scene.mNumMeshes == 0 || is_figure_of_nodes(scene)) {
-    throw core::InputError(
-        "there is no mesh in it, and so no triangle that has an area; expected a mesh of triangles or polygons");
+/// Assimp puts a figure of the tree of nodes in place of meshes that are not there, and marks the scene.
+void check_has_mesh(const aiScene& scene, const std::vector<std::string>& notes) {
+  if (scene.mNumMeshes == 0 || (scene.mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0) {
+    refuse_without_area("there is no mesh in it, and so no triangle that has an area", notes);
   }
 }
 
@@ -212,14 +193,11 @@ void keep_readers_of(const std::string& ending, Assimp::Importer& importer) {
   }
 }
 
-ImportedFile import_file(const std::string& path, SceneFiles& files) {
-  const std::string ending = ending_of(path);
-  if (ending == "gltf" || ending == "glb") {
-    if (auto file = import_gltf(path, files)) {
-      return *std::move(file);
-    }
-  }
-  ImportedFile file;
+namespace {
+
+/// By Assimp, whose words go into the notes.
+void import_by_assimp(const std::string& path, const std::string& ending, SceneFiles& files, ImportedFile& file) {
+  const AssimpLog log;
   Assimp::Importer importer;
   keep_readers_of(ending, importer);
   importer.SetIOHandler(new Files(path, files, file));  // is the importer's from now on, and so is the next
@@ -228,13 +206,31 @@ ImportedFile import_file(const std::string& path, SceneFiles& files) {
     rethrow_end_of_memory(importer.GetException());
     throw core::InputError(what_assimp_says(importer, ending));
   }
-  check_has_mesh(*importer.GetScene());
-  file.scene.reset(importer.GetOrphanedScene());
   file.notes.push_back("read by Assimp " + std::to_string(aiGetVersionMajor()) + "." + std::to_string(aiGetVersionMinor()) + "." +
                        std::to_string(aiGetVersionPatch()) + ", single precision");
-  take_back_invented(*file.scene, ending);
-  if (ending == "dae") {
-    count_texture_sets(*file.scene, collada_texture_sets(text_of(*files.open(path))));
+  log.note(file.notes);
+  check_has_mesh(*importer.GetScene(), file.notes);
+  file.scene.reset(importer.GetOrphanedScene());
+}
+
+}  // namespace
+
+ImportedFile import_file(const std::string& path, SceneFiles& files) {
+  const std::string ending = ending_of(path);
+  if (ending == "gltf" || ending == "glb") {
+    if (auto file = import_gltf(path, files)) {
+      return *std::move(file);
+    }
+  }
+  const std::unique_ptr<FileBytes> bytes = files.open(path);
+  const std::string_view text = text_of(*bytes);
+  check_numbers(text, ending);
+  ImportedFile file;
+  import_by_assimp(path, ending, files, file);
+  take_back_invented(*file.scene, ending, text);
+  if (ending == "fbx") {
+    note_count(file.notes, "objects that the file switches off (Visibility or Show), shown all the same",
+               count_hidden_nodes(text));
   }
   return file;
 }

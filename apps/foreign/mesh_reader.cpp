@@ -15,6 +15,7 @@
 #include "apps/foreign/mesh/placement.h"
 #include "apps/foreign/mesh/skin.h"
 #include "apps/foreign/mesh/textures.h"
+#include "apps/foreign/mesh/without_area.h"
 #include "apps/foreign/polygon_formats.h"
 #include "apps/formats/whole_view.h"
 #include "core/base/expect.h"
@@ -162,7 +163,7 @@ void forget(aiScene& file, std::size_t mesh) {
 /// Throws if nothing has an area; says what does not show.
 void judge(const GeometryWriter& writer, std::vector<std::string>& notes) {
   if (!writer.has_area()) {
-    throw core::InputError("there is no triangle in it that has an area; expected a mesh of triangles or polygons");
+    refuse_without_area("there is no triangle in it that has an area", notes);
   }
   note_count(notes, "meshes whose texture is not shown, since no corner has a place on it", writer.unplaced());
   note_count(notes, "meshes that let all light through, so that nothing of them is seen", writer.unseen());

@@ -20,7 +20,7 @@ struct MeshFile {
 
 /// What ends so is read: "obj", "ply", ..., in lower case.
 const std::vector<std::string>& mesh_extensions();
-/// Whether the path ends as mesh files do, whatever the case of its letters.
+/// Whether the path ends as mesh files do, whatever the case of its letters, also those of formats that are refused by name.
 bool is_mesh_path(const std::string& path);
 /// "obj, ply, ...", for messages.
 std::string known_mesh_formats();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "apps/foreign/mesh/count_note.h"
 #include "core/base/elementary.h"
 
 namespace dmpc::apps::gltf {
@@ -24,6 +25,8 @@ class Writer {
 
   /// `place` is that of its colour's texture.
   std::unique_ptr<aiMaterial> material(const Part& source, TexturePlace& place);
+  /// How often a texture was named that names no picture.
+  std::uint64_t without_picture() const { return without_picture_; }
 
  private:
   void add_texture(const Part& use, aiMaterial& target, aiTextureType type, unsigned number);
@@ -37,6 +40,7 @@ class Writer {
   std::vector<Part> textures_, samplers_;
   std::size_t image_count_;
   Images& images_;
+  std::uint64_t without_picture_ = 0;
 };
 
 void add_number(aiMaterial& target, double value, const char* key, unsigned type, unsigned index) {
@@ -131,7 +135,9 @@ std::optional<std::size_t> Writer::image_of(const Part& texture) const {
 
 void Writer::add_texture(const Part& use, aiMaterial& target, aiTextureType type, unsigned number) {
   const Part& texture = textures_[use.required_index("index", textures_.size(), "textures")];
-  if (const auto image = image_of(texture)) {
+  const auto image = image_of(texture);
+  without_picture_ += image ? 0 : 1;
+  if (image) {
     const aiString name(images_.name_of(*image));
     target.AddProperty(&name, AI_MATKEY_TEXTURE(type, number));
   }
@@ -194,7 +200,8 @@ std::unique_ptr<aiMaterial> Writer::material(const Part& source, TexturePlace& p
 
 }  // namespace
 
-std::vector<TexturePlace> add_materials(const Document& document, Images& images, aiScene& scene) {
+std::vector<TexturePlace> add_materials(const Document& document, Images& images, aiScene& scene,
+                                        std::vector<std::string>& notes) {
   static const nlohmann::json nothing = nlohmann::json::object();
   std::vector<Part> sources = document.root().list("materials");
   sources.emplace_back(nothing);
@@ -205,6 +212,7 @@ std::vector<TexturePlace> add_materials(const Document& document, Images& images
     scene.mMaterials[scene.mNumMaterials] = writer.material(source, places.emplace_back()).release();
     ++scene.mNumMaterials;
   }
+  note_count(notes, "textures that name no picture, left out", writer.without_picture());
   return places;
 }
 

@@ -3,6 +3,7 @@
 
 #include <assimp/scene.h>
 
+#include <string>
 #include <vector>
 
 #include "apps/foreign/gltf/images.h"
@@ -11,8 +12,9 @@
 namespace dmpc::apps::gltf {
 
 /// Gives the scene its materials, with the keys that Assimp's own reader uses (apps/foreign/mesh/material.h looks for them), and,
-/// last, that of primitives without one. Returns each one's place on its colour's texture. Throws core::InputError, by its place
-/// in the document.
-std::vector<TexturePlace> add_materials(const Document& document, Images& images, aiScene& scene);
+/// last, that of primitives without one. Returns each one's place on its colour's texture. `notes` gets a sentence for textures
+/// that name no picture. Throws core::InputError, by its place in the document.
+std::vector<TexturePlace> add_materials(const Document& document, Images& images, aiScene& scene,
+                                        std::vector<std::string>& notes);
 
 }  // namespace dmpc::apps::gltf

@@ -1,142 +1,153 @@
 #include "apps/foreign/mesh/collada_text.h"
 
-#include <charconv>
+#include <algorithm>
+#include <array>
 #include <cstddef>
-#include <utility>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "apps/foreign/mesh/collada_bindings.h"
+#include "apps/foreign/text/xml_tags.h"
 
 namespace dmpc::apps {
 namespace {
 
 constexpr std::string_view no_highlight = "<specular><color>0 0 0 1</color></specular><shininess><float>0</float></shininess>";
+constexpr std::string_view whole_reflection = "<reflectivity><float>1</float></reflectivity>";
+constexpr std::string_view no_diffuse = "<diffuse><color>0 0 0 1</color></diffuse>";
 
-/// A tag without its angles: "input semantic='TEXCOORD' set='1'", "lambert/", "/lambert".
-struct Tag {
-  std::string_view inside;
-  std::size_t begin = 0, end = 0;  ///< of its angles, one past the last
+/// Before all others in the order of ids and symbols.
+constexpr std::string_view plain_material =
+    R"(<library_effects><effect id=" "><profile_COMMON><technique sid="t"><lambert><diffuse><color>0.6 0.6 0.6 1</color></diffuse>)"
+    R"(<specular><color>0 0 0 1</color></specular><shininess><float>0</float></shininess></lambert></technique></profile_COMMON>)"
+    R"(</effect></library_effects><library_materials><material id=" "><instance_effect url="# "/></material></library_materials>)";
+constexpr std::string_view plain_instance = R"(<instance_material symbol="" target="# "/>)";
 
-  bool is(std::string_view name) const {
-    return inside.starts_with(name) &&
-           (inside.size() == name.size() || std::string_view(" \t\r\n/").find(inside[name.size()]) != std::string_view::npos);
-  }
-  bool is_whole() const { return inside.ends_with('/'); }
+struct TexcoordInput {
+  Tag tag;
+  unsigned set = 0;
 };
 
-/// Where `mark` ends, or the text.
-std::size_t behind(std::string_view text, std::string_view mark, std::size_t from) {
-  const std::size_t at = text.find(mark, from);
-  return at == std::string_view::npos ? text.size() : at + mark.size();
-}
-
-/// Calls take(tag) for each that stands in no comment and no verbatim text.
-template <class Take>
-void for_each_tag(std::string_view text, const Take& take) {
-  for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at)) {
-    const std::string_view rest = text.substr(at);
-    if (rest.starts_with("<!--")) {
-      at = behind(text, "-->", at);
-    } else if (rest.starts_with("<![CDATA[")) {
-      at = behind(text, "]]>", at);
-    } else {
-      const std::size_t end = behind(text, ">", at);
-      if (text[end - 1] == '>' && end > at + 2) {
-        take(Tag{text.substr(at + 1, end - at - 2), at, end});
-      }
-      at = end;
-    }
-  }
-}
-
-/// The value of an attribute; nothing if it has none of this name.
-std::string_view attribute(const Tag& tag, std::string_view name) {
-  for (std::size_t at = tag.inside.find(name); at != std::string_view::npos; at = tag.inside.find(name, at + 1)) {
-    const std::string_view rest = tag.inside.substr(at + name.size());
-    const bool is_word = at > 0 && std::string_view(" \t\r\n").find(tag.inside[at - 1]) != std::string_view::npos;
-    if (is_word && rest.size() > 2 && rest[0] == '=' && (rest[1] == '"' || rest[1] == '\'')) {
-      return rest.substr(2, rest.find(rest[1], 2) - 2);
-    }
-  }
-  return {};
-}
-
-/// What is put into the text before `at`.
-class Filled {
+class ColladaFiller {
  public:
-  explicit Filled(std::string_view text) : text_(text) {}
+  explicit ColladaFiller(std::string_view text) : text_(text), sets_(collada_sets(text)), filled_(text) {}
 
-  void insert(std::size_t at, std::string_view what) {
-    take_up_to(at);
-    result_ += what;
-  }
-  void leave_out(std::size_t begin, std::size_t end) {
-    take_up_to(begin);
-    taken_ = end;
-  }
-  std::string finish() {
-    take_up_to(text_.size());
-    return std::move(result_);
-  }
+  std::string fill();
 
  private:
-  void take_up_to(std::size_t at) {
-    result_ += text_.substr(taken_, at - taken_);
-    taken_ = at;
-  }
+  void fill_effect(const Tag& tag);
+  void fill_camera(const Tag& tag);
+  void fill_materials(const Tag& tag);
+  void fill_faces(const Tag& tag, std::string_view name);
+  void number_sets(const Tag& tag, std::string_view name, const std::string& symbol);
+  /// A sign before the value of the attribute.
+  void mark(std::string_view value) { filled_.insert(filled_.place_of(value), "="); }
 
   std::string_view text_;
-  std::size_t taken_ = 0;
-  std::string result_;
+  ColladaSets sets_;
+  Filled filled_;
+  std::string geometry_;
+  bool binds_ = false;
 };
 
-void fill_effect(const Tag& tag, Filled& filled) {
+void ColladaFiller::fill_effect(const Tag& tag) {
   for (const std::string name : {"lambert", "constant", "phong", "blinn"}) {
     const bool has_highlight = name == "phong" || name == "blinn";
+    const std::string first = name == "constant" ? std::string(no_diffuse) : "";
     if (tag.is(name) && tag.is_whole()) {
-      filled.leave_out(tag.end - 2, tag.end);
-      filled.insert(tag.end, ">" + std::string(no_highlight) + "</" + name + ">");
-    } else if (tag.is(name) && has_highlight) {
-      filled.insert(tag.end, no_highlight);  // what the file says follows, and counts
+      filled_.leave_out(tag.end - 2, tag.end);
+      filled_.insert(tag.end, ">" + first + std::string(no_highlight) + "</" + name + ">");
+    } else if (tag.is(name)) {
+      filled_.insert(tag.end, std::string(whole_reflection) + first);  // what the file says follows, and counts
+      filled_.insert(tag.end, has_highlight ? no_highlight : "");
     } else if (tag.is("/" + name) && !has_highlight) {
-      filled.insert(tag.begin, no_highlight);
+      filled_.insert(tag.begin, no_highlight);
     }
   }
 }
 
-void fill_camera(std::string_view text, const Tag& tag, Filled& filled) {
-  if (tag.is("camera") && !tag.is_whole() && attribute(tag, "name").empty()) {
-    filled.insert(tag.end - 1, " name=\"" + std::string(attribute(tag, "id")) + "\"");
+void ColladaFiller::fill_camera(const Tag& tag) {
+  if (tag.is("camera") && !tag.is_whole() && value_of(tag, "name").empty()) {
+    filled_.insert(tag.end - 1, " name=\"" + value_of(tag, "id") + "\"");
   }
   if (!tag.is("perspective") || tag.is_whole()) {
     return;
   }
-  const std::string_view inside = text.substr(tag.end, text.find("</perspective", tag.end) - tag.end);
+  const std::string_view inside = text_.substr(tag.end, text_.find("</perspective", tag.end) - tag.end);
   const auto has = [&](std::string_view what) { return inside.find(what) != std::string_view::npos; };
   if (has("<yfov") && !has("<xfov") && !has("<aspect_ratio")) {
-    filled.insert(tag.end, "<aspect_ratio>1</aspect_ratio>");
+    filled_.insert(tag.end, "<aspect_ratio>1</aspect_ratio>");
   }
+}
+
+void ColladaFiller::fill_materials(const Tag& tag) {
+  if (tag.is("COLLADA") && !tag.is_whole()) {
+    filled_.insert(tag.end, plain_material);
+  } else if (tag.is("bind_material") || tag.is("/bind_material")) {
+    binds_ = tag.is("bind_material") && !tag.is_whole();
+  } else if (tag.is("technique_common") && binds_ && !tag.is_whole()) {
+    filled_.insert(tag.end, plain_instance);
+  } else if (tag.is("instance_material")) {
+    if (const auto symbol = attribute(tag, "symbol")) {
+      mark(*symbol);
+    }
+  } else if (tag.is("geometry")) {
+    geometry_ = value_of(tag, "id");
+  }
+}
+
+/// The one that shows the texture gets number 0, or the first if none is named; the others come behind it.
+void ColladaFiller::number_sets(const Tag& tag, std::string_view name, const std::string& symbol) {
+  const std::size_t end = std::min(text_.find("</" + std::string(name), tag.end), text_.size());
+  std::vector<TexcoordInput> inputs;
+  unsigned least = std::numeric_limits<unsigned>::max();
+  for_each_tag(text_.substr(tag.end, end - tag.end), [&](const Tag& input) {
+    if (input.is("input") && value_of(input, "semantic") == "TEXCOORD") {
+      inputs.push_back(
+          {{input.inside, tag.end + input.begin, tag.end + input.end}, leading_number(value_of(input, "set")).value_or(0)});
+      least = std::min(least, inputs.back().set);
+    }
+  });
+  const auto bound = sets_.find({geometry_, symbol});
+  const auto is_bound = [&](const TexcoordInput& input) { return bound != sets_.end() && input.set == bound->second; };
+  const unsigned chosen = std::any_of(inputs.begin(), inputs.end(), is_bound) ? bound->second : least;
+  for (const TexcoordInput& input : inputs) {
+    if (const auto set = attribute(input.tag, "set")) {
+      filled_.leave_out(filled_.place_of(*set), filled_.place_of(*set) + set->size());
+      filled_.insert(filled_.place_of(*set) + set->size(), input.set == chosen ? "0" : std::to_string(input.set + 1));
+    } else {
+      filled_.insert(input.tag.end_of_name(), input.set == chosen ? "" : R"( set="1")");
+    }
+  }
+}
+
+void ColladaFiller::fill_faces(const Tag& tag, std::string_view name) {
+  const auto symbol = attribute(tag, "material");
+  if (symbol) {
+    mark(*symbol);
+  } else {
+    filled_.insert(tag.end_of_name(), R"( material="=")");
+  }
+  number_sets(tag, name, std::string(symbol.value_or("")));
+}
+
+std::string ColladaFiller::fill() {
+  for_each_tag(text_, [&](const Tag& tag) {
+    fill_effect(tag);
+    fill_camera(tag);
+    fill_materials(tag);
+    for (const char* const faces : {"triangles", "polylist", "polygons", "tristrips", "trifans"}) {
+      if (tag.is(faces) && !tag.is_whole()) {
+        fill_faces(tag, faces);
+      }
+    }
+  });
+  return filled_.finish();
 }
 
 }  // namespace
 
-std::string collada_in_full(std::string_view text) {
-  Filled filled(text);
-  for_each_tag(text, [&](const Tag& tag) {
-    fill_effect(tag, filled);
-    fill_camera(text, tag, filled);
-  });
-  return filled.finish();
-}
-
-std::set<unsigned> collada_texture_sets(std::string_view text) {
-  std::set<unsigned> sets;
-  for_each_tag(text, [&](const Tag& tag) {
-    if (tag.is("input") && attribute(tag, "semantic") == "TEXCOORD") {
-      const std::string_view number = attribute(tag, "set");
-      unsigned set = 0;
-      std::from_chars(number.data(), number.data() + number.size(), set);
-      sets.insert(set);
-    }
-  });
-  return sets;
-}
+std::string collada_in_full(std::string_view text) { return ColladaFiller(text).fill(); }
 
 }  // namespace dmpc::apps

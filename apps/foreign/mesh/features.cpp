@@ -56,6 +56,8 @@ void note_materials(const std::set<const aiMaterial*>& materials, std::vector<st
   note_count(notes, "materials that colour what shines through them, shown without that",
              count(materials, colors_what_shines_through));
   note_count(notes, "materials cut away altogether by their alpha, whose faces are left out", count(materials, is_cut_away));
+  note_count(notes, "materials that mirror by a colour of their own (reflective), shown without that",
+             count(materials, is_reflective));
   note_count(notes, "materials with a clear coat, shown without it", count(materials, has_clear_coat));
 }
 

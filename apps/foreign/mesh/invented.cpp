@@ -24,13 +24,18 @@ void keep_words_of_fbx(aiMaterial& material) {
   }
 }
 
-void keep_words_of_x3d(aiMaterial& material) {
-  constexpr ai_real exponent_of_1 = 128;
-  if (const auto shininess = number(material, AI_MATKEY_SHININESS)) {
-    const ai_real exponent = *shininess * exponent_of_1;
-    material.RemoveProperty(AI_MATKEY_SHININESS);
-    material.AddProperty(&exponent, 1, AI_MATKEY_SHININESS);
-  }
+/// The name that an importer gives to what it makes up, where the file has no such word.
+std::string_view invented_name(const std::string& ending) {
+  return ending == "fbx" ? AI_DEFAULT_MATERIAL_NAME : ending == "3ds" ? "%%%DEFAULT" : "";
+}
+
+/// A material that stands for none.
+bool is_invented(const aiMaterial& material, const std::string& ending, std::string_view file) {
+  aiString name;
+  material.Get(AI_MATKEY_NAME, name);
+  const std::string_view invented = invented_name(ending);
+  return ending == "x" ? name.length == 0 && file.find("Material") == std::string_view::npos
+                       : !invented.empty() && name.C_Str() == invented && file.find(invented) == std::string_view::npos;
 }
 
 /// Assimp gives AMF without colours black ones that nobody sees through.
@@ -42,20 +47,32 @@ void drop_empty_colors(aiMesh& mesh) {
   }
 }
 
+/// 3ds Max's look along -z.
+void turn_cameras(aiScene& scene) {
+  for (aiCamera* const camera : std::span(scene.mCameras, scene.mNumCameras)) {
+    camera->mLookAt = -camera->mLookAt;
+  }
+}
+
 }  // namespace
 
-void take_back_invented(aiScene& scene, const std::string& ending) {
+void take_back_invented(aiScene& scene, const std::string& ending, std::string_view file) {
   for (aiMaterial* const material : std::span(scene.mMaterials, scene.mNumMaterials)) {
+    if (is_invented(*material, ending, file)) {
+      material->RemoveProperty(AI_MATKEY_COLOR_DIFFUSE);
+    }
     if (ending == "fbx") {
       keep_words_of_fbx(*material);
-    } else if (ending == "x3d") {
-      keep_words_of_x3d(*material);
+    } else if (ending == "dae") {
+      material->RemoveProperty(AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0));
     }
   }
   if (ending == "amf") {
     for (aiMesh* const mesh : std::span(scene.mMeshes, scene.mNumMeshes)) {
       drop_empty_colors(*mesh);
     }
+  } else if (ending == "ase") {
+    turn_cameras(scene);
   }
 }
 

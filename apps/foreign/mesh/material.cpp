@@ -157,6 +157,11 @@ bool has_moved_texture(const aiMaterial& source) {
   return is_moved(aiTextureType_BASE_COLOR) || is_moved(aiTextureType_DIFFUSE);
 }
 
+bool is_reflective(const aiMaterial& source) {
+  return color(source, {AI_MATKEY_COLOR_REFLECTIVE}).value_or(Vec3d{}) * number(source, {AI_MATKEY_REFLECTIVITY}).value_or(0) !=
+         Vec3d{};
+}
+
 bool has_clear_coat(const aiMaterial& source) { return share(source, {AI_MATKEY_CLEARCOAT_FACTOR}, 0) > 0; }
 
 }  // namespace dmpc::apps

@@ -22,11 +22,11 @@ Libraries::Libraries(const std::vector<std::string>& wanted, const std::filesyst
 bool Libraries::is_there(const std::string& name) { return !files_.meant(folder_, name).empty(); }
 
 void Libraries::read(const std::string& names) {
-  const std::string plain(without_remark(names));
+  const std::string plain(plain_name(names));
   std::vector<std::string> list;
-  LineWords words(plain, 1);
+  LineWords words(names, 1);
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-    list.emplace_back(word);
+    list.emplace_back(plain_name(word));
   }
   if (names != plain && is_there(names)) {
     list = {names};
@@ -75,8 +75,10 @@ void Libraries::take(MtlMaterial material) {
     return;
   }
   short_names_.try_emplace(short_name, materials_.size());
-  if (material.texture && without_remark(material.texture->name) != material.texture->name && !is_there(material.texture->name)) {
-    material.texture->name = without_remark(material.texture->name);
+  if (material.texture) {
+    const std::string plain(plain_name(material.texture->name));
+    material.texture->name =
+        plain != material.texture->name && !is_there(material.texture->name) ? plain : material.texture->name;
   }
   materials_.push_back(std::move(material));
 }

@@ -24,7 +24,7 @@ class Losses {
   std::set<std::string> textures_;
   std::map<std::string, std::uint64_t> options_;
   std::uint64_t emissive_ = 0, light_textures_ = 0, coated_ = 0, filtered_ = 0, other_colors_ = 0, contradictory_ = 0,
-                beyond_ = 0;
+                beyond_ = 0, without_exponent_ = 0, otherwise_lit_ = 0, halos_ = 0;
 };
 
 bool is_beyond_unit(const Vec3d& v) { return std::min({v.x, v.y, v.z}) < 0 || std::max({v.x, v.y, v.z}) > 1; }
@@ -43,6 +43,9 @@ void Losses::add(const MtlMaterial& material) {
   filtered_ += opacity_of(material) < 1 && material.filter.value_or(white) != white ? 1 : 0;
   other_colors_ += material.has_other_colors ? 1 : 0;
   contradictory_ += contradicts_itself(material) ? 1 : 0;
+  without_exponent_ += lacks_exponent(material) ? 1 : 0;
+  otherwise_lit_ += material.illumination.value_or(1) < 1 || material.illumination.value_or(1) > 9 ? 1 : 0;
+  halos_ += material.has_halo ? 1 : 0;
   beyond_ += is_beyond_unit(material.diffuse.value_or(white)) || is_beyond_unit(material.specular) ? 1 : 0;
 }
 
@@ -57,6 +60,9 @@ void Losses::note(std::vector<std::string>& notes) const {
   note_count(notes, "materials that colour what shines through them (Tf), shown without that", filtered_);
   note_count(notes, "materials with colours by spectral curves or CIE XYZ, which are not followed", other_colors_);
   note_count(notes, "materials whose d and Tr contradict each other, shown by d", contradictory_);
+  note_count(notes, "materials with a Ks and no Ns, shown without a highlight", without_exponent_);
+  note_count(notes, "materials with an illum other than 1 to 9, shaded all the same", otherwise_lit_);
+  note_count(notes, "materials with d -halo, as opaque at their edges as elsewhere", halos_);
   note_count(notes, "materials with colours outside 0 to 1, brought into it", beyond_);
 }
 

@@ -150,7 +150,8 @@ bool MtlParser::number_statement(const std::string& keyword, LineWords& words) {
     material.refraction_index = number(words);
   } else if (keyword == "d") {
     LineWords ahead = words;
-    words = ahead.next() == "-halo" ? ahead : words;
+    material.has_halo = ahead.next() == "-halo";
+    words = material.has_halo ? ahead : words;
     material.d = number(words);
   } else if (keyword == "tr") {
     material.transparency = number(words);
@@ -187,6 +188,11 @@ void MtlParser::texture(const std::string& keyword, const LineWords& words) {
 }
 
 }  // namespace
+
+bool lacks_exponent(const MtlMaterial& material) {
+  return !(material.roughness || material.metallic) && !(in_unit(material.specular) == Vec3d{}) && material.shine <= 0 &&
+         material.illumination.value_or(2) == 2;
+}
 
 double opacity_of(const MtlMaterial& material) {
   return in_unit(material.d ? *material.d : 1 - material.transparency.value_or(0));

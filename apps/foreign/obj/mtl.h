@@ -24,6 +24,7 @@ struct MtlMaterial {
   std::optional<double> d, transparency;      ///< d and Tr, which is 1 - d
   std::optional<int> illumination;            ///< illum
   std::optional<double> roughness, metallic;  ///< Pr, Pm
+  bool has_halo = false;                      ///< d -halo
   bool has_clear_coat = false;                ///< Pc
   bool has_other_colors = false;              ///< by spectral curves, or CIE XYZ
   std::optional<TextureWords> texture;        ///< map_Kd
@@ -31,6 +32,8 @@ struct MtlMaterial {
   std::set<std::string> other_textures;       ///< names of those that are not of its colour
 };
 
+/// Whether it names a colour of its highlight, and no exponent without which none is shown.
+bool lacks_exponent(const MtlMaterial& material);
 /// By d, which what Tr says otherwise does not change; 0 to 1.
 double opacity_of(const MtlMaterial& material);
 bool contradicts_itself(const MtlMaterial& material);

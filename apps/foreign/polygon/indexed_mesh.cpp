@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/foreign/mesh/without_area.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -174,8 +175,7 @@ void add_meshes(IndexedMesh mesh, PolygonFile& file) {
 
 void check_has_faces(const PolygonFile& file) {
   if (file.meshes.empty()) {
-    throw core::InputError(
-        "there is no mesh in it, and so no triangle that has an area; expected a mesh of triangles or polygons");
+    refuse_without_area("there is no mesh in it, and so no triangle that has an area", file.notes);
   }
 }
 

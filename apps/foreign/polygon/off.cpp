@@ -76,9 +76,11 @@ void OffReader::read_kind(std::string_view word) {
 
 void OffReader::read_header() {
   std::string_view word = words_.next();
-  if (word.ends_with("OFF") && word.size() <= std::string_view("STCN4nOFF").size()) {
-    read_kind(word);
-    word = words_.next();
+  const std::size_t end = std::min(word.find("OFF"), word.size()) + 3;
+  const bool has_count = end < word.size() && decimal_number(word.substr(end));  // "OFF490 518 0", as ModelNet has it
+  if ((end == word.size() || has_count) && end <= std::string_view("STCN4nOFF").size()) {
+    read_kind(word.substr(0, end));
+    word = has_count ? word.substr(end) : words_.next();
     if (word == "BINARY") {
       words_.fail("OFF in binary is not read; write it as text");
     }

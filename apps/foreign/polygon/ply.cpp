@@ -1,5 +1,4 @@
 #include "apps/foreign/polygon/ply.h"
-#include "apps/foreign/mesh/count_note.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +56,7 @@ class PlyReader {
   void for_each(const PlyElement& element, PlyRow& row, const Take& take);
   void read_element(const PlyElement& element);
   void read_vertices(const PlyElement& element);
+  void note_left_out(const PlyElement& element, const PlyRow& row);
   void set_precision(const PlyRow& row);
   void take_vertex(const PlyRow& row, bool has_normals, bool has_places);
   void read_faces(const PlyElement& element);
@@ -73,7 +73,9 @@ class PlyReader {
   void finish_colors();
   bool is_textured() const;
   void note_all();
-  [[noreturn]] void fail(const std::string& what) const { throw core::InputError(values_->place() + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw core::InputError(values_->place() + ": " + what + values_->doubt());
+  }
 
   ReadingProgress& progress_;
   PlyHeader header_;
@@ -100,8 +102,21 @@ void PlyReader::for_each(const PlyElement& element, PlyRow& row, const Take& tak
     }
   } catch (const PlyIsShort&) {
     throw core::InputError("the file is cut short: it ends within element '" + clipped(element.name, 40) + "' " +
-                           std::to_string(number + 1) + " of " + std::to_string(element.count));
+                           std::to_string(number + 1) + " of " + std::to_string(element.count) + values_->doubt());
   }
+}
+
+void PlyReader::note_left_out(const PlyElement& element, const PlyRow& row) {
+  constexpr std::size_t shown = 4;
+  const std::vector<std::string_view> names = row.left_out();
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
+    list += (i > 0 ? ", '" : "'") + clipped(names[i], 40) + "'";
+  }
+  note_count(notes_,
+             "properties of the element '" + std::string(element.name) + "' that are not shown (" + list +
+                 (names.size() > shown ? ", ..." : "") + ")",
+             element.count > 0 ? names.size() : 0);
 }
 
 void PlyReader::set_precision(const PlyRow& row) {
@@ -121,7 +136,8 @@ void PlyReader::take_vertex(const PlyRow& row, bool has_normals, bool has_places
 }
 
 void PlyReader::read_vertices(const PlyElement& element) {
-  PlyRow row(element, *values_, true);
+  PlyRow row(element, *values_, {x, y, z, normal_x, normal_y, normal_z, s, t, red, green, blue, alpha});
+  note_left_out(element, row);
   if (!row.has_all({x, y, z})) {
     throw core::InputError("the element 'vertex' has no properties x, y and z; expected all three");
   }
@@ -210,7 +226,8 @@ void PlyReader::take_face(const PlyRow& row, std::uint64_t number) {
 }
 
 void PlyReader::read_faces(const PlyElement& element) {
-  PlyRow row(element, *values_, true);
+  PlyRow row(element, *values_, {corners, corner_places, texture, material, red, green, blue, alpha});
+  note_left_out(element, row);
   if (!row.has(corners) && element.count > 0) {
     throw core::InputError("the element 'face' has no list vertex_indices or vertex_index; expected one");
   }
@@ -248,7 +265,8 @@ void PlyReader::take_strip(const PlyRow& row, std::uint64_t number) {
 }
 
 void PlyReader::read_strips(const PlyElement& element) {
-  PlyRow row(element, *values_, true);
+  PlyRow row(element, *values_, {corners});
+  note_left_out(element, row);
   if (!row.has(corners) && element.count > 0) {
     throw core::InputError("the element 'tristrips' has no list vertex_indices or vertex_index; expected one");
   }
@@ -256,12 +274,13 @@ void PlyReader::read_strips(const PlyElement& element) {
 }
 
 void PlyReader::read_materials(const PlyElement& element) {
-  PlyRow row(element, *values_, true);
+  PlyRow row(element, *values_, {red, green, blue, specular_red, specular_green, specular_blue, shine, opacity});
+  note_left_out(element, row);
   for_each(element, row, [&](std::uint64_t /*number*/) { surfaces_.add_material(row); });
 }
 
 void PlyReader::skip(const PlyElement& element) {
-  PlyRow row(element, *values_, false);
+  PlyRow row(element, *values_, {});
   for_each(element, row, [](std::uint64_t /*number*/) {});
   constexpr std::size_t names_max = 8;
   if (element.properties.empty() || element.count == 0) {
@@ -352,6 +371,9 @@ PolygonFile PlyReader::read() {
                    .notes = std::move(header_.notes),
                    .coordinate_rounding = coordinate_rounding_};
   file.notes.insert(file.notes.end(), notes_.begin(), notes_.end());
+  for (FileMaterial& material : file.materials) {
+    material.texture = is_textured() ? material.texture : std::nullopt;  // which nobody looks for where it is not shown
+  }
   add_meshes(std::move(mesh_), file);
   return file;
 }

@@ -9,6 +9,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/polygon/text_words.h"
+#include "apps/foreign/text/small_letters.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -134,7 +135,7 @@ bool PlyHeaderReader::read_line(std::string_view line) {
 }
 
 PlyHeader PlyHeaderReader::read() {
-  if (TextWords words(next_line()); words.next() != "ply" || !words.next().empty()) {
+  if (TextWords words(next_line()); in_small_letters(words.next()) != "ply" || !words.next().empty()) {
     fail("is no PLY: expected 'ply' in the first line");
   }
   while (!read_line(next_line())) {

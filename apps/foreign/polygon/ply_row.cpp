@@ -57,12 +57,12 @@ std::optional<PlyRole> role_of(std::string_view name) {
 
 }  // namespace
 
-PlyRow::PlyRow(const PlyElement& element, PlyValues& values, bool is_known) : values_(values) {
+PlyRow::PlyRow(const PlyElement& element, PlyValues& values, std::initializer_list<PlyRole> used) : values_(values) {
   columns_.reserve(element.properties.size());
   for (const PlyProperty& property : element.properties) {
-    auto role = is_known ? role_of(property.name) : std::nullopt;
-    if (role && has(*role)) {
-      role.reset();  // another name of what is there already
+    auto role = role_of(property.name);
+    if (role && (has(*role) || std::find(used.begin(), used.end(), *role) == used.end())) {
+      role.reset();  // another name of what is there already, or of no use
     }
     if (role && is_list_role(*role) != property.count_type.has_value()) {
       throw core::InputError("the property '" + std::string(property.name) + "' of the element '" + std::string(element.name) +
@@ -73,6 +73,16 @@ PlyRow::PlyRow(const PlyElement& element, PlyValues& values, bool is_known) : va
     }
     columns_.push_back({property, role});
   }
+}
+
+std::vector<std::string_view> PlyRow::left_out() const {
+  std::vector<std::string_view> names;
+  for (const Column& column : columns_) {
+    if (!column.role) {
+      names.push_back(column.property.name);
+    }
+  }
+  return names;
 }
 
 bool PlyRow::has_all(std::initializer_list<PlyRole> roles) const {

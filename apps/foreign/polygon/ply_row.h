@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "apps/foreign/polygon/ply_header.h"
@@ -42,10 +43,12 @@ inline constexpr std::size_t ply_roles = 21;
 /// The values of one element after the other. Properties that mean nothing here are passed over.
 class PlyRow {
  public:
-  /// Both outlive it. `is_known`: the element is one of those here, else all is passed over. Throws core::InputError for a
-  /// property that is a list and ought not to be, or the other way round.
-  PlyRow(const PlyElement& element, PlyValues& values, bool is_known);
+  /// Both outlive it. What is none of the `used` is passed over. Throws core::InputError for a used property that is a list and
+  /// ought not to be, or the other way round.
+  PlyRow(const PlyElement& element, PlyValues& values, std::initializer_list<PlyRole> used);
 
+  /// Names of properties that are passed over, in the file's order.
+  std::vector<std::string_view> left_out() const;
   bool has(PlyRole role) const { return types_[static_cast<std::size_t>(role)].has_value(); }
   bool has_all(std::initializer_list<PlyRole> roles) const;
   /// Of one that is there.

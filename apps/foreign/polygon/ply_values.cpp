@@ -32,6 +32,7 @@ class TextValues final : public PlyValues {
   }
   std::uint64_t count_rest() override;
   std::size_t position() const override { return words_.position(); }
+  std::string doubt() const override { return shared_line_.empty() ? "" : " (" + shared_line_ + ")"; }
   std::string place() const override { return "line " + std::to_string(words_.line()); }
 
  private:
@@ -41,6 +42,7 @@ class TextValues final : public PlyValues {
 
   TextWords words_;
   std::size_t bytes_;
+  std::string shared_line_;  ///< words about the first in which an element begins behind another
 };
 
 std::string_view TextValues::word() {
@@ -53,11 +55,11 @@ std::string_view TextValues::word() {
 }
 
 void TextValues::begin_element() {
-  const std::string_view more = words_.position() == 0 ? "" : words_.next_in_line();
-  if (more == "comment") {
-    words_.rest_of_line();
-  } else if (!more.empty()) {
-    words_.fail("found '" + clipped(more, 40) + "', expected no more values: each element begins a line");
+  TextWords ahead = words_;
+  const std::string_view more = words_.position() == 0 ? "" : ahead.next_in_line();
+  if (!more.empty() && more != "comment" && shared_line_.empty()) {
+    shared_line_ = "line " + std::to_string(words_.line()) + ": found '" + clipped(more, 40) +
+                   "', expected no more values of an element than the header says";
   }
 }
 
@@ -68,11 +70,11 @@ double TextValues::next(PlyType type) {
   }
   const auto value = decimal_number(found);
   if (!value) {
-    words_.fail_at(found, "a number");
+    words_.fail_at(found, "a number" + doubt());
   }
   if (is_whole(type) && !is_whole_number(*value, least_of(type), most_of(type))) {
-    words_.fail_at(found,
-                   "a whole number from " + rounded(least_of(type)) + " to " + rounded(most_of(type)) + ", as the header says");
+    words_.fail_at(found, "a whole number from " + rounded(least_of(type)) + " to " + rounded(most_of(type)) +
+                              ", as the header says" + doubt());
   }
   return *value;
 }
@@ -84,7 +86,7 @@ std::uint64_t TextValues::next_length(PlyType /*count_type*/, PlyType /*type*/) 
   }
   const auto length = decimal_number(found);
   if (!length || !is_whole_number(*length, 0, 0x1p32)) {
-    words_.fail_at(found, "the length of a list");
+    words_.fail_at(found, "the length of a list" + doubt());
   }
   if (*length > static_cast<double>(left() / 2 + 1)) {
     throw PlyIsShort{};
@@ -102,6 +104,9 @@ void TextValues::skip(PlyType /*type*/, std::uint64_t count) {
 
 std::uint64_t TextValues::count_rest() {
   const std::string_view first = word();
+  if (!shared_line_.empty() && !first.empty()) {
+    throw core::InputError(shared_line_);
+  }
   return first.empty() ? 0 : left() + first.size();
 }
 

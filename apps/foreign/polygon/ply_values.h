@@ -18,7 +18,7 @@ class PlyValues {
  public:
   virtual ~PlyValues() = default;
 
-  /// An element begins. In text it begins a line; its values may go on in others.
+  /// An element begins. In text that is a line's begin, or behind another element where nothing is left over in the end.
   virtual void begin_element() = 0;
   /// Throws PlyIsShort at the end, core::InputError, with the place, for what is no value of the type.
   virtual double next(PlyType type) = 0;
@@ -29,10 +29,12 @@ class PlyValues {
 
   /// How many of these there are bytes for, at most.
   virtual std::uint64_t room_for(const PlyElement& element) const = 0;
-  /// What follows the last element, in bytes.
+  /// What follows the last element, in bytes. Throws core::InputError if lines had more values than elements have.
   virtual std::uint64_t count_rest() = 0;
   /// How many bytes of the body are read.
   virtual std::size_t position() const = 0;
+  /// What may be the reason for an error that is met later, to be added to it: " (...)", or nothing.
+  virtual std::string doubt() const { return ""; }
   /// "line 7" or "byte 1234", of the last value.
   virtual std::string place() const = 0;
 };

@@ -34,6 +34,11 @@ std::optional<double> extreme_number(std::string_view word) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+std::string_view without_quotes(std::string_view name) {
+  const bool is_quoted = name.size() > 2 && name.front() == '"' && name.find('"', 1) == name.size() - 1;
+  return is_quoted ? name.substr(1, name.size() - 2) : name;
+}
+
 }  // namespace
 
 std::optional<double> decimal_number(std::string_view word) {
@@ -118,6 +123,11 @@ std::string_view without_remark(std::string_view name) {
     }
   }
   return name;
+}
+
+std::string_view plain_name(std::string_view name) {
+  const std::string_view inside = without_quotes(name);
+  return inside.size() < name.size() ? inside : without_quotes(without_remark(name));
 }
 
 }  // namespace dmpc::apps

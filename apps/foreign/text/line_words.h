@@ -47,5 +47,7 @@ class LineWords {
 
 /// A name without the remark behind it: what follows a # at the begin of a word.
 std::string_view without_remark(std::string_view name);
+/// The same, and without quotes around it.
+std::string_view plain_name(std::string_view name);
 
 }  // namespace dmpc::apps

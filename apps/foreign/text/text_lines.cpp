@@ -44,11 +44,13 @@ TextLines::TextLines(std::string_view file, LineJoin join)
 
 std::size_t TextLines::end_of_line(std::size_t begin) const {
   std::size_t end = begin;
-  while (end < file_.size() && letter_of(file_[end]) == Letter::text) {
-    ++end;
-  }
-  if (end < file_.size() && letter_of(file_[end]) == Letter::none) {
-    refuse_byte(file_[end], lines_);
+  for (bool is_remark = false; end < file_.size() && letter_of(file_[end]) != Letter::line_end; ++end) {
+    if (letter_of(file_[end]) == Letter::none && !is_remark) {
+      is_remark = file_.substr(begin, end - begin).find('#') != std::string_view::npos;
+      if (!is_remark) {
+        refuse_byte(file_[end], lines_);
+      }
+    }
   }
   return end;
 }

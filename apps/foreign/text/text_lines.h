@@ -16,7 +16,8 @@ class TextLines {
   explicit TextLines(std::string_view file, LineJoin join = LineJoin::none);
 
   /// Goes to the next line; false at the file's end. Throws core::InputError "line 3: ..." for a byte that no text has: any below
-  /// 32 but blanks and line ends, and 127; one byte 26 at the end of all is passed over, with which DOS ended texts.
+  /// 32 but blanks and line ends, and 127, unless a # stands before it in its line; one byte 26 at the end of all is passed over,
+  /// with which DOS ended texts.
   bool next();
 
   /// Without its end. Joined lines are one, with the backslash and the line end between them, which LineWords takes for blanks.

@@ -402,8 +402,8 @@ TEST_CASE("a texture without a name and one with an endless one are said") {
 
 TEST_CASE("what Assimp says of a file is said as a part of our own sentence") {
   const TemporaryFolder folder;
-  write_text(folder / "a.3mf", "none");
-  CHECK(says(mesh_complaint(folder / "a.3mf"), "a.3mf: cannot be read as 3MF: Failed to open file"));
+  write_text(folder / "a.ms3d", "none");
+  CHECK(says(mesh_complaint(folder / "a.ms3d"), "a.ms3d: cannot be read as MS3D: "));
 }
 
 TEST_CASE("a reader that never ends is ended, and its file named") {

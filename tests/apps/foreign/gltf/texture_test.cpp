@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <numeric>
@@ -11,6 +12,7 @@
 
 #include "apps/formats/mesh_file.h"
 #include "apps/picture/image_file.h"
+#include "tests/support/mesh_files.h"
 #include "tests/support/packed_gltf.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -88,6 +90,15 @@ TEST_CASE("a texture without alpha that is to blend is shown as it is, without a
   const std::string all = std::accumulate(notes.begin(), notes.end(), std::string());
   CHECK(count(all, "shown without") == 0);
   CHECK(count(all, "cast whole shadows") == 0);
+}
+
+TEST_CASE("a texture of glTF that names no picture is said") {
+  const TemporaryFolder folder;
+  Gltf gltf{.materials = R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])"};
+  gltf.more = R"("textures":[{}])";
+  write_text(folder / "a.gltf", gltf.text());
+  const auto notes = apps::read_mesh_file(folder / "a.gltf").notes;
+  CHECK(std::count(notes.begin(), notes.end(), "textures that name no picture, left out: 1") == 1);
 }
 
 }  // namespace dmpc::tests::gltf_texture_test

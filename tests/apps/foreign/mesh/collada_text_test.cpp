@@ -2,9 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "apps/formats/mesh_file.h"
+#include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -48,11 +50,75 @@ TEST_CASE("what stands in remarks and verbatim is no tag, and nothing else chang
   CHECK(apps::collada_in_full(both) == both);
 }
 
-TEST_CASE("the sets of texture coordinates are those of the inputs") {
-  CHECK(apps::collada_texture_sets(R"(<input semantic="TEXCOORD" offset="1" set="2"/><input set='7' semantic='TEXCOORD'/>)"
-                                   R"(<input semantic="NORMAL" set="1"/><inputs semantic="TEXCOORD" set="3"/>)") ==
-        std::set<unsigned>{2, 7});
-  CHECK(apps::collada_texture_sets(R"(<input semantic="TEXCOORD" source="#u"/>)") == std::set<unsigned>{0});
+TEST_CASE("constant shading is its own light alone") {
+  const core::Material material = material_by("<constant><emission><color>0 1 0 1</color></emission></constant>");
+  CHECK(material.color == core::Vec3d{0, 0, 0});
+  CHECK(material.emission == core::Vec3d{0, 1, 0});
+}
+
+TEST_CASE("a Collada material that mirrors by a colour of its own is said, unless its share is 0") {
+  const TemporaryFolder folder;
+  const auto says = [&](const std::string& more) {
+    write_text(folder / "a.dae", collada("<phong><reflective><color>1 1 1 1</color></reflective>" + more + "</phong>"));
+    const auto notes = apps::read_mesh_file(folder / "a.dae").notes;
+    return std::find(notes.begin(), notes.end(),
+                     "materials that mirror by a colour of their own (reflective), shown without that: 1") != notes.end();
+  };
+  CHECK(says(""));
+  CHECK(says("<reflectivity><float>0.5</float></reflectivity>"));
+  CHECK_FALSE(says("<reflectivity><float>0</float></reflectivity>"));
+}
+
+TEST_CASE("faces that are bound to no material are grey, and no other's") {
+  const std::string red = "<lambert><diffuse><color>1 0 0 1</color></diffuse></lambert>";
+  const TemporaryFolder folder;
+  for (const char* const other : {R"(material="other")", "", R"(material="m")"}) {
+    CAPTURE(other);
+    std::string text = collada(red);
+    text.replace(text.find(R"(material="S")"), 12, other);
+    write_text(folder / "a.dae", text);
+    const core::Scene scene = apps::read_mesh_file(folder / "a.dae").scene;
+    CHECK(length(scene.materials.at(scene.objects.at(0).material).color - core::Vec3d{0.6, 0.6, 0.6}) < 1e-6);
+  }
+  write_text(folder / "a.dae", collada(red));
+  const core::Scene scene = apps::read_mesh_file(folder / "a.dae").scene;
+  CHECK(scene.materials.at(scene.objects.at(0).material).color == core::Vec3d{1, 0, 0});
+}
+
+namespace {
+
+/// Faces with two sets of texture coordinates, of which the effect's texture has `channel`; what of the instance binds it.
+std::string with_two_sets(const std::string& channel, const std::string& bound, const std::string& url = "#g") {
+  return R"(<material id="m"><instance_effect url="#e"/></material><effect id="e"><diffuse><texture texture="t" texcoord=")" +
+         channel +
+         R"("/></diffuse></effect><geometry id="g"><triangles material="S"><input semantic="TEXCOORD" offset="1" set="0"/>)"
+         R"(<input semantic="TEXCOORD" offset="2" set="1"/><p>0</p></triangles></geometry><instance_geometry url=")" +
+         url + R"("><instance_material symbol="S" target="#m">)" + bound + "</instance_material></instance_geometry>";
+}
+
+/// Whether the input at `offset` is the first set of those that Assimp gets.
+bool is_first(const std::string& text, int offset) {
+  return apps::collada_in_full(text).find("offset=\"" + std::to_string(offset) + R"(" set="0")") != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("the set of texture coordinates that is bound comes first, else the one in the texture's name, else the first") {
+  const std::string to_0 = R"(<bind_vertex_input semantic="CHANNEL1" input_semantic="TEXCOORD" input_set="0"/>)",
+                    to_1 = R"(<bind_vertex_input semantic="UV" input_semantic="TEXCOORD" input_set="1"/>)";
+  CHECK(is_first(with_two_sets("CHANNEL1", to_0), 1));
+  CHECK(is_first(with_two_sets("UV", to_1), 2));
+  CHECK(is_first(with_two_sets("CHANNEL1", ""), 2));
+  CHECK(is_first(with_two_sets("UV", ""), 1));
+  CHECK(is_first(with_two_sets("CHANNEL7", ""), 1));
+  CHECK_FALSE(is_first(with_two_sets("UV", to_1), 1));
+}
+
+TEST_CASE("a geometry that shows its texture by two sets in two places is refused") {
+  const std::string twice =
+      with_two_sets("CHANNEL1", "") + with_two_sets("CHANNEL1", R"(<bind_vertex_input semantic="CHANNEL1" input_set="0"/>)");
+  CHECK_THROWS_WITH_AS(apps::collada_in_full(twice), doctest::Contains("the geometry 'g' shows a texture by set"),
+                       core::InputError);
 }
 
 }  // namespace dmpc::tests::collada_text_test

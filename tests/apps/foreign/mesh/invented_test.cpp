@@ -13,7 +13,7 @@ namespace dmpc::tests::invented_test {
 namespace {
 
 /// The first material of a triangle in FBX, shaded by this model with an exponent of 20 and a specular colour of 0.5.
-core::Material material_of_fbx(const std::string& model) {
+core::Material material_of_fbx(const std::string& model, const std::string& link = " C: \"OO\",300,200\n") {
   const std::string triangle =
       "Geometry: 100, \"Geometry::\", \"Mesh\" {\n Vertices: *9 {\n a: 0,0,0,2,0,0,0,1,0\n }\n PolygonVertexIndex: *3 {\n a: "
       "0,1,-3\n }\n"
@@ -28,7 +28,7 @@ core::Material material_of_fbx(const std::string& model) {
   const TemporaryFolder folder;
   write_text(folder / "a.fbx",
              "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n FBXHeaderVersion: 1003\n FBXVersion: 7400\n}\nObjects:  {\n" +
-                 triangle + material + "}\nConnections:  {\n C: \"OO\",200,0\n C: \"OO\",100,200\n C: \"OO\",300,200\n}\n");
+                 triangle + material + "}\nConnections:  {\n C: \"OO\",200,0\n C: \"OO\",100,200\n" + link + "}\n");
   return apps::read_mesh_file(folder / "a.fbx").scene.materials.at(0);
 }
 
@@ -56,13 +56,18 @@ TEST_CASE("an FBX material mirrors by its own words alone: Phong's exponent is n
   CHECK(material_of_fbx("lambert").diffuse == 1);
 }
 
-TEST_CASE("an X3D shininess of 0.5 is an exponent of 64") {
+TEST_CASE("what has no material is of one grey, whatever grey an importer has for it") {
+  const core::Vec3d grey{0.6, 0.6, 0.6};
+  CHECK(length(material_of_fbx("phong", "").color - grey) < 1e-6);
   const TemporaryFolder folder;
-  write_text(folder / "a.x3d",
-             "<?xml version=\"1.0\"?><X3D version=\"3.0\"><Scene><Shape><Appearance><Material diffuseColor=\"1 0 0\" "
-             "specularColor=\"1 1 1\" shininess=\"0.5\"/></Appearance><IndexedFaceSet coordIndex=\"0 1 2 -1\"><Coordinate "
-             "point=\"0 0 0 2 0 0 0 1 0\"/></IndexedFaceSet></Shape></Scene></X3D>");
-  CHECK(apps::read_mesh_file(folder / "a.x3d").scene.materials.at(0).shine == 64);
+  write_text(folder / "a.x", "xof 0303txt 0032\nMesh a {\n3;\n0;0;0;,\n2;0;0;,\n0;1;0;;\n1;\n3;0,1,2;;\n}\n");
+  CHECK(length(apps::read_mesh_file(folder / "a.x").scene.materials.at(0).color - grey) < 1e-6);
+}
+
+TEST_CASE("the camera of an ASE file looks forwards") {
+  const std::string models = DMPC_MODELS;
+  const core::View view = apps::read_mesh_file(models + "/ASE/CameraRollAnim.ase").scene.view;
+  CHECK(dot(core::Vec3d{10, 19, 0} - view.from, view.at - view.from) > 0);  // the middle of the scene lies before it
 }
 
 }  // namespace dmpc::tests::invented_test

@@ -187,6 +187,23 @@ TEST_CASE("what of materials is not shown is said once a kind, of those alone th
   }
 }
 
+TEST_CASE("a Ks without an Ns, an illum of 0 and a halo are said, for each material that has one") {
+  const MeshFile file = read("mtllib a.mtl\n" + square + "usemtl a\n" + face + "usemtl b\n" + face + "usemtl c\n" + face,
+                             "newmtl a\nKs 1 1 1\nd -halo 0.5\nnewmtl b\nKs 1 1 1\nNs 9\nillum 0\nnewmtl c\nKs 1 1 1\nillum 1\n");
+  CHECK(notes(file, "materials with a Ks and no Ns, shown without a highlight: 1"));
+  CHECK(notes(file, "materials with an illum other than 1 to 9, shaded all the same: 1"));
+  CHECK(notes(file, "materials with d -halo, as opaque at their edges as elsewhere: 1"));
+}
+
+TEST_CASE("names of files may stand in quotes") {
+  const std::string wood = "newmtl w\nmap_Kd \"wood #1.png\"\n", obj = square + "vt 0 0\nusemtl w\nf 1/1 2/1 3/1\n";
+  for (const std::string name : {"\"b.mtl\"", "\"my b.mtl\"", "\"a.mtl\" \"b.mtl\""}) {
+    CAPTURE(name);
+    const MeshFile file = read("mtllib " + name + "\n" + obj, "", {{"b.mtl", wood}, {"my b.mtl", wood}});
+    CHECK(file.scene.textures.size() == 1);
+  }
+}
+
 TEST_CASE("surveyed coordinates keep their digits") {
   const Scene scene = read("v 512345.5 5412345.25 0\nv 512345.75 5412345.25 0\nv 512345.5 5412345.5 0\nf 1 2 3\n").scene;
   CHECK(scene.vertices.at(1) - scene.vertices.at(0) == Vec3d{0.25, 0, 0});

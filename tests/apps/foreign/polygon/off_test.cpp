@@ -31,7 +31,7 @@ Vec3d color_of_object(const MeshFile& file, std::size_t object) { return tests::
 
 TEST_CASE("an OFF file may count behind its first word, leave edges and that word out, and have remarks anywhere") {
   for (const std::string begin :
-       {"OFF\n3 1 0\n", "OFF 3 1 0\n", "OFF # a\n\n# b\n 3 1\n", "3 1 0\n", "\xef\xbb\xbfOFF\r\n3 1 0\r\n"}) {
+       {"OFF\n3 1 0\n", "OFF 3 1 0\n", "OFF3 1 0\n", "OFF # a\n\n# b\n 3 1\n", "3 1 0\n", "\xef\xbb\xbfOFF\r\n3 1 0\r\n"}) {
     CAPTURE(begin);
     const MeshFile file = read_mesh("a.off", begin + "0 0 0 # the first\n2 0\n0\n# c\n0 1 0\n#d\n3 0 1 2#e\n# end");
     CHECK(file.scene.vertices == triangle);

@@ -196,6 +196,34 @@ TEST_CASE("what of PLY is not shown is said with a count") {
   }
 }
 
+TEST_CASE("properties of PLY that are not shown are said by name, those of faces, too") {
+  const std::string normals = "property float nx\nproperty float ny\nproperty float nz\n";
+  const Ply file{.vertex_properties = Ply{}.vertex_properties + "property float quality\n",
+                 .vertices = "0 0 0 1\n2 0 0 1\n0 1 0 1\n",
+                 .face_properties = Ply{}.face_properties + normals + "property int flags\nproperty int group\n",
+                 .faces = "3 0 1 2 0 0 1 2 3\n"};
+  const MeshFile scene = read_mesh("a.ply", file.text());
+  CHECK(notes(scene, "properties of the element 'vertex' that are not shown ('quality'): 1"));
+  CHECK(notes(scene, "properties of the element 'face' that are not shown ('nx', 'ny', 'nz', 'flags', ...): 5"));
+  CHECK_FALSE(notes(read_mesh("a.ply", Ply{}.text()), "properties of"));
+}
+
+TEST_CASE("elements of PLY may stand in one line, if none of its values is left over") {
+  const Ply file{.vertices = "0 0 0 2 0 0\n0 1 0 ", .faces = "3 0 1 2\n"};
+  CHECK(read_mesh("a.ply", file.text()).scene.vertices == triangle);
+  const Ply wide{.vertices = "0 0 0 0 0 1\n2 0 0 0 0 1\n0 1 0 0 0 1\n"};
+  CHECK(contains(mesh_refusal("a.ply", wide.text()), "line 10: found '0', expected no more values of an element"));
+}
+
+TEST_CASE("a texture of PLY that lies nowhere is not looked for") {
+  const std::string text = with(Ply{}.text(), "element vertex", "comment TextureFile nowhere.png\nelement vertex");
+  CHECK(notes(read_mesh("a.ply", text), "textures that are not shown, since the mesh has no texture coordinates: 1"));
+}
+
+TEST_CASE("a PLY file may begin with capitals") {
+  CHECK(read_mesh("a.ply", with(Ply{}.text(), "ply", "PLY")).scene.vertices == triangle);
+}
+
 TEST_CASE("what is wrong in PLY is refused with its line or byte") {
   const std::string whole = Ply{}.text();
   CHECK(contains(mesh_refusal("a.ply", with(whole, "2 0 0", "2 1x 0")), "line 11: found '1x', expected a number"));

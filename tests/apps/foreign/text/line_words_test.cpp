@@ -64,6 +64,8 @@ TEST_CASE("a byte that no text has is refused with its line") {
                        "line 2: expected text, found byte 0; write the file anew, as text", core::InputError);
   CHECK_THROWS_AS(lines_of("\x7f"), core::InputError);
   CHECK_THROWS_AS(lines_of("\x1a\x1a"), core::InputError);
+  CHECK(lines_of("v # \x01\x7f\nw") == List{"1 v # \x01\x7f", "2 w"});
+  CHECK_THROWS_AS(lines_of("# a\nv \x01"), core::InputError);
   CHECK(lines_of("\t\v\f \xe4\xff") == List{"1 \t\v\f \xe4\xff"});
 }
 
