@@ -1,5 +1,6 @@
 #include "apps/effort/effort.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 
@@ -13,23 +14,36 @@ namespace {
 constexpr double short_seconds = 5;
 constexpr std::size_t small_bytes = std::size_t{256} << 20U;
 
+/// The guess may be off by so much to either side.
+constexpr double uncertainty = 2;
+
 /// To one significant digit, two from ten on: more would promise too much.
-double coarse(double value) { return value < 10 ? std::round(value) : 5 * std::round(value / 5); }
+double coarse(double value) { return value < 10 ? std::max(std::round(value), 1.0) : 5 * std::round(value / 5); }
 
 std::string memory_text(std::size_t bytes) {
   constexpr std::size_t gibibyte = std::size_t{1} << 30U;
   return bytes < gibibyte ? bytes_text(bytes) : fixed(static_cast<double>(bytes) / gibibyte, 1) + " GiB";
 }
 
+/// A number of a unit that suits it.
+struct Duration {
+  std::string number, unit;
+};
+
+Duration duration_of(double seconds) {
+  const auto in = [seconds](double unit_seconds, const char* unit) {
+    return Duration{fixed(coarse(seconds / unit_seconds), 0), unit};
+  };
+  return seconds < 90 ? in(1, " seconds") : seconds < 90 * 60 ? in(60, " minutes") : in(3600, " hours");
+}
+
+/// "2 to 8 minutes", "45 seconds to 3 minutes".
 std::string duration_text(double seconds) {
   if (seconds < short_seconds) {
     return "some seconds";
   }
-  if (seconds < 90) {
-    return "about " + fixed(coarse(seconds), 0) + " seconds";
-  }
-  return seconds < 90 * 60 ? "about " + fixed(coarse(seconds / 60), 0) + " minutes"
-                           : "about " + fixed(coarse(seconds / 3600), 0) + " hours";
+  const Duration least = duration_of(seconds / uncertainty), most = duration_of(seconds * uncertainty);
+  return least.number + (least.unit == most.unit ? "" : least.unit) + " to " + most.number + most.unit;
 }
 
 }  // namespace

@@ -7,14 +7,15 @@
 
 namespace dmpc::apps {
 
-/// What the real computer will take. It is a guess, good to a factor of two or so on a computer that does nothing else.
+/// What the real computer will take. It is a guess, good to a factor of two on a computer that does nothing else: so it is told
+/// as a range, from half to twice as much.
 struct Effort {
   double seconds = 0;     ///< by the wall clock
   std::size_t bytes = 0;  ///< of memory, at most; 0: little, or not known
   bool is_given = false;  ///< the memory is what nodes are given, of which they may touch but a part
 };
 
-/// "some seconds", "about 4 minutes and up to 1.5 GiB of memory", "about 4 minutes; nodes are given up to 4.1 GiB of memory, and
+/// "some seconds", "2 to 8 minutes and up to 1.5 GiB of memory", "2 to 8 minutes; nodes are given up to 4.1 GiB of memory, and
 /// may touch less"; memory is left out below 256 MiB.
 std::string text_of(const Effort& effort);
 

@@ -14,14 +14,14 @@ namespace dmpc::apps::effort_test {
 
 TEST_CASE("an effort is told in words that promise no more than is known") {
   CHECK(text_of(Effort{.seconds = 0.3}) == "some seconds");
-  CHECK(text_of(Effort{.seconds = 7.4}) == "about 7 seconds");
-  CHECK(text_of(Effort{.seconds = 33.1}) == "about 35 seconds");
-  CHECK(text_of(Effort{.seconds = 234}) == "about 4 minutes");
-  CHECK(text_of(Effort{.seconds = 4 * 3600.0}) == "about 4 hours");
-  CHECK(text_of(Effort{.seconds = 234, .bytes = 1536U << 20U}) == "about 4 minutes and up to 1.5 GiB of memory");
-  CHECK(text_of(Effort{.seconds = 234, .bytes = 1U << 20U}) == "about 4 minutes");
+  CHECK(text_of(Effort{.seconds = 7.4}) == "4 to 15 seconds");
+  CHECK(text_of(Effort{.seconds = 33.1}) == "15 to 65 seconds");
+  CHECK(text_of(Effort{.seconds = 234}) == "2 to 8 minutes");
+  CHECK(text_of(Effort{.seconds = 4 * 3600.0}) == "2 to 8 hours");
+  CHECK(text_of(Effort{.seconds = 234, .bytes = 1536U << 20U}) == "2 to 8 minutes and up to 1.5 GiB of memory");
+  CHECK(text_of(Effort{.seconds = 234, .bytes = 1U << 20U}) == "2 to 8 minutes");
   CHECK(text_of(Effort{.seconds = 7, .bytes = 1536U << 20U, .is_given = true}) ==
-        "about 7 seconds; nodes are given up to 1.5 GiB of memory, and may touch less");
+        "4 to 15 seconds; nodes are given up to 1.5 GiB of memory, and may touch less");
 }
 
 TEST_CASE("nothing is said of an effort where nobody looks") {

@@ -23,6 +23,8 @@ constexpr std::uint64_t trace_references_max = std::numeric_limits<std::uint32_t
 
 using PageName = std::uint64_t;
 
+constexpr int first_of_gzip = 0x1f;
+
 /// What stands where, told by the first line.
 struct Columns {
   std::size_t page = 0;
@@ -102,7 +104,6 @@ class ReferenceReader {
   }
 
   Columns read_columns() {
-    constexpr int first_of_gzip = 0x1f;
     if (first_character() == first_of_gzip) {
       throw core::InputError(name_ + ": it is packed; expected a CSV file: zcat FILE | dmpc study references -");
     }
@@ -180,6 +181,14 @@ class ReferenceReader {
   ReferenceTrace trace_;
 };
 
+bool is_packed(std::istream& input, const std::string& name) {
+  try {
+    return input.peek() == first_of_gzip;
+  } catch (const core::InputError& error) {  // of a pipe that gives nothing
+    throw core::InputError(name + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 void write_references(std::ostream& output, const std::vector<svm::ReferenceLog>& logs, std::size_t page_bytes) {
@@ -196,7 +205,7 @@ ReferenceTrace read_references(std::istream& input, const std::string& name, con
   return ReferenceReader(input, name, columns).read();
 }
 
-ReferenceTrace read_references(const std::filesystem::path& path, const ReferenceColumns& columns) {
+ReferenceTrace read_references(const std::filesystem::path& path, const ReferenceColumns& columns, const UnpackText& unpack) {
   const bool is_standard = path == "-";
   const std::string name = is_standard ? "the standard input" : path.string();
   std::unique_ptr<TextInput> input;
@@ -204,6 +213,9 @@ ReferenceTrace read_references(const std::filesystem::path& path, const Referenc
     input = std::make_unique<TextInput>(is_standard ? "/dev/stdin" : path);
   } catch (const core::InputError& error) {
     throw core::InputError(name + ": " + error.what() + "; a CSV file of page references was expected");
+  }
+  if (unpack && is_packed(*input, name)) {
+    return read_references(*unpack(*input), name, columns);
   }
   return read_references(*input, name, columns);
 }

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <istream>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -34,7 +36,10 @@ struct ReferenceColumns {
 /// Reads a file or a pipe, or, as "-", the standard input, if that is one of them, with a column of pages, and perhaps one of
 /// nodes; others are passed over. Pages are whole numbers below 2^64, whatever they mean. Throws core::InputError naming the
 /// line, core::RoomError for more than 2^32 - 2 references.
-ReferenceTrace read_references(const std::filesystem::path& path, const ReferenceColumns& columns = {});
+/// What is packed by gzip goes through `unpack`, if there is one, and is refused else.
+using UnpackText = std::function<std::unique_ptr<std::istream>(std::istream&)>;
+ReferenceTrace read_references(const std::filesystem::path& path, const ReferenceColumns& columns = {},
+                               const UnpackText& unpack = {});
 /// Reads text that is called `name` in messages.
 ReferenceTrace read_references(std::istream& input, const std::string& name, const ReferenceColumns& columns = {});
 

@@ -1,6 +1,8 @@
 #include "apps/lab/study/references/command.h"
 
+#include <filesystem>
 #include <iostream>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -12,6 +14,7 @@
 #include "apps/lab/study/cache.h"
 #include "apps/lab/study/cache_curves.h"
 #include "apps/lab/study/engine/tabled_job.h"
+#include "apps/lab/study/references/gzip_text.h"
 
 namespace dmpc::apps {
 namespace {
@@ -72,9 +75,9 @@ Table table_of(const ReferenceTrace& trace, const ReferencesOptions& options, co
 void add_options(OptionSet set, ReferencesOptions& options) {
   set.add_argument(
       "FILE", [&options](const std::string& text) { options.file = text; },
-      "A CSV file whose first line names its columns: page, and perhaps node; others are passed over. - is the standard input, "
-      "as "
-      "in zcat trace.csv.gz | dmpc study references -");
+      "A CSV file, perhaps packed by gzip, whose first line names its columns: page, and perhaps node; others are passed over. - "
+      "is "
+      "the standard input");
   set.add_text(
       "--page-column", "NAME [page]", [&options](const std::string& text) { options.columns.page = text; },
       "The column that has the page");
@@ -87,7 +90,8 @@ void add_options(OptionSet set, ReferencesOptions& options) {
   set.set_examples(
       "Examples:\n"
       "  dmpc study references trace.csv\n"
-      "  zcat trace.csv.gz | dmpc study references - --page-column=block --node-column=thread\n"
+      "  dmpc study references trace.csv.gz --page-column=block --node-column=thread\n"
+      "  zstdcat trace.csv.zst | dmpc study references -\n"
       "  dmpc study references trace.csv --cache-pages=16,64,256 --plots=plots --format=csv -o misses.csv\n"
       "A page is a whole number, whatever it stands for: the references may be any program's.");
 }
@@ -96,7 +100,8 @@ int study_references_command(const ReferencesOptions& options, Interrupt& interr
   const TableFiles files = files_of(options);
   const ReferenceTrace trace = [&] {
     const Interrupt::EndAtOnce end_at_once(interrupt);
-    return read_references(std::filesystem::path(options.file), options.columns);
+    return read_references(std::filesystem::path(options.file), options.columns,
+                           [](std::istream& packed) { return std::make_unique<GzipText>(packed); });
   }();
   std::optional<Table> table;
   const auto result = [&](bool) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/show/page/escaped.h"
+#include "apps/lab/study/cache_curves.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
@@ -67,6 +69,39 @@ TEST_CASE("references come from a pipe, whose columns are called as one says") {
   ChildProcess shell({"/bin/sh", "-c", line});
   CHECK(shell.status() == 0);
   CHECK(contains(shell.output(), "\n2,100,"));
+}
+
+TEST_CASE("references packed by gzip, in one piece or several, are read as they are, and said to be cut short or damaged") {
+  const TemporaryFolder folder;
+  const std::string path = folder / "trace.csv.gz";
+  ChildProcess shell({"/bin/sh", "-c", "(printf 'page\\n1\\n2\\n' | gzip; printf '3\\n1\\n' | gzip) > " + path});
+  REQUIRE(shell.status() == 0);
+  const apps::ReferencesOptions options{
+      .file = path, .cache_pages = {3}, .table = {.format = apps::TableFormat::csv}, .quiet = true};
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK(apps::study_references_command(options, interrupt, output) == 0);
+  CHECK(contains(output.str(), "\n3,100,75,3,"));
+  const std::string packed = file_text(path);
+  write_text(path, packed.substr(0, packed.size() - 3));
+  CHECK_THROWS_WITH_AS(apps::study_references_command(options, interrupt, output),
+                       (path + ": is packed by gzip and cut short; pack it anew").c_str(), core::InputError);
+  write_text(path, packed.substr(0, 12) + "damaged" + packed.substr(19));
+  CHECK_THROWS_WITH_AS(apps::study_references_command(options, interrupt, output),
+                       (path + ": is packed by gzip and damaged; pack it anew").c_str(), core::InputError);
+}
+
+TEST_CASE("the study of references draws its curves, in a folder and on a page") {
+  const TemporaryFolder folder;
+  write_text(folder / "trace.csv", "page\n1\n2\n3\n1\n");
+  const apps::ReferencesOptions options{
+      .file = folder / "trace.csv", .table = {.report = folder / "page.html", .plots = folder / "plots"}, .quiet = true};
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK(apps::study_references_command(options, interrupt, output) == 0);
+  const apps::Plot plot = apps::CacheCurves::plot();
+  CHECK(file_text(folder / "plots" / (plot.name + ".gnuplot")).size() > 100);
+  CHECK(contains(file_text(folder / "page.html"), "Plot: " + apps::html::escaped(plot.title)));
 }
 
 TEST_CASE("a file that cannot be read leaves no table") { CHECK_THROWS_AS(output_of("x\n", {}), core::InputError); }

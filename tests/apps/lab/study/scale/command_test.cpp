@@ -140,12 +140,14 @@ TEST_CASE("a run that the system kills is a row without figures") {
 TEST_CASE("the study of scale writes its table and pictures where they are asked for") {
   const TemporaryFolder folder;
   const ScaleOptions options =
-      tiny_scale({"--methods=cache", "--plots=" + (folder / "plots").string(), "-o" + (folder / "table.csv").string()});
+      tiny_scale({"--methods=cache", "--plots=" + (folder / "plots").string(), "-o" + (folder / "table.csv").string(),
+                  "--report=" + (folder / "page.html").string()});
   CHECK(output_of(options).empty());
   CHECK(file_text(folder / "table.csv") == file_text(folder / "plots" / "scale.csv"));
   for (const char* name : {"scale_tetra_seconds", "scale_tetra_memory", "scale_nodes_seconds"}) {
     CHECK(contains(file_text(folder / "plots" / (std::string(name) + ".gnuplot")), "scale.csv"));
   }
+  CHECK(count(file_text(folder / "page.html"), "Plot: ") >= 3);
 }
 
 TEST_CASE("outputs of the study of scale that clash or cannot be written are refused before any run") {

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/show/page/escaped.h"
 #include "apps/lab/study/sweep/kept_runs.h"
+#include "apps/lab/study/sweep/table.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"
@@ -71,6 +73,20 @@ TEST_CASE("a sweep renders every combination and tells the figures asked for, al
   CHECK(table.starts_with("nodes,page-size (bytes),pages.faults,virtual_seconds.total (s)\n1,1024,0,"));
   CHECK(count(table, "\n") == 5);
   CHECK(swept(options) == table);
+}
+
+TEST_CASE("a sweep draws what it varies, with commas in names, too, in a folder and on a page") {
+  const TemporaryFolder folder;
+  StudySweepOptions options =
+      tiny_sweep({"--vary=nodes:1,3", "--vary=strategy:svm,dataflow", "--columns=faults,virtual_seconds",
+                  "--plots=" + (folder / "plots").string(), "--report=" + (folder / "page.html").string()});
+  swept(options);
+  const auto plots = apps::sweep_plots(options.settings, apps::sweep_runs(options.settings));
+  REQUIRE(plots.size() == 2);
+  for (const apps::Plot& plot : plots) {
+    CHECK(file_text(folder / "plots" / (plot.name + ".gnuplot")).size() > 100);
+    CHECK(contains(file_text(folder / "page.html"), "Plot: " + apps::html::escaped(plot.title)));
+  }
 }
 
 TEST_CASE("rows come as JSON lines, each an object of its own") {
