@@ -7,9 +7,10 @@
 
 namespace dmpc::svm {
 
-/// Pixels that a node has under way unless asked otherwise. One whose pixel waits for an answer has others to go on with, and the
-/// more there are, the fuller are packets of questions (svm/RESULTS.md).
-inline constexpr std::uint32_t forest_usual_in_flight = 256;
+/// Pixels that a node has under way unless asked otherwise: a quarter of its share of the picture, within these. One whose pixel
+/// waits for an answer has others to go on with, and the more there are, the fuller are packets of questions; but what is under
+/// way cannot be given to an idle node (svm/RESULTS.md).
+inline constexpr std::uint32_t forest_in_flight_least = 16, forest_in_flight_most = 256;
 
 /// Every node holds the upper part of the tree, and asks the owners of its subtrees what rays meet there.
 const Strategy* forest_strategy();

@@ -491,6 +491,19 @@ TEST_CASE("pages are at home at the host where they travel alone") {
   CHECK_THROWS_AS(make_plan(request), core::UsageError);
 }
 
+TEST_CASE("of forest a quarter of a node's share of the picture is in flight, 16 pixels at least and 256 at most") {
+  const auto in_flight = [](std::uint32_t side, std::uint32_t node_count) {
+    PlanRequest request{.strategy = svm::forest_strategy(), .page_count = 40, .computer = {.node_count = node_count}};
+    request.width = request.height = side;
+    request.forest_page_count = 4;
+    return make_plan(request).in_flight;
+  };
+  CHECK(in_flight(512, 4) == 256);
+  CHECK(in_flight(128, 64) == 64);
+  CHECK(in_flight(8, 4) == 16);
+  CHECK(in_flight(2, 1) == 4);  // all that there are
+}
+
 TEST_CASE("at least one node renders, and no more than there are") {
   svm::PlanRequest request{.page_count = 4, .computer = {.node_count = 4}, .width = 8, .height = 8};
   CHECK(make_plan(request).worker_count == 4);

@@ -10,6 +10,7 @@
 #include "apps/lab/study/engine/measure_each.h"
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"
+#include "svm/forest/strategy.h"
 
 namespace dmpc::apps {
 namespace {
@@ -150,6 +151,12 @@ StrategyOptions on_usual_machine() {
 
 std::string machine_text(const nodes::Machine& machine) {
   return "Machine " + name_with_links(machine) + " (machine_digest " + hash_text(machine.digest()) + ")";
+}
+
+std::string in_flight_text(Strategy strategy) {
+  return strategy != Strategy::forest ? "1 pixel"
+                                      : "a quarter of a node's share, " + std::to_string(svm::forest_in_flight_least) + " to " +
+                                            counted(svm::forest_in_flight_most, "pixel");
 }
 
 void StudyRuns::compare(const core::Film& film) {

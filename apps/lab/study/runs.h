@@ -51,6 +51,9 @@ struct StudyRun {
 StrategyOptions on_usual_machine();
 /// "Machine ipsc2, ... (machine_digest 0123...)", for a note.
 std::string machine_text(const nodes::Machine& machine);
+/// "1 pixel", or of forest "a quarter of a node's share, 16 to 256 pixels": what is in flight on a modelled machine unless asked
+/// otherwise.
+std::string in_flight_text(Strategy strategy);
 
 /// The scene fits none of the computers that were to render it: the message is the first one's misfit.
 struct NothingFits : core::RoomError {

@@ -8,7 +8,6 @@
 #include "apps/lab/study/engine/time_part_columns.h"
 #include "apps/run/run_strategy.h"
 #include "nodes/size_text.h"
-#include "svm/forest/strategy.h"
 
 namespace dmpc::apps {
 namespace {
@@ -64,10 +63,11 @@ std::string cache_text(const StrategyOptions& run) {
 
 std::string pages_text(const StrategyOptions& run) {
   svm::PageOptions pages = run.pages;
-  pages.in_flight = pages.in_flight.value_or(run.strategy == Strategy::forest ? svm::forest_usual_in_flight : 1);
+  const std::string in_flight = pages.in_flight ? counted(*pages.in_flight, "pixel") : in_flight_text(run.strategy);
+  pages.in_flight = pages.in_flight.value_or(1);
   const std::uint32_t item_side = svm::work_item_side_of(pages, run.strategy != Strategy::forest);
   const std::string side = std::to_string(item_side);
-  return (run.strategy == Strategy::svm ? cache_text(run) + ", " : "") + counted(*pages.in_flight, "pixel") + " in flight, " +
+  return (run.strategy == Strategy::svm ? cache_text(run) + ", " : "") + in_flight + " in flight, " +
          (item_side == 0 ? "no work given away" : "work items of " + side + "x" + side);
 }
 

@@ -12,7 +12,6 @@
 #include "apps/lab/study/engine/time_part_columns.h"
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"
-#include "svm/forest/strategy.h"
 
 namespace dmpc::apps {
 namespace {
@@ -341,7 +340,7 @@ void SystemsStudy::measure(StudyRuns& runs, Table& table) const {
 
 std::vector<std::string> SystemsStudy::notes(const std::string&) const {
   std::vector<std::string> notes = {machine_text(*machine.computer.machine) + ". One pixel in flight, forest " +
-                                    std::to_string(svm::forest_usual_in_flight) + "."};
+                                    in_flight_text(Strategy::forest) + "."};
   for (const SystemDescription& description : systems()) {
     if (std::find(chosen.begin(), chosen.end(), description.system) != chosen.end()) {
       notes.push_back(std::string(description.name) + ": " + description.meaning + ".");
