@@ -67,12 +67,11 @@ class DatabaseBuilder {
     fit();
     conversion_ = convert(scene_, header().frame, parallel_);
     TopCells cells = sort_into_top_cells();
-    const bool is_rearranged = settle_coplanar(conversion_, cells, scene_, header().frame, parallel_);
+    if (settle_coplanar(conversion_, cells, scene_, header().frame, parallel_)) {
+      cells = sort_into_top_cells();  // which may look for twins among the scene's objects
+    }
     if (expendable_ != nullptr) {
       forget_objects(*expendable_);
-    }
-    if (is_rearranged) {
-      cells = sort_into_top_cells();
     }
     if (options_.structure == Structure::extents) {
       cells = join_top_cells();
