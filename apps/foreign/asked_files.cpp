@@ -9,9 +9,7 @@
 namespace dmpc::apps {
 namespace {
 
-Packer& add_edges(Packer& fields, const TextureEdges& edges) {
-  return fields.add(edges.s).add(edges.t).add(static_cast<std::uint8_t>(edges.keeps_alpha));
-}
+Packer& add_edges(Packer& fields, const TextureEdges& edges) { return fields.add(edges.s).add(edges.t).add(edges.alpha); }
 
 std::string_view as_text(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 

@@ -23,6 +23,7 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/assimp_log.h"
 #include "apps/foreign/gltf/reader.h"
+#include "apps/foreign/mesh/bare_meshes.h"
 #include "apps/foreign/mesh/collada_text.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/file_ending.h"
@@ -231,6 +232,11 @@ ImportedFile import_file(const std::string& path, SceneFiles& files) {
   if (ending == "fbx") {
     note_count(file.notes, "objects that the file switches off (Visibility or Show), shown all the same",
                count_hidden_nodes(text));
+  }
+  if (ending == "x") {
+    note_count(file.notes,
+               "meshes without a material of their own, or of which that is not known, which may have the file's first",
+               count_bare_meshes(*file.scene, text));
   }
   return file;
 }

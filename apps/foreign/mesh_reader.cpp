@@ -74,7 +74,9 @@ std::vector<MeshMaterial> materials_of(const ImportedFile& imported, const Place
     MeshMaterial material{.material = material_of(*file.mMaterials[i]), .is_cut_away = is_cut_away(*file.mMaterials[i])};
     auto use = used[i] && !material.is_cut_away ? colour_texture(*file.mMaterials[i]) : std::nullopt;
     if (use) {
-      use->edges.keeps_alpha = material.material.alpha != core::AlphaUse::none;
+      use->edges.alpha = material.material.alpha != core::AlphaUse::none ? TextureAlpha::kept
+                         : says_what_alpha_does(*file.mMaterials[i])     ? TextureAlpha::ignored
+                                                                         : TextureAlpha::said;
     }
     if (const auto texture = use ? textures.find(*use) : std::nullopt) {
       material.material.texture = *texture;
@@ -98,7 +100,10 @@ std::vector<core::Material> materials_of(const PolygonFile& file, SceneFiles& fi
   std::vector<core::Material> materials;
   for (std::size_t i = 0; i < used.size(); ++i) {
     core::Material material = file.materials[i].material;
-    const auto& use = file.materials[i].texture;
+    auto use = file.materials[i].texture;
+    if (use) {
+      use->edges.alpha = TextureAlpha::said;
+    }
     material.texture = used[i] && use ? textures.find(*use).value_or(core::Material::no_texture) : core::Material::no_texture;
     materials.push_back(material);
   }

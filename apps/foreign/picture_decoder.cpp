@@ -193,25 +193,30 @@ core::TexelFormat format_for(const OIIO::ImageSpec& spec) {
                                                 : core::TexelFormat::fine_srgb;
 }
 
-/// Puts what the file says of alpha beside a texture's colours, if some of it is not 1. The colours are those that were read
-/// without it.
-void add_alpha(const EncodedPicture& picture, core::Texture& texture) {
+/// 255 is 1; empty if all are.
+std::vector<std::uint8_t> alpha_of(const EncodedPicture& picture) {
   const Input input = open(picture, false);
   const int channel = input.spec().alpha_channel;
-  std::vector<std::uint32_t>& texels = texture.levels.front().texels;
-  std::vector<std::uint8_t> alpha(texels.size());
   if (channel < 0) {
+    return {};
+  }
+  auto alpha = read_values<std::uint8_t>(input, picture.name, OIIO::TypeDesc::UINT8, channel, 1);
+  const bool is_opaque = std::all_of(alpha.begin(), alpha.end(), [](std::uint8_t value) { return value == 255; });
+  return is_opaque ? std::vector<std::uint8_t>{} : alpha;
+}
+
+/// Puts what the file says of alpha beside a texture's colours, if some of it is not 1. The colours are those that were read
+/// without it, but for EXR's, which are multiplied by it.
+void add_alpha(const EncodedPicture& picture, core::Texture& texture) {
+  const std::vector<std::uint8_t> alpha = alpha_of(picture);
+  if (alpha.empty()) {
     return;
   }
-  if (!input.image->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::UINT8, alpha.data())) {
-    throw core::InputError(picture.name + ": cannot be read: " + input.image->geterror());
-  }
-  if (std::all_of(alpha.begin(), alpha.end(), [](std::uint8_t value) { return value == 255; })) {
-    return;
-  }
+  std::vector<std::uint32_t>& texels = texture.levels.front().texels;
   for (std::size_t i = 0; i < texels.size(); ++i) {
-    texels[i] =
-        core::encoded(core::TexelFormat::srgb_alpha, core::Vec3d(core::decoded(texture.format, texels[i])), alpha[i] / 255.0);
+    const double share = alpha[i] / 255.0, multiplied = picture.format == "openexr" && share > 0 ? share : 1;
+    const core::Vec3d color = core::Vec3d(core::decoded(texture.format, texels[i])) * (1 / multiplied);
+    texels[i] = core::encoded(core::TexelFormat::srgb_alpha, color, share);
   }
   texture.format = core::TexelFormat::srgb_alpha;
 }
@@ -257,11 +262,13 @@ core::Texture decode_texture(const EncodedPicture& picture) {
                     : format == core::TexelFormat::fine_srgb ? read_fine
                                                              : read_light;
   read(input, picture, texture.levels.front().texels);
-  if (picture.keeps_alpha) {
+  if (picture.alpha == TextureAlpha::kept) {
     add_alpha(picture, texture);
   }
   return texture;
 }
+
+bool has_alpha(const EncodedPicture& picture) { return !alpha_of(picture).empty(); }
 
 Image decode_image(const EncodedPicture& picture) {
   const Input input = open(picture, false);

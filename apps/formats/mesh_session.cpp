@@ -59,7 +59,7 @@ ReaderLimits with_sandbox(ReaderLimits limits, Sandbox sandbox) {
 
 TextureEdges take_edges(Unpacker& fields) {
   const auto s = fields.take_choice(core::TextureWrap::clamp), t = fields.take_choice(core::TextureWrap::clamp);
-  return {s, t, fields.take_flag()};
+  return {s, t, fields.take_choice(TextureAlpha::kept)};
 }
 
 }  // namespace
@@ -108,6 +108,9 @@ void MeshSession::note_alpha() {
     result_.notes.push_back(
         "materials that alpha cuts out or blends, whose faces cast whole shadows, and each take one of --depth: " +
         grouped(static_cast<std::uint64_t>(count)));
+  }
+  if (pictures_.hidden_alphas() > 0) {
+    result_.notes.push_back("textures whose alpha is not shown: " + grouped(pictures_.hidden_alphas()));
   }
 }
 
@@ -262,7 +265,7 @@ core::Texture MeshSession::texture_of_texels(Unpacker fields) {
   core::Texture texture{.name = name, .wrap_s = edges.s, .wrap_t = edges.t, .levels = {{width, height, {}}}};
   texture.levels.front().texels.resize(count);
   std::memcpy(texture.levels.front().texels.data(), bytes_.data(), bytes_.size());
-  texture.format = edges.keeps_alpha ? core::TexelFormat::srgb_alpha : core::TexelFormat::srgb;
+  texture.format = edges.alpha == TextureAlpha::kept ? core::TexelFormat::srgb_alpha : core::TexelFormat::srgb;
   core::add_levels(texture);
   return texture;
 }

@@ -77,11 +77,12 @@ PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name
 
 core::Texture PictureReader::read_texture(const PictureFile& file, const TextureEdges& edges) {
   core::Texture texture{.name = file.name, .wrap_s = edges.s, .wrap_t = edges.t, .levels = {}};
-  read(file, Saying::read_texture, edges.keeps_alpha, [&] {
+  read(file, Saying::read_texture, edges.alpha, [&] {
     const Head head = receive_head(file);
     check_texture_size(file.name, head.width, head.height);
     take_room(head);
     texture.format = head.format;
+    hidden_alphas_ += head.hides_alpha ? 1 : 0;
     texture.levels.push_back({head.width, head.height, receive_values<std::uint32_t>(std::uint64_t{head.width} * head.height)});
   });
   core::add_levels(texture);
@@ -90,7 +91,7 @@ core::Texture PictureReader::read_texture(const PictureFile& file, const Texture
 
 Image PictureReader::read_image(const PictureFile& file) {
   Image image;
-  read(file, Saying::read_image, false, [&] {
+  read(file, Saying::read_image, TextureAlpha::ignored, [&] {
     const Head head = receive_head(file);
     image.width = static_cast<int>(head.width);
     image.height = static_cast<int>(head.height);
@@ -101,11 +102,11 @@ Image PictureReader::read_image(const PictureFile& file) {
 
 /// A process that said nonsense, or died, is no more.
 template <class Take>
-void PictureReader::read(const PictureFile& file, Saying request, bool keeps_alpha, const Take& take) {
+void PictureReader::read(const PictureFile& file, Saying request, TextureAlpha alpha, const Take& take) {
   std::string format = "pictures";
   try {
     format = format_text(file);
-    ask(file, request, keeps_alpha);
+    ask(file, request, alpha);
     take();
     Unpacker::require(receive().saying == Saying::done);
   } catch (const ReaderDeath& death) {
@@ -131,7 +132,7 @@ void PictureReader::read(const PictureFile& file, Saying request, bool keeps_alp
   }
 }
 
-void PictureReader::ask(const PictureFile& file, Saying request, bool keeps_alpha) {
+void PictureReader::ask(const PictureFile& file, Saying request, TextureAlpha alpha) {
   const std::uint64_t memory = memory_bytes_for(file.bytes);
   budget_.add_bytes(file.is_new ? file.bytes : 0);
   check_time();
@@ -140,11 +141,8 @@ void PictureReader::ask(const PictureFile& file, Saying request, bool keeps_alph
     process_.emplace("dmpc_picture_reader", memory, budget_);
     memory_bytes_ = memory;
   }
-  const Packer fields = Packer()
-                            .add_text(file.name)
-                            .add_text(format_text(file))
-                            .add(static_cast<std::uint64_t>(file.bytes))
-                            .add(static_cast<std::uint8_t>(keeps_alpha));
+  const Packer fields =
+      Packer().add_text(file.name).add_text(format_text(file)).add(static_cast<std::uint64_t>(file.bytes)).add(alpha);
   process_->send(request, fields, &file.descriptor);
 }
 
@@ -182,6 +180,7 @@ PictureReader::Head PictureReader::receive_head(const PictureFile& file) {
   head.width = fields.take<std::uint32_t>();
   head.height = fields.take<std::uint32_t>();
   head.format = fields.take_choice(core::TexelFormat::srgb_alpha);
+  head.hides_alpha = fields.take_flag();
   fields.finish();
   Unpacker::require(head.width >= 1 && head.height >= 1 && head.width <= picture_side_max && head.height <= picture_side_max &&
                     decoded_bytes(head.width, head.height, 1) <= decoded_bytes_max(file.bytes));

@@ -41,6 +41,8 @@ class PictureReader {
 
   /// As apps/picture/texture_file.h says.
   core::Texture read_texture(const PictureFile& file, const TextureEdges& edges);
+  /// How many of the textures had alpha that is not shown, of those where that is to be said.
+  std::uint64_t hidden_alphas() const { return hidden_alphas_; }
   /// As apps/picture/image_file.h says.
   Image read_image(const PictureFile& file);
 
@@ -48,11 +50,12 @@ class PictureReader {
   struct Head {
     std::uint32_t width, height;
     core::TexelFormat format;
+    bool hides_alpha;
   };
 
   template <class Take>
-  void read(const PictureFile& file, Saying request, bool keeps_alpha, const Take& take);
-  void ask(const PictureFile& file, Saying request, bool keeps_alpha);
+  void read(const PictureFile& file, Saying request, TextureAlpha alpha, const Take& take);
+  void ask(const PictureFile& file, Saying request, TextureAlpha alpha);
   void check_time() const;
   void take_room(const Head& head);
   Head receive_head(const PictureFile& file);
@@ -62,6 +65,7 @@ class PictureReader {
 
   ReadingBudget budget_;
   std::optional<ReaderProcess> process_;
+  std::uint64_t hidden_alphas_ = 0;
   std::uint64_t memory_bytes_ = 0, texture_bytes_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -10,10 +11,13 @@
 
 namespace dmpc::apps {
 
-/// How a texture goes on beyond its edges, along each side, and whether its alpha counts.
+/// What becomes of a texture's alpha: it means nothing, it means something that is not shown, and is said, or it counts.
+enum class TextureAlpha : std::uint8_t { ignored, said, kept };
+
+/// How a texture goes on beyond its edges, along each side, and what its alpha does.
 struct TextureEdges {
   core::TextureWrap s = core::TextureWrap::repeat, t = core::TextureWrap::repeat;
-  bool keeps_alpha = false;
+  TextureAlpha alpha = TextureAlpha::ignored;
 };
 
 /// Reads the first three channels (one or two: the first is taken thrice) of the first picture in the file, and makes its smaller

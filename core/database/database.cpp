@@ -67,13 +67,12 @@ class DatabaseBuilder {
     fit();
     conversion_ = convert(scene_, header().frame, parallel_);
     TopCells cells = sort_into_top_cells();
-    const bool is_rearranged = settle_coplanar(conversion_, cells, scene_, header().frame, parallel_);
+    if (settle_coplanar(conversion_, cells, scene_, header().frame, parallel_)) {
+      set_pad();                      // there are layers now
+      cells = sort_into_top_cells();  // which may look for twins among the scene's objects
+    }
     if (expendable_ != nullptr) {
       forget_objects(*expendable_);
-    }
-    if (is_rearranged) {
-      set_pad();  // there are layers now
-      cells = sort_into_top_cells();
     }
     if (options_.structure == Structure::extents) {
       cells = join_top_cells();

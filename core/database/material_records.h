@@ -1,12 +1,15 @@
 // The records of a scene's materials.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/record/record.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::core {
+
+class Database;
 
 /// One behind the other they are what DatabaseHeader::materials is the address of.
 struct MaterialRecords {
@@ -16,5 +19,8 @@ struct MaterialRecords {
 
 /// Throws RoomError if more have a finish than a material's record can name.
 MaterialRecords material_records(const std::vector<Material>& materials);
+
+/// How many materials the database's scene has: without the finishes that stand behind them.
+std::uint32_t material_count(const Database& database);
 
 }  // namespace dmpc::core

@@ -134,7 +134,6 @@ void GeometryWriter::add(PolygonMesh mesh, core::Material material) {
 
 /// Gives a face the material of its colour, if that is one, and so few have others that each may have its own; else the mesh's.
 bool GeometryWriter::set_one_color(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end) {
-  constexpr std::size_t colors_max = 256;
   const bool is_opaque = mesh.alphas.empty() || material.alpha == core::AlphaUse::none;
   for (std::size_t i = first; i < end; ++i) {
     if (!(mesh.colors[i] == mesh.colors[first]) || !(is_opaque || mesh.alphas[i] >= 1)) {
@@ -144,7 +143,8 @@ bool GeometryWriter::set_one_color(const PolygonMesh& mesh, const core::Material
   }
   core::Material face = material;
   const std::array<double, 3> color{mesh.colors[first].x, mesh.colors[first].y, mesh.colors[first].z};
-  const bool is_one = face_colors_.contains(color) || (face_colors_.size() < colors_max && face_colors_.insert(color).second);
+  const bool is_one =
+      face_colors_.contains(color) || (face_colors_.size() < face_colors_max && face_colors_.insert(color).second);
   if (is_one) {
     face.color = face.color * clamped(mesh.colors[first]);
     face.alpha = mesh.places.empty() ? core::AlphaUse::none : face.alpha;

@@ -14,6 +14,9 @@
 
 namespace dmpc::apps {
 
+/// As many colours of faces become materials; what has others has them at its corners.
+inline constexpr std::size_t face_colors_max = 256;
+
 /// What faces of three or more corners become.
 struct GeometrySize {
   std::uint64_t triangles = 0, faces = 0, corners = 0;

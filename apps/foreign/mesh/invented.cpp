@@ -34,7 +34,7 @@ bool is_invented(const aiMaterial& material, const std::string& ending, std::str
   aiString name;
   material.Get(AI_MATKEY_NAME, name);
   const std::string_view invented = invented_name(ending);
-  return ending == "x" ? name.length == 0 && file.find("Material") == std::string_view::npos
+  return ending == "x" ? is_invented_for_x(material)
                        : !invented.empty() && name.C_Str() == invented && file.find(invented) == std::string_view::npos;
 }
 
@@ -55,6 +55,11 @@ void turn_cameras(aiScene& scene) {
 }
 
 }  // namespace
+
+bool is_invented_for_x(const aiMaterial& material) {
+  aiString name;
+  return material.Get(AI_MATKEY_NAME, name) != aiReturn_SUCCESS;
+}
 
 void take_back_invented(aiScene& scene, const std::string& ending, std::string_view file) {
   for (aiMaterial* const material : std::span(scene.mMaterials, scene.mNumMaterials)) {

@@ -15,4 +15,7 @@ namespace dmpc::apps {
 /// back.
 void take_back_invented(aiScene& scene, const std::string& ending, std::string_view file);
 
+/// Whether it stands for none in what was read of an X file: all that the file has have names, be they empty.
+bool is_invented_for_x(const aiMaterial& material);
+
 }  // namespace dmpc::apps

@@ -120,6 +120,8 @@ bool is_cut_away(const aiMaterial& source) {
   return alpha_mode(source) == "MASK" && share(source, {AI_MATKEY_OPACITY}, 1) < alpha_cutoff(source);
 }
 
+bool says_what_alpha_does(const aiMaterial& source) { return !alpha_mode(source).empty(); }
+
 void list_textures(const aiMaterial& source, std::set<std::string>& names) {
   for (int type = aiTextureType_NONE + 1; type <= AI_TEXTURE_TYPE_MAX; ++type) {
     const auto kind = static_cast<aiTextureType>(type);

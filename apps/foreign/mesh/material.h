@@ -14,6 +14,8 @@ namespace dmpc::apps {
 core::Material material_of(const aiMaterial& source);
 /// Whether nothing of the surface is there: its mode is MASK, and its alpha below the cutoff, whatever a texture's.
 bool is_cut_away(const aiMaterial& source);
+/// Whether it has a mode of alpha, by which that of its texture counts, or does not.
+bool says_what_alpha_does(const aiMaterial& source);
 
 /// The names of its textures that are not looked at: all but those of its colour (apps/foreign/mesh/textures.h).
 void list_textures(const aiMaterial& source, std::set<std::string>& names);

@@ -81,7 +81,8 @@ void TextureReader::read(const TextureUse& use) {
   const std::string name = path_.string() + ", texture " + use.path;
   if (within->mHeight > 0) {
     check_texture_size(name, within->pcData == nullptr ? 0 : within->mWidth, within->mHeight);
-    return files_.add_texture(texels_of(*within, use.edges.keeps_alpha), within->mWidth, within->mHeight, name, use.edges);
+    return files_.add_texture(texels_of(*within, use.edges.alpha == TextureAlpha::kept), within->mWidth, within->mHeight, name,
+                              use.edges);
   }
   const auto* const bytes = reinterpret_cast<const std::byte*>(within->pcData);
   files_.add_texture({bytes, within->mWidth}, name, within->achFormatHint, use.edges);
@@ -89,7 +90,7 @@ void TextureReader::read(const TextureUse& use) {
 
 std::optional<std::uint32_t> TextureReader::find(const TextureUse& use) {
   const std::string key = use.path + '\n' + std::to_string(static_cast<int>(use.edges.s)) +
-                          std::to_string(static_cast<int>(use.edges.t)) + (use.edges.keeps_alpha ? "a" : "");
+                          std::to_string(static_cast<int>(use.edges.t)) + std::to_string(static_cast<int>(use.edges.alpha));
   const auto [known, is_new] = known_.try_emplace(key);
   if (is_new) {
     try {

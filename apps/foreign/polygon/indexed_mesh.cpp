@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/mesh/without_area.h"
 #include "core/base/expect.h"
 
@@ -23,7 +24,6 @@ Vec3d color_vec(const Color& color) { return {double{color[0]}, double{color[1]}
 
 /// For each face the material that is its own times its colour's; no_index, and no new material, if there are too many.
 std::optional<std::vector<std::uint32_t>> coloured_materials(const IndexedMesh& mesh, PolygonFile& file) {
-  constexpr std::size_t most = 64;
   std::map<std::pair<std::uint32_t, Color>, std::uint32_t> known;
   std::vector<std::uint32_t> materials;
   const auto first = static_cast<std::uint32_t>(file.materials.size());
@@ -32,7 +32,7 @@ std::optional<std::vector<std::uint32_t>> coloured_materials(const IndexedMesh& 
     const std::uint32_t own = mesh.face_materials.empty() ? 0 : mesh.face_materials[i];
     const auto next = first + static_cast<std::uint32_t>(known.size());
     materials.push_back(known.try_emplace({own, mesh.face_colors[i]}, next).first->second);
-    if (known.size() > most) {
+    if (known.size() > face_colors_max) {
       return std::nullopt;
     }
   }

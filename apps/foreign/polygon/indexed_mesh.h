@@ -32,8 +32,9 @@ struct IndexedMesh {
   void add_face(std::span<const std::uint32_t> corners);
 };
 
-/// Adds a mesh for each material that it has. Where faces have at most 64 colours, each becomes a material, which has the faces'
-/// one colour to the last bit; where they have more, corners have the colours. The first of the file's materials is there.
+/// Adds a mesh for each material that it has. Where faces have at most face_colors_max colours, each becomes a material, which
+/// has the faces' one colour to the last bit; where they have more, corners have the colours. The first of the file's materials
+/// is there.
 void add_meshes(IndexedMesh mesh, PolygonFile& file);
 
 /// Throws core::InputError if it has no face.

@@ -15,8 +15,8 @@
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/surface.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
-#include "apps/foreign/polygon/reading_progress.h"
 #include "apps/foreign/polygon/text_words.h"
+#include "apps/foreign/polygon/whole_file.h"
 #include "apps/foreign/text/line_words.h"
 #include "core/base/expect.h"
 
@@ -259,12 +259,9 @@ PolygonFile OffReader::read() {
 }  // namespace
 
 PolygonFile read_off(const std::string& path, SceneFiles& files) {
-  const std::unique_ptr<FileBytes> bytes = files.open(path);
-  const std::string_view file = text_of(*bytes);
-  ReadingProgress progress(files, file.size());
-  PolygonFile result = OffReader(without_mark(file), progress).read();
-  check_has_faces(result);
-  return result;
+  return read_whole(path, files, [](std::string_view file, ReadingProgress& progress) {
+    return OffReader(without_mark(file), progress).read();
+  });
 }
 
 }  // namespace dmpc::apps

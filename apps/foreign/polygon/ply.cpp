@@ -13,7 +13,7 @@
 #include "apps/foreign/polygon/ply_row.h"
 #include "apps/foreign/polygon/ply_surfaces.h"
 #include "apps/foreign/polygon/ply_values.h"
-#include "apps/foreign/polygon/reading_progress.h"
+#include "apps/foreign/polygon/whole_file.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -381,12 +381,9 @@ PolygonFile PlyReader::read() {
 }  // namespace
 
 PolygonFile read_ply(const std::string& path, SceneFiles& files) {
-  const std::unique_ptr<FileBytes> bytes = files.open(path);
-  const std::string_view file = text_of(*bytes);
-  ReadingProgress progress(files, file.size());
-  PolygonFile result = PlyReader(without_mark(file), progress).read();
-  check_has_faces(result);
-  return result;
+  return read_whole(path, files, [](std::string_view file, ReadingProgress& progress) {
+    return PlyReader(without_mark(file), progress).read();
+  });
 }
 
 }  // namespace dmpc::apps

@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "apps/edge/system/byte_order_mark.h"
-#include "apps/foreign/polygon/indexed_mesh.h"
 #include "apps/foreign/polygon/stl_binary.h"
 #include "apps/foreign/polygon/stl_text.h"
+#include "apps/foreign/polygon/whole_file.h"
 
 namespace dmpc::apps {
 namespace {
@@ -29,12 +29,9 @@ bool is_text(std::string_view file) {
 }  // namespace
 
 PolygonFile read_stl(const std::string& path, SceneFiles& files) {
-  const std::unique_ptr<FileBytes> bytes = files.open(path);
-  const std::string_view file = text_of(*bytes);
-  ReadingProgress progress(files, file.size());
-  PolygonFile result = is_text(file) ? read_stl_text(without_mark(file), progress) : read_stl_binary(file, progress);
-  check_has_faces(result);
-  return result;
+  return read_whole(path, files, [](std::string_view file, ReadingProgress& progress) {
+    return is_text(file) ? read_stl_text(without_mark(file), progress) : read_stl_binary(file, progress);
+  });
 }
 
 }  // namespace dmpc::apps

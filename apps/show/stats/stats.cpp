@@ -21,6 +21,7 @@
 #include "apps/show/stats/strategy.h"
 #include "apps/show/stats/virtual.h"
 #include "core/base/expect.h"
+#include "core/database/material_records.h"
 
 namespace dmpc::apps {
 
@@ -285,7 +286,7 @@ Json database_json(const core::Database& database) {
           {"normals", records.normals},
           {"textured", records.textured},
           {"texture_tiles", records.texture_tiles},
-          {"materials", database.header().material_count},
+          {"materials", core::material_count(database)},
           {"lights", database.header().light_count}};
 }
 

@@ -3,12 +3,14 @@
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "apps/formats/mesh_file.h"
 #include "core/base/expect.h"
 #include "core/scene/texel.h"
 #include "tests/support/mesh_files.h"
@@ -95,6 +97,27 @@ TEST_CASE("so they are of a GIF, and of a TIFF whose colours lie multiplied in t
   const std::vector<std::uint8_t> texels{100, 50, 25, 128};
   const Texture texture = read_texture(write(folder / "a.tif", 1, 1, 4, OIIO::TypeDesc::UINT8, texels), {});
   CHECK(texture.levels[0].texels[0] == 0x3264c7);  // 100 * 255 / 128, and so on
+}
+
+TEST_CASE("an EXR's colours, which are multiplied by its alpha, are divided by it where alpha counts") {
+  const TemporaryFolder folder;
+  const std::vector<float> light{0.25F, 0.125F, 0.5F, 0.5F};
+  const std::string path = write(folder / "a.exr", 1, 1, 4, OIIO::TypeDesc::FLOAT, light);
+  const Texture kept = read_texture(path, {.alpha = apps::TextureAlpha::kept});
+  REQUIRE(kept.format == TexelFormat::srgb_alpha);
+  const core::Vec3d color(core::decoded(kept.format, kept.levels[0].texels[0]));
+  CHECK(length(color - core::Vec3d{0.5, 0.25, 1}) < 0.01);
+}
+
+TEST_CASE("alpha of a texture that OBJ does not show is said, if some of it is not 1") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
+  write_text(folder / "a.mtl", "newmtl a\nmap_Kd a.png\n");
+  for (const std::uint8_t alpha : {std::uint8_t{255}, std::uint8_t{128}}) {
+    write(folder / "a.png", 1, 1, 4, OIIO::TypeDesc::UINT8, std::vector<std::uint8_t>{9, 8, 7, alpha});
+    const auto notes = apps::read_mesh_file(folder / "a.obj").notes;
+    CHECK(std::count(notes.begin(), notes.end(), "textures whose alpha is not shown: 1") == (alpha < 255 ? 1 : 0));
+  }
 }
 
 /// A lossless pixel of 200 100 50 with alpha 128, written bit by bit by the specification of VP8L: each channel has a code of one

@@ -178,6 +178,25 @@ TEST_CASE("a scene that is given away loses its objects and nothing else, and th
   }
 }
 
+TEST_CASE("twins that are looked for after all else are found in a scene that is given away, too") {
+  Scene scene;
+  SceneBuilder builder(scene);
+  for (int i = 0; i < 200; ++i) {  // each twice
+    const double x = 10.0 * (i / 2);
+    builder.polygon({{x, 0, 0}, {x + 1, 0, 0.5}, {x, 1, 1}});
+  }
+  for (int i = 0; i < 42; ++i) {  // through all cells
+    const double z = i / 42.0;
+    builder.polygon({{0, 0, z}, {1000, 0.5, z}, {1000, 1, z + 0.01}});
+  }
+  for (const double x : {900.0, 900.00001}) {  // twins for floats alone
+    builder.polygon({{x, 0, 0}, {x, 0, 1}, {x, 1, 0}});
+  }
+  const Database kept = build_database(scene, {});
+  const Database given = build_database(std::move(scene), {});
+  CHECK(std::ranges::equal(kept.bytes(), given.bytes()));
+}
+
 TEST_CASE("a database that forgets its records and primitives keeps its figures") {
   Database database = database_of(scene_of(sphere_mesh(20, 30, 0)));
   const std::size_t pages = database.page_count();

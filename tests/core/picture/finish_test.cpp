@@ -168,6 +168,14 @@ TEST_CASE("a material that NFF can say has the record that it always had") {
   CHECK(records.finishes[0].emission == Color{1, 2, 3});
 }
 
+TEST_CASE("the finishes of a database are no materials of its scene") {
+  const Scene plain = scene_with({.color = gold}, {0.5, 3, 1}),
+              fine = scene_with({.color = gold, .emission = {1, 2, 3}}, {0.5, 3, 1});
+  for (const Scene& scene : {plain, fine}) {
+    CHECK(material_count(build_database(scene, {})) == scene.materials.size());
+  }
+}
+
 TEST_CASE("no ray finds more light than the bound, whatever tint, emission or alpha the surfaces have") {
   const auto bound = [](const Material& material) { return radiance_bound(lit(scene_with(material, {0.5, 3, 1})), 2); };
   const auto deep_bound = [](const Material& material) { return radiance_bound(scene_with(material, {0.5, 3, 1}), 3); };

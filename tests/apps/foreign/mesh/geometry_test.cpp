@@ -40,6 +40,24 @@ TEST_CASE("normals that say what the face says, in whatever length, direction or
   CHECK(square_with({0, 0, 1}, true).corners.front().normal == core::Vec3d{});
 }
 
+TEST_CASE(
+    "where more faces on a texture have colours of their own than may become materials, that theirs are not shown is said") {
+  for (const std::size_t count : {face_colors_max, face_colors_max + 1}) {
+    PolygonMesh mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, .faces = {}};
+    for (std::uint32_t i = 0; i < count; ++i) {
+      mesh.faces.corners.insert(mesh.faces.corners.end(), {0, 1, 2});
+      mesh.faces.ends.push_back(3 * (i + 1));
+      mesh.colors.insert(mesh.colors.end(), 3, core::Vec3d{static_cast<double>(i) / 1000, 0, 0});
+    }
+    mesh.places.assign(mesh.colors.size(), {});
+    core::Scene scene{.textures = {{.name = "leaf", .levels = {}}}};
+    core::SceneBuilder builder(scene);
+    GeometryWriter writer(builder, std::nullopt);
+    writer.add(mesh, {.texture = 0});
+    CHECK(writer.meshes_without_colors() == (count > face_colors_max ? 1 : 0));
+  }
+}
+
 TEST_CASE("a face with more corners than an object has room for is refused by its number") {
   PolygonMesh mesh{.name = "mesh 3", .vertices = {{0, 0, 0}}, .faces = {std::vector<std::uint32_t>(65'539), {3, 65'539}}};
   core::Scene scene;
