@@ -10,6 +10,7 @@
 #include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
+#include "apps/foreign/polygon/ply_counts.h"
 #include "apps/foreign/polygon/ply_header.h"
 #include "apps/foreign/polygon/ply_row.h"
 #include "apps/foreign/polygon/ply_surfaces.h"
@@ -51,6 +52,7 @@ class PlyReader {
       : progress_(progress), header_(read_ply_header(file)), values_(ply_values(header_, file)), surfaces_(header_.textures) {}
 
   PolygonFile read();
+  const PlyHeader& header() const { return header_; }
 
  private:
   template <class Take>
@@ -362,7 +364,9 @@ PolygonFile read_ply(const std::string& path, SceneFiles& files) {
   const std::unique_ptr<FileBytes> bytes = files.open(path);
   const std::string_view file = text_of(*bytes);
   ReadingProgress progress(files, file.size());
-  PolygonFile result = PlyReader(without_mark(file), progress).read();
+  PlyReader reader(without_mark(file), progress);
+  progress.expect(counts_of_ply(reader.header(), without_mark(file)));
+  PolygonFile result = reader.read();
   check_has_faces(result);
   return result;
 }
