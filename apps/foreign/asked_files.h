@@ -21,6 +21,7 @@ class AskedFiles final : public SceneFiles {
                    const TextureEdges& edges) override;
   void add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height, const std::string& name,
                    const TextureEdges& edges) override;
+  void expect(const MeshCounts& counts) override;
   void show_progress(float share) override;
 
  private:

@@ -22,6 +22,8 @@
 
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/assimp_log.h"
+#include "apps/foreign/gltf/counts.h"
+#include "apps/foreign/gltf/extensions.h"
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/mesh/bare_meshes.h"
 #include "apps/foreign/mesh/collada_text.h"
@@ -157,6 +159,8 @@ std::optional<ImportedFile> import_gltf(const std::string& path, SceneFiles& fil
   if (document.version == 1) {
     return std::nullopt;
   }
+  gltf::check_required(document);
+  files.expect(gltf::counts_of(document, file->bytes().size()));
   const auto open = [&](const std::string& name) {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     const auto found = files.meant(folder, name);

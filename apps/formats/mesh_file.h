@@ -1,10 +1,12 @@
 // Mesh files, read as scenes by a process of their own.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/edge/system/opened_files.h"
+#include "apps/formats/mesh_counts.h"
 #include "apps/formats/mesh_options.h"
 #include "core/scene/scene.h"
 
@@ -14,8 +16,9 @@ struct ReaderLimits;
 
 struct MeshFile {
   core::Scene scene;
-  std::vector<std::string> notes;  ///< what of the file is not shown as it is, a sentence each
-  OpenedFiles opened;              ///< with those of the textures
+  std::vector<std::string> notes;           ///< what of the file is not shown as it is, a sentence each
+  OpenedFiles opened;                       ///< with those of the textures
+  std::optional<ReadingForecast> forecast;  ///< of the memory that reading takes, if the file's reader could tell
 };
 
 /// What ends so is read: "obj", "ply", ..., in lower case.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
 #include "apps/edge/system/input_memory.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/formats/named_file.h"
@@ -33,6 +34,9 @@ constexpr std::uint64_t note_bytes_max = std::uint64_t{1} << 20U;
 std::uint64_t memory_bytes_for(std::uint64_t file_bytes) {
   return std::min(spare_bytes + memory_per_byte * file_bytes, reader_memory_bytes_max());
 }
+
+/// A file that is mapped takes addresses, and memory only as long as there is some.
+std::uint64_t address_bytes_for(std::uint64_t file_bytes) { return memory_bytes_for(file_bytes) + file_bytes; }
 
 /// The bytes of a file that may belong to the scene: it is no larger than what lies beside that.
 std::uint64_t bytes_of(const std::string& path) { return find_input_file(path).bytes; }
@@ -69,10 +73,11 @@ MeshSession::MeshSession(const std::string& path, const MeshOptions& options, bo
       options_(options),
       access_(path, options.opens_anywhere),
       file_bytes_(bytes_of(path)),
+      shows_progress_(shows_progress),
       progress_(std::cerr, shows_progress, "Reading " + path + ":", "bytes"),
       pictures_(with_sandbox(limits, options.sandbox)),
       budget_(with_sandbox(limits, options.sandbox)),
-      process_("dmpc_mesh_reader", memory_bytes_for(bytes_around(path)), budget_),
+      process_("dmpc_mesh_reader", address_bytes_for(bytes_around(path)), budget_),
       current_(path) {}
 
 MeshFile MeshSession::read() {
@@ -147,6 +152,9 @@ bool MeshSession::answer(const Message& message) {
       return false;
     case Saying::progress:
       show(fields);
+      return false;
+    case Saying::expected:
+      expect(fields);
       return false;
     case Saying::bytes:
       add_bytes(message.bytes);
@@ -279,6 +287,19 @@ void MeshSession::add_note(Unpacker fields) {
   result_.notes.push_back(fields.take_text());
   note_bytes_ += result_.notes.back().size() + 1;
   Unpacker::require(note_bytes_ <= note_bytes_max);
+}
+
+/// Said where it may be too much, and on a terminal where it is much.
+void MeshSession::expect(Unpacker fields) {
+  constexpr std::uint64_t much = std::uint64_t{256} << 20U;
+  result_.forecast = forecast_of(take_mesh_counts(fields), options_.smooth_degrees.has_value());
+  const std::uint64_t bytes = result_.forecast->peak_bytes();
+  const std::string text = "dmpc: reading " + shown(path_) + " takes up to " + bytes_text(bytes) + " of memory";
+  if (const MemoryRoom room = memory_room(); bytes > room.bytes) {
+    std::cerr << text + ", and " + room.source + " is " + bytes_text(room.bytes) + '\n';
+  } else if (bytes >= much && shows_progress_ && stderr_is_terminal()) {
+    std::cerr << clear_line << text + '\n';  // in place of the progress, which comes again below
+  }
 }
 
 void MeshSession::show(Unpacker fields) {

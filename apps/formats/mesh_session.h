@@ -38,12 +38,14 @@ class MeshSession {
   void add_bytes(const std::string& bytes);
   void add_note(Unpacker fields);
   void note_alpha();
+  void expect(Unpacker fields);
   void show(Unpacker fields);
 
   std::string path_;
   MeshOptions options_;
   FileAccess access_;
   std::uint64_t file_bytes_ = 0;  ///< the scene's own
+  bool shows_progress_ = false;
   Progress progress_;
   PictureReader pictures_;
   ReadingBudget budget_;  ///< of the scene's own files, and of all questions about others

@@ -24,17 +24,19 @@ constexpr std::size_t lights_a_message = 1000;
 /// More than any scene has: whoever sends more wants nothing but our memory.
 constexpr std::size_t lights_max = std::size_t{1} << 20U, textures_max = std::size_t{1} << 16U;
 constexpr std::uint64_t materials_max = std::uint64_t{1} << 24U;
-/// So much room is made for what is announced before it comes.
-constexpr std::uint64_t believed_bytes_max = std::uint64_t{16} << 20U;
 
+/// dmpc gets what this process gives back, so that a scene is there but once.
 template <class T>
 bool send_block(std::vector<T>& pool, Saying saying, Line& line) {
-  constexpr std::size_t most = message_bytes_max / sizeof(T);
-  for (std::size_t first = 0; first < pool.size(); first += most) {
-    const auto part = std::as_bytes(std::span(pool).subspan(first, std::min(most, pool.size() - first)));
+  constexpr std::size_t most = message_bytes_max / sizeof(T) * sizeof(T), page = 4096;
+  const auto all = std::as_bytes(std::span(pool));
+  for (std::size_t first = 0; first < all.size(); first += most) {
+    const auto part = all.subspan(first, std::min(most, all.size() - first));
     if (!line.send(saying, {reinterpret_cast<const char*>(part.data()), part.size()})) {
       return false;
     }
+    const std::size_t before = std::min(first, page);  // of the page that the last part ended in
+    core::give_back(all.subspan(first - before, before + part.size()));
   }
   core::forget(pool);
   return true;

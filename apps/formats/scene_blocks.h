@@ -10,6 +10,10 @@
 
 namespace dmpc::apps {
 
+/// So much room is made for each list that is announced, before it comes: addresses, until it does. What is more comes into lists
+/// that are copied into longer ones, which takes twice the room.
+inline constexpr std::uint64_t believed_bytes_max = std::uint64_t{1} << 30U;
+
 /// Sends all but the textures and the name; what is sent is freed on the way. Returns whether the other end took it.
 bool send_scene(core::Scene& scene, Line& line);
 

@@ -50,6 +50,7 @@ enum class Saying : std::uint8_t {
   bad_input,  ///< a text
   no_room,    ///< a text
   out_of_memory,
+  expected,  ///< the last of all: what the scene's file says that it has, MeshCounts: before it is read, or never
 };
 
 }  // namespace dmpc::apps

@@ -5,6 +5,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
+#include "core/picture/ray_crowd.h"
 #include "core/scene/frame.h"
 
 namespace dmpc::apps {

@@ -129,6 +129,20 @@ Faults faults_of_results(const Place& place) {
   return faults;
 }
 
+/// As they are typed, without remarks.
+Lines commands_in(const Document& document) {
+  static const std::regex command("    (apps/)?((mpirun [^#]*)?dmpc [^#]*[^# ]) *(#.*)?");
+  static const std::regex of_readers("model\\.glb|bunny\\.ply|a\\.exr|a\\.json|kept\\.");
+  Lines commands;
+  for (const std::string& line : document.lines) {
+    std::smatch found;
+    if (std::regex_match(line, found, command) && !std::regex_search(line, of_readers)) {
+      commands.push_back(found[2]);
+    }
+  }
+  return commands;
+}
+
 void check_all(Faults (*faults_of)(const Place&)) {
   for (const Document& document : all_documents(DMPC_SOURCE_DIR)) {
     for (const std::string& fault : faults_of({DMPC_SOURCE_DIR, document})) {
@@ -155,6 +169,25 @@ TEST_CASE("all results together are at most 1,000 lines") {
   CHECK(lines_of_results(all_documents(DMPC_SOURCE_DIR)) <= most_lines_of_results);
   CHECK(lines_of_results({{"core/RESULTS.md", Lines(600)}, {"core/README.md", Lines(9)}, {"svm/RESULTS.md", Lines(401)}}) ==
         1001);
+}
+
+TEST_CASE("apps/RESULTS.md has each command of the front page and of apps, but those about files that the reader has") {
+  std::string results;
+  std::vector<Document> documents = all_documents(DMPC_SOURCE_DIR);
+  for (const Document& document : documents) {
+    for (const std::string& line : document.path == "apps/RESULTS.md" ? document.lines : Lines{}) {
+      results += line + '\n';
+    }
+  }
+  for (const Document& document : documents) {
+    for (const std::string& command :
+         document.path == "README.md" || document.path == "apps/README.md" ? commands_in(document) : Lines{}) {
+      CHECK_MESSAGE(results.find("| `" + command + "` |") != std::string::npos, document.path.string(), ": ", command);
+    }
+  }
+  CHECK(commands_in(
+            {"README.md", {"    apps/dmpc list x   # what there is", "    dmpc info model.glb", "    ninja", "dmpc list"}}) ==
+        Lines{"dmpc list x"});
 }
 
 TEST_CASE("every link of a document leads to a file, and to a heading of it") {

@@ -129,6 +129,10 @@ class Script {
     return extent;
   }
 
+  static std::vector<std::string> ends_of(const PlotSeries& series) {
+    return series.mark == PlotMark::intervals ? std::vector{series.low, series.high} : std::vector<std::string>{};
+  }
+
   PlotExtent span_of_y() const {
     PlotExtent extent;
     for (const std::vector<Cell>& row : table_.rows()) {
@@ -138,6 +142,9 @@ class Script {
           const double value = number_of(row[number_of_column(table_, series->column)]);
           sum = plot_.is_stacked ? sum + value : value;
           extent.add(sum);
+          for (const std::string& end : ends_of(*series)) {
+            extent.add(number_of(row[number_of_column(table_, end)]));
+          }
         }
       }
     }
@@ -300,6 +307,9 @@ class Script {
     return condition.empty() ? sum : condition + " ? " + sum + " : NaN";
   }
 
+  /// gnuplot's filled shapes follow upon the same ones hollow.
+  static int hollow(int shape) { return shape % 2 == 1 ? shape - 1 : shape; }
+
   static bool is_hatched(const PlotSeries& series) { return series.mark == PlotMark::bars && series.color >= plot_colors.size(); }
 
   std::string style_of(const PlotSeries& series) const {
@@ -310,6 +320,8 @@ class Script {
     switch (series.mark) {
       case PlotMark::bars:
         return "boxes" + color + (is_again ? " fillstyle pattern " + std::to_string(hatches[color_number]) : "");
+      case PlotMark::intervals:
+        return "yerrorbars pointtype " + std::to_string(hollow(shapes[series.color])) + " pointsize 1.1" + color;
       case PlotMark::points:
         return "points" + shape + " pointsize 1.1" + color;
       default:
@@ -320,7 +332,11 @@ class Script {
   /// What is drawn of a series, one upon another: a hatch lets through what lies under it, and so needs a ground.
   std::string elements(std::size_t series) const {
     const PlotSeries& drawn = *drawn_[series];
-    const std::string numbers = gnuplot_text(data_) + " using (" + x_of(series) + "):(" + y_of(series) + ")" +
+    std::string ends;
+    for (const std::string& end : ends_of(drawn)) {
+      ends += ":(column(" + column(end) + "))";
+    }
+    const std::string numbers = gnuplot_text(data_) + " using (" + x_of(series) + "):(" + y_of(series) + ")" + ends +
                                 (drawn.mark == PlotMark::line ? " smooth unique" : "") + " with ";
     const std::string ground = "boxes linecolor '" + std::string(hatch_ground) + "' notitle";
     return (is_hatched(drawn) ? numbers + ground + next_line : "") + numbers + style_of(drawn) + " title " +

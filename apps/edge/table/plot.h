@@ -13,8 +13,9 @@
 
 namespace dmpc::apps {
 
-/// How a series is drawn: what was computed as a line from left to right, what it is held against as points.
-enum class PlotMark : std::uint8_t { line, points, bars };
+/// How a series is drawn: what was computed as a line from left to right, what it is held against as points, what is uncertain as
+/// hollow points with an interval.
+enum class PlotMark : std::uint8_t { line, points, bars, intervals };
 
 /// Looks that people who are colour-blind can tell apart: eight colours, then the first four of them again, dashed or hatched.
 inline constexpr std::size_t plot_color_count = 12;
@@ -29,7 +30,8 @@ struct PlotSeries {
   /// Only rows with each of these texts in the column named before it.
   std::vector<std::pair<std::string, std::string>> where = {};
   PlotMark mark = PlotMark::line;
-  std::size_t color = 0;  ///< below plot_color_count; each has a shape of its points, too
+  std::size_t color = 0;            ///< below plot_color_count; each has a shape of its points, too
+  std::string low = {}, high = {};  ///< intervals: the columns of both ends
 };
 
 enum class PlotScale : std::uint8_t { linear, powers_of_2, powers_of_10 };

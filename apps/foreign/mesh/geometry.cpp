@@ -8,6 +8,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/smooth.h"
+#include "apps/formats/mesh_counts.h"
 #include "apps/formats/nff_reader.h"
 #include "core/base/expect.h"
 
@@ -95,6 +96,7 @@ GeometrySize size_of(const FaceList& faces) {
 }
 
 void check_size(const GeometrySize& size) {
+  check_database(size.triangles);
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - std::uint64_t{1};
   if (size.corners > most) {
     throw core::RoomError("with every instance the scene has " + grouped(size.triangles) + " triangles with " +

@@ -25,7 +25,7 @@ struct GeometrySize {
 };
 GeometrySize size_of_face(std::uint64_t corners);
 GeometrySize size_of(const FaceList& faces);
-/// Throws core::RoomError if the indices of a scene do not reach so far.
+/// Throws core::RoomError if a database, or the indices of a scene, do not reach so far.
 void check_size(const GeometrySize& size);
 
 /// Adds meshes to a scene. Faces become polygons, or patches where they have vertex normals that are not the face's own, textured

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/formats/mesh_counts.h"
 #include "apps/picture/texture_file.h"
 
 namespace dmpc::apps {
@@ -44,6 +45,9 @@ class SceneFiles {
   virtual void add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height,
                            const std::string& name, const TextureEdges& edges) = 0;
 
+  /// What the scene's file says that it has, once that is known and before it is read. Throws core::RoomError for more than there
+  /// can be.
+  virtual void expect(const MeshCounts& counts) { check_database(counts.triangles_min); }
   /// 0 to 1.
   virtual void show_progress(float share) = 0;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/foreign/obj/counts.h"
 #include "apps/foreign/obj/libraries.h"
 #include "apps/foreign/obj/materials.h"
 #include "apps/foreign/obj/meshes.h"
@@ -16,6 +17,7 @@ namespace {
 
 obj::Geometry read_geometry(const std::string& path, SceneFiles& files) {
   const std::unique_ptr<FileBytes> file = files.open(path);
+  files.expect(obj::counts_of(text_of(*file)));
   return obj::parse_obj(text_of(*file), [&files](float share) { files.show_progress(share); });
 }
 

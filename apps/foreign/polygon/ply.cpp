@@ -9,6 +9,7 @@
 #include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
+#include "apps/foreign/polygon/ply_counts.h"
 #include "apps/foreign/polygon/ply_header.h"
 #include "apps/foreign/polygon/ply_row.h"
 #include "apps/foreign/polygon/ply_surfaces.h"
@@ -50,6 +51,7 @@ class PlyReader {
       : progress_(progress), header_(read_ply_header(file)), values_(ply_values(header_, file)), surfaces_(header_.textures) {}
 
   PolygonFile read();
+  const PlyHeader& header() const { return header_; }
 
  private:
   template <class Take>
@@ -382,7 +384,9 @@ PolygonFile PlyReader::read() {
 
 PolygonFile read_ply(const std::string& path, SceneFiles& files) {
   return read_whole(path, files, [](std::string_view file, ReadingProgress& progress) {
-    return PlyReader(without_mark(file), progress).read();
+    PlyReader reader(without_mark(file), progress);
+    progress.expect(counts_of_ply(reader.header(), without_mark(file)));
+    return reader.read();
   });
 }
 

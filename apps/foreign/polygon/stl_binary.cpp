@@ -10,6 +10,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/surface.h"
+#include "apps/foreign/polygon/indexed_counts.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
 #include "core/base/expect.h"
 
@@ -120,6 +121,7 @@ void StlBinaryReader::read_facet(std::size_t facet) {
 
 PolygonFile StlBinaryReader::read() {
   const std::size_t count = count_facets();
+  progress_.expect(counts_of_facets(count, file_.size()));
   mesh_.vertices.reserve(3 * count);
   mesh_.faces.corners.reserve(3 * count);
   mesh_.faces.ends.reserve(count);

@@ -8,8 +8,10 @@
 
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/surface.h"
+#include "apps/foreign/polygon/indexed_counts.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
 #include "apps/foreign/polygon/text_words.h"
+#include "apps/foreign/text/word_count.h"
 
 namespace dmpc::apps {
 namespace {
@@ -22,7 +24,7 @@ bool is_same(std::string_view a, std::string_view b) {
 
 class StlTextReader {
  public:
-  StlTextReader(std::string_view text, ReadingProgress& progress) : words_(text), progress_(progress) {}
+  StlTextReader(std::string_view text, ReadingProgress& progress) : text_(text), words_(text), progress_(progress) {}
 
   PolygonFile read();
 
@@ -33,12 +35,15 @@ class StlTextReader {
   void take(std::string_view word) { expect(words_.next(), word); }
   void expect(std::string_view found, std::string_view word) const;
 
+  std::string_view text_;
   TextWords words_;
   ReadingProgress& progress_;
   std::size_t solids_ = 0;
 };
 
 PolygonFile StlTextReader::read() {
+  constexpr std::size_t words_a_facet = 21;
+  progress_.expect(counts_of_facets(count_words(text_) / words_a_facet, text_.size()));
   PolygonFile file{.materials = {{plain_material(), {}}}};
   for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
     if (solids_ > 0 && !is_same(word, "solid")) {

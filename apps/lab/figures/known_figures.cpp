@@ -118,7 +118,7 @@ const std::vector<KnownFigure>& known_figures() {
   static const std::vector<KnownFigure> figures = [] {
     const Json schema = Json::parse(stats_schema());
     SchemaWalk walk(schema);
-    walk.add(schema, "");
+    walk.add(schema.at("$defs").at("render"), "");
     return walk.figures();
   }();
   return figures;

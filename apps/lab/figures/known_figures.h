@@ -1,4 +1,4 @@
-// What figures there are: what stats.schema.json, which is built in, allows in what --stats writes.
+// What figures there are: what stats.schema.json, which is built in, allows in what a render's --stats writes.
 #pragma once
 
 #include <string>

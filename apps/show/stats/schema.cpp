@@ -65,6 +65,23 @@ Json strategy_options() {
   return all;
 }
 
+/// Tasks have no hits and count no pages of theirs.
+Json pages_of_tasks() {
+  Json all = counters(counters_of<svm::PageCounters>);
+  all.erase("hits");
+  all.erase("distinct");
+  return all;
+}
+
+/// What one node of a program of tasks did, or all of them: apps/computer/stats.cpp.
+Json task_node() {
+  return {{"pages", reference_to("task_pages")},
+          {"packets", reference_to("named_packets")},
+          {"operations", reference_to("named_operations")},
+          {"memory_bytes", reference_to("count")},
+          {"computing_ns", count_or_null()}};
+}
+
 Json packet_kinds() {
   std::vector<std::string> names(svm::kind_names.begin(), svm::kind_names.end());
   std::copy_if(dataflow::kind_names.begin(), dataflow::kind_names.end(), std::back_inserter(names),
@@ -93,6 +110,9 @@ const Json& rows_called(const std::string& name) {
                     core::all_skips, [](const core::Skip& skip) { return skip.name; }, "skip")},
       {"memory", named(
                      memory_categories, [](const NamedCategory& category) { return category.name; }, "count")},
+      {"node counters", counters(counters_of<nodes::NodeCounters>)},
+      {"pages of tasks", pages_of_tasks()},
+      {"task node", task_node()},
       {"packet kinds", packet_kinds()}};
   const auto found = rows.find(name);
   core::expect(found != rows.end(), "the form of the schema names rows that are there");

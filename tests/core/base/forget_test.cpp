@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <fstream>
+#include <span>
 #include <string>
 
 namespace forget_test {
@@ -29,6 +30,17 @@ std::size_t resident_pages() {
 }
 
 }  // namespace
+
+TEST_CASE("bytes that nobody wants any more are given back while their owner is there") {
+  std::vector<char> all(std::size_t{64} << 20U, 'a');
+  const std::size_t before = resident_pages();
+  dmpc::core::give_back(std::as_bytes(std::span(all)).subspan(1, all.size() - 2));
+  CHECK(resident_pages() + 16'000 < before);
+  CHECK(all.front() == 'a');
+  CHECK(all.back() == 'a');
+  all[5000] = 'b';
+  CHECK(all[5000] == 'b');
+}
 
 TEST_CASE("small pieces that were freed between others go back, and the others stay") {
   std::vector<std::vector<char>> pieces, kept;

@@ -9,6 +9,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/output_file.h"
+#include "apps/edge/system/progress.h"
 #include "apps/edge/system/real_load.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
@@ -84,7 +85,9 @@ std::string title_of(const ErrorOptions& options) {
 const std::vector<std::string>& explanations() {
   static const std::vector<std::string> sentences = {
       "Errors without a word before them are against the converged picture in double precision; a row below the reference, whose "
-      "RMSE is less than 10 times the reference's own error, claims nothing and is on no Pareto front.",
+      "RMSE is less than 10 times the reference's own error, claims nothing and is on no Pareto front; plots show what is left "
+      "of it, "
+      "hollow, between what is left if that error were twice as large, a tenth at least, and all of it.",
       "Deterministic errors are those of the knob alone: against the picture with the same samples and the knob at its exact "
       "position, of arithmetic against the same samples in double precision.",
       "Adaptive sampling is asked for no smaller error than the reference's own.",
@@ -113,6 +116,12 @@ Table finished_table(const ErrorOptions& options, std::span<const SceneResult> r
     table.add_note("Ended before its time: points or rounds are missing.");
   }
   return table;
+}
+
+/// Before a table that people read.
+std::string first_words(const ErrorOptions& options, std::span<const SceneResult> results) {
+  const std::string summary = options.table.format == TableFormat::markdown ? summary_of(results) : "";
+  return summary.empty() ? "" : summary + "\n\n";
 }
 
 std::vector<PlottedTable> plotted_tables(std::span<const SceneResult> results) {
@@ -155,6 +164,11 @@ void choose_quick(const OptionSet& set, MeasureOptions& measure) {
   if (!set.is_given("--reference-samples")) {
     measure.reference.samples_a_side = quick_reference_side;
   }
+}
+
+/// Where plots go that nobody has asked for: who looks and keeps the table will want them, too.
+std::filesystem::path plots_beside(const std::filesystem::path& table) {
+  return table.parent_path() / (table.stem().string() + "_plots");
 }
 
 /// What is turned, and what stays.
@@ -213,9 +227,14 @@ void add_options(OptionSet set, ErrorOptions& options) {
       "  dmpc bench error teapot-12 --quick\n"
       "  dmpc bench error rings-3 balls-3 --knobs=samples,adaptive --plots=plots -o error.md\n"
       "  dmpc bench error shells-3 --knobs=depth,cutoff --repeat=1 --pictures=errors --format=csv -o shells.csv\n"
+      "With -o on a terminal, plots go to a folder beside the table, here error_plots, unless --plots or --quiet says "
+      "otherwise.\n"
       "The reference and the base point have the depth given; the other depths are below it.");
   set.check_in_the_end([set, &options] {
     options.measure.is_quiet = options.quiet;
+    if (options.table.file && !options.table.plots && !options.quiet && stderr_is_terminal()) {
+      options.table.plots = plots_beside(*options.table.file);
+    }
     if (options.measure.is_quick) {
       choose_quick(set, options.measure);
     }
@@ -229,8 +248,9 @@ int bench_error_command(const ErrorOptions& options, Interrupt& interrupt, std::
   const double load = machine_load();
   std::vector<SceneResult> results;
   const auto result = [&](bool is_whole) -> TableResult {
-    return {.text = text_of(finished_table(options, results, load, is_whole), options.table.format),
-            .plotted = [&] { return plotted_tables(results); }};
+    return {
+        .text = first_words(options, results) + text_of(finished_table(options, results, load, is_whole), options.table.format),
+        .plotted = [&] { return plotted_tables(results); }};
   };
   return run_tabled({.measure = [&] { measure_all(options, files, interrupt, results); },
                      .has_findings = [&] { return std::any_of(results.begin(), results.end(), has_measurements); },

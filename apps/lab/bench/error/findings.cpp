@@ -202,6 +202,25 @@ std::vector<std::string> findings_of(const SceneResult& result) {
   return sentences;
 }
 
+std::string summary_of(std::span<const SceneResult> results) {
+  std::uint64_t all = 0, claimed = 0;
+  std::string gains;
+  for (const SceneResult& result : results) {
+    for (std::size_t point = 0; point < result.points.size(); ++point) {
+      all += result.of(point).is_done() ? 1 : 0;
+      claimed += result.of(point).is_done() && is_claimed(result, result.of(point)) ? 1 : 0;
+    }
+    const std::string gain = gain_text(result);
+    gains += gain.empty() ? "" : gain + " ";
+  }
+  return all == 0 ? ""
+                  : gains + grouped(claimed) + " of " + counted(all, "setting") +
+                        " have errors of at least 10 times the reference's own" +
+                        (claimed == all
+                             ? "."
+                             : "; of the others that is taken off in squares, and plots show them hollow, with an interval.");
+}
+
 std::vector<std::string> findings_of_all(std::span<const SceneResult> results) {
   std::vector<std::vector<double>> rays(3), seconds(3);
   std::vector<double> gains;

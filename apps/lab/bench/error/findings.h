@@ -35,6 +35,10 @@ std::optional<std::size_t> cheapest_point(const SceneResult& result, Knob knob);
 /// cheapest cutoff and depth. No line ends.
 std::vector<std::string> findings_of(const SceneResult& result);
 
+/// What one asks first, of all scenes together: what adaptive sampling is worth at an RMSE of 1/255, and how many settings are
+/// told from the reference. Empty if nothing is measured.
+std::string summary_of(std::span<const SceneResult> results);
+
 /// About several: geometric means over the scenes that have a figure. Empty for less than two.
 std::vector<std::string> findings_of_all(std::span<const SceneResult> results);
 

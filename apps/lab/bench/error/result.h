@@ -48,6 +48,13 @@ bool is_claimed(const SceneResult& result, const Measurement& measurement);
 /// twice the reference's own is left to be told from it.
 std::optional<double> error_without_reference(const SceneResult& result, const Measurement& measurement);
 
+/// What the error may be without the reference's own, of which only an estimate is known: `low` if it is twice that, `high` if
+/// there is none, and between them the error if it is right; at least a tenth of `high`, since logarithms are drawn.
+struct ErrorInterval {
+  double low = 0, middle = 0, high = 0;
+};
+ErrorInterval error_interval(const SceneResult& result, const Measurement& measurement);
+
 /// The deterministic error of a point's knob, where it has one and is measured.
 std::optional<PictureError> deterministic_error(const SceneResult& result, std::size_t point);
 

@@ -96,23 +96,60 @@ const FilledColumns<ErrorRow>& error_columns() {
   return columns;
 }
 
-void add_rows(Table& table, const SceneResult& result, bool only_claimed) {
+/// What is drawn beside: of rows that are claimed their error as it is, of the others what is left of it, and between what.
+FilledColumns<ErrorRow> make_drawn_columns() {
+  using Row = ErrorRow;
+  FilledColumns<Row> columns = error_columns();
+  columns.push_back({{"drawn RMSE", "1/255", 3}, [](const Row& row) {
+                       return is_claimed(row.result, row.measured()) ? Cell(steps * row.measured().error.root_mean_square)
+                                                                     : Cell();
+                     }});
+  const auto add = [&](const char* name, double ErrorInterval::*end) {
+    columns.push_back({{name, "1/255", 3}, [end](const Row& row) {
+                         return is_claimed(row.result, row.measured())
+                                    ? Cell()
+                                    : Cell(steps * error_interval(row.result, row.measured()).*end);
+                       }});
+  };
+  add("RMSE without the reference's", &ErrorInterval::middle);
+  add("least without", &ErrorInterval::low);
+  add("most without", &ErrorInterval::high);
+  return columns;
+}
+
+const FilledColumns<ErrorRow>& drawn_columns() {
+  static const FilledColumns<ErrorRow> columns = make_drawn_columns();
+  return columns;
+}
+
+void add_rows(Table& table, const SceneResult& result, const FilledColumns<ErrorRow>& columns) {
   const Fronts fronts = fronts_of(result);
   for (std::size_t point = 0; point < result.points.size(); ++point) {
-    const Measurement& one = result.of(point);
-    if (one.is_done() && (!only_claimed || is_claimed(result, one))) {
-      table.add_row(row_of(error_columns(), ErrorRow{result, fronts, point}));
+    if (result.of(point).is_done()) {
+      table.add_row(row_of(columns, ErrorRow{result, fronts, point}));
     }
   }
+}
+
+std::size_t color_of(Knob knob) {
+  return knob == Knob::adaptive_and_depth ? 7 : knob == Knob::adaptive_and_cutoff ? 5 : static_cast<std::size_t>(knob);
 }
 
 /// Two knobs at once are a cloud, and so is what has one point; the others are curves.
 PlotSeries series_of(Knob knob) {
   const bool is_cloud = knob >= Knob::arithmetic;
-  const std::size_t color = knob == Knob::adaptive_and_depth    ? 7
-                            : knob == Knob::adaptive_and_cutoff ? 5
-                                                                : static_cast<std::size_t>(knob);
-  return {name_of(knob), "RMSE", {{"knob", name_of(knob)}}, is_cloud ? PlotMark::points : PlotMark::line, color};
+  return {name_of(knob), "drawn RMSE", {{"knob", name_of(knob)}}, is_cloud ? PlotMark::points : PlotMark::line, color_of(knob)};
+}
+
+/// What of a knob's points is too near to the reference's own error to be claimed.
+PlotSeries uncertain_series_of(Knob knob) {
+  return {.title = std::string(name_of(knob)) + ", uncertain",
+          .column = "RMSE without the reference's",
+          .where = {{"knob", name_of(knob)}},
+          .mark = PlotMark::intervals,
+          .color = color_of(knob),
+          .low = "least without",
+          .high = "most without"};
 }
 
 Plot plot_of(const SceneResult& result, const std::string& name, PlotAxis x, const std::string& column,
@@ -121,9 +158,10 @@ Plot plot_of(const SceneResult& result, const std::string& name, PlotAxis x, con
   for (const Knob knob : {Knob::samples, Knob::adaptive, Knob::cutoff, Knob::depth, Knob::tessellation, Knob::adaptive_and_cutoff,
                           Knob::adaptive_and_depth}) {
     series.push_back(series_of(knob));
+    series.push_back(uncertain_series_of(knob));
   }
-  series.push_back({"Pareto front", "RMSE", {{front, "yes"}}, PlotMark::line, 6});
-  series.push_back({"on the front", "RMSE", {{front, "yes"}}, PlotMark::points, 6});
+  series.push_back({"Pareto front", "drawn RMSE", {{front, "yes"}}, PlotMark::line, 6});
+  series.push_back({"on the front", "drawn RMSE", {{front, "yes"}}, PlotMark::points, 6});
   x.scale = PlotScale::powers_of_10;
   return curves(name,
                 result.scene + " at " + std::to_string(result.width) + "x" + std::to_string(result.height) +
@@ -136,14 +174,14 @@ Plot plot_of(const SceneResult& result, const std::string& name, PlotAxis x, con
 Table table_of(std::span<const SceneResult> results, const std::string& title) {
   Table table(title, heads_of(error_columns()));
   for (const SceneResult& result : results) {
-    add_rows(table, result, false);
+    add_rows(table, result, error_columns());
   }
   return table;
 }
 
 Table plotted_table(const SceneResult& result) {
-  Table table(result.scene, heads_of(error_columns()));
-  add_rows(table, result, true);
+  Table table(result.scene, heads_of(drawn_columns()));
+  add_rows(table, result, drawn_columns());
   return table;
 }
 

@@ -16,7 +16,7 @@
 #include "nodes/ranks/rank_links.h"
 #include "tests/apps/show/rendered.h"
 #include "tests/support/mesh_files.h"
-#include "tests/support/shell.h"
+#include "tests/support/stats_validator.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -24,29 +24,9 @@ namespace dmpc::apps::schema_test {
 
 namespace {
 
+using tests::faults_by_schema;
+using tests::has_validator;
 using tests::TemporaryFolder;
-
-/// Says so where it is not there.
-bool has_validator() {
-  const bool is_there = tests::run({"/usr/bin/python3", "-c", "import jsonschema"}).status == 0;
-  if (!is_there) {
-    MESSAGE("skipped: python3-jsonschema is not installed, which tests/run does");
-  }
-  return is_there;
-}
-
-/// What is wrong with the counters in these files; empty if nothing is.
-std::string faults_by_schema(const std::vector<std::string>& files) {
-  const TemporaryFolder folder;
-  tests::write_text(folder / "stats.schema.json", stats_schema());
-  std::vector<std::string> command = {"/usr/bin/python3", "-W", "ignore", "-m", "jsonschema"};
-  for (const std::string& file : files) {
-    command.insert(command.end(), {"-i", file});
-  }
-  command.emplace_back(folder / "stats.schema.json");
-  const tests::Said said = tests::run(command);
-  return said.status == 0 ? "" : said.output + said.errors + "status " + std::to_string(said.status);
-}
 
 struct Kind {
   const char* name;
@@ -171,7 +151,8 @@ TEST_CASE("the schema has each counter that has a row, in their order, with what
 
 TEST_CASE("the schema has each option of strategies in the order of --stats, and each object all its keys and no others") {
   const nlohmann::ordered_json schema = nlohmann::ordered_json::parse(stats_schema());
-  const nlohmann::ordered_json& options = schema["properties"]["options"];
+  const nlohmann::ordered_json& render = schema["$defs"]["render"]["properties"];
+  const nlohmann::ordered_json& options = render["options"];
   auto property = options["properties"].find("cache_pages");
   for (const ToldKey& told : told_keys()) {
     REQUIRE(property != options["properties"].end());
@@ -179,8 +160,8 @@ TEST_CASE("the schema has each option of strategies in the order of --stats, and
     ++property;
   }
   CHECK(property == options["properties"].end());
-  CHECK(schema["properties"]["options"]["required"].size() == options["properties"].size());
-  CHECK(schema["properties"]["skips"]["required"].back() == "cutoff");
+  CHECK(options["required"].size() == options["properties"].size());
+  CHECK(render["skips"]["required"].back() == "cutoff");
   CHECK(schema["$defs"]["travel"]["additionalProperties"] == false);
   CHECK(stats_schema().find('*') == std::string::npos);
 }

@@ -125,7 +125,43 @@ TEST_CASE("a table of errors has the rows that are measured and marks fronts and
   CHECK(cell(2, remark) == "below the reference");
   CHECK(cell(3, front) == "yes");
   CHECK(cell(5, front).empty());
-  CHECK(apps::plotted_table(result).rows().size() == 3);
+}
+
+TEST_CASE("what is below the reference is drawn hollow, by what is left of it and between what") {
+  const SceneResult result = scene_result(0.25, 0.03);
+  const apps::Table table = apps::plotted_table(result);
+  REQUIRE(table.rows().size() == 7);
+  const auto column = [&](const std::string& name) {
+    const auto found =
+        std::find_if(table.columns().begin(), table.columns().end(), [&](const auto& one) { return one.name == name; });
+    return static_cast<std::size_t>(found - table.columns().begin());
+  };
+  const auto number = [&](std::size_t row, const char* name) { return std::get_if<double>(&table.rows()[row][column(name)]); };
+  for (std::size_t row = 0; row < table.rows().size(); ++row) {
+    const bool is_claimed = apps::is_claimed(result, result.of(row));
+    CHECK((number(row, "drawn RMSE") != nullptr) == is_claimed);
+    CHECK((number(row, "most without") == nullptr) == is_claimed);
+  }
+  CHECK(*number(2, "least without") <= *number(2, "RMSE without the reference's"));
+  CHECK(*number(2, "RMSE without the reference's") <= *number(2, "most without"));
+  const auto plots = apps::plots_of(result, "error");
+  CHECK(contains(*apps::script_of(plots[0], table, "error.csv"), "with yerrorbars pointtype 6"));
+}
+
+TEST_CASE("an interval ends where the reference's own error is taken off twice, and at a tenth at least") {
+  SceneResult result;
+  result.reference.own_error = 3;
+  const apps::ErrorInterval far = apps::error_interval(result, measured(1, 10));
+  CHECK(far.low == doctest::Approx(8));
+  CHECK(far.middle == doctest::Approx(std::sqrt(91.0)));
+  CHECK(far.high == 10);
+  CHECK(apps::error_interval(result, measured(1, 2)).low == doctest::Approx(0.2));
+  CHECK(apps::error_interval(result, measured(1, 2)).middle == doctest::Approx(0.2));
+}
+
+TEST_CASE("the first words say what adaptive sampling is worth and how many settings are told from the reference") {
+  CHECK(contains(apps::summary_of(std::vector{scene_result(0.25, 0.03)}), " of 7 settings have errors of at least 10 times"));
+  CHECK(apps::summary_of({}).empty());
 }
 
 }  // namespace dmpc::tests::findings_test

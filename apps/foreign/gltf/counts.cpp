@@ -1,0 +1,94 @@
+#include "apps/foreign/gltf/counts.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dmpc::apps::gltf {
+namespace {
+
+/// So that no sum overflows.
+constexpr std::uint64_t count_max = std::uint64_t{1} << 40U;
+
+/// Of a mesh, once.
+struct MeshSize {
+  std::uint64_t vertices = 0, corners = 0;
+};
+
+class Counter {
+ public:
+  explicit Counter(const Document& document) : root_(document.root()), accessors_(root_.list("accessors")) {}
+
+  MeshSize size(const Part& mesh, MeshCounts& counts) const {
+    MeshSize size;
+    for (const Part& primitive : mesh.list("primitives")) {
+      const auto attributes = primitive.find("attributes");
+      const std::uint64_t vertices = attributes ? count_of(attributes->find("POSITION")) : 0;
+      const auto indices = primitive.find("indices");
+      size.vertices += vertices;
+      size.corners += (is_strip(primitive) ? 3 : 1) * (indices ? count_of(indices) : vertices);
+      counts.has_normals = counts.has_normals || (attributes && attributes->find("NORMAL"));
+      counts.has_places = counts.has_places || (attributes && attributes->find("TEXCOORD_0"));
+      counts.has_colors = counts.has_colors || (attributes && attributes->find("COLOR_0"));
+    }
+    return size;
+  }
+  /// In how many nodes each mesh stands.
+  std::vector<std::uint64_t> uses(std::size_t meshes) const {
+    std::vector<std::uint64_t> uses(meshes);
+    for (const Part& node : root_.list("nodes")) {
+      if (const auto mesh = node.index("mesh", meshes, "meshes")) {
+        ++uses[*mesh];
+      }
+    }
+    return uses;
+  }
+
+ private:
+  static bool is_strip(const Part& primitive) { return primitive.whole("mode", 4) > 4; }
+  std::uint64_t count_of(const std::optional<Part>& place) const {
+    return place ? std::min(accessors_.at(place->as_index(accessors_.size(), "accessors")).whole("count", 0), count_max) : 0;
+  }
+
+  Part root_;
+  std::vector<Part> accessors_;
+};
+
+/// A document without a chunk is text, of which the JSON keeps another copy, and has its buffers elsewhere or in that text.
+std::uint64_t buffer_bytes(const Document& document, std::uint64_t file_bytes) {
+  std::uint64_t bytes = document.chunk ? file_bytes : 2 * file_bytes;
+  for (const Part& buffer : document.root().list("buffers")) {
+    bytes += document.chunk ? 0 : std::min(buffer.whole("byteLength", 0), count_max);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+MeshCounts counts_of(const Document& document, std::uint64_t file_bytes) {
+  // Assimp's: four floats at most each; a face with its indices, each piece of the heap of its own.
+  constexpr std::uint64_t vector_bytes = 12, color_bytes = 16, face_bytes = 48;
+  const Counter counter(document);
+  const std::vector<Part> meshes = document.root().list("meshes");
+  const std::vector<std::uint64_t> uses = counter.uses(meshes.size());
+  MeshCounts counts;
+  MeshSize once;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const MeshSize size = counter.size(meshes[i], counts);
+    once.vertices += size.vertices;
+    once.corners += size.corners;
+    counts.vertices += uses[i] * size.vertices;
+    counts.corners += uses[i] * size.corners;
+    counts.triangles_min += uses[i] > 0 ? size.corners / 3 : 0;
+  }
+  counts.faces = counts.corners / 3;
+  const std::uint64_t of_vertex =
+      vector_bytes * (1 + (counts.has_normals ? 1 : 0) + (counts.has_places ? 1 : 0)) + (counts.has_colors ? color_bytes : 0);
+  counts.kept_bytes = of_vertex * once.vertices + face_bytes * (once.corners / 3);
+  counts.read_bytes =
+      counts.kept_bytes + buffer_bytes(document, file_bytes) + of_vertex * once.vertices + sizeof(std::uint32_t) * once.corners;
+  return counts;
+}
+
+}  // namespace dmpc::apps::gltf
