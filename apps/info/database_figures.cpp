@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "core/database/address_map.h"
 #include "core/record/directory.h"
 #include "core/record/records.h"
+#include "core/record/voxel_list.h"
 
 namespace dmpc::apps {
 
@@ -24,7 +26,7 @@ class TreeWalk {
       const auto entry = core::read<core::DirectoryEntry>(entries + core::directory_offset(i));
       if (!entry.empty()) {
         ++occupied;
-        visit(entry.brick(), 1);
+        header.has_voxels() ? visit_list(header, entry) : visit(entry.brick(), 1);
       }
     }
   }
@@ -46,6 +48,14 @@ class TreeWalk {
     }
   }
 
+  void visit_list(const core::DatabaseHeader& header, const core::DirectoryEntry& voxel) {
+    core::for_each_listed(records_, header, voxel, [&](core::Address block) {
+      if (listed_.find_or_add(block).second) {
+        count(core::read<core::BlockHeader>(records_.find(block)));
+      }
+    });
+  }
+
   void count(const core::BlockHeader& block) {
     RecordFigures& figures = blocks[static_cast<std::size_t>(block.kind)];
     ++figures.count;
@@ -53,6 +63,7 @@ class TreeWalk {
   }
 
   core::LocalRecords records_;
+  core::AddressMap listed_;  ///< blocks of voxels
 };
 
 template <class Record>
@@ -66,6 +77,9 @@ std::vector<RecordFigures> records_of(const core::Database& database, const Scen
   std::vector<RecordFigures> records = {
       figures_for<core::DirectoryEntry>("entries of the directory", core::directory_entry_count(header.directory_size)),
       figures_for<core::Brick>("bricks", counts.bricks)};
+  if (header.has_voxels()) {
+    records.push_back(figures_for<core::VoxelReference>("references of voxels", counts.voxel_references));
+  }
   for (std::size_t kind = 0; kind < trees.blocks.size(); ++kind) {
     records.push_back({block_names[kind], trees.blocks[kind].count, trees.blocks[kind].bytes});
   }
@@ -112,6 +126,7 @@ DatabaseFigures figures_of(const core::Database& database, const SceneFigures& s
                           .top_cells = core::top_cells(database.header().frame),
                           .occupied_top_cells = trees.occupied,
                           .levels_max = trees.levels_max,
+                          .references = database.records().voxel_references,
                           .records = records_of(database, scene, trees)};
   figures.unused_bytes = figures.bytes;
   for (const RecordFigures& record : figures.records) {

@@ -174,7 +174,12 @@ void settle_database(const OptionSet& options, Strategy strategy, DatabaseOption
     build.page_size_bytes = usual.page_size_bytes;
   }
   if (strategy == Strategy::forest && build.structure != core::Structure::extents) {
-    throw UsageError("--structure=grid does not go with --strategy=forest: its nodes share one tree of boxes");
+    throw UsageError(std::string("--structure=") + name_of(build.structure) +
+                     " does not go with --strategy=forest: its nodes share one tree of boxes");
+  }
+  if (options.is_given("--voxels") && build.structure != core::Structure::voxels) {
+    throw UsageError(std::string("--voxels does not go with --structure=") + name_of(build.structure) +
+                     ": only --structure=voxels has any");
   }
   if (strategy == Strategy::forest && build.record_order != core::RecordOrder::spatial) {
     throw UsageError("--record-order=scattered does not go with --strategy=forest: a subtree lies in one page");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "apps/run/region_options.h"
 #include "core/base/expect.h"
@@ -177,7 +178,12 @@ void add_system_option(OptionSet options, std::optional<System>& system) {
 }
 
 void settle_system(const OptionSet& options, System system, StrategyOptions& run, DatabaseOptions& database) {
+  const bool keeps_voxels = settings_of(system).structure == core::Structure::grid && options.is_given("--structure") &&
+                            database.build.structure == core::Structure::voxels;  // a grid, too
   for_each_setting(system, run, database, [&](const char* option, auto& field, const auto& value) {
+    if (keeps_voxels && std::string_view(option) == "--structure") {
+      return;
+    }
     if (options.is_given(option) && field != value) {
       throw core::UsageError(std::string(option) + "=" + text_of_value(field) + " does not go with --system=" + name_of(system) +
                              ", which is " + options_of(system));

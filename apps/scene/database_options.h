@@ -21,6 +21,8 @@ const char* name_of(core::RecordOrder order);
 
 /// As the command line calls it.
 const char* name_of(core::Structure structure);
+/// As the command line calls it, by one of its names if it has one.
+std::string text_of(const core::VoxelRule& rule);
 
 struct DatabaseOptions {
   core::BuildOptions build;             ///< but for the axes, which follow from the scene
@@ -32,6 +34,10 @@ using DatabaseRow = OptionRow<DatabaseOptions, DatabaseOptions>;
 const std::vector<DatabaseRow>& database_rows();
 /// Declares them.
 void add_options(OptionSet options, DatabaseOptions& database);
+
+/// "usual", "article", "8" or "14:64": voxels a primitive and, behind a colon, at most so many along each edge of a cube. Throws
+/// core::UsageError.
+core::VoxelRule parse_voxels(const std::string& text);
 
 /// "1KiB", in bytes. Throws core::UsageError for anything but a power of two from 512 B to 64 KiB.
 std::size_t parse_page_size(const std::string& text);

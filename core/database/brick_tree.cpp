@@ -1,8 +1,6 @@
 #include "core/database/brick_tree.h"
 
-#include <array>
 #include <cstddef>
-#include <cstring>
 
 #include "core/base/units.h"
 
@@ -89,57 +87,18 @@ void count_below(const BrickDraft& draft, RecordCounts& records) {
   }
 }
 
-class TreeWriter {
- public:
-  TreeWriter(const BrickTree& tree, std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
-             std::span<const KeptPlane> planes, RecordWriter& writer)
-      : tree_(tree), primitives_(primitives), shading_(shading), planes_(planes), writer_(writer) {}
-
-  void write(const BrickDraft& draft, Address address) const {
-    writer_.write(address, 0, draft.brick);
-    auto next = draft.bricks.begin();
-    for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
-      if (draft.blocks[i].count > 0) {
-        write_block(draft.blocks[i], draft.brick.child[i].address());
-      } else {
-        write(*next++, draft.brick.child[i].address());
-      }
+void write_below(const BrickDraft& draft, Address address, const BlockWriter& blocks, std::span<const std::uint32_t> ids,
+                 RecordWriter& writer) {
+  writer.write(address, 0, draft.brick);
+  auto next = draft.bricks.begin();
+  for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
+    if (const BrickDraft::Block& block = draft.blocks[i]; block.count > 0) {
+      blocks.write(block.shape(), ids.subspan(block.first, block.count), draft.brick.child[i].address());
+    } else {
+      write_below(*next++, draft.brick.child[i].address(), blocks, ids, writer);
     }
   }
-
- private:
-  void write_block(const BrickDraft::Block& block, Address address) const {
-    std::array<std::byte, record_bytes_max> record;
-    BlockHeader header{.kind = block.kind, .count = block.count};
-    header.plane = block.plane != 0 ? planes_[block.plane - 1].kept_as : std::uint8_t{0};
-    const std::size_t rows = value_count(block.kind);
-    for (std::size_t lane = 0; lane < block.count; ++lane) {
-      const std::uint32_t id = tree_.ids[block.first + lane];
-      header.shared_lanes |= static_cast<std::uint8_t>(primitives_[id].plane() != 0 ? 1U << lane : 0U);
-      const auto put = [&](std::size_t row, const auto& value) {
-        static_assert(sizeof(value) == 4);
-        std::memcpy(record.data() + sizeof(header) + 4 * (row * block.count + lane), &value, sizeof(value));
-      };
-      for (std::size_t row = 0; row < rows; ++row) {
-        put(row, primitives_[id].value[row]);
-      }
-      put(rows, id);
-      put(rows + 1, shading_[id]);
-    }
-    std::memcpy(record.data(), &header, sizeof(header));
-    if (header.has_plane()) {
-      const FacePlane& plane = planes_[block.plane - 1];
-      std::memcpy(record.data() + block_bytes(block.kind, block.count), &plane, sizeof(FacePlane));
-    }
-    writer_.write(address, 0, std::as_bytes(std::span(record)).first(block.bytes()));
-  }
-
-  const BrickTree& tree_;
-  std::span<const PrimitiveValues> primitives_;
-  std::span<const ShadingReference> shading_;
-  std::span<const KeptPlane> planes_;
-  RecordWriter& writer_;
-};
+}
 
 }  // namespace
 
@@ -156,7 +115,7 @@ void BrickTree::take_forest_room(RecordWriter& writer, std::size_t page_size) {
 
 void BrickTree::write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
                       std::span<const KeptPlane> planes, RecordWriter& writer) const {
-  TreeWriter(*this, primitives, shading, planes, writer).write(top, address);
+  write_below(top, address, BlockWriter(primitives, shading, planes, writer), ids, writer);
 }
 
 }  // namespace dmpc::core

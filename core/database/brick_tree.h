@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/database/block_writer.h"
 #include "core/database/database.h"
 #include "core/database/record_writer.h"
 #include "core/record/record.h"
@@ -21,9 +22,8 @@ struct BrickDraft {
     PrimitiveKind kind{};
     std::uint32_t plane = 0;  ///< PrimitiveValues::plane() of all of them, if they need it
 
-    std::size_t bytes() const {
-      return block_bytes({.kind = kind, .count = count, .plane = plane != 0 ? BlockHeader::shared_plane : std::uint8_t{0}});
-    }
+    BlockShape shape() const { return {count, kind, plane}; }
+    std::size_t bytes() const { return shape().bytes(); }
   };
   Brick brick;                   ///< without the addresses of its children
   Address address = no_address;  ///< of a brick of the forest, once there is room

@@ -18,9 +18,12 @@
 #include "core/database/texture_records.h"
 #include "core/database/top_cells.h"
 #include "core/database/twins.h"
+#include "core/database/voxel_frame.h"
+#include "core/database/voxel_lists.h"
 #include "core/record/directory.h"
 #include "core/record/records.h"
 #include "core/record/texture_layout.h"
+#include "core/record/voxel_list.h"
 #include "core/scene/detail.h"
 #include "core/scene/frame.h"
 
@@ -76,11 +79,13 @@ class DatabaseBuilder {
     }
     if (options_.structure == Structure::extents) {
       cells = join_top_cells();
+    } else if (options_.structure == Structure::voxels) {
+      cells = sort_into_voxels();
     }
     header().primitive_count = static_cast<std::uint32_t>(conversion_.primitives.size());
-    write_records(cells);
-    give_back_freed();  // trees are many small pieces
     result_.references_ = cells.references();
+    options_.structure == Structure::voxels ? write_voxels(cells) : write_records(cells);
+    give_back_freed();  // trees are many small pieces
     result_.dropped_ = conversion_.dropped;
     result_.duplicates_ = conversion_.duplicates;
     result_.shared_planes_ = conversion_.shared_planes;
@@ -104,7 +109,8 @@ class DatabaseBuilder {
 
   void fit() {
     const Box bounds = bounds_of(scene_, options_.axes, parallel_);
-    header().frame = fit_frame(bounds, scene_.objects.size(), options_.cells_per_primitive, options_.axes);
+    object_count_ = scene_.objects.size();
+    header().frame = fit_frame(bounds, object_count_, options_.cells_per_primitive, options_.axes);
     if (const auto place = place_of_detail(scene_, options_.axes, bounds)) {
       move_zero(header().frame, *place);
     }
@@ -113,6 +119,9 @@ class DatabaseBuilder {
     if (!bounds.empty()) {
       const Vec3d extent = bounds.high - bounds.low;
       const double size = std::max({extent.x, extent.y, extent.z, 1e-30});
+      const GridFrame& frame = header().frame;
+      const Vec3d low = (bounds.low - frame.origin) * frame.scale, high = (bounds.high - frame.origin) * frame.scale;
+      used_ = high + low - frame.low * 2.0;
       view_distance_ = std::min(length(turned(options_.axes, scene_.view.from) - bounds.center()) / size, 2 * far_eye_diagonals);
     }
     set_pad();
@@ -157,6 +166,26 @@ class DatabaseBuilder {
     return sort_into_top_cells();
   }
 
+  /// Voxels in place of top cells. As with one top cell, the picture keeps its bits.
+  TopCells sort_into_voxels() {
+    GridFrame& frame = header().frame;
+    Vec3d extent = grid_high(frame) - frame.low;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      extent[axis] = used_[axis] > 0 ? std::min(extent[axis], used_[axis]) : extent[axis];
+    }
+    frame = with_voxels(frame, extent, object_count_, options_.voxels);
+    set_pad();
+    auto voxels = TopCells::list_voxels(conversion_.primitives, frame, result_.pad_, options_.voxels, parallel_);
+    if (!voxels) {
+      const auto count = top_cells(frame);
+      throw RoomError("the lists of " + std::to_string(count[0]) + "x" + std::to_string(count[1]) + "x" +
+                      std::to_string(count[2]) + " voxels would name more than " +
+                      std::to_string(options_.voxels.references_max) +
+                      " primitives: make fewer voxels, or render a smaller scene");
+    }
+    return std::move(*voxels);
+  }
+
   void coarsen() {
     GridFrame& frame = header().frame;
     for (std::int32_t& cells : frame.resolution) {
@@ -181,10 +210,33 @@ class DatabaseBuilder {
     write_grid(cells, trees);
   }
 
-  void write_tables() {
+  void write_voxels(const TopCells& cells) {
+    VoxelLists lists(cells, conversion_, options_.voxels);
+    result_.references_ = conversion_.primitives.size();
+    write_tables(lists.references());
+    write_textures();
+    write_normals();
+    lists.take_room(conversion_, writer_);
+    writer_.make_room();
+    lists.count(result_.records_);
+    lists.write(conversion_, header().references, writer_);
+    std::vector<DirectoryEntry> directory(directory_entry_count(header().directory_size));
+    lists.enter(header().directory_size, directory);
+    if (options_.voxels.measures_empty_space) {
+      const auto& size = header().directory_size;
+      measure_empty_space({size[2], size[1], size[0]}, directory);
+    }
+    writer_.write(header().directory, 0, std::as_bytes(std::span(directory)));
+  }
+
+  /// `references`: of voxels.
+  void write_tables(std::uint64_t references = 0) {
     header().region.high = grid_size(header().frame);
     header().directory_size = top_cells(header().frame);
     header().directory = writer_.allocate_array<DirectoryEntry>(directory_entry_count(header().directory_size));
+    if (options_.structure == Structure::voxels) {
+      header().references = writer_.allocate_array<VoxelReference>(round_up(references, std::uint64_t{2}));
+    }
     header().light_count = static_cast<std::uint32_t>(scene_.lights.size());
     header().lights = writer_.allocate_array<LightRecord>(scene_.lights.size());
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
@@ -290,6 +342,8 @@ class DatabaseBuilder {
   RecordWriter writer_;
   Database result_;
   double view_distance_ = 0;  ///< from the scene's middle, in extents
+  Vec3d used_;                ///< of the grid, grid-local: up to the scene, and as much behind it as before it; 0 if it is empty
+  std::size_t object_count_ = 0;  ///< of the scene, before they are freed
   bool has_looked_for_twins_ = false;
   Conversion conversion_;
   std::vector<TextureReference> textures_;  ///< of the scene's, in order
@@ -297,21 +351,21 @@ class DatabaseBuilder {
 
 namespace {
 
+void find_places_in(const LocalRecords& records, Address address, std::vector<Database::Place>& places) {
+  const std::byte* const block = records.find(address);
+  const auto header = read<BlockHeader>(block);
+  const std::byte* const ids = ids_of(header, block);
+  for (std::uint32_t lane = 0; lane < header.count; ++lane) {
+    places[read<std::uint32_t>(ids + lane * sizeof(std::uint32_t))] = {address, lane};
+  }
+}
+
 /// Looks through the bricks below one.
 void find_places_below(const LocalRecords& records, Address from, std::vector<Database::Place>& places) {
   const auto brick = read<Brick>(records.find(from));
   for (std::size_t child = 0; child < brick.child_count; ++child) {
     const Address address = brick.child[child].address();
-    if (!brick.child[child].is_block()) {
-      find_places_below(records, address, places);
-      continue;
-    }
-    const std::byte* const block = records.find(address);
-    const auto header = read<BlockHeader>(block);
-    const std::byte* const ids = ids_of(header, block);
-    for (std::uint32_t lane = 0; lane < header.count; ++lane) {
-      places[read<std::uint32_t>(ids + lane * sizeof(std::uint32_t))] = {address, lane};
-    }
+    brick.child[child].is_block() ? find_places_in(records, address, places) : find_places_below(records, address, places);
   }
 }
 
@@ -322,7 +376,12 @@ std::vector<Database::Place> Database::find_places() const {
   std::vector<Place> places(header_.primitive_count);
   for (std::uint64_t i = 0; i < directory_entry_count(header_.directory_size); ++i) {
     const auto entry = read<DirectoryEntry>(records.find(header_.directory) + i * sizeof(DirectoryEntry));
-    if (!entry.empty()) {
+    if (entry.empty()) {
+      continue;
+    }
+    if (header_.has_voxels()) {
+      for_each_listed(records, header_, entry, [&](Address block) { find_places_in(records, block, places); });
+    } else {
       find_places_below(records, entry.brick(), places);
     }
   }

@@ -12,6 +12,7 @@
 #include "core/base/forget.h"
 #include "core/database/record_order.h"
 #include "core/database/structure.h"
+#include "core/database/voxel_rule.h"
 #include "core/record/curved_values.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
@@ -23,6 +24,7 @@ struct BuildOptions {
   double cells_per_primitive = 0.125;  ///< sets the size of cells, and with it that of top cells and of the finest lattice
   RecordOrder record_order = RecordOrder::spatial;
   Structure structure = Structure::grid;  ///< other boxes around the same floats: the picture keeps its bits
+  VoxelRule voxels = usual_voxels;        ///< for Structure::voxels
   GridAxes axes = world_axes;  ///< the grid's directions: another grid, so other bits, but the same picture to rounding
   std::uint32_t threads = 0;   ///< that build; 0: one for each core. The bytes are the same
   /// Called now and then, by one thread at a time, with the references that are sorted into trees and how many there are: the
@@ -85,9 +87,10 @@ static_assert(value_count(PrimitiveKind::triangle) < value_count_max);
 struct RecordCounts {
   std::uint64_t bricks = 0;
   std::array<std::uint64_t, primitive_kind_count> blocks{};
-  std::uint64_t normals = 0;        ///< PatchNormals
-  std::uint64_t textured = 0;       ///< TexturedNormals
-  std::uint64_t texture_tiles = 0;  ///< of all levels
+  std::uint64_t normals = 0;           ///< PatchNormals
+  std::uint64_t textured = 0;          ///< TexturedNormals
+  std::uint64_t texture_tiles = 0;     ///< of all levels
+  std::uint64_t voxel_references = 0;  ///< the lengths of all lists
 };
 
 class Database {

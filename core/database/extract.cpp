@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <utility>
@@ -10,11 +11,13 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/database/address_map.h"
+#include "core/database/block_values.h"
 #include "core/database/record_writer.h"
 #include "core/database/region_records.h"
 #include "core/database/texture_records.h"
 #include "core/record/directory.h"
 #include "core/record/texture_layout.h"
+#include "core/record/voxel_list.h"
 
 namespace dmpc::core {
 namespace {
@@ -25,7 +28,11 @@ constexpr std::size_t part_page_bytes = 512;
 class Extractor {
  public:
   Extractor(const Database& database, std::span<const Region> regions, Keeps keeps)
-      : whole_(database.header()), bytes_(database.bytes().data()), regions_(regions), writer_(part_page_bytes, keeps) {
+      : whole_(database.header()),
+        bytes_(database.bytes().data()),
+        pad_{database.pad(), database.pad(), database.pad()},
+        regions_(regions),
+        writer_(part_page_bytes, keeps) {
     expect(!regions.empty(), "a part is of one region or more");
     part_.holds.resize(regions.size());
   }
@@ -40,9 +47,13 @@ class Extractor {
       header.directory_size[axis] = ceil_divide(around.high[axis] - header.directory_low[axis], finest_per_top);
     }
     header.directory = writer_.allocate_array<DirectoryEntry>(directory_entry_count(header.directory_size));
+    if (whole_.has_voxels()) {
+      choose_listed(around);
+      header.references = writer_.allocate_array<VoxelReference>(round_up(listed_.size(), std::size_t{2}));
+    }
     header.lights = copy_array<LightRecord>(whole_.lights, whole_.light_count);
     header.materials = copy_array<MaterialRecord>(whole_.materials, whole_.material_count);
-    copy_directory(around);
+    whole_.has_voxels() ? copy_voxels() : copy_directory(around);
     copy_textures();
     part_.record_bytes = writer_.page_bytes();
     part_.bytes = std::move(writer_).finish();
@@ -75,6 +86,76 @@ class Extractor {
       writer_.write(to, 0, std::span(at(from), count * sizeof(T)));
     }
     return to;
+  }
+
+  /// Lists what each voxel has for the regions, as entries of the part's directory and references to the whole's blocks.
+  void choose_listed(const Region& around) {
+    const DatabaseHeader& header = part_.header;
+    entries_.resize(directory_entry_count(header.directory_size));
+    Corner cell;
+    for (cell[0] = header.directory_low[0]; cell[0] < around.high[0]; cell[0] += finest_per_top) {
+      for (cell[1] = header.directory_low[1]; cell[1] < around.high[1]; cell[1] += finest_per_top) {
+        for (cell[2] = header.directory_low[2]; cell[2] < around.high[2]; cell[2] += finest_per_top) {
+          const std::uint64_t from = directory_index(whole_, cell);
+          const auto entry = read<DirectoryEntry>(at(directory_address(whole_, from)) + directory_offset(from));
+          entries_[directory_index(header, cell)] = entry.empty() ? entry : choose_from_list(entry, cell);
+        }
+      }
+    }
+  }
+
+  DirectoryEntry choose_from_list(const DirectoryEntry& entry, const Corner& cell) {
+    const std::size_t begin = listed_.size();
+    const Those those = regions_over(cell);
+    LocalRecords records({bytes_, 0});
+    if (those.count > 0) {
+      for_each_listed(records, whole_, entry, [&](Address block) {
+        if (is_wanted(block, those)) {
+          listed_.push_back(VoxelReference::to(block));
+        }
+      });
+    }
+    among_.clear();
+    if (listed_.size() == begin) {
+      return {DirectoryEntry::empty_flag};
+    }
+    listed_.back().bits |= VoxelReference::last_flag;
+    return {static_cast<std::uint32_t>(begin)};
+  }
+
+  /// Whether a hit on a block may lie in one of those regions.
+  bool is_wanted(Address block, const Those& those) {
+    const Box box = bounds_of_block(at(block)).padded(pad_);
+    bool is_wanted = false;
+    for (std::size_t i = 0; i < those.count; ++i) {
+      const std::uint32_t region = among_[those.first + i];
+      if (touches_region(whole_.frame, box, regions_[region])) {
+        is_wanted = part_.holds[region] = true;
+      }
+    }
+    return is_wanted;
+  }
+
+  void copy_voxels() {
+    AddressMap blocks;
+    for (VoxelReference& reference : listed_) {
+      const auto [copy, is_new] = blocks.find_or_add(reference.block());
+      copy = is_new ? copy_block(reference.block(), {}, lies_in_several_voxels(reference.block())) : copy;
+      reference.bits = (reference.bits & VoxelReference::last_flag) | static_cast<std::uint32_t>(copy);
+    }
+    writer_.write(part_.header.references, 0, std::as_bytes(std::span(listed_)));
+    writer_.write(part_.header.directory, 0, std::as_bytes(std::span(entries_)));
+  }
+
+  bool lies_in_several_voxels(Address block) const {
+    const Box box = bounds_of_block(at(block)).padded(pad_);
+    const double edge = double{whole_.frame.finest_cell} * finest_per_top;
+    bool is_in_one = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double low = whole_.frame.low[axis];
+      is_in_one = is_in_one && std::floor((box.low[axis] - low) / edge) == std::floor((box.high[axis] - low) / edge);
+    }
+    return !is_in_one;
   }
 
   void copy_directory(const Region& around) {
@@ -272,10 +353,13 @@ class Extractor {
 
   const DatabaseHeader& whole_;
   const std::byte* bytes_;
+  Vec3d pad_;  ///< within which a hit may lie beside its primitive
   std::span<const Region> regions_;
   std::vector<std::uint32_t> among_;
   RecordWriter writer_;
   DatabasePart part_;
+  std::vector<DirectoryEntry> entries_;  ///< of voxels
+  std::vector<VoxelReference> listed_;   ///< by them
   AddressMap normals_;
   std::map<std::uint32_t, UsedTexture> textures_;  ///< by the old address of their tables
 };

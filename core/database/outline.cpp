@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <deque>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "core/base/units.h"
+#include "core/database/empty_space.h"
 #include "core/database/record_writer.h"
 #include "core/record/directory.h"
 
@@ -86,6 +89,58 @@ class Outliner {
   std::deque<std::pair<Address, Address>> waiting_;  ///< bricks to be copied: from, to
 };
 
+/// Which voxels have lists, or which cubes of so many voxels that the directory fits.
+class VoxelOutliner {
+ public:
+  explicit VoxelOutliner(const Database& database) : whole_(database.header()), records_(database.bytes()) {}
+
+  DatabasePart outline(std::size_t bytes_max) const {
+    DatabasePart part{.header = whole_};
+    DatabaseHeader& header = part.header;
+    while (bytes_of(header) > bytes_max) {
+      ++header.directory_doublings;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        header.directory_size[axis] = ceil_divide(header.directory_size[axis], 2);
+      }
+    }
+    const std::vector<DirectoryEntry> entries = entries_of(header);
+    RecordWriter writer(outline_page_bytes);
+    header.directory = writer.allocate_array<DirectoryEntry>(entries.size());
+    writer.write(header.directory, 0, std::as_bytes(std::span(entries)));
+    part.record_bytes = writer.page_bytes();
+    part.bytes = std::move(writer).finish();
+    return part;
+  }
+
+ private:
+  static std::size_t bytes_of(const DatabaseHeader& header) {
+    return round_up(directory_entry_count(header.directory_size) * sizeof(DirectoryEntry), outline_page_bytes);
+  }
+
+  std::vector<DirectoryEntry> entries_of(const DatabaseHeader& header) const {
+    std::vector<DirectoryEntry> entries(directory_entry_count(header.directory_size));
+    Corner cell;
+    const auto& count = whole_.directory_size;
+    for (cell[0] = 0; cell[0] < count[0] * finest_per_top; cell[0] += finest_per_top) {
+      for (cell[1] = 0; cell[1] < count[1] * finest_per_top; cell[1] += finest_per_top) {
+        for (cell[2] = 0; cell[2] < count[2] * finest_per_top; cell[2] += finest_per_top) {
+          const std::uint64_t from = directory_index(whole_, cell);
+          const std::byte* const record = records_.find(directory_address(whole_, from));
+          if (!read<DirectoryEntry>(record + directory_offset(from)).empty()) {
+            entries[directory_index(header, doubled(cell, header.directory_doublings))].bits = 0;
+          }
+        }
+      }
+    }
+    const auto& size = header.directory_size;
+    measure_empty_space({size[2], size[1], size[0]}, entries);
+    return entries;
+  }
+
+  const DatabaseHeader& whole_;
+  LocalRecords records_;
+};
+
 DatabasePart nothing_of(const Database& database) {
   DatabasePart part{.header = database.header(), .bytes = RecordWriter(outline_page_bytes).finish()};
   part.header.directory = no_address;
@@ -99,6 +154,9 @@ std::size_t outline_bytes_max(const Database& database) {
 }
 
 DatabasePart outline_of(const Database& database, std::size_t bytes_max) {
+  if (database.header().has_voxels() && bytes_max >= outline_page_bytes) {
+    return VoxelOutliner(database).outline(bytes_max);
+  }
   const std::optional<DatabasePart> outline = Outliner(database, bytes_max).outline();
   return outline ? *outline : nothing_of(database);
 }

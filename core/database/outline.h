@@ -12,7 +12,9 @@ std::size_t outline_bytes_max(const Database& database);
 
 /// Copies the directory and as many bricks as `bytes_max` hold, level by level. Children that are not copied stand as blocks, of
 /// which nothing can be read: whoever meets one knows that something may be there, whoever meets none that nothing is. Without a
-/// directory (no_address), and nothing else, if the topmost bricks do not fit.
+/// directory (no_address), and nothing else, if the topmost bricks do not fit. Of voxels it has the directory, without lists: if
+/// that does not fit, one of cubes of 2^n voxels along each axis (DatabaseHeader::directory_doublings), from where the grid
+/// begins.
 DatabasePart outline_of(const Database& database, std::size_t bytes_max);
 
 }  // namespace dmpc::core

@@ -44,6 +44,20 @@ class RecordWriter {
     sizes_.push_back(static_cast<std::uint16_t>(bytes));
     return take(places_.empty() ? place_in_page(end_, bytes, page_size_) : byte_offset(places_.at(sizes_.size() - 1)), bytes);
   }
+  /// The same, for records that take `share` bytes each on the average, if that is more than they need and not 0: none crosses a
+  /// page's border, so some lie a little closer together than others. For one run of records.
+  Address allocate(std::size_t bytes, std::size_t share) {
+    const std::size_t taken = std::max(bytes, share);
+    if (share == 0 || !places_.empty()) {
+      return allocate(taken);
+    }
+    shared_end_ = shared_end_ == 0 ? end_ : shared_end_;
+    const Address address = allocate(bytes);
+    sizes_.back() = static_cast<std::uint16_t>(taken);
+    shared_end_ += taken;
+    end_ = std::max(end_, shared_end_);
+    return address;
+  }
   /// Room for `count` records of T one behind the other; T's size is a power of two, so that none crosses a page's border.
   template <class T>
   Address allocate_array(std::size_t count) {
@@ -119,7 +133,8 @@ class RecordWriter {
   std::vector<Address> places_;
   std::vector<std::uint16_t> sizes_;
   std::size_t front_bytes_ = 0;
-  std::size_t end_ = 0;  ///< of the room that has been taken
+  std::size_t end_ = 0;         ///< of the room that has been taken
+  std::size_t shared_end_ = 0;  ///< of the shares of records, since there were some
   std::vector<std::byte> bytes_;
 };
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/base/box.h"
 #include "core/base/region.h"
 #include "core/database/texture_records.h"
 #include "core/record/directory.h"
@@ -21,6 +22,16 @@ inline bool touches(const GridFrame& frame, const Brick& brick, std::size_t chil
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (place_of(brick, axis, child) > plane_at(frame, axis, region.high[axis]) ||
         place_of(brick, axis + 3, child) < plane_at(frame, axis, region.low[axis])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The same for a box, grid-local.
+inline bool touches_region(const GridFrame& frame, const Box& box, const Region& region) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (box.low[axis] > plane_at(frame, axis, region.high[axis]) || box.high[axis] < plane_at(frame, axis, region.low[axis])) {
       return false;
     }
   }
@@ -62,7 +73,18 @@ class RegionRecords {
     const std::uint64_t index = directory_index(*header_, cell);
     const auto entry = read<DirectoryEntry>(at(directory_address(*header_, index)) + directory_offset(index));
     if (!entry.empty()) {
-      visit_brick(entry.brick());
+      header_->has_voxels() ? visit_list(entry) : visit_brick(entry.brick());
+    }
+  }
+
+  /// Of all that a voxel lists, since a record does not tell how far beside it a hit may lie.
+  void visit_list(const DirectoryEntry& entry) {
+    for (std::uint64_t index = entry.bits;; ++index) {
+      const auto reference = read<VoxelReference>(at(reference_address(*header_, index)) + reference_offset(index));
+      visit_block(reference.block());
+      if (reference.is_last()) {
+        return;
+      }
     }
   }
 

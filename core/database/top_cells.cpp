@@ -23,12 +23,13 @@ constexpr std::int64_t cells_one_by_one = 16;
 
 class TopCells::Lister {
  public:
-  Lister(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad)
+  Lister(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad, bool lists_boxes = false)
       : primitives_(primitives),
         size_(top_cells(frame)),
         low_(frame.low),
         edge_(double{frame.finest_cell} * finest_per_top),
-        pad_(pad) {}
+        pad_(pad),
+        lists_boxes_(lists_boxes) {}
 
   std::size_t chunk_count() const { return ceil_divide(primitives_.size(), chunk_size); }
 
@@ -69,8 +70,20 @@ class TopCells::Lister {
     }
     if (first == last) {
       touches.push_back({index_of(first), id});
+    } else if (lists_boxes_) {
+      add_all(id, first, last, bound, touches);
     } else {
       add_touched(id, Overlap(primitives_[id]), first, last, bound, touches);
+    }
+  }
+
+  void add_all(std::uint32_t id, const Place& first, const Place& last, std::size_t bound, std::vector<Touch>& touches) const {
+    for (std::int32_t z = first[2]; z <= last[2]; ++z) {
+      for (std::int32_t y = first[1]; y <= last[1]; ++y) {
+        for (std::int32_t x = first[0]; x <= last[0] && touches.size() <= bound; ++x) {
+          touches.push_back({index_of({x, y, z}), id});
+        }
+      }
     }
   }
 
@@ -126,18 +139,31 @@ class TopCells::Lister {
   Vec3d low_;  ///< where the grid begins
   double edge_;
   double pad_;
+  bool lists_boxes_;
 };
 
 /// No chunk goes on beyond four times its share of the bound before all have come so far, so that hopeless lists end early:
 /// after four times the bound, whatever the number of chunks.
 std::optional<TopCells> TopCells::list(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
                                        const Parallel& parallel) {
-  const std::size_t bound = top_cells_max * (primitives.size() + 8);
-  const Lister lister(primitives, frame, pad);
+  return list_within(Lister(primitives, frame, pad), top_cells_max * (primitives.size() + 8), 4 * top_cells_max * chunk_size,
+                     frame, Order::morton, parallel);
+}
+
+/// No chunk goes on beyond its share of the bound before all have come so far.
+std::optional<TopCells> TopCells::list_voxels(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
+                                              const VoxelRule& rule, const Parallel& parallel) {
+  const Lister lister(primitives, frame, pad, rule.lists_boxes);
+  const std::size_t share = rule.references_max / std::max(lister.chunk_count(), std::size_t{1}) + 1;
+  return list_within(lister, rule.references_max, share, frame, rule.follows_space ? Order::morton : Order::z_fastest, parallel);
+}
+
+std::optional<TopCells> TopCells::list_within(const Lister& lister, std::size_t bound, std::size_t chunk_bound,
+                                              const GridFrame& frame, Order order, const Parallel& parallel) {
   std::vector<Listed> chunks(lister.chunk_count());
   parallel.for_each(chunks.size(), [&](std::size_t chunk) {
     chunks[chunk].touches.reserve(chunk_size * 5 / 4);
-    lister.list(chunk, std::min(bound, 4 * top_cells_max * chunk_size), chunks[chunk]);
+    lister.list(chunk, std::min(bound, chunk_bound), chunks[chunk]);
   });
   std::size_t count = 0;
   for (const Listed& chunk : chunks) {
@@ -153,11 +179,11 @@ std::optional<TopCells> TopCells::list(std::span<const PrimitiveValues> primitiv
       count += chunks[chunk].touches.size() - before;
     }
   }
-  return count > bound ? std::nullopt : std::optional(TopCells(frame, chunks));
+  return count > bound ? std::nullopt : std::optional(TopCells(frame, chunks, order));
 }
 
 /// Sorts by counting.
-TopCells::TopCells(const GridFrame& frame, const std::vector<Listed>& chunks) {
+TopCells::TopCells(const GridFrame& frame, const std::vector<Listed>& chunks, Order order) {
   const auto size = top_cells(frame);
   std::vector<std::uint32_t> counts(directory_entry_count(size));
   for (const Listed& chunk : chunks) {
@@ -171,7 +197,8 @@ TopCells::TopCells(const GridFrame& frame, const std::vector<Listed>& chunks) {
     for (corner[1] = 0; corner[1] < size[1] * finest_per_top; corner[1] += finest_per_top) {
       for (corner[0] = 0; corner[0] < size[0] * finest_per_top; corner[0] += finest_per_top) {
         if (const std::uint32_t count = counts[directory_index(size, corner)]; count > 0) {
-          cells_.push_back({morton_code(at(0), at(1), at(2)), corner, 0, count});
+          cells_.push_back(
+              {order == Order::morton ? morton_code(at(0), at(1), at(2)) : voxel_index(size, corner), corner, 0, count});
         }
       }
     }

@@ -12,13 +12,18 @@
 
 namespace dmpc::core {
 
-/// A list for every occupied top cell, the cells in Morton order.
+/// A list for every occupied top cell, the cells in Morton order; of voxels, if so asked for, in that of their directory.
 class TopCells {
  public:
   /// None where the lists would be long: where a primitive lies in more than four cells on average; always some for a single
   /// cell. A primitive is listed wherever it comes within `pad` of a cell, grid-local, and perhaps a little farther off.
   static std::optional<TopCells> list(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
                                       const Parallel& parallel);
+
+  /// The same for a frame of voxels (core/database/voxel_frame.h), by its rule; none if there are more references than
+  /// that allows.
+  static std::optional<TopCells> list_voxels(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
+                                             const VoxelRule& rule, const Parallel& parallel);
 
   std::size_t size() const { return cells_.size(); }
   /// The lower corner of cell `index`, in finest cells.
@@ -47,8 +52,11 @@ class TopCells {
     std::size_t first, count;  ///< of ids_
   };
   class Lister;
+  enum class Order : std::uint8_t { morton, z_fastest };
 
-  TopCells(const GridFrame& frame, const std::vector<Listed>& chunks);
+  TopCells(const GridFrame& frame, const std::vector<Listed>& chunks, Order order);
+  static std::optional<TopCells> list_within(const Lister& lister, std::size_t bound, std::size_t chunk_bound,
+                                             const GridFrame& frame, Order order, const Parallel& parallel);
 
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> ids_;

@@ -2,9 +2,11 @@
 
 #include <bit>
 
+#include "core/database/block_values.h"
 #include "core/database/overlap.h"
 #include "core/record/directory.h"
 #include "core/record/records.h"
+#include "core/record/voxel_list.h"
 
 namespace dmpc::core {
 namespace {
@@ -33,15 +35,6 @@ Box box_of_cell(const Corner& corner, const GridFrame& frame) {
     box.high[axis] = plane_at(frame, axis, corner[axis] + finest_per_top);
   }
   return box;
-}
-
-PrimitiveValues primitive_in(const std::byte* record, std::size_t lane) {
-  const auto header = read<BlockHeader>(record);
-  PrimitiveValues primitive{.kind = header.kind};
-  for (std::size_t row = 0; row < value_count(header.kind); ++row) {
-    primitive.value[row] = read<float>(record + sizeof(header) + sizeof(float) * (row * header.count + lane));
-  }
-  return primitive;
 }
 
 /// Takes bits away from tiles on which boxes fall.
@@ -76,7 +69,17 @@ class Finder {
     const std::uint64_t index = directory_index(header_, corner);
     const auto entry = read<DirectoryEntry>(records_.find(directory_address(header_, index)) + directory_offset(index));
     if (!entry.empty() && falls_on_any(projector_.footprint_of(box_of_cell(corner, header_.frame)))) {
-      look_into_brick(entry.brick());
+      header_.has_voxels() ? look_into_voxel(entry, corner) : look_into_brick(entry.brick());
+    }
+  }
+
+  /// A ray is tested in a voxel against all that it lists, but meets it within its box, and comes to it through the voxel.
+  void look_into_voxel(const DirectoryEntry& entry, const Corner& corner) {
+    const TileFootprint footprint = projector_.footprint_of(box_of_cell(corner, header_.frame));
+    if (tile_count(footprint) <= few_tiles_of_brick) {
+      take_away(footprint);
+    } else {
+      for_each_listed(records_, header_, entry, [&](Address block) { look_into_block(block, footprint); });
     }
   }
 

@@ -1,4 +1,4 @@
-// Where the directory keeps a top cell's entry: row by row, x fastest.
+// Where the directory keeps a top cell's entry: row by row, x fastest, but of voxels z fastest.
 #pragma once
 
 #include <array>
@@ -21,10 +21,21 @@ constexpr std::uint64_t directory_index(const std::array<std::int32_t, 3>& size,
   return top(0) + std::uint64_t{length(0)} * (top(1) + std::uint64_t{length(1)} * top(2));
 }
 
+/// The other way round: z fastest, after the article.
+constexpr std::uint64_t voxel_index(const std::array<std::int32_t, 3>& size, const Corner& cell) {
+  return directory_index({size[2], size[1], size[0]}, {cell[2], cell[1], cell[0]});
+}
+
+/// The finest cell with edges of 2^doublings finest cells that holds `cell`.
+constexpr Corner doubled(const Corner& cell, std::int32_t doublings) {
+  return {cell[0] >> doublings, cell[1] >> doublings, cell[2] >> doublings};
+}
+
 /// The index in the directory of `header`, for a cell of the grid.
 constexpr std::uint64_t directory_index(const DatabaseHeader& header, const Corner& cell) {
   const Corner& low = header.directory_low;
-  return directory_index(header.directory_size, {cell[0] - low[0], cell[1] - low[1], cell[2] - low[2]});
+  const Corner place{cell[0] - low[0], cell[1] - low[1], cell[2] - low[2]};
+  return header.has_voxels() ? voxel_index(header.directory_size, place) : directory_index(header.directory_size, place);
 }
 
 /// The record that holds entry `index`: two entries, since addresses count in 8 bytes.
@@ -34,5 +45,11 @@ constexpr Address directory_address(const DatabaseHeader& header, std::uint64_t 
 
 /// Where entry `index` begins in its record.
 constexpr std::size_t directory_offset(std::uint64_t index) { return index % 2 * sizeof(DirectoryEntry); }
+
+/// Likewise, of references of voxels.
+constexpr Address reference_address(const DatabaseHeader& header, std::uint64_t index) {
+  return advance(header.references, index / 2 * record_alignment);
+}
+constexpr std::size_t reference_offset(std::uint64_t index) { return index % 2 * sizeof(VoxelReference); }
 
 }  // namespace dmpc::core

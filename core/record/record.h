@@ -4,6 +4,7 @@
 // starts at a multiple of record_alignment, so that a 32-bit address spans 32 GiB and page = address / (page_size / 8).
 //
 //   directory   one DirectoryEntry a top cell of the grid
+//   references  of a plain grid, whose top cells are voxels: VoxelReference, the list of each voxel in one piece
 //   bricks      Brick, the primitive blocks that it names, and its bricks in turn (top cells in Morton order)
 //   normals     PatchNormals, TexturedNormals         } shading data, read for final hits only
 //   materials   MaterialRecord, then FinishRecord     }
@@ -66,6 +67,21 @@ struct DirectoryEntry {
 };
 static_assert(sizeof(DirectoryEntry) == 4);
 inline constexpr int radius_max = 64;
+
+/// One place in the list of a voxel: the block that is to be tested. In a database that has these, an entry of the directory
+/// tells the number of the list's first reference in place of a brick's address.
+struct VoxelReference {
+  static constexpr std::uint32_t last_flag = 0x80000000U;
+  std::uint32_t bits = 0;
+
+  static constexpr VoxelReference to(Address block) { return {static_cast<std::uint32_t>(block)}; }
+  /// The list ends here.
+  constexpr bool is_last() const { return (bits & last_flag) != 0; }
+  constexpr Address block() const { return Address{bits & ~last_flag}; }
+};
+static_assert(sizeof(VoxelReference) == 4);
+/// References that an entry of the directory can tell apart.
+inline constexpr std::uint64_t references_max = DirectoryEntry::empty_flag;
 
 /// A child of a brick: a block of primitives, or a brick of its own.
 struct BrickChild {
@@ -319,6 +335,8 @@ struct DatabaseHeader {
   GridFrame frame;
   Region region;  ///< whose records are here: the whole grid, or a node's part of it
   Address directory = no_address;
+  Address references = no_address;               ///< of voxels; no_address: top cells have trees of bricks
+  std::int32_t directory_doublings = 0;          ///< of an outline of voxels: an entry is of 2^this of them along each axis
   Corner directory_low{};                        ///< finest cells, a multiple of top cells: where the directory begins
   std::array<std::int32_t, 3> directory_size{};  ///< top cells along x, y, z
   Address materials = no_address;
@@ -329,6 +347,9 @@ struct DatabaseHeader {
   std::uint32_t light_count = 0;
   Color background;
   Color ambient;  ///< Scene::ambient
+
+  /// Whether top cells are voxels with lists.
+  constexpr bool has_voxels() const { return references != no_address; }
 };
 static_assert(std::is_trivially_copyable_v<DatabaseHeader>);
 

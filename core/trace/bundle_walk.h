@@ -37,7 +37,9 @@ class BundleWalk {
       start();
     }
     while (bundle_.stage != RayBundle::Stage::finished) {
-      if (!(bundle_.stage == RayBundle::Stage::directory ? enter_cell() : visit_children())) {
+      if (!(bundle_.stage == RayBundle::Stage::directory ? enter_cell()
+            : header_.has_voxels()                       ? visit_list()
+                                                         : visit_children())) {
         return false;
       }
     }
@@ -131,6 +133,39 @@ class BundleWalk {
       }
       intersectors_.take_child(bundle_);
     }
+    leave_cell();
+    return true;
+  }
+
+  /// Tests what the list of the voxel names, as RayWalk::visit_list() does, then leaves it.
+  bool visit_list() {
+    BrickChild& behind = bundle_.waiting.record[0];
+    while (bundle_.next.found()) {
+      const bool is_block = bundle_.next.is_block();
+      const Address address = is_block ? bundle_.next.address() : reference_address(header_, bundle_.next.bits);
+      const std::byte* const record = find(address, bundle_.next_rays);
+      if (record == nullptr) {
+        return false;
+      }
+      if (is_block) {
+        const RayMask found = bundle_.found;
+        test_block(record, address);
+        if (bundle_.any) {
+          operations_.skipped.any_hit += behind.found() ? count_of(bundle_.found & ~found) : 0;
+          bundle_.next_rays &= ~bundle_.found;
+        }
+        bundle_.next = bundle_.next_rays != 0 ? behind : BrickChild::none();
+      } else {
+        const auto reference = read<VoxelReference>(record + reference_offset(bundle_.next.bits));
+        behind = reference.is_last() ? BrickChild::none() : BrickChild{bundle_.next.bits + 1};
+        bundle_.next = BrickChild::block(reference.block());
+      }
+    }
+    leave_cell();
+    return true;
+  }
+
+  void leave_cell() {
     const RayMask done = bundle_.any ? bundle_.found : 0, leaving = bundle_.group & ~done;
     bundle_.alive &= ~(bundle_.group & done);
     if (leaving != 0) {
@@ -138,7 +173,6 @@ class BundleWalk {
       steps_.leave(bundle_, leaving, planes_ahead(finest_per_top, bundle_.region), nullptr);
     }
     next_cell();
-    return true;
   }
 
   void test_block(const std::byte* record, Address block) {

@@ -103,7 +103,7 @@ class RayWalk {
         if (!walk.read(ray_, read<DirectoryEntry>(record + directory_offset(index)), cursor_, skips, operations_)) {
           return finish(cursor_);
         }
-      } else if (!visit_children(box, any, meet, test)) {
+      } else if (!(header.has_voxels() ? visit_list(header, any, test) : visit_children(box, any, meet, test))) {
         return Traced::absent;
       } else if ((any && cursor_.best.found()) || !walk.leave_cell(ray_, cursor_, operations_)) {
         return finish(cursor_);
@@ -143,8 +143,38 @@ class RayWalk {
     return true;
   }
 
+  /// Tests what the list of the cursor's voxel names, from cursor.next on: a block, or, as if it were a brick's address, the
+  /// number of a reference. What comes behind a block is kept where a child would wait. False if a record is absent.
+  template <class Test>
+  bool visit_list(const DatabaseHeader& header, bool any, const Test& test) {
+    BrickChild& behind = cursor_.waiting.record[0];
+    for (BrickChild item = cursor_.next; item.found();) {
+      cursor_.next = item;
+      const Address address = item.is_block() ? item.address() : reference_address(header, item.bits);
+      const std::byte* const record = records_.find(address);
+      if (record == nullptr) {
+        cursor_.absent = address;
+        return false;
+      }
+      if (!item.is_block()) {
+        const auto reference = read<VoxelReference>(record + reference_offset(item.bits));
+        behind = reference.is_last() ? BrickChild::none() : BrickChild{item.bits + 1};
+        item = BrickChild::block(reference.block());
+        continue;
+      }
+      test(record, address, cursor_.best);
+      if (any && cursor_.best.found()) {
+        operations_.skipped.any_hit += behind.found() ? 1 : 0;
+        break;
+      }
+      item = behind;
+    }
+    return true;
+  }
+
   /// Where the ray, from where the cursor arrives on, enters the first box of a block of the database, a float no greater than
-  /// trace() could tell; infinite if trace() would test no primitive any more. No record is absent.
+  /// trace() could tell, or the first voxel with a list; infinite if trace() would test no primitive any more. No record is
+  /// absent, and no list is looked into.
   float first_block(const Walk& walk, const DatabaseHeader& header, const Skips& skips) {
     const BoxRay box(ray_, walk.reciprocal());
     for (bool goes_on = true; goes_on;) {
@@ -152,6 +182,8 @@ class RayWalk {
         const std::uint64_t index = directory_index(header, cursor_.cell);
         const std::byte* const record = records_.find(directory_address(header, index));
         goes_on = walk.read(ray_, read<DirectoryEntry>(record + directory_offset(index)), cursor_, skips, operations_);
+      } else if (header.has_voxels()) {
+        return static_cast<float>(cursor_.t_enter);
       } else if (const float first = first_block_in_cell(box); first < never) {
         return first;
       } else {

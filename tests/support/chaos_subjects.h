@@ -57,9 +57,9 @@ inline const std::array<ChaosSubject, 16>& chaos_subjects() {
 
 /// The subject with this number, made when it is first asked for. Not thread-safe.
 inline const Subject& chaos_subject(std::size_t number, core::Structure structure = core::Structure::grid) {
-  static std::array<std::array<std::unique_ptr<const Subject>, 16>, 2> made;
+  static std::array<std::array<std::unique_ptr<const Subject>, 16>, 3> made;
   const ChaosSubject& wanted = chaos_subjects().at(number);
-  std::unique_ptr<const Subject>& subject = made.at(structure == core::Structure::grid ? 0 : 1).at(number);
+  std::unique_ptr<const Subject>& subject = made.at(static_cast<std::size_t>(structure)).at(number);
   if (!subject) {
     subject = std::make_unique<const Subject>(
         wanted.scene(), wanted.size, core::BuildOptions{.page_size_bytes = wanted.page_size_bytes, .structure = structure});

@@ -210,9 +210,9 @@ void check_svm(std::uint64_t seeds) { check_pages(svm::svm_strategy(), run_svm, 
 void check_replicated(std::uint64_t seeds) { check_pages(svm::replicated_strategy(), run_replicated, seeds); }
 void check_forest(std::uint64_t seeds) { check_pages(svm::forest_strategy(), run_forest, seeds, core::Structure::extents); }
 
-void check_dataflow(std::uint64_t seeds) {
+void check_dataflow(std::uint64_t seeds, core::Structure structure = core::Structure::grid) {
   check_seeds(
-      Rays(), [](ChaosCase& one, std::uint32_t round) { return one.ray_options(round); }, run_dataflow, seeds);
+      Rays(), [](ChaosCase& one, std::uint32_t round) { return one.ray_options(round); }, run_dataflow, seeds, structure);
 }
 
 /// Some chaos that does everything often.
@@ -244,6 +244,11 @@ TEST_CASE("chaos: any seed leaves replicated its picture") { check_replicated(fe
 TEST_CASE("chaos: any seed leaves forest its picture") { check_forest(few_seeds); }
 
 TEST_CASE("chaos: any seed leaves dataflow its picture") { check_dataflow(few_seeds); }
+
+TEST_CASE("chaos: any seed leaves svm and dataflow the picture of voxels") {
+  check_pages(svm::svm_strategy(), run_svm, few_seeds / 2, core::Structure::voxels);
+  check_dataflow(few_seeds / 2, core::Structure::voxels);
+}
 
 TEST_CASE("many seeds of chaos leave every strategy its picture" * doctest::test_suite("slow")) {
   check_svm(many_seeds);

@@ -79,6 +79,7 @@ constexpr std::array entries = {
     GlossaryEntry{"top cell", "A cell of the grid's coarsest level, which holds a tree of bricks: boxes of primitives."},
     GlossaryEntry{"topology", "Which nodes are neighbours: mesh, hypercube, ring and so on."},
     GlossaryEntry{"virtual time", "The modelled machine's clock. It does not depend on the computer that dmpc runs on."},
+    GlossaryEntry{"voxels", "A plain grid of small cells, each with a list of what lies in it, in place of a grid of trees."},
     GlossaryEntry{"wall clock", "Time on the computer that dmpc runs on."},
     GlossaryEntry{"work item",
                   "A square of pixels, 4x4 (3x3 where rays walk alone), that a node hands to one that has run out of work."},

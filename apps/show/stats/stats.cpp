@@ -223,6 +223,9 @@ Json options_json(const RenderRecord& record, const Account& account) {
                  {"nodes", account.nodes.size()},
                  {"node_memory", account.node_memory_max_bytes},
                  {"page_size", record.database.page_size()}};
+  if (options.database.build.structure == core::Structure::voxels) {
+    result["voxels"] = text_of(options.database.build.voxels);
+  }
   add_staging(result, options.picture.staging);
   const auto told = std::visit([&](const auto& report) { return told_options(options.strategy, report.plan); }, record.report);
   for (const auto& [key, value] : told) {

@@ -10,8 +10,8 @@ namespace dmpc::apps::database_figures_test {
 namespace {
 
 struct Found {
-  explicit Found(const core::Scene& scene)
-      : database(core::build_database(scene, {})), figures(figures_of(database, figures_of(scene))) {}
+  explicit Found(const core::Scene& scene, const core::BuildOptions& options = {})
+      : database(core::build_database(scene, options)), figures(figures_of(database, figures_of(scene))) {}
 
   const RecordFigures& records(const std::string& kind) const {
     for (const RecordFigures& record : figures.records) {
@@ -61,6 +61,21 @@ TEST_CASE("trees are looked through: what is counted is what the builder counted
   CHECK(found.figures.copies >= found.figures.primitives);
   CHECK(found.figures.primitives_a_block() > 1);
   CHECK(found.figures.primitives_a_block() <= 8);
+}
+
+TEST_CASE("of voxels the lists are looked through: each block is counted once, and no byte is missing") {
+  const Found found(load_scene("rings-2"), {.structure = core::Structure::voxels});
+  const core::RecordCounts& counts = found.database.records();
+  CHECK(found.records("references of voxels").count == counts.voxel_references);
+  CHECK(found.figures.references == counts.voxel_references);
+  CHECK(found.records("blocks of triangles").count == counts.blocks[0]);
+  CHECK(found.records("blocks of spheres").count == counts.blocks[1]);
+  CHECK(found.records("blocks of cones").count == counts.blocks[2]);
+  CHECK(found.records("bricks").count == 0);
+  CHECK(found.figures.levels_max == 0);
+  CHECK(found.figures.copies == found.figures.primitives);
+  CHECK(found.record_bytes() + found.figures.unused_bytes == found.figures.bytes);
+  CHECK(found.figures.unused_bytes < found.figures.bytes / 4);
 }
 
 TEST_CASE("records and what lies between them make up the pages") {

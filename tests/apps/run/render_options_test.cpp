@@ -211,6 +211,31 @@ TEST_CASE("the smallest and largest values are taken") {
   }
 }
 
+TEST_CASE("voxels are made by a rule that has a name, or by two numbers") {
+  const auto rule = [](const std::string& text) {
+    return render({"--structure=voxels", "--voxels=" + text}).database.build.voxels;
+  };
+  CHECK(render({"--structure=voxels"}).database.build.voxels == core::usual_voxels);
+  CHECK(rule("usual") == core::usual_voxels);
+  CHECK(rule("article") == core::article_voxels);
+  CHECK(rule("14:64").voxels_per_primitive == 14);
+  CHECK(rule("14:64").voxels_max == 64 * 64 * 64);
+  CHECK(rule("0.5").voxels_per_primitive == 0.5);
+  CHECK(rule("0.5").voxels_max == core::usual_voxels.voxels_max);
+  for (const std::string text : {"usual", "article", "14:64", "0.5:256"}) {
+    CHECK(text_of(rule(text)) == text);
+  }
+  for (const std::string bad :
+       {"many", "0", "-1", "1001", "8:", "8:0", "8:513", "8:64.5", "8:64:2", "8 ", "nan", "inf", "8:nan"}) {
+    CAPTURE(bad);
+    CHECK(contains(render_complaint({"--structure=voxels", "--voxels=" + bad}),
+                   "--voxels=" + bad + ": expected usual, article, or"));
+  }
+  CHECK(contains(render_complaint({"--voxels=article"}), "--voxels does not go with --structure=grid"));
+  CHECK(contains(render_complaint({"--strategy=forest", "--structure=voxels"}),
+                 "--structure=voxels does not go with --strategy=forest"));
+}
+
 TEST_CASE("forest has one tree and pages of its own choice, unless one asks for others") {
   const core::BuildOptions build = render({"--strategy=forest"}).database.build;
   CHECK(build.structure == core::Structure::extents);
@@ -349,6 +374,9 @@ TEST_CASE("a system by name stands for its options") {
   CHECK(forest.database.build.page_size_bytes == 4096);
   CHECK(render({"--system=replicated-extents"}).database.build.structure == core::Structure::extents);
   CHECK(render({"--system=replicated"}).database.build.structure == core::Structure::grid);
+  CHECK(render({"--system=replicated", "--structure=voxels"}).database.build.structure == core::Structure::voxels);
+  CHECK(contains(render_complaint({"--system=pixel-machine", "--structure=voxels"}),
+                 "--structure=voxels does not go with --system=pixel-machine"));
   CHECK(render({"--system=equal-size"}).rays.balance.balance == dataflow::Balance::equal_size);
   CHECK(render({"--system=subsampled"}).strategy == Strategy::dataflow);
   CHECK(render({"--system=svm"}).pages.homes == svm::PageHomes::spread);
@@ -449,7 +477,8 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--node-memory",
                                  "--page-size",
                                  "SIZE [1KiB, forest 4KiB]",
-                                 "grid|extents [grid]",
+                                 "grid|extents|voxels [grid]",
+                                 "RULE [usual]",
                                  "--cache-pages",
                                  "--replacement",
                                  "--in-flight",

@@ -7,6 +7,7 @@
 #include "apps/lab/bench/stability/cells.h"
 #include "apps/lab/bench/stability/random.h"
 #include "core/database/database.h"
+#include "core/record/directory.h"
 #include "core/trace/traversal.h"
 #include "tests/support/small_scenes.h"
 
@@ -98,6 +99,40 @@ TEST_CASE("no ray hits anything before the first block of any outline, and what 
   CHECK(hits > 50);
   CHECK(misses_known > misses_known_coarsely);
   CHECK(misses_known_coarsely > 100);
+}
+
+TEST_CASE("an outline of voxels has their directory, or that of cubes of voxels, and no list outside it") {
+  const core::Database database = core::build_database(
+      tests::built_in("sombrero-1"), {.structure = core::Structure::voxels, .voxels = {.voxels_per_primitive = 30}});
+  const auto& count = database.header().directory_size;
+  const core::LocalRecords whole(database.bytes());
+  for (const std::size_t bytes_max : {512U, 4096U, 1U << 24U}) {
+    const core::DatabasePart outline = core::outline_of(database, bytes_max);
+    REQUIRE(outline.header.directory != core::no_address);
+    CHECK(outline.record_bytes <= bytes_max);
+    CHECK((outline.header.directory_doublings > 0) == (bytes_max < 1U << 24U));
+    const core::LocalRecords records(outline.bytes);
+    const auto is_empty = [](const core::DatabaseHeader& header, const core::LocalRecords& in, const core::Corner& cell) {
+      const std::uint64_t index = core::directory_index(header, cell);
+      return core::read<core::DirectoryEntry>(in.find(core::directory_address(header, index)) + core::directory_offset(index))
+          .empty();
+    };
+    std::uint64_t missing = 0, occupied = 0;
+    core::Corner at;
+    for (at[0] = 0; at[0] < count[0] * core::finest_per_top; at[0] += core::finest_per_top) {
+      for (at[1] = 0; at[1] < count[1] * core::finest_per_top; at[1] += core::finest_per_top) {
+        for (at[2] = 0; at[2] < count[2] * core::finest_per_top; at[2] += core::finest_per_top) {
+          const bool is_listed = !is_empty(database.header(), whole, at);
+          occupied += is_listed ? 1 : 0;
+          missing +=
+              is_listed && is_empty(outline.header, records, core::doubled(at, outline.header.directory_doublings)) ? 1 : 0;
+        }
+      }
+    }
+    CHECK(occupied > 0);
+    CHECK(missing == 0);
+  }
+  CHECK(core::outline_of(database, 100).header.directory == core::no_address);
 }
 
 }  // namespace outline_test

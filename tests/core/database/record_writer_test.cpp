@@ -35,6 +35,21 @@ TEST_CASE("a record that just fits a page's rest stays in it") {
   CHECK(byte_offset(writer.allocate(57)) == 1024);
 }
 
+TEST_CASE("records with a share of pages take that on the average, and none crosses a page's border") {
+  RecordWriter writer(1024);
+  writer.allocate_array<std::uint32_t>(100);
+  std::uint64_t last = 0;
+  for (int i = 0; i < 800; ++i) {
+    const std::uint64_t at = byte_offset(writer.allocate(96, 129));
+    CHECK(at / 1024 == (at + 95) / 1024);
+    CHECK((i == 0 || at >= last + 96));
+    last = at;
+  }
+  CHECK(last >= 400 + 799 * 129 - 129);
+  CHECK(last <= 400 + 799 * 129 + 129);
+  CHECK(writer.page_bytes() == round_up(std::size_t{400 + 800 * 129}, std::size_t{1024}));
+}
+
 TEST_CASE("records of nothing and of too much are refused") {
   RecordWriter writer(512);
   CHECK_THROWS_AS(writer.allocate(0), InternalError);

@@ -9,6 +9,8 @@
 
 #include "core/database/database.h"
 #include "core/record/directory.h"
+#include "core/record/records.h"
+#include "core/record/voxel_list.h"
 
 namespace dmpc::apps {
 
@@ -32,7 +34,10 @@ class Listing {
     const auto entry = core::read<core::DirectoryEntry>(record(core::directory_address(database_->header(), index)) +
                                                         core::directory_offset(index));
     std::vector<std::uint32_t> ids;
-    if (!entry.empty()) {
+    if (!entry.empty() && database_->header().has_voxels()) {
+      core::LocalRecords records(database_->bytes());
+      core::for_each_listed(records, database_->header(), entry, [&](core::Address block) { append(block, ids); });
+    } else if (!entry.empty()) {
       collect(entry.brick(), at, ids);
     }
     return ids;
