@@ -5,7 +5,7 @@ namespace {
 
 // Measured on a server's core in November 2026, by processor time: what a run takes for each second of the one-thread renderer,
 // and beside that for each node and each pair of nodes.
-constexpr double svm_factor = 1.6, dataflow_factor = 2.5;
+constexpr double svm_factor = 1.0, dataflow_factor = 1.6;
 constexpr double node_seconds = 2e-3, dataflow_pair_seconds = 2e-4;
 
 }  // namespace
