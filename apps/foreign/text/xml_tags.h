@@ -56,19 +56,24 @@ inline std::string value_of(const Tag& tag, std::string_view name) {
   return std::string(attribute(tag, name).value_or(std::string_view()));
 }
 
-/// A text, in which some is put, or left out, from its begin to its end.
+/// A text, in which some is put, or left out, from its begin to its end. What comes too late for that is not done: tags that
+/// are not closed may lie in two others.
 class Filled {
  public:
   explicit Filled(std::string_view text) : text_(text) {}
 
   /// Before what stands there.
   void insert(std::size_t at, std::string_view what) {
-    take_up_to(at);
-    result_ += what;
+    if (at >= taken_) {
+      take_up_to(at);
+      result_ += what;
+    }
   }
   void leave_out(std::size_t begin, std::size_t end) {
-    take_up_to(begin);
-    taken_ = end;
+    if (begin >= taken_) {
+      take_up_to(begin);
+      taken_ = end;
+    }
   }
   /// `part` is a part of the text.
   std::size_t place_of(std::string_view part) const { return static_cast<std::size_t>(part.data() - text_.data()); }

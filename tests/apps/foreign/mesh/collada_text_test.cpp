@@ -114,6 +114,14 @@ TEST_CASE("the set of texture coordinates that is bound comes first, else the on
   CHECK_FALSE(is_first(with_two_sets("UV", to_1), 1));
 }
 
+TEST_CASE("faces that are not closed do not make the text grow") {
+  std::string text;
+  for (int i = 0; i < 100; ++i) {
+    text += R"(<triangles><input semantic="TEXCOORD" set="1"/>)";
+  }
+  CHECK(apps::collada_in_full(text).size() < 2 * text.size());
+}
+
 TEST_CASE("a geometry that shows its texture by two sets in two places is refused") {
   const std::string twice =
       with_two_sets("CHANNEL1", "") + with_two_sets("CHANNEL1", R"(<bind_vertex_input semantic="CHANNEL1" input_set="0"/>)");
