@@ -339,7 +339,6 @@ WorkShape Plan::work() const {
   return {.worker_count = worker_count,
           .width = request.width,
           .height = request.height,
-          .first_samples = request.first_samples,
           .tile = request.is_masked() ? tile_of(pixels_a_task) : tile_for(request.first_samples, pixels_a_task),
           .item_side = work_item_side,
           .shares = request.pages.pixel_shares,

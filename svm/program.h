@@ -158,17 +158,18 @@ class ControlProgram final : public NodeProgram {
     return slots_.has_free() && work_.has_pixel() && film_.has_room_for(pixels_in_flight_ + Task::pixels_max);
   }
 
-  /// A task takes pixels of one tile with the same samples, so who walks together does not depend on who takes which item.
+  /// A task takes pixels of one tile, so who walks together does not depend on who takes which item.
   void start() {
     const std::uint32_t slot = slots_.take_free();
     std::array<std::uint32_t, Task::pixels_max> pixels;
+    std::array<core::SampleStep, Task::pixels_max> steps;
     std::uint32_t count = 0;
-    const core::SampleRange samples = work_.next_samples();
-    const std::uint32_t most = std::max(Task::pixels_max / samples.count, 1U);
     do {
+      steps[count] = work_.next_step();
       pixels[count++] = work_.next_pixel();
-    } while (count < most && work_.stays_in_tile() && work_.next_samples() == samples);
-    slots_.task(slot).start(std::span<const std::uint32_t>(pixels).first(count), samples, settings_, operations_);
+    } while (count < Task::pixels_max && work_.stays_in_tile());
+    slots_.task(slot).start(std::span<const std::uint32_t>(pixels).first(count),
+                            std::span<const core::SampleStep>(steps).first(count), settings_, operations_);
     pixels_in_flight_ += count;
     records_.select(slot);
     records_.forget();

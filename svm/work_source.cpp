@@ -49,7 +49,6 @@ WorkSource::WorkSource(nodes::Node& node, const WorkShape& shape, bool passes_ov
       worker_count_(shape.worker_count),
       self_(nodes::index_of(node.id())),
       image_width_(shape.width),
-      first_samples_(shape.first_samples),
       item_side_(item_side_of(shape)),
       passes_over_idle_(passes_over_idle),
       tile_(shape.tile),
@@ -144,9 +143,9 @@ std::uint32_t WorkSource::next_pixel() {
   return scan_.next(image_width_);
 }
 
-core::SampleRange WorkSource::next_samples() {
+core::SampleStep WorkSource::next_step() {
   open_next();
-  return is_masked() ? steps_[scan_.place()].samples(first_samples_) : core::SampleRange{0, first_samples_};
+  return is_masked() ? steps_[scan_.place()] : core::SampleStep::first();
 }
 
 void WorkSource::ask() {

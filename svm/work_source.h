@@ -19,7 +19,6 @@ namespace dmpc::svm {
 struct WorkShape {
   std::uint32_t worker_count = 1;  ///< the nodes that have pixels, the first ones
   std::uint32_t width = 1, height = 1;
-  std::uint32_t first_samples = 1;            ///< of each pixel in the first pass
   PixelTile tile;                             ///< pixels that a task takes at most
   std::uint32_t item_side = 3;                ///< pixels along the side of a work item; 0: no node gives work to another
   PixelShares shares = PixelShares::submaps;  ///< which pixels a node starts with
@@ -56,8 +55,8 @@ class WorkSource {
   bool has_pixel() const { return !scan_.empty() || !items_.empty(); }
   /// Requires has_pixel().
   std::uint32_t next_pixel();
-  /// The samples of the next pixel, in this pass. Requires has_pixel().
-  core::SampleRange next_samples();
+  /// What this pass brings the next pixel. Requires has_pixel().
+  core::SampleStep next_step();
   /// The next pixel lies in the tile of the one before.
   bool stays_in_tile() const { return scan_.stays_in_tile(); }
   /// Sends a work request, unless one is under way or would be in vain. Requires !has_pixel().
@@ -100,7 +99,6 @@ class WorkSource {
   std::uint32_t worker_count_;
   std::uint32_t self_;
   std::uint32_t image_width_;
-  std::uint32_t first_samples_;
   std::uint32_t item_side_;
   bool passes_over_idle_;
   PixelTile tile_;

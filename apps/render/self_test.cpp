@@ -27,11 +27,13 @@ core::Film render_in_bundles(core::GridTracer<core::LocalRecords>& tracer, const
   std::vector<core::BundleHit> stack(static_cast<std::size_t>(settings.shade.depth_max));
   const auto task = std::make_unique<core::BundleTask>(stack);
   std::array<std::uint32_t, pixels_together> pixels{};
+  std::array<core::SampleStep, pixels_together> steps;
+  steps.fill(core::SampleStep::first());
   for (std::uint32_t first = 0; first < settings.camera.pixel_count(); first += pixels_together) {
     for (std::uint32_t i = 0; i < pixels_together; ++i) {
       pixels[i] = first + i;
     }
-    task->start(pixels, settings.first_samples(), settings, operations);
+    task->start(pixels, steps, settings, operations);
     while (task->run(tracer, settings, operations) != core::TaskState::finished) {
     }
     for (std::uint32_t i = 0; i < pixels_together; ++i) {

@@ -399,9 +399,8 @@ std::vector<Ids> sets_to_stack(const Exactly& exactly, FaceSets& close, std::vec
     }
   }
   std::vector<Ids> sets = close.sets();
-  std::erase_if(sets, [&](const Ids& set) {
-    return std::none_of(set.begin(), set.end(), [&](std::uint32_t id) { return is_apart[id]; });
-  });
+  std::erase_if(
+      sets, [&](const Ids& set) { return std::none_of(set.begin(), set.end(), [&](std::uint32_t id) { return is_apart[id]; }); });
   return sets;
 }
 

@@ -24,8 +24,8 @@ namespace dmpc::core {
 ///
 /// What shares an edge or a corner does not cover. Without triangles that cover each other nothing changes. Not judged are
 /// triangles lower than a 2^13th of the scene, unless a coordinate is the same at all their corners: rounding turns them too far.
-/// Where very many lie in a plane, those are taken to cover each other, and where in very many planes next to each other, those for
-/// which there is no time are said to be in no order (Conversion::close_faces). Takes time in proportion to the triangles.
+/// Where very many lie in a plane, those are taken to cover each other, and where in very many planes next to each other, those
+/// for which there is no time are said to be in no order (Conversion::close_faces). Takes time in proportion to the triangles.
 ///
 /// `cells` lists the triangles of `scene`, which still has its objects. Returns whether there are any: then ids are others.
 bool settle_coplanar(Conversion& conversion, const TopCells& cells, const Scene& scene, const GridFrame& frame,

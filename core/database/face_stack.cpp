@@ -97,14 +97,14 @@ bool lie_on_each_other(const Face& a, const Face& b) {
 }
 
 CloseFaces close_to(const Face& small, double least, double most, std::uint32_t layers = 0) {
-  return {Vec3f(small.middle()), static_cast<float>(small.longest()), static_cast<float>(least), static_cast<float>(most), layers};
+  return {Vec3f(small.middle()), static_cast<float>(small.longest()), static_cast<float>(least), static_cast<float>(most),
+          layers};
 }
 
 /// Finds which planes are above which. Each faces as those do that it is next to, so a set may go round a barrel.
 class Layers {
  public:
-  Layers(std::span<const Face> faces, const std::vector<Places>& planes)
-      : faces_(faces), planes_(planes), layer_(planes.size()) {
+  Layers(std::span<const Face> faces, const std::vector<Places>& planes) : faces_(faces), planes_(planes), layer_(planes.size()) {
     for (const Places& plane : planes) {
       up_.push_back(largest_of(faces, plane).plane.normal);
     }

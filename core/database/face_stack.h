@@ -43,8 +43,8 @@ struct StackBudget {
 std::optional<std::vector<CloseFaces>> merged_in_one_plane(std::span<const Face> faces);
 
 /// Sorts faces, as doubles have them, by their planes. Planes face the side that those do which they cover; each is in a layer
-/// above those that it covers from there, as far as plane_layers_max goes. Planes that cut each other where their faces cover each
-/// other may be in any.
+/// above those that it covers from there, as far as plane_layers_max goes. Planes that cut each other where their faces cover
+/// each other may be in any.
 FaceStack stack_faces(std::span<const Face> faces, StackBudget& budget);
 
 }  // namespace dmpc::core

@@ -5,17 +5,16 @@
 namespace dmpc::core {
 
 /// The first rays are shot by run(), as all others are.
-void BundleTask::start(std::span<const std::uint32_t> pixels, const SampleRange& samples, const RenderSettings& settings,
+void BundleTask::start(std::span<const std::uint32_t> pixels, std::span<const SampleStep> steps, const RenderSettings& settings,
                        Operations&) {
   expect(stack_.size() >= static_cast<std::size_t>(settings.shade.depth_max), "the ray stack holds a hit a depth");
-  expect(
-      !pixels.empty() && pixels.size() <= pixels_max && (pixels.size() == 1 || pixels.size() * samples.count <= bundle_rays_max),
-      "a bundle has a ray for each sample of several pixels");
+  expect(!pixels.empty() && pixels.size() <= pixels_max && pixels.size() == steps.size(), "a task has up to 16 pixels");
   std::copy(pixels.begin(), pixels.end(), pixels_.begin());
-  pixel_count_ = static_cast<std::uint32_t>(pixels.size());
+  std::copy(steps.begin(), steps.end(), steps_.begin());
+  pixel_count_ = static_cast<std::uint8_t>(pixels.size());
   std::fill_n(sums_.begin(), pixel_count_, PixelSums{});
-  sample_ = samples.first;
-  sample_end_ = samples.first + samples.count;
+  next_place_ = 0;
+  sample_ = samples(0, settings).first;
   stack_size_ = 0;
   tracing_ = false;
   bundle_.count = 0;
@@ -23,16 +22,16 @@ void BundleTask::start(std::span<const std::uint32_t> pixels, const SampleRange&
 
 /// With no hit left to shade: the next samples, if there are any.
 bool BundleTask::next_samples(const RenderSettings& settings, Operations& operations) {
-  if (sample_ == sample_end_) {
+  if (next_place_ == pixel_count_) {
     return false;
   }
-  const std::uint32_t count = std::min(pixels_max / pixel_count_, sample_end_ - sample_);
-  for (std::uint32_t place = 0; place < pixel_count_; ++place) {
-    for (std::uint32_t sample = sample_; sample < sample_ + count; ++sample) {
-      shoot_primary(place, sample, settings, operations);
+  for (std::uint32_t shot = 0; shot < bundle_rays_max && next_place_ < pixel_count_; ++shot) {
+    shoot_primary(next_place_, sample_++, settings, operations);
+    const SampleRange range = samples(next_place_, settings);
+    if (sample_ == range.first + range.count && ++next_place_ < pixel_count_) {
+      sample_ = samples(next_place_, settings).first;
     }
   }
-  sample_ += count;
   begin_tracing();
   return true;
 }
@@ -79,8 +78,10 @@ void BundleTask::end_rays(const RenderSettings& settings, Operations& operations
       hits->add(ray, bundle_.best.of(i), place_[i]);
     }
   }
-  stack_size_ += hits != nullptr && hits->count > 0 ? 1 : 0;
-  ended_ += bundle_.count;
+  if (hits != nullptr && hits->count > 0) {
+    ++stack_size_;
+  }
+  ended_ = static_cast<std::uint16_t>(ended_ + bundle_.count);
   bundle_.count = 0;
   tracing_ = false;
 }

@@ -12,9 +12,10 @@
 
 namespace dmpc::core {
 
-/// Renders samples of up to 16 pixels, or more samples of one: 16 rays at a time. Depth first, last in first out: a bundle's
-/// hits are shaded one bundle of children at a time, and each is traced to its end before the next is made, so the stack holds at
-/// most one BundleHit a depth. Lives in memory given by its owner; never allocates. Copyable as bytes. The deposits are those of
+/// Renders samples of up to 16 pixels, of each those of a step of its own: 16 rays at a time, those of a pixel one behind the
+/// other, so that bundles are full however few samples each brings. Depth first, last in first out: a bundle's hits are shaded
+/// one bundle of children at a time, and each is traced to its end before the next is made, so the stack holds at most one
+/// BundleHit a depth. Lives in memory given by its owner; never allocates. Copyable as bytes. The deposits are those of
 /// PixelTask, in another order, which sums do not know.
 class BundleTask {
  public:
@@ -24,8 +25,8 @@ class BundleTask {
   /// `stack` has at least settings.shade.depth_max entries and outlives the task.
   explicit BundleTask(std::span<BundleHit> stack) : stack_(stack) {}
 
-  /// Starts on each of `pixels`, at most 16; only one, if there are more than 16 samples of them all.
-  void start(std::span<const std::uint32_t> pixels, const SampleRange& samples, const RenderSettings& settings,
+  /// Starts on each of `pixels`, at most 16, with as many steps, each of which brings samples.
+  void start(std::span<const std::uint32_t> pixels, std::span<const SampleStep> steps, const RenderSettings& settings,
              Operations& operations);
 
   /// Goes on until the pixels are finished, a bundle has ended (`more`), or a record is absent (see absent()). One call ends
@@ -47,6 +48,9 @@ class BundleTask {
   TaskState shade(T& tracer, const RenderSettings& settings, Operations& operations);
 
   bool next_samples(const RenderSettings& settings, Operations& operations);
+  SampleRange samples(std::uint32_t place, const RenderSettings& settings) const {
+    return steps_[place].samples(settings.first_samples().count);
+  }
   void shoot_primary(std::uint32_t place, std::uint32_t sample, const RenderSettings& settings, Operations& operations);
   void add_ray(const Ray& ray, std::uint32_t place, Operations& operations);
   bool begin_tracing();
@@ -56,11 +60,12 @@ class BundleTask {
   std::array<std::uint32_t, pixels_max> pixels_;
   std::array<PixelSums, pixels_max> sums_;
   std::array<std::uint8_t, bundle_rays_max> place_;  ///< of the pixel of each of the bundle's rays
-  std::uint32_t pixel_count_ = 0;
-  std::uint32_t sample_ = 0, sample_end_ = 0;
-  std::uint32_t stack_size_ = 0;
-  std::uint32_t ended_ = 0;
+  std::array<SampleStep, pixels_max> steps_;         ///< of each pixel
   Address absent_ = no_address;
+  std::uint32_t sample_ = 0;  ///< that the next round begins with, of the pixel at next_place_
+  std::uint16_t ended_ = 0;
+  std::uint8_t pixel_count_ = 0, next_place_ = 0;
+  std::uint8_t stack_size_ = 0;  ///< at most a depth
   bool tracing_ = false;
   RayBundle bundle_;
 };

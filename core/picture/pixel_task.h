@@ -111,9 +111,9 @@ class PixelTask {
 
   void start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings, Operations& operations);
   /// Starts on one pixel, by the interface of tasks of several.
-  void start(std::span<const std::uint32_t> pixels, const SampleRange& samples, const RenderSettings& settings,
+  void start(std::span<const std::uint32_t> pixels, std::span<const SampleStep> steps, const RenderSettings& settings,
              Operations& operations) {
-    start(pixels.front(), samples, settings, operations);
+    start(pixels.front(), steps.front().samples(settings.first_samples().count), settings, operations);
   }
 
   /// Goes on until the pixel is finished, a ray has ended (`more`), or a record is absent (see absent()). One call ends at

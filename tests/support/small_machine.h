@@ -81,7 +81,7 @@ class FakeTask {
 
   explicit FakeTask(std::span<core::HitState>) {}
 
-  void start(std::span<const std::uint32_t> pixels, const core::SampleRange&, const core::RenderSettings&,
+  void start(std::span<const std::uint32_t> pixels, std::span<const core::SampleStep>, const core::RenderSettings&,
              core::Operations& operations) {
     pixel_ = pixels.front();
     state_ = mixed(pixel_);
@@ -150,7 +150,7 @@ inline core::Film fake_reference(const FakePages& pages, const core::RenderSetti
   core::Operations operations;
   for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count(); ++pixel) {
     FakeTask task({});
-    task.start(std::span<const std::uint32_t>(&pixel, 1), settings.first_samples(), settings, operations);
+    task.start(std::span<const std::uint32_t>(&pixel, 1), std::array{core::SampleStep::first()}, settings, operations);
     while (task.run(tracer, settings, operations) != core::TaskState::finished) {
     }
     film.deposit(pixel, task.sums());

@@ -261,7 +261,7 @@ TEST_CASE("a later pass has the pixels of the mask alone, each with samples of i
   svm::WorkSource work(lone.node, plan.work());
   std::set<std::uint32_t> first, second;
   while (work.has_pixel()) {
-    CHECK(work.next_samples() == core::SampleRange{0, 2});
+    CHECK(work.next_step().samples(2) == core::SampleRange{0, 2});
     first.insert(work.next_pixel());
   }
   CHECK(first.size() == 96);
@@ -272,7 +272,7 @@ TEST_CASE("a later pass has the pixels of the mask alone, each with samples of i
   work.take_mask(mask);
   work.begin_pass();
   while (work.has_pixel()) {
-    const core::SampleRange samples = work.next_samples();
+    const core::SampleRange samples = work.next_step().samples(2);
     const std::uint32_t pixel = work.next_pixel();
     CHECK(samples == mask.steps[pixel].samples(2));
     second.insert(pixel);
@@ -315,9 +315,9 @@ TEST_CASE("an item that is given away takes its part of the mask along, and item
   CHECK_FALSE(giver.has_pixel());
   taker.ask();
   taker.take_reply(giver_node.post.parcels.front().packet());
-  CHECK(taker.next_samples() == core::SampleRange{2, 2});
+  CHECK(taker.next_step().samples(2) == core::SampleRange{2, 2});
   CHECK(taker.next_pixel() == 0);
-  CHECK(taker.next_samples() == core::SampleRange{2, 6});
+  CHECK(taker.next_step().samples(2) == core::SampleRange{2, 6});
   CHECK(taker.next_pixel() == 8 + 1);
   CHECK_FALSE(taker.has_pixel());
 }
@@ -351,7 +351,7 @@ TEST_CASE("interleaved, a later pass has the pixels of the mask, and an item tha
   CHECK(given.reply.item.rectangle() == PixelRectangle{5, 1, 2, 2, 2, 2});
   CHECK(given.steps[3].samples(2) == core::SampleRange{2, 6});
   CHECK(given.steps[0].is_none());
-  CHECK(work.next_samples() == core::SampleRange{2, 2});
+  CHECK(work.next_step().samples(2) == core::SampleRange{2, 2});
   CHECK(work.next_pixel() == 11);
   CHECK_FALSE(work.has_pixel());
 }

@@ -229,9 +229,7 @@ class Tower {
     builder.material(floor_material);
     builder.polygon({{-1.1, -1.1, -1.1}, {-1, -1.1, -1.1}, {-1.1, -1, -1.1}});
     builder.polygon({{1.1, 1.1, 1.1}, {1, 1.1, 1.1}, {1.1, 1, 1.1}});
-    const auto add_square = [&](double height) {
-      builder.polygon(rectangle({-0.4, -0.4, height}, {0.4, 0.4, height}, false));
-    };
+    const auto add_square = [&](double height) { builder.polygon(rectangle({-0.4, -0.4, height}, {0.4, 0.4, height}, false)); };
     for (int i = 1; i <= core::plane_layers_max; ++i) {
       add_square(above_border(-units_below) - 1e-9 * (core::plane_layers_max - i));
     }

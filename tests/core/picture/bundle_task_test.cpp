@@ -69,7 +69,8 @@ Film tiled(const TiledPicture& subject, std::uint32_t width, Operations& operati
   for (std::uint32_t first = 0; first < tiled_side * tiled_side; first += width) {
     std::vector<std::uint32_t> pixels(std::min<std::uint32_t>(width, tiled_side * tiled_side - first));
     std::iota(pixels.begin(), pixels.end(), first);
-    task->start(std::span<const std::uint32_t>(pixels), subject.settings.first_samples(), subject.settings, operations);
+    const std::vector<SampleStep> steps(pixels.size(), SampleStep::first());
+    task->start(pixels, steps, subject.settings, operations);
     waits += run_to_end(*task, records, subject.settings, operations);
     for (std::uint32_t place = 0; place < task->pixel_count(); ++place) {
       film.deposit(task->pixel(place), task->sums(place));
@@ -115,13 +116,50 @@ TEST_CASE("pixels in bundles are the picture, whatever the bundles' width") {
   }
 }
 
-TEST_CASE("samples of several pixels share a bundle, and more than 16 samples of one go on in rounds") {
+TEST_CASE("samples of several pixels share a bundle, and more than 16 go on in rounds") {
   const Scene scene = everything();
   check_same_picture(TiledPicture(scene, 2), 8);
+  check_same_picture(TiledPicture(scene, 2), 16);
   check_same_picture(TiledPicture(scene, 5), 3);
+  check_same_picture(TiledPicture(scene, 5), 16);
   check_same_picture(TiledPicture(scene, 16), 1);
   check_same_picture(TiledPicture(scene, 17), 1);
   check_same_picture(TiledPicture(scene, 40), 1);
+}
+
+/// Notes how many rays the bundles have that it is asked to trace.
+struct CountingTracer {
+  bool trace(RayBundle& bundle, Operations& operations) {
+    if (bundle.rays[0].kind == RayKind::primary && bundle.stage == RayBundle::Stage::start) {
+      primary.push_back(bundle.count);
+    }
+    return grid.trace(bundle, operations);
+  }
+  const std::byte* find(Address address) { return grid.find(address); }
+
+  GridTracer<LocalRecords> grid;
+  std::vector<std::uint32_t> primary;
+};
+
+TEST_CASE("pixels that are to have different samples share bundles, all but the last of which are full, with the light of each") {
+  const TiledPicture subject(everything(), 2);
+  const std::vector<std::uint32_t> pixels{5, 29, 30, 301, 302};
+  const std::vector<SampleStep> steps{{1, 2}, {0, 3}, {1, 3}, {2, 5}, {1, 2}};  // 2, 8, 6, 28 and 2 samples
+  LocalRecords records(subject.database.bytes());
+  CountingTracer tracer{GridTracer<LocalRecords>(records, subject.settings.header, subject.settings.skips), {}};
+  std::vector<BundleHit> stack(5);
+  std::vector<HitState> lone_stack(5);
+  const auto task = std::make_unique<BundleTask>(stack);
+  PixelTask alone(lone_stack);
+  Operations operations;
+  task->start(pixels, steps, subject.settings, operations);
+  while (task->run(tracer, subject.settings, operations) != TaskState::finished) {
+  }
+  CHECK(tracer.primary == std::vector<std::uint32_t>{16, 16, 14});
+  for (std::uint32_t place = 0; place < pixels.size(); ++place) {
+    CHECK(task->sums(place) ==
+          render_pixel(alone, pixels[place], steps[place].samples(2), tracer.grid, subject.settings, operations));
+  }
 }
 
 TEST_CASE("bundles follow the paper's convention, depths, cutoffs and skips that are off") {
@@ -169,17 +207,20 @@ TEST_CASE("bundles that wait for every record give the same light, count the sam
   CHECK(once.bundles == often.bundles);
 }
 
-TEST_CASE("a bundle of too many rays is refused, as is a stack of less than a hit a depth") {
+TEST_CASE("more pixels than a bundle has rays are refused, as is a stack of less than a hit a depth") {
   const TiledPicture subject(built_in("teapot-3"), 2);
   std::vector<BundleHit> stack(5), small(4);
   BundleTask task(stack), lacking(small);
   Operations operations;
-  const std::vector<std::uint32_t> pixels{0, 1, 2, 3, 4, 5, 6, 7, 8};
-  CHECK_THROWS_AS(task.start(std::span<const std::uint32_t>(pixels), {0, 2}, subject.settings, operations), InternalError);
-  CHECK_THROWS_AS(task.start(std::span<const std::uint32_t>(), {0, 1}, subject.settings, operations), InternalError);
-  CHECK_NOTHROW(task.start(std::span<const std::uint32_t>(pixels).first(8), {0, 2}, subject.settings, operations));
-  CHECK_THROWS_AS(lacking.start(std::span<const std::uint32_t>(pixels).first(8), {0, 2}, subject.settings, operations),
-                  InternalError);
+  const std::vector<std::uint32_t> all(bundle_rays_max + 1);
+  const std::vector<SampleStep> all_steps(all.size(), SampleStep::first());
+  const std::span<const std::uint32_t> pixels(all);
+  const std::span<const SampleStep> steps(all_steps);
+  CHECK_THROWS_AS(task.start(pixels, steps, subject.settings, operations), InternalError);
+  CHECK_THROWS_AS(task.start(pixels.first(0), steps.first(0), subject.settings, operations), InternalError);
+  CHECK_THROWS_AS(task.start(pixels.first(2), steps.first(3), subject.settings, operations), InternalError);
+  CHECK_NOTHROW(task.start(pixels.first(16), steps.first(16), subject.settings, operations));
+  CHECK_THROWS_AS(lacking.start(pixels.first(16), steps.first(16), subject.settings, operations), InternalError);
 }
 
 }  // namespace picture_bundle_task_test

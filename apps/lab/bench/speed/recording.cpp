@@ -110,7 +110,8 @@ void render_in_bundles(RecordingTracer& tracer, const core::RenderSettings& sett
   const auto task = std::make_unique<core::BundleTask>(stack);
   svm::PixelScan scan({0, 0, width, height}, svm::tile_for(samples.count, core::BundleTask::pixels_max));
   while (!scan.empty()) {
-    task->start(next_tile(scan, width), samples, settings, operations);
+    const std::vector<std::uint32_t> pixels = next_tile(scan, width);
+    task->start(pixels, std::vector(pixels.size(), core::SampleStep::first()), settings, operations);
     core::TaskState state = core::TaskState::more;
     while (state == core::TaskState::more) {
       state = task->run(tracer, settings, operations);
