@@ -29,7 +29,7 @@ inline constexpr std::size_t small_bytes_max = 56;
 /// The most packets that a program declares.
 inline constexpr std::size_t packets_max = 24;
 /// The most operations that a program declares.
-inline constexpr std::size_t operations_max = 12;
+inline constexpr std::size_t operations_max = 13;
 
 /// What `count` values take of a node's memory: for MemoryNeed::bytes. More than can be addressed is the most that can.
 template <class T>
