@@ -163,7 +163,7 @@ TEST_CASE("a program has as many packets and operations as the computer counts, 
   check_refused(more, "25 packets are declared: a program has at most 24");
   more = needs;
   more.operations.push_back({"one more", 1});
-  check_refused(more, "13 operations are declared: a program has at most 12");
+  check_refused(more, "14 operations are declared: a program has at most 13");
   check_refused({.packets = {{.name = "flood", .senders = from_previous(40'000)}}}, "expected at most 32767");
 }
 
