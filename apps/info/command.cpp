@@ -70,6 +70,7 @@ void add_options(OptionSet options, InfoOptions& info) {
     if (info.system) {
       settle(options, info);
     }
+    check_voxels(options, info.database.build);
     check_homes(options, info.pages.homes);
     check_regions(options, info.balance);
   });

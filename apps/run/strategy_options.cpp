@@ -177,10 +177,7 @@ void settle_database(const OptionSet& options, Strategy strategy, DatabaseOption
     throw UsageError(std::string("--structure=") + name_of(build.structure) +
                      " does not go with --strategy=forest: its nodes share one tree of boxes");
   }
-  if (options.is_given("--voxels") && build.structure != core::Structure::voxels) {
-    throw UsageError(std::string("--voxels does not go with --structure=") + name_of(build.structure) +
-                     ": only --structure=voxels has any");
-  }
+  check_voxels(options, build);
   if (strategy == Strategy::forest && build.record_order != core::RecordOrder::spatial) {
     throw UsageError("--record-order=scattered does not go with --strategy=forest: a subtree lies in one page");
   }

@@ -51,7 +51,7 @@ const std::vector<DatabaseRow>& database_rows() {
                  }},
        .help =
            "With --structure=voxels: usual, article (14 a polygon, at most 64^3, polygons of 129 B, no distances), or voxels a "
-           "primitive and at most so many along an edge, as in 8:128"},
+           "primitive and, N of N^3, at most in all, as in 8:128"},
       {.name = "--grid-axes",
        .takes = word<&DatabaseOptions::axes>(
            OptionSet::Choices<AxesChoice>{{"world", AxesChoice::world}, {"screen", AxesChoice::screen}}),
@@ -92,8 +92,8 @@ core::VoxelRule parse_voxels(const std::string& text) {
                        *along >= 1 && *along <= voxels_along_most && *along == std::floor(*along);
   if (!is_good) {
     throw core::UsageError("--voxels=" + text +
-                           ": expected usual, article, or voxels a primitive from 0.001 to 1000 and, behind a colon, at most so "
-                           "many along an edge from 1 to 512, as in 14:64");
+                           ": expected usual, article, or voxels a primitive from 0.001 to 1000 and, behind a colon, N from 1 to "
+                           "512 for at most N^3 in all, as in 14:64");
   }
   rule.voxels_per_primitive = *each;
   const auto edge = static_cast<std::uint64_t>(*along);
@@ -110,6 +110,13 @@ std::string text_of(const core::VoxelRule& rule) {
   core::expect(error == std::errc(), "a double has at most 24 characters");
   const double along = std::round(std::cbrt(static_cast<double>(rule.voxels_max)));
   return std::string(each.data(), end) + ":" + std::to_string(static_cast<int>(along));
+}
+
+void check_voxels(const OptionSet& options, const core::BuildOptions& build) {
+  if (options.is_given("--voxels") && build.structure != core::Structure::voxels) {
+    throw core::UsageError(std::string("--voxels does not go with --structure=") + name_of(build.structure) +
+                           ": only --structure=voxels has any");
+  }
 }
 
 std::size_t parse_page_size(const std::string& text) {

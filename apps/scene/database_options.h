@@ -35,9 +35,11 @@ const std::vector<DatabaseRow>& database_rows();
 /// Declares them.
 void add_options(OptionSet options, DatabaseOptions& database);
 
-/// "usual", "article", "8" or "14:64": voxels a primitive and, behind a colon, at most so many along each edge of a cube. Throws
+/// "usual", "article", "8" or "14:64": voxels a primitive and, behind a colon, N of the N^3 that there are at most. Throws
 /// core::UsageError.
 core::VoxelRule parse_voxels(const std::string& text);
+/// For OptionSet::check_in_the_end(): throws core::UsageError where there is a rule for voxels and another structure.
+void check_voxels(const OptionSet& options, const core::BuildOptions& build);
 
 /// "1KiB", in bytes. Throws core::UsageError for anything but a power of two from 512 B to 64 KiB.
 std::size_t parse_page_size(const std::string& text);

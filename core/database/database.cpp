@@ -256,6 +256,7 @@ class DatabaseBuilder {
     const std::size_t count = records.materials.size() + records.finishes.size();
     expect(count <= 0x7fffffffU, "a database has no room for more materials");
     header().material_count = count & 0x7fffffffU;
+    result_.records_.materials = records.materials.size();
     header().has_emission = std::any_of(scene_.materials.begin(), scene_.materials.end(),
                                         [](const Material& material) { return !(material.emission == Vec3d{}); })
                                 ? 1

@@ -91,6 +91,7 @@ struct RecordCounts {
   std::uint64_t textured = 0;          ///< TexturedNormals
   std::uint64_t texture_tiles = 0;     ///< of all levels
   std::uint64_t voxel_references = 0;  ///< the lengths of all lists
+  std::uint64_t materials = 0;         ///< of the scene, without the finishes that stand behind them
 };
 
 class Database {

@@ -56,15 +56,4 @@ MaterialRecords material_records(const std::vector<Material>& materials) {
   return records;
 }
 
-std::uint32_t material_count(const Database& database) {
-  const DatabaseHeader& header = database.header();
-  const LocalRecords records(database.bytes());
-  std::uint32_t count = header.material_count;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const auto material = read<MaterialRecord>(records.find(advance(header.materials, i * sizeof(MaterialRecord))));
-    count = material.has_finish() ? std::min(count, material.finish()) : count;
-  }
-  return count;
-}
-
 }  // namespace dmpc::core

@@ -20,7 +20,4 @@ struct MaterialRecords {
 /// Throws RoomError if more have a finish than a material's record can name.
 MaterialRecords material_records(const std::vector<Material>& materials);
 
-/// How many materials the database's scene has: without the finishes that stand behind them.
-std::uint32_t material_count(const Database& database);
-
 }  // namespace dmpc::core

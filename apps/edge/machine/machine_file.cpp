@@ -150,7 +150,8 @@ nodes::MessageCost message_of(const Fields& fields) {
           .byte_ps = fields.number("byte_ps", byte_ps_max)};
 }
 
-/// Of `operation_ps`; a file from before questions had a price of their own charges one as a ray, as it was then.
+/// Of `operation_ps`; a file from before questions had a price of their own charges one as a ray, as it was then: half of that at
+/// either end.
 std::array<std::uint64_t, nodes::charge_count> operations_of(const Fields& fields) {
   constexpr auto newest = static_cast<std::size_t>(core::Charge::question_setup);
   const Keys all(core::charge_names.begin(), core::charge_names.end());
@@ -159,7 +160,8 @@ std::array<std::uint64_t, nodes::charge_count> operations_of(const Fields& field
   std::array<std::uint64_t, nodes::charge_count> costs_ps{};
   for (std::size_t i = 0; i < nodes::charge_count; ++i) {
     const bool is_as_ray = i == newest && !given.json().contains(std::string(all[newest]));
-    costs_ps[i] = given.number(all[is_as_ray ? static_cast<std::size_t>(core::Charge::ray_setup) : i], operation_ps_max);
+    costs_ps[i] =
+        is_as_ray ? costs_ps[static_cast<std::size_t>(core::Charge::ray_setup)] / 2 : given.number(all[i], operation_ps_max);
   }
   return costs_ps;
 }

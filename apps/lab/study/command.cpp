@@ -66,6 +66,13 @@ std::string samples_text(const PictureOptions& picture) {
   return picture.cutoff > 0 ? text + ", cutoff " + fixed(255 * picture.cutoff, 3) + "/255" : text;
 }
 
+/// "structure extents, " or "structure voxels (article), ", nothing of the grid.
+std::string structure_text(const core::BuildOptions& build) {
+  using core::Structure;
+  const std::string rule = build.structure == Structure::voxels ? " (" + text_of(build.voxels) + ")" : "";
+  return build.structure == Structure::grid ? "" : std::string("structure ") + name_of(build.structure) + rule + ", ";
+}
+
 std::string title_of(const std::string& study, const StudyOptions& options, const Subject& subject) {
   const PictureOptions& picture = options.picture;
   const core::Camera& camera = subject.settings.camera;
@@ -73,7 +80,7 @@ std::string title_of(const std::string& study, const StudyOptions& options, cons
          std::to_string(camera.height()) + " pixels, " + samples_text(picture) + ", depth " + std::to_string(picture.depth) +
          ", convention " + (picture.convention == core::Convention::haines ? "haines" : "paper") + ", grid axes " +
          name_of(options.database.axes) + ", record order " + name_of(options.database.build.record_order) + ", " +
-         counted(subject.database.header().primitive_count, "primitive");
+         structure_text(options.database.build) + counted(subject.database.header().primitive_count, "primitive");
 }
 
 std::string film_note(const StudyRuns& runs) {

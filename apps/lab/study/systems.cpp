@@ -245,8 +245,10 @@ std::vector<System> parse_systems(const std::string& text) {
 
 /// In the end: the database is that of the systems in a grid.
 void check_database(const OptionSet& set) {
-  if (set.is_given("--structure")) {
-    throw core::UsageError("--structure does not go with study systems: each system has its own");
+  for (const char* option : {"--structure", "--voxels"}) {
+    if (set.is_given(option)) {
+      throw core::UsageError(std::string(option) + " does not go with study systems: each system has its own");
+    }
   }
   if (set.is_given("--record-order")) {
     throw core::UsageError("--record-order does not go with study systems: a subtree of forest lies in one page");

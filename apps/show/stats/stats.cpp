@@ -205,6 +205,7 @@ struct JsonOf {
 
 Json options_json(const RenderRecord& record, const Account& account) {
   const RenderOptions& options = record.options;
+  const bool has_voxels = options.database.build.structure == core::Structure::voxels;
   Json result = {{"scene", options.picture.scene},
                  {"width", account.film.width()},
                  {"height", account.film.height()},
@@ -218,14 +219,12 @@ Json options_json(const RenderRecord& record, const Account& account) {
                  {"grid_axes", name_of(options.database.axes)},
                  {"record_order", name_of(options.database.build.record_order)},
                  {"structure", name_of(options.database.build.structure)},
+                 {"voxels", has_voxels ? Json(text_of(options.database.build.voxels)) : Json()},
                  {"system", options.system ? Json(name_of(*options.system)) : Json()},
                  {"strategy", name_of(options.strategy)},
                  {"nodes", account.nodes.size()},
                  {"node_memory", account.node_memory_max_bytes},
                  {"page_size", record.database.page_size()}};
-  if (options.database.build.structure == core::Structure::voxels) {
-    result["voxels"] = text_of(options.database.build.voxels);
-  }
   add_staging(result, options.picture.staging);
   const auto told = std::visit([&](const auto& report) { return told_options(options.strategy, report.plan); }, record.report);
   for (const auto& [key, value] : told) {
@@ -289,7 +288,7 @@ Json database_json(const core::Database& database) {
           {"normals", records.normals},
           {"textured", records.textured},
           {"texture_tiles", records.texture_tiles},
-          {"materials", core::material_count(database)},
+          {"materials", records.materials},
           {"lights", database.header().light_count}};
 }
 
