@@ -9,8 +9,6 @@
 
 namespace dmpc::core {
 
-class Database;
-
 /// One behind the other they are what DatabaseHeader::materials is the address of.
 struct MaterialRecords {
   std::vector<MaterialRecord> materials;  ///< of the scene's, in order
