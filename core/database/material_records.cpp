@@ -5,8 +5,6 @@
 #include <string>
 
 #include "core/base/expect.h"
-#include "core/database/database.h"
-#include "core/record/records.h"
 
 namespace dmpc::core {
 namespace {
