@@ -33,6 +33,7 @@
 #include "apps/foreign/mesh/hidden_nodes.h"
 #include "apps/foreign/mesh/invented.h"
 #include "apps/foreign/mesh/without_area.h"
+#include "apps/foreign/mesh/xml_counts.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -230,6 +231,7 @@ ImportedFile import_file(const std::string& path, SceneFiles& files) {
   const std::unique_ptr<FileBytes> bytes = files.open(path);
   const std::string_view text = text_of(*bytes);
   check_numbers(text, ending);
+  check_counts(text, ending);
   ImportedFile file;
   import_by_assimp(path, ending, files, file);
   take_back_invented(*file.scene, ending, text);

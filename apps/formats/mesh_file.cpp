@@ -21,10 +21,10 @@ struct RefusedFormat {
 constexpr std::array refused_formats{
     RefusedFormat{
         "3mf",
-        "3MF is not read: Assimp 5.2.5 gives all triangles of an object the material of the last, what has none that of "
+        "3MF is not read: Assimp gives all triangles of an object the material of the last, what has none that of "
         "another, and leaves out parts that lie in files of their own"},
     RefusedFormat{"x3d",
-                  "X3D is not read: Assimp 5.2.5 gives a shape without an appearance that of another, reads numbers up to their "
+                  "X3D is not read: Assimp gives a shape without an appearance that of another, reads numbers up to their "
                   "first letter and no commas, and takes no viewpoint"},
 };
 

@@ -107,7 +107,7 @@ TEST_CASE("a picture or page that cannot be written keeps no command's table, an
       outputs.push_back("--report=" + (folder / "page.html").string());
     }
     CHECK(run_table(words_of(one, folder), outputs).status == (one.data_file.empty() ? 0 : 1));
-    CHECK(file_text(folder / "table.md").starts_with("**"));
+    CHECK(contains("\n\n" + file_text(folder / "table.md"), "\n\n**"));  // bench error has a summary before its title
   }
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "apps/edge/line/folded_text.h"
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/system/progress.h"
@@ -121,7 +122,8 @@ Table finished_table(const ErrorOptions& options, std::span<const SceneResult> r
 /// Before a table that people read.
 std::string first_words(const ErrorOptions& options, std::span<const SceneResult> results) {
   const std::string summary = options.table.format == TableFormat::markdown ? summary_of(results) : "";
-  return summary.empty() ? "" : summary + "\n\n";
+  constexpr std::size_t width = 120;  // as the table's notes
+  return summary.empty() ? "" : folded(summary, width, "") + "\n\n";
 }
 
 std::vector<PlottedTable> plotted_tables(std::span<const SceneResult> results) {

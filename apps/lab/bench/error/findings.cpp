@@ -218,7 +218,7 @@ std::string summary_of(std::span<const SceneResult> results) {
                         " have errors of at least 10 times the reference's own" +
                         (claimed == all
                              ? "."
-                             : "; of the others that is taken off in squares, and plots show them hollow, with an interval.");
+                             : "; of the others the reference's is taken off in squares, and plots show them hollow, with an interval.");
 }
 
 std::vector<std::string> findings_of_all(std::span<const SceneResult> results) {
