@@ -22,6 +22,7 @@
 #include "apps/lab/study/paper/runs.h"
 #include "apps/lab/study/paper/sensitivity.h"
 #include "apps/lab/study/paper/tables.h"
+#include "apps/lab/study/paper/voxel_tables.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -43,7 +44,11 @@ Table claims_with_note(const Catalogue& catalogue, const PaperResults& results) 
 /// All but the sensitivity.
 std::vector<NamedTable> tables_of(const Catalogue& catalogue, const PaperResults& results,
                                   const std::vector<PaperSubject>& subjects) {
-  return {{"table_2", table_2(catalogue, results, subjects)},
+  return {{"voxel_table_2", voxel_table_2(catalogue, results, subjects)},
+          {"voxel_table_3", voxel_table_3(catalogue, results)},
+          {"voxel_prices", voxel_prices(catalogue, results)},
+          {"voxel_pairs", voxel_pairs(catalogue, results)},
+          {"table_2", table_2(catalogue, results, subjects)},
           {"table_3", table_3(catalogue, results)},
           {"calibration", calibration(catalogue, results)},
           {"law", beside_law(catalogue, results)},
