@@ -150,14 +150,17 @@ RayTime ray_time_of(const PaperResult& result) {
 }
 
 std::optional<VoxelPrices> fit_prices(std::span<const PricedCell> cells) {
-  std::optional<PriceVector> best;
+  if (cells.empty()) {
+    return std::nullopt;
+  }
+  PriceVector best{};
   for (unsigned used = 1; used < 1U << price_count; ++used) {
     const auto prices = best_prices(cells, used);
-    if (prices && is_feasible(*prices) && (!best || square_sum(cells, *prices) < square_sum(cells, *best))) {
-      best = prices;
+    if (prices && is_feasible(*prices) && square_sum(cells, *prices) < square_sum(cells, best)) {
+      best = *prices;
     }
   }
-  return best ? std::optional(VoxelPrices{(*best)[0], (*best)[1], (*best)[2]}) : std::nullopt;
+  return VoxelPrices{best[0], best[1], best[2]};
 }
 
 }  // namespace dmpc::apps

@@ -58,6 +58,10 @@ TEST_CASE("a price that cells leave open is nothing, and no cells fit none") {
   CHECK_FALSE(fit_prices({}).has_value());
 }
 
+TEST_CASE("where messages alone take longer than is printed, operations are for nothing") {
+  CHECK(fit_prices(std::vector<PricedCell>{cell_of(2, 1, 1, 9, 7)}) == VoxelPrices{});
+}
+
 TEST_CASE("errors are relative: a cell of ten times the time pulls no harder") {
   const std::vector<PricedCell> cells = {cell_of(1, 0, 0, 0, 1), cell_of(10, 0, 0, 0, 20)};
   CHECK(fit_prices(cells)->walk == doctest::Approx(1.5 / 1.25));  // of (w - 1)^2 + (w / 2 - 1)^2
