@@ -67,7 +67,7 @@ std::optional<std::uint32_t> cache_pages_of(const PaperRun& run, const core::Dat
     return std::max(1U, std::min(all - own, *run.shared_pages > own ? *run.shared_pages - own : 0));
   }
   if (!run.cache_share) {
-    return std::nullopt;
+    return run.cache_pages;
   }
   const double pages = *run.cache_share * static_cast<double>(database.page_count());
   return std::max(1U, static_cast<std::uint32_t>(std::lround(pages)));

@@ -28,7 +28,8 @@ struct PaperRun {
   Strategy strategy = Strategy::svm;
   nodes::Machine machine;
   std::optional<double> cache_share = std::nullopt;  ///< of svm: what a node's cache holds, of the database; at least a page
-  /// Of svm, in place of a share: what a node's own pages leave of so many for its cache, at most all others, at least a page.
+  std::optional<std::uint32_t> cache_pages = std::nullopt;  ///< of svm, in place of a share: what a node's cache holds
+  /// Of svm, in place of either: what a node's own pages leave of so many for its cache, at most all others, at least a page.
   std::optional<std::uint32_t> shared_pages = std::nullopt;
   /// Grid: dmpc's own. Voxels: the article's, by core::article_voxels, without the skips that its program did not have.
   core::Structure structure = core::Structure::grid;

@@ -20,6 +20,36 @@ PaperRun timed_voxel_run(const PaperRun& like, std::size_t scene, std::size_t co
   return run;
 }
 
+/// One node has all pages at home, whatever its cache.
+void add_voxel_caches(Catalogue& catalogue, const PaperRun& like) {
+  for (std::size_t i = 0; i < voxel_caches_tried.size(); ++i) {
+    PaperRun run = like;
+    run.scene = paper_scenes[voxel_caches_tried[i].scene].scene;
+    run.node_count = cache_node_count;
+    for (std::size_t size = 0; size < voxel_caches_tried[i].pages.size(); ++size) {
+      run.cache_pages = voxel_caches_tried[i].pages[size];
+      catalogue.voxels.cached[i][size] = catalogue.add(run);
+    }
+  }
+}
+
+/// As the article's rays travelled: without backpressure, by cuts in alternating directions.
+void add_voxel_loads(Catalogue& catalogue, const PaperRun& like) {
+  PaperRun run = like;
+  run.scene = rings[0];
+  run.strategy = Strategy::dataflow;
+  run.rays.without_backpressure = true;
+  run.rays.balance.bsp.order = dataflow::CutOrder::alternating;
+  catalogue.voxels.one_region = catalogue.add(run);
+  for (std::size_t i = 0; i < loaded_node_counts.size(); ++i) {
+    run.node_count = loaded_node_counts[i];
+    run.rays.balance.balance = dataflow::Balance::subsampled;
+    catalogue.voxels.subsampled[i] = catalogue.add(run);
+    run.rays.balance.balance = dataflow::Balance::equal_size;
+    catalogue.voxels.equal_size[i] = catalogue.add(run);
+  }
+}
+
 }  // namespace
 
 void add_voxel_runs(Catalogue& catalogue) {
@@ -38,6 +68,8 @@ void add_voxel_runs(Catalogue& catalogue) {
     counted.pages.count_pages = true;
     voxels.counted[scene] = catalogue.add(counted);
   }
+  add_voxel_caches(catalogue, like);
+  add_voxel_loads(catalogue, like);
 }
 
 }  // namespace dmpc::apps

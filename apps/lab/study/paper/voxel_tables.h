@@ -41,5 +41,11 @@ Table voxel_table_3(const Catalogue& catalogue, const PaperResults& results);
 Table voxel_prices(const Catalogue& catalogue, const PaperResults& results);
 /// What prices fitted to any two scenes, smallest and largest machine, say of all: a row a pair.
 Table voxel_pairs(const Catalogue& catalogue, const PaperResults& results);
+/// Figures 8 to 10: what the size of the cache, in the article's pages, is worth on 32 nodes.
+Table voxel_caches(const Catalogue& catalogue, const PaperResults& results);
+/// How evenly regions of Rings3 are loaded.
+Table voxel_loads(const Catalogue& catalogue, const PaperResults& results);
+/// Claims of the article's text that a structure decides, as claims() has them of dmpc's grid.
+Table voxel_claims(const Catalogue& catalogue, const PaperResults& results);
 
 }  // namespace dmpc::apps
