@@ -193,6 +193,7 @@ Catalogue catalogue_of(std::uint32_t resolution) {
   PaperRun dearer = catalogue.runs[catalogue.timed[calibration_row][1]];
   dearer.machine.cost_ps[static_cast<std::size_t>(core::Charge::cached_lookup)] *= 2;
   catalogue.dearer_cache = catalogue.add(dearer);
+  add_voxel_runs(catalogue);
   catalogue.run_count_without_variations = catalogue.runs.size();
   return catalogue;
 }

@@ -8,6 +8,7 @@
 
 #include "apps/lab/study/paper/data.h"
 #include "apps/lab/study/paper/runs.h"
+#include "apps/lab/study/paper/voxel_runs.h"
 
 namespace dmpc::apps {
 
@@ -73,7 +74,7 @@ inline constexpr std::size_t calibration_cell_count = 2;
 
 /// Numbers of runs.
 struct Catalogue {
-  using ByNodeCount = std::array<std::size_t, paper_node_counts.size()>;
+  using ByNodeCount = RunsByNodeCount;
 
   std::uint32_t resolution = 0;  ///< pixels a side, but for the cache experiments
   std::vector<PaperRun> runs;
@@ -99,6 +100,8 @@ struct Catalogue {
   std::size_t copies = 0;                         ///< the small scene on 64 nodes, replicated
   std::size_t faster_machine = 0;                 ///< Rings4 on 32 nodes of an iPSC/860
   std::size_t dearer_cache = 0;                   ///< the calibration's scene on two nodes, a cached look-up at twice its price
+
+  VoxelRuns voxels;  ///< on the article's own structure
 
   /// The run of `rings[scene]` on 64 nodes.
   std::size_t by_way(std::size_t scene, RayWay way) const { return rings_by_way[scene][static_cast<std::size_t>(way)]; }

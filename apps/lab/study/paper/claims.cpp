@@ -7,32 +7,11 @@
 #include <vector>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/lab/study/paper/claim_rows.h"
 #include "apps/lab/study/paper/tables.h"
 
 namespace dmpc::apps {
 namespace {
-
-constexpr const char *held = "held", *not_held = "not held", *tie = "a tie", *not_judged = "not judged";
-
-/// Times that differ by no more than this share do not tell which is better.
-constexpr double tie_share = 0.01;
-
-/// Rows of claims.
-class Claims {
- public:
-  /// Prices are fitted to the article's resolution: pictures of another say nothing about its claims.
-  explicit Claims(std::uint32_t resolution) : is_judged_(resolution == paper_resolution) {}
-
-  void add(const std::string& claim, bool is_held, const std::string& found) { add(claim, is_held ? held : not_held, found); }
-  void add(const std::string& claim, const char* verdict, const std::string& found) {
-    table_.add_row({claim, is_judged_ ? verdict : not_judged, found});
-  }
-  Table table() && { return std::move(table_); }
-
- private:
-  bool is_judged_;
-  Table table_{"What the text claims", {{"claim"}, {"verdict"}, {"found"}}};
-};
 
 void claim_efficiency(Claims& rows, const Catalogue& catalogue, const PaperResults& results) {
   const std::vector<CellOfTable3> cells = cells_of_table_3(catalogue, results);
@@ -279,7 +258,7 @@ void claim_copies(Claims& rows, const Catalogue& catalogue, const PaperResults& 
 }  // namespace
 
 Table claims(const Catalogue& catalogue, const PaperResults& results) {
-  Claims rows(catalogue.resolution);
+  Claims rows("What the text claims", catalogue.resolution);
   claim_efficiency(rows, catalogue, results);
   claim_rays_fall(rows, catalogue, results);
   claim_caches(rows, catalogue, results);

@@ -234,12 +234,47 @@ std::string on_sensitivity(const Table& table) {
                                  texts_of(table, *errors.of_most)[0] + "\" is changed.";
 }
 
+std::string on_pairs(const Table& table) {
+  const auto best = std::min_element(table.rows().begin(), table.rows().end(), [&](const Row& a, const Row& b) {
+    return number_in(table, a, "mean error") < number_in(table, b, "mean error");
+  });
+  const Sizes errors = sizes_of(table, "mean error");
+  return errors.count == 0 ? ""
+                           : "Times of a ray are met to " + fixed(number_in(table, *best, "mean error").value_or(0), 1) +
+                                 " % in the mean by prices fitted to " + texts_of(table, *best)[0] + ", and to " +
+                                 fixed(errors.most, 1) + " % by those fitted to " + texts_of(table, *errors.of_most)[0] + ".";
+}
+
+std::string on_voxel_caches(const Table& table) {
+  std::string text;
+  for (const Row* row : rows_of_most(table, "page traffic a node")) {
+    text = "Most pages travel with caches of " + texts_of(table, *row)[1] + " pages (" + texts_of(table, *row)[0] +
+           "), where the efficiency is " + fixed(number_in(table, *row, "efficiency").value_or(0), 1) + " %.";
+  }
+  return text;
+}
+
+std::string on_loads(const Table& table) {
+  const Sizes loads = sizes_of(table, "average load");
+  return loads.count == 0
+             ? ""
+             : "Nodes are loaded most evenly, to " + fixed(loads.most, 1) + " % of the busiest, by regions that are " +
+                   texts_of(table, *loads.of_most)[0] + " on " + texts_of(table, *loads.of_most)[1] + " nodes.";
+}
+
 struct Conclusion {
   const char* name;
   std::string (*on)(const Table& table);
 };
 
-constexpr std::array<Conclusion, 14> conclusions = {{{"table_2", on_table_2},
+constexpr std::array<Conclusion, 21> conclusions = {{{"voxel_table_2", on_table_2},
+                                                     {"voxel_table_3", on_table_3},
+                                                     {"voxel_prices", on_calibration},
+                                                     {"voxel_pairs", on_pairs},
+                                                     {"voxel_caches", on_voxel_caches},
+                                                     {"voxel_loads", on_loads},
+                                                     {"voxel_claims", on_claims},
+                                                     {"table_2", on_table_2},
                                                      {"table_3", on_table_3},
                                                      {"calibration", on_calibration},
                                                      {"law", on_law},

@@ -18,6 +18,13 @@ inline constexpr std::uint32_t paper_resolution = 512;
 /// The node counts of Table 3.
 inline constexpr std::array<std::uint32_t, 7> paper_node_counts = {1, 2, 4, 8, 16, 32, 64};
 
+/// A cell of Table 3.
+struct PaperPlace {
+  std::size_t scene = 0, column = 0;  ///< of paper_scenes and paper_node_counts
+
+  bool operator==(const PaperPlace&) const = default;
+};
+
 /// One of its scenes, and which of ours stands for it.
 struct PaperScene {
   const char* title;

@@ -14,6 +14,9 @@
 #include "apps/run/run_strategy.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
+#include "core/base/units.h"
+#include "core/database/voxel_rule.h"
+#include "core/trace/skips.h"
 #include "dataflow/regions/bsp.h"
 #include "dataflow/run.h"
 #include "svm/packets.h"
@@ -25,6 +28,13 @@ namespace {
 /// In the middle of Rings4.
 constexpr core::PointLight inner_light{.position = {-1, 7.36, 0.5}};
 
+/// A shadow ray that is stopped goes no further, and what counts for nothing is not shot: all else came later.
+core::Skips article_skips() {
+  core::Skips skips = core::no_skips();
+  skips.any_hit = skips.zero_terms = true;
+  return skips;
+}
+
 /// The article's program counts rays as this convention does, and traced all of them. Its nodes asked each other for work in
 /// turn.
 PictureOptions picture_of(const PaperRun& run) {
@@ -32,6 +42,9 @@ PictureOptions picture_of(const PaperRun& run) {
   PictureOptions picture{.scene = run.scene, .resolution = Resolution{side, side}, .convention = core::Convention::paper};
   picture.skips.background = false;
   picture.skips.idle_nodes = false;
+  if (run.structure == core::Structure::voxels) {
+    picture.skips = article_skips();
+  }
   if (run.has_inner_light) {
     picture.skips.empty_regions = false;
     picture.staging.lights = {inner_light};
@@ -49,8 +62,12 @@ const Subject& subject_of(const PaperRun& run, std::span<const PaperSubject> sub
 }
 
 std::optional<std::uint32_t> cache_pages_of(const PaperRun& run, const core::Database& database) {
+  if (run.shared_pages) {
+    const auto all = static_cast<std::uint32_t>(database.page_count()), own = core::ceil_divide(all, run.node_count);
+    return std::max(1U, std::min(all - own, *run.shared_pages > own ? *run.shared_pages - own : 0));
+  }
   if (!run.cache_share) {
-    return std::nullopt;
+    return run.cache_pages;
   }
   const double pages = *run.cache_share * static_cast<double>(database.page_count());
   return std::max(1U, static_cast<std::uint32_t>(std::lround(pages)));
@@ -64,6 +81,16 @@ Report report_of(const PaperRun& run, const Subject& subject, const std::stop_to
   choose_machine(options, run.machine);
   options.pages.cache_pages = cache_pages_of(run, subject.database);
   return make_ready(options, subject.database, subject.settings, stop).start([](std::uint32_t, std::uint32_t) {}, stop);
+}
+
+/// As the nodes of a shared memory are charged.
+core::ChargeCounts charges_of(const Account& account, const svm::PageCounters& pages) {
+  core::ChargeCounts charges = core::charges_of(account.operations);
+  const auto set = [&charges](core::Charge charge, std::uint64_t count) { charges[static_cast<std::size_t>(charge)] = count; };
+  set(core::Charge::home_lookup, pages.home_hits);
+  set(core::Charge::cached_lookup, pages.references - pages.home_hits);
+  set(core::Charge::page_install, pages.faults);
+  return charges;
 }
 
 PaperResult result_of(const Report& report, const core::Database& database) {
@@ -88,6 +115,7 @@ PaperResult result_of(const Report& report, const core::Database& database) {
     result.faults = pages->pages().faults;
     result.cache_pages = pages->plan.pages().cache.frame_count;
     result.page_bytes = account.sent[svm::number_of(svm::Kind::page_reply)].bytes;
+    result.charges = charges_of(account, pages->pages());
     result.pages_a_pixel = static_cast<double>(pages->pages().distinct_pages) / static_cast<double>(account.film.pixels().size());
   }
   return result;
@@ -100,9 +128,12 @@ std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
   for (const PaperRun& run : runs) {
     if (std::none_of(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); })) {
       const PictureOptions picture = picture_of(run);
-      subjects.push_back({run.scene, run.resolution, run.record_order, run.page_size_bytes, run.has_inner_light,
+      subjects.push_back({run.scene, run.resolution, run.record_order, run.page_size_bytes, run.has_inner_light, run.structure,
                           build_subject(load_scene(picture), picture,
-                                        {.build = {.page_size_bytes = run.page_size_bytes, .record_order = run.record_order}})});
+                                        {.build = {.page_size_bytes = run.page_size_bytes,
+                                                   .record_order = run.record_order,
+                                                   .structure = run.structure,
+                                                   .voxels = core::article_voxels}})});
     }
   }
   return subjects;

@@ -13,6 +13,8 @@
 #include "apps/run/strategy_options.h"
 #include "apps/scene/subject.h"
 #include "core/database/record_order.h"
+#include "core/database/structure.h"
+#include "core/trace/charge.h"
 #include "dataflow/ray_options.h"
 #include "nodes/machine.h"
 #include "svm/page_options.h"
@@ -26,8 +28,13 @@ struct PaperRun {
   Strategy strategy = Strategy::svm;
   nodes::Machine machine;
   std::optional<double> cache_share = std::nullopt;  ///< of svm: what a node's cache holds, of the database; at least a page
-  svm::PageOptions pages = {.in_flight = 1};         ///< of svm and replicated, but for the cache
-  dataflow::RayOptions rays = {};                    ///< of dataflow; regions are mapped onto the machine
+  std::optional<std::uint32_t> cache_pages = std::nullopt;  ///< of svm, in place of a share: what a node's cache holds
+  /// Of svm, in place of either: what a node's own pages leave of so many for its cache, at most all others, at least a page.
+  std::optional<std::uint32_t> shared_pages = std::nullopt;
+  /// Grid: dmpc's own. Voxels: the article's, by core::article_voxels, without the skips that its program did not have.
+  core::Structure structure = core::Structure::grid;
+  svm::PageOptions pages = {.in_flight = 1};  ///< of svm and replicated, but for the cache
+  dataflow::RayOptions rays = {};             ///< of dataflow; regions are mapped onto the machine
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
   std::uint32_t resolution = 512;  ///< pixels a side
   core::RecordOrder record_order = core::RecordOrder::spatial;
@@ -43,6 +50,7 @@ struct PaperResult {
   TimeParts parts;  ///< summed over the nodes
   std::uint64_t rays = 0, references = 0, faults = 0, page_bytes = 0;
   std::uint64_t tests = 0;        ///< of rays against primitives
+  core::ChargeCounts charges{};   ///< what computing was charged, if pages travelled
   double average_load = 0;        ///< mean over maximum of the nodes' work, if rays travelled
   double overflowed = 0;          ///< packets of rays by way of the host over all, in [0, 1]
   std::uint64_t ray_bytes = 0;    ///< of the packets with rays, by whatever way
@@ -67,12 +75,13 @@ struct PaperSubject {
   core::RecordOrder record_order = core::RecordOrder::spatial;
   std::size_t page_size_bytes = 1024;
   bool has_inner_light = false;
+  core::Structure structure = core::Structure::grid;
   Subject subject;
 
   /// Whether it is the run's.
   bool is_of(const PaperRun& run) const {
     return scene == run.scene && resolution == run.resolution && record_order == run.record_order &&
-           page_size_bytes == run.page_size_bytes && has_inner_light == run.has_inner_light;
+           page_size_bytes == run.page_size_bytes && has_inner_light == run.has_inner_light && structure == run.structure;
   }
 };
 /// Those that the runs need. Takes a second or so for the largest.

@@ -12,8 +12,8 @@
 namespace dmpc::apps {
 namespace {
 
-std::optional<CellOfTable3> cell_of(const Catalogue& catalogue, const PaperResults& results, std::size_t scene,
-                                    std::size_t column) {
+std::optional<CellOfTable3> table_3_cell_of(const Catalogue& catalogue, const PaperResults& results, std::size_t scene,
+                                            std::size_t column) {
   const PaperScene& paper = paper_scenes[scene];
   const std::size_t base = paper.base();
   const auto found = column < base ? std::nullopt : found_efficiency(catalogue.timed[scene], results, base, column);
@@ -77,7 +77,7 @@ std::vector<CellOfTable3> cells_of_table_3(const Catalogue& catalogue, const Pap
   std::vector<CellOfTable3> cells;
   for (std::size_t scene = 0; scene < paper_scenes.size(); ++scene) {
     for (std::size_t column = 0; column < paper_node_counts.size(); ++column) {
-      if (const auto cell = cell_of(catalogue, results, scene, column)) {
+      if (const auto cell = table_3_cell_of(catalogue, results, scene, column)) {
         cells.push_back(*cell);
       }
     }

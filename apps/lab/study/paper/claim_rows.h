@@ -1,0 +1,37 @@
+// Claims of the article's text as rows of a table.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "apps/edge/table/table.h"
+#include "apps/lab/study/paper/data.h"
+
+namespace dmpc::apps {
+
+/// What becomes of a claim.
+inline constexpr const char *held = "held", *not_held = "not held", *tie = "a tie", *not_judged = "not judged";
+
+/// Times that differ by no more than this share do not tell which is better.
+inline constexpr double tie_share = 0.01;
+
+/// Rows of claims.
+class Claims {
+ public:
+  /// Prices are fitted to the article's resolution: pictures of another say nothing about its claims.
+  Claims(const std::string& title, std::uint32_t resolution)
+      : is_judged_(resolution == paper_resolution), table_(title, {{"claim"}, {"verdict"}, {"found"}}) {}
+
+  void add(const std::string& claim, bool is_held, const std::string& found) { add(claim, is_held ? held : not_held, found); }
+  void add(const std::string& claim, const char* verdict, const std::string& found) {
+    table_.add_row({claim, is_judged_ ? verdict : not_judged, found});
+  }
+  Table table() && { return std::move(table_); }
+
+ private:
+  bool is_judged_;
+  Table table_;
+};
+
+}  // namespace dmpc::apps
