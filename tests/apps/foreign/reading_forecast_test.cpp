@@ -114,8 +114,8 @@ std::uint64_t status_bytes(const std::string& name) {
 /// The file that a process of its own reads.
 std::string path_to_read;
 
-/// How many MiB more reading takes, together with its reader, than was said and 64 MiB; at most 200.
-int excess_mebibytes() {
+/// How many MiB more reading takes, together with its reader, than was said and 64 MiB; at most 200. Not asked with sanitizers.
+[[maybe_unused]] int excess_mebibytes() {
   const std::uint64_t before = status_bytes("VmRSS");
   const MeshFile mesh = read_mesh_file(path_to_read);
   rusage readers{};
