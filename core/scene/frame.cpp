@@ -82,7 +82,8 @@ GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells
 double insertion_pad(const GridFrame& frame, double distance, std::int32_t layers) {
   const double finest = double{frame.finest_cell};
   const double extent = finest * finest_per_cell * *std::max_element(frame.resolution.begin(), frame.resolution.end());
-  const double farthest = extent * (1.0 + distance), by_layers = 0x1p-23 * farthest * layers;
+  const double farthest = extent * (1.0 + distance);  // infinite for an eye that is too far for a double
+  const double by_layers = layers > 0 ? 0x1p-23 * farthest * layers : 0.0;
   return std::max(1e-3 * finest, 0x1p-21 * farthest) + by_layers + 1e-6 * extent;
 }
 
