@@ -54,13 +54,6 @@ PictureOptions picture_of(const PaperRun& run) {
 
 std::uint64_t pixels_of(const PaperRun& run) { return std::uint64_t{run.resolution} * run.resolution; }
 
-const Subject& subject_of(const PaperRun& run, std::span<const PaperSubject> subjects) {
-  const auto found =
-      std::find_if(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); });
-  core::expect(found != subjects.end(), "every run has its scene");
-  return found->subject;
-}
-
 std::optional<std::uint32_t> cache_pages_of(const PaperRun& run, const core::Database& database) {
   if (run.shared_pages) {
     const auto all = static_cast<std::uint32_t>(database.page_count()), own = core::ceil_divide(all, run.node_count);
@@ -122,6 +115,13 @@ PaperResult result_of(const Report& report, const core::Database& database) {
 }
 
 }  // namespace
+
+const Subject& subject_of(const PaperRun& run, std::span<const PaperSubject> subjects) {
+  const auto found =
+      std::find_if(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); });
+  core::expect(found != subjects.end(), "every run has its scene");
+  return found->subject;
+}
 
 std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
   std::vector<PaperSubject> subjects;

@@ -86,6 +86,8 @@ struct PaperSubject {
 };
 /// Those that the runs need. Takes a second or so for the largest.
 std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs);
+/// The one that the run needs, which must be there.
+const Subject& subject_of(const PaperRun& run, std::span<const PaperSubject> subjects);
 
 /// By a run's number; nothing where it did not come to its end.
 using PaperResults = std::vector<std::optional<PaperResult>>;

@@ -102,10 +102,7 @@ Table table_2(const Catalogue& catalogue, const PaperResults& results, const std
     if (!result) {
       continue;
     }
-    const PaperRun& run = catalogue.runs[catalogue.counted[scene]];
-    const auto subject = std::find_if(subjects.begin(), subjects.end(), [&](const auto& at) { return at.is_of(run); });
-    core::expect(subject != subjects.end(), "every run has its scene");
-    const core::Database& database = subject->subject.database;
+    const core::Database& database = subject_of(catalogue.runs[catalogue.counted[scene]], subjects).database;
     table.add_row({paper.title, paper.scene, paper.polygons, std::uint64_t{database.header().primitive_count}, paper.rays,
                    result->rays, paper.database_kilobytes, std::uint64_t{database.bytes().size() / 1024}, paper.pages_a_pixel,
                    result->pages_a_pixel});

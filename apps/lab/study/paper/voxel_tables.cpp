@@ -149,10 +149,7 @@ Table voxel_table_2(const Catalogue& catalogue, const PaperResults& results, con
     if (!results[number]) {
       continue;
     }
-    const auto subject =
-        std::find_if(subjects.begin(), subjects.end(), [&](const auto& at) { return at.is_of(catalogue.runs[number]); });
-    core::expect(subject != subjects.end(), "every run has its scene");
-    const std::uint64_t kilobytes = subject->subject.database.bytes().size() / 1024;
+    const std::uint64_t kilobytes = subject_of(catalogue.runs[number], subjects).database.bytes().size() / 1024;
     const double pages = results[number]->pages_a_pixel;
     table.add_row({paper.title, paper.scene, paper.database_kilobytes, kilobytes,
                    static_cast<double>(kilobytes) / static_cast<double>(paper.database_kilobytes), paper.pages_a_pixel, pages,
