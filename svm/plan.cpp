@@ -46,10 +46,6 @@ std::uint32_t item_side_of(const PlanRequest& request) {
 
 bool is_dealt(const PlanRequest& request) { return request.pages.work_giver == WorkGiver::host; }
 
-std::uint32_t worker_count_of(const PlanRequest& request) {
-  return request.pages.worker_count.value_or(request.computer.node_count);
-}
-
 /// The most pixels that are ever under way on a node: all of the picture where work moves, else the largest share's. A node may
 /// have none, but has a place for one.
 std::uint64_t node_pixels_max(const PlanRequest& request) {
@@ -58,7 +54,7 @@ std::uint64_t node_pixels_max(const PlanRequest& request) {
     return image.pixel_count();
   }
   std::uint64_t most = 1;
-  const std::uint32_t workers = worker_count_of(request);
+  const std::uint32_t workers = request.worker_count();
   for (std::uint32_t index = 0; index < workers; ++index) {
     most = std::max(most, share_of(image, index, workers, request.pages.pixel_shares).pixel_count());
   }
@@ -100,7 +96,7 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
   return {.small_slots = request.computer.node_count  // Done: one from each node
                          + (request.refinement.is_wanted() ? request.computer.node_count
                                                            : 0)  // acknowledgements: one for each node's part of the mask
-                         + (is_dealt(request) ? worker_count_of(request) : 0)  // work requests: one from each worker
+                         + (is_dealt(request) ? request.worker_count() : 0)  // work requests: one from each worker
                          + (is_host_home(request) ? request.computer.node_count * plan.request_credits
                                                   : 0),                          // page requests: each node's credits
           .bulk_slots = request.computer.node_count * film_credits_of(request),  // film packets: each node's credits
@@ -125,7 +121,7 @@ Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t i
   plan.frames = frames - plan.resident_count;
   plan.in_flight = in_flight;
   plan.pixels_a_task = pixels_a_task(request, in_flight);
-  plan.worker_count = worker_count_of(request);
+  plan.worker_count = request.worker_count();
   plan.work_item_side = item_side_of(request);
   plan.request_credits = request.strategy->request_credits(plan);
   plan.film_credits = film_credits_of(request);
@@ -179,7 +175,7 @@ void check_recording(const PlanRequest& request) {
 
 void check_work(const PlanRequest& request) {
   constexpr core::Field giver = field_of<&PageOptions::work_giver>();
-  const std::uint32_t workers = worker_count_of(request), in_flight = request.pages.in_flight.value_or(1);
+  const std::uint32_t workers = request.worker_count(), in_flight = request.pages.in_flight.value_or(1);
   check_use(workers >= 1 && workers <= request.computer.node_count, field_of<&PageOptions::worker_count>(), "=", workers,
             ": expected at least one worker, and at most as many as there are nodes, ", request.computer.node_count);
   check_use(!is_dealt(request) || request.pages.work_item_side != 0U, giver, "=host does not go with ",

@@ -48,6 +48,8 @@ struct PlanRequest {
   const core::FineDetail* detail = nullptr;  ///< the picture's, if it is refined; the host's alone; outlives plan and run
   bool bundles = false;                      ///< rays of neighbouring pixels walk together, where enough are in flight
 
+  /// Nodes that render.
+  std::uint32_t worker_count() const { return pages.worker_count.value_or(computer.node_count); }
   /// Some pass may leave pixels out, so that each node keeps a byte for each pixel of its share.
   bool is_masked() const { return refinement.is_wanted() || start != nullptr; }
 };
