@@ -8,7 +8,6 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/text/line_words.h"
 #include "apps/foreign/text/xml_tags.h"
-#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
@@ -22,18 +21,13 @@ bool begins_as_number(std::string_view word) {
 /// `word` is a part of the file.
 void check_word(std::string_view file, std::string_view word) {
   if (begins_as_number(word) && !decimal_number(word)) {
-    const auto line = 1 + std::count(file.data(), word.data(), '\n');
-    throw core::InputError("line " + std::to_string(line) + ": found '" + clipped(word, 40) + "', expected a number");
+    refuse_at(file, static_cast<std::size_t>(word.data() - file.data()), "found '" + clipped(word, 40) + "', expected a number");
   }
 }
 
 /// What stands between these letters.
 void check_words(std::string_view file, std::string_view part, std::string_view between) {
-  for (std::size_t at = part.find_first_not_of(between); at != std::string_view::npos; at = part.find_first_not_of(between, at)) {
-    const std::size_t end = std::min(part.find_first_of(between, at), part.size());
-    check_word(file, part.substr(at, end - at));
-    at = end;
-  }
+  for_each_word(part, between, [&](std::string_view word) { check_word(file, word); });
 }
 
 /// But for what stands in quotes, or behind `remark` to the end of its line.
@@ -50,9 +44,8 @@ void check_elements(std::string_view file) {
   constexpr std::array names{"x",      "y",         "z",      "v1",     "v2",    "v3", "float", "float_array",
                              "matrix", "translate", "rotate", "lookat", "scale", "p",  "color", "vcount"};
   for_each_tag(file, [&](const Tag& tag) {
-    if (std::any_of(names.begin(), names.end(), [&](const char* name) { return tag.is(name); }) && !tag.is_whole()) {
-      const std::size_t end = std::min(file.find('<', tag.end), file.size());
-      check_words(file, file.substr(tag.end, end - tag.end), " \t\r\n");
+    if (std::any_of(names.begin(), names.end(), [&](const char* name) { return tag.is(name); })) {
+      check_words(file, content(file, tag), " \t\r\n");
     }
   });
 }

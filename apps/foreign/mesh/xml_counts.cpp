@@ -12,7 +12,6 @@
 
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/text/xml_tags.h"
-#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
@@ -24,16 +23,6 @@ std::optional<std::uint64_t> whole_number(std::string_view word) {
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
   return error == std::errc() && end == word.data() + word.size() ? std::optional(number) : std::nullopt;
-}
-
-/// Calls take(word) for each.
-template <class Take>
-void for_each_word(std::string_view text, const Take& take) {
-  for (std::size_t at = text.find_first_not_of(blanks); at != std::string_view::npos; at = text.find_first_not_of(blanks, at)) {
-    const std::size_t end = std::min(text.find_first_of(blanks, at), text.size());
-    take(text.substr(at, end - at));
-    at = end;
-  }
 }
 
 template <std::size_t count>
@@ -56,14 +45,7 @@ class Counts {
     std::size_t at;
   };
 
-  std::string_view content(const Tag& tag) const {
-    return tag.is_whole() ? std::string_view() : file_.substr(tag.end, file_.find('<', tag.end) - tag.end);
-  }
-  [[noreturn]] void refuse(std::size_t at, const std::string& what) const {
-    throw core::InputError("line " +
-                           std::to_string(1 + std::count(file_.begin(), file_.begin() + static_cast<std::ptrdiff_t>(at), '\n')) +
-                           ": " + what);
-  }
+  [[noreturn]] void refuse(std::size_t at, const std::string& what) const { refuse_at(file_, at, what); }
   /// An attribute's; `standard` if it is not there. No number of a file exceeds its bytes, but for what is a lie.
   std::uint64_t number_of(const Tag& tag, const char* name, std::uint64_t standard) const;
   void take_array(const Tag& tag);
@@ -89,7 +71,7 @@ std::uint64_t Counts::number_of(const Tag& tag, const char* name, std::uint64_t 
 
 void Counts::take_array(const Tag& tag) {
   std::uint64_t values = 0;
-  for_each_word(content(tag), [&](std::string_view) { ++values; });
+  for_each_word(content(file_, tag), blanks, [&](std::string_view) { ++values; });
   if (const std::uint64_t said = number_of(tag, "count", values); said != values) {
     refuse(tag.begin, "an array says that it has " + std::to_string(said) + " values, and has " + std::to_string(values));
   }
@@ -117,7 +99,7 @@ void Counts::check_accessors() const {
 }
 
 void Counts::check_whole(const Tag& tag) const {
-  for_each_word(content(tag), [&](std::string_view word) {
+  for_each_word(content(file_, tag), blanks, [&](std::string_view word) {
     if (!whole_number(word)) {
       refuse(static_cast<std::size_t>(word.data() - file_.data()),
              "found '" + clipped(std::string(word), 40) + "', expected a whole number from 0 on");
@@ -153,7 +135,7 @@ void Counts::take_amf(const Tag& tag) {
   for (std::size_t i = 0; i < members.size(); ++i) {
     if (tag.is(members[i])) {
       std::size_t words = 0;
-      for_each_word(content(tag), [&](std::string_view) { ++words; });
+      for_each_word(content(file_, tag), blanks, [&](std::string_view) { ++words; });
       if (words != 1) {
         refuse(tag.begin, std::string("expected one number in <") + members[i] + ">");
       }

@@ -1,6 +1,12 @@
 #include "apps/foreign/text/xml_tags.h"
 
+#include "core/base/expect.h"
+
 namespace dmpc::apps {
+
+void refuse_at(std::string_view text, std::size_t at, const std::string& what) {
+  throw core::InputError("line " + std::to_string(1 + std::count(text.data(), text.data() + at, '\n')) + ": " + what);
+}
 
 std::optional<std::string_view> attribute(const Tag& tag, std::string_view name) {
   for (std::size_t at = tag.inside.find(name); at != std::string_view::npos; at = tag.inside.find(name, at + 1)) {

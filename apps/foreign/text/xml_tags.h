@@ -1,6 +1,7 @@
 // The tags of a text in XML, where it lies.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -47,6 +48,24 @@ void for_each_tag(std::string_view text, const Take& take) {
     }
   }
 }
+
+/// What stands between a tag and the next; nothing behind one that is whole.
+inline std::string_view content(std::string_view text, const Tag& tag) {
+  return tag.is_whole() ? std::string_view() : text.substr(tag.end, text.find('<', tag.end) - tag.end);
+}
+
+/// Calls take(word) for each word between these letters.
+template <class Take>
+void for_each_word(std::string_view text, std::string_view between, const Take& take) {
+  for (std::size_t at = text.find_first_not_of(between); at != std::string_view::npos; at = text.find_first_not_of(between, at)) {
+    const std::size_t end = std::min(text.find_first_of(between, at), text.size());
+    take(text.substr(at, end - at));
+    at = end;
+  }
+}
+
+/// Throws core::InputError "line 3: WHAT", by where in `text` that is.
+[[noreturn]] void refuse_at(std::string_view text, std::size_t at, const std::string& what);
 
 /// The value of an attribute, a part of the text; nothing if the tag has none of this name.
 std::optional<std::string_view> attribute(const Tag& tag, std::string_view name);
