@@ -36,8 +36,7 @@ Table voxel_caches(const Catalogue& catalogue, const PaperResults& results) {
   note_missing_rows(table, expected);
   table.add_note(
       "The article's page counts, on pictures of the whole resolution. With fewer pages a picture takes minutes, as most "
-      "look-ups of "
-      "another page miss: they are left out.");
+      "look-ups of another page miss: they are left out.");
   return table;
 }
 
@@ -63,9 +62,8 @@ Table voxel_loads(const Catalogue& catalogue, const PaperResults& results) {
   note_missing_rows(table, 2 * loaded_node_counts.size());
   table.add_note(
       "Mean over maximum of the nodes' work; the article has about 82.5 % and less than 20 %, and does not say on how many "
-      "nodes. "
-      "Cuts in alternating directions, no backpressure. Regions whose border runs through a voxel test what lies on both sides "
-      "again, and spare what lies on the other: in the loads both are counted.");
+      "nodes. Cuts in alternating directions, no backpressure. Regions whose border runs through a voxel test what lies on both "
+      "sides again, and spare what lies on the other: in the loads both are counted.");
   return table;
 }
 

@@ -105,17 +105,14 @@ double price_us(const nodes::Machine& machine, core::Charge charge) {
 
 void note_ties(Table& table) {
   table.add_note(
-      "Four cells of two scenes have two levels and two slopes over nodes. Both slopes are the dearer look-up's, whatever else a "
-      "further node costs there; two levels tell two numbers of what a ray does. So steps are tied to tests, and rays to hits, "
-      "in "
-      "the proportions that one core of today has: a step of 7.5 ns, a reference and its polygon as a record read and a test, "
-      "14.7 "
-      "and 3.7 ns; 55 ns a ray, 167 ns a hit. Each reference that is read has its polygon tested, so no count can tell them "
-      "apart.");
+      "Four cells of two scenes have two levels and two slopes over nodes. Both slopes are the dearer look-up's, whatever else "
+      "a further node costs there; two levels tell two numbers of what a ray does. So steps are tied to tests, and rays to "
+      "hits, in the proportions that one core of today has: a step of 7.5 ns, a reference and its polygon as a record read and "
+      "a test, 14.7 and 3.7 ns; 55 ns a ray, 167 ns a hit. Each reference that is read has its polygon tested, so no count can "
+      "tell them apart.");
   table.add_note(
       "The machine is the study's own: what pages and messages cost is the preset ipsc2's, whose prices of operations are those "
-      "of "
-      "dmpc's grid.");
+      "of dmpc's grid.");
 }
 
 }  // namespace
