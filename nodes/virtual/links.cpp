@@ -25,11 +25,10 @@ std::uint64_t Links::pass(NodeId source, NodeId target, std::uint64_t now_ns, st
   if (source == target) {
     return now_ns;
   }
-  const std::uint32_t hop_count = hops(source, target);
   const std::uint64_t bytes_ns = bytes * machine_.cost_of_message(bytes).byte_ps / 1000;
   find_route(source, target);
   ++traffic_.messages;
-  traffic_.hops += hop_count;
+  traffic_.hops += hops(source, target);
   return pass_along_route(now_ns, bytes, bytes_ns);
 }
 
@@ -42,8 +41,8 @@ std::uint64_t Links::pass_along_route(std::uint64_t now_ns, std::uint64_t bytes,
     at_ns = begins_ns_[i] + hop_ns(links_[i]);
   }
   const std::uint64_t arrives_ns = at_ns + bytes_ns;
+  const bool is_circuit = machine_.switching == Switching::circuit;
   for (std::size_t i = 0; i < route_.size(); ++i) {
-    const bool is_circuit = machine_.switching == Switching::circuit;
     hold(*route_[i], begins_ns_[i], is_circuit ? arrives_ns - begins_ns_[i] : hop_ns(links_[i]) + bytes_ns, bytes);
   }
   return arrives_ns;
