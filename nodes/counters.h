@@ -34,8 +34,8 @@ struct NodeCounters {
   std::uint64_t quanta = 0;     ///< calls of work()
   std::uint64_t held = 0;       ///< packets that chaos held back
   std::uint64_t sat_out = 0;    ///< quanta that chaos made the node sit out
-  std::uint64_t sleeps = 0;     ///< times the node's thread went to sleep
-  std::uint64_t busy_ns = 0;    ///< processor time of the node's thread (threads runner); time without a core does not count
+  std::uint64_t sleeps = 0;     ///< times the node went to sleep
+  std::uint64_t busy_ns = 0;    ///< processor time of its thread (threads), its turns' (pool); time without a core does not count
   std::uint64_t asleep_ns = 0;  ///< wall clock spent asleep for want of packets
   std::uint64_t wall_ns = 0;    ///< from the start to the end of this node's loop; wall - busy - asleep = waited for a core
 };

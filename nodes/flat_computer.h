@@ -1,6 +1,7 @@
 // A computer request as bytes, for the ranks on which the computer is.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "core/base/expect.h"
@@ -16,6 +17,7 @@ inline void put(FlatWriter& flat, const ComputerRequest& computer) {
   flat.put(computer.node_memory_bytes);
   flat.put(computer.stack_reserve_bytes);
   flat.put(computer.chaos);
+  flat.put(computer.pool_threads);
 }
 
 inline ComputerRequest take_computer(FlatReader& flat, RankLinks& ranks) {
@@ -24,6 +26,7 @@ inline ComputerRequest take_computer(FlatReader& flat, RankLinks& ranks) {
   computer.node_memory_bytes = flat.take<std::optional<std::size_t>>();
   computer.stack_reserve_bytes = flat.take<std::size_t>();
   computer.chaos = flat.take<std::optional<Chaos>>();
+  computer.pool_threads = flat.take<std::optional<std::uint32_t>>();
   computer.ranks = &ranks;
   return computer;
 }

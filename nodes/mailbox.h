@@ -29,6 +29,8 @@
 //     publication of all, so whatever holds for one packet holds for a batch.
 // (4) What senders of small, senders of bulk and sleepers change lies on different cache lines: the inbox, the two heads,
 //     the links of the two classes, the slots. The links of 16 slots of one class share a line.
+// (5) A receiver with a bell is no thread: whoever replaces ASLEEP rings it, once, where else the system would wake and
+//     the count be raised. That is done by who hears the bell (threads/awake_nodes.h). wait() is not called.
 #pragma once
 
 #include <algorithm>
@@ -42,6 +44,7 @@
 #include "core/base/units.h"
 #include "nodes/atomics.h"
 #include "nodes/awake_count.h"
+#include "nodes/bell.h"
 #include "nodes/local_memory.h"
 #include "nodes/packet.h"
 #include "nodes/slot_pool.h"
@@ -71,6 +74,9 @@ class BasicMailbox {
         links_(memory.allocate<Atomic<SlotIndex>>(Category::mailbox, link_count(capacity))),
         small_(make_pool(memory, 0, capacity.small_slots, small_stride_bytes(capacity))),
         bulk_(make_pool(memory, first_bulk(capacity), capacity.bulk_slots, bulk_slot_bytes(capacity))) {}
+
+  /// From now on `bell`, which outlives the mailbox's use, is rung in place of waking a thread. Before any other thread knows it.
+  void give_bell(Bell& bell) { bell_ = &bell; }
 
   /// Packets of one sender that lie in slots, and that the receiver does not see yet. Belongs to its sender, who hands it over.
   class Batch {
@@ -206,7 +212,7 @@ class BasicMailbox {
                                           std::memory_order_relaxed)) {
     }
     if (head == asleep) {
-      Atomics::wake(*inbox_);
+      wake_receiver();
     }
   }
 
@@ -286,19 +292,23 @@ class BasicMailbox {
 
   /// One attempt to put `batch` on the inbox whose word was `head`; sets `head` anew if that failed.
   bool try_publish(const Batch& batch, SlotIndex& head, BasicAwakeCount<Atomics>& awake) {
-    const bool wakes = head == asleep;
+    const bool wakes = head == asleep, counts = wakes && bell_ == nullptr;
     links_[batch.oldest_].store(wakes ? empty : head, std::memory_order_relaxed);
-    if (wakes) {
+    if (counts) {
       awake.raise();
     }
     // Release: partner of the acquire in drain(), for the slots' bytes and their links.
     const bool published =
         inbox_->compare_exchange_weak(head, batch.newest_, std::memory_order_release, std::memory_order_relaxed);
-    if (wakes) {
-      published ? Atomics::wake(*inbox_) : awake.withdraw();
+    if (wakes && published) {
+      wake_receiver();
+    } else if (counts) {
+      awake.withdraw();
     }
     return published;
   }
+
+  void wake_receiver() { bell_ == nullptr ? Atomics::wake(*inbox_) : bell_->ring(); }
 
   /// Reverses a stack taken from the inbox; returns its oldest slot.
   SlotIndex turned_round(SlotIndex newest) {
@@ -321,6 +331,7 @@ class BasicMailbox {
   std::span<Atomic<SlotIndex>> links_;
   Pool small_;
   Pool bulk_;
+  Bell* bell_ = nullptr;
 };
 
 using Mailbox = BasicMailbox<SystemAtomics>;

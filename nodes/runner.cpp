@@ -29,13 +29,14 @@ void check_ranks(const ComputerRequest& computer) {
 std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const ComputerRequest& computer,
                                     Observer* observer) {
   if (computer.machine) {
-    core::expect(!computer.chaos && computer.ranks == nullptr, "chaos disturbs threads only, and a model has no ranks");
+    core::expect(!computer.chaos && computer.ranks == nullptr && !computer.pool_threads,
+                 "chaos disturbs threads only, and a model has neither ranks nor a pool");
     return std::make_unique<VirtualRunner>(specifications, *computer.machine, observer);
   }
   if (computer.ranks != nullptr) {
-    return std::make_unique<RanksRunner>(specifications, *computer.ranks, computer.chaos, observer);
+    return std::make_unique<RanksRunner>(specifications, *computer.ranks, computer.chaos, observer, computer.pool_threads);
   }
-  return std::make_unique<ThreadsRunner>(specifications, computer.chaos, observer);
+  return std::make_unique<ThreadsRunner>(specifications, computer.chaos, observer, computer.pool_threads);
 }
 
 }  // namespace dmpc::nodes

@@ -64,7 +64,7 @@ std::size_t payload_bytes_max(std::span<const NodeSpecification> specifications)
 /// to the communicating thread.
 struct RanksRunner::Implementation {
   Implementation(std::span<const NodeSpecification> specifications, RankLinks& to, const std::optional<Chaos>& chaos,
-                 Observer* observer)
+                 Observer* observer, const std::optional<std::uint32_t>& pool_threads)
       : links(to),
         disturbance(chaos),
         is_here(here(specifications.size(), to)),
@@ -72,7 +72,7 @@ struct RanksRunner::Implementation {
         outbox_memory(plan_of(outbox_capacity)),
         outbox(outbox_capacity, outbox_memory),
         outlet{is_here, outbox},
-        nodes(specifications, chaos, observer, &outlet),
+        nodes(specifications, chaos, observer, &outlet, pool_threads),
         exchange(to),
         clocks(to, observer != nullptr && to.rank() == 0),
         counting(to, nodes, outbox, static_cast<std::uint32_t>(specifications.size() - 1)),
@@ -209,8 +209,8 @@ struct RanksRunner::Implementation {
 };
 
 RanksRunner::RanksRunner(std::span<const NodeSpecification> specifications, RankLinks& links, const std::optional<Chaos>& chaos,
-                         Observer* observer)
-    : implementation_(std::make_unique<Implementation>(specifications, links, chaos, observer)) {}
+                         Observer* observer, const std::optional<std::uint32_t>& pool_threads)
+    : implementation_(std::make_unique<Implementation>(specifications, links, chaos, observer, pool_threads)) {}
 RanksRunner::~RanksRunner() = default;
 
 RunEnd RanksRunner::run(std::stop_token stop) { return implementation_->run(std::move(stop)); }

@@ -1,5 +1,5 @@
-// Runs the node programs on several ranks, each a process with a share of the nodes, one thread a node, and a thread that
-// communicates.
+// Runs the node programs on several ranks, each a process with a share of the nodes, on one thread a node or on a pool, and a
+// thread that communicates.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +24,10 @@ class RanksRunner final : public Runner {
   /// All ranks are given equal specifications, of all nodes, then the host; of those that are elsewhere no program is made. There
   /// are at least as many nodes as ranks, and every packet fits a frame. `links` and `observer` outlive this. An observer, of
   /// whom rank 0 has one if any rank has, is told of this rank's nodes, by its own clock, which is set to that of rank 0 before
-  /// the start and compared with it again after a regular end.
+  /// the start and compared with it again after a regular end. `pool_threads`: as ComputerRequest's, of each rank.
   RanksRunner(std::span<const NodeSpecification> specifications, RankLinks& links,
-              const std::optional<Chaos>& chaos = std::nullopt, Observer* observer = nullptr);
+              const std::optional<Chaos>& chaos = std::nullopt, Observer* observer = nullptr,
+              const std::optional<std::uint32_t>& pool_threads = std::nullopt);
   ~RanksRunner() override;
 
   /// To be called on all ranks. The end and a stall are found exactly, without a time-out. It ends alike on all ranks: what fails

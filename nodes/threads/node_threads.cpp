@@ -29,11 +29,30 @@ bool packet_comes_soon(ThreadProcessor& self) {
 
 bool is_here(const Outlet* outlet, std::size_t index) { return outlet == nullptr || outlet->is_here[index]; }
 
-std::uint32_t count_here(const Outlet* outlet, std::size_t peer_count) {
+std::size_t count_here(const Outlet* outlet, std::size_t peer_count) {
   if (outlet == nullptr) {
-    return static_cast<std::uint32_t>(peer_count);
+    return peer_count;
   }
-  return static_cast<std::uint32_t>(std::count(outlet->is_here.begin(), outlet->is_here.end(), true));
+  return static_cast<std::size_t>(std::count(outlet->is_here.begin(), outlet->is_here.end(), true));
+}
+
+/// Processors that this process may run on.
+std::uint32_t processors_allowed() {
+  cpu_set_t allowed;
+  return ::sched_getaffinity(0, sizeof(allowed), &allowed) == 0 ? static_cast<std::uint32_t>(CPU_COUNT(&allowed))
+                                                                : std::max(std::thread::hardware_concurrency(), 1U);
+}
+
+/// How many drivers so many nodes have, the host included, if it is a pool of so many threads (ComputerRequest).
+std::size_t driver_count(const std::optional<std::uint32_t>& pool_threads, std::size_t node_count) {
+  if (!pool_threads) {
+    return 0;
+  }
+  return std::min<std::size_t>(*pool_threads > 0 ? *pool_threads : processors_allowed(), node_count);
+}
+
+std::uint32_t thread_count(const std::optional<std::uint32_t>& pool_threads, std::size_t node_count) {
+  return static_cast<std::uint32_t>(pool_threads ? driver_count(pool_threads, node_count) : node_count);
 }
 
 }  // namespace
@@ -44,8 +63,12 @@ std::string stall_text(const std::optional<Chaos>& chaos) {
 }
 
 NodeThreads::NodeThreads(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer,
-                         const Outlet* outlet)
-    : chaos_(chaos), observer_(observer), outlet_(outlet), awake_(count_here(outlet, specifications.size())), uncounted_(0) {
+                         const Outlet* outlet, const std::optional<std::uint32_t>& pool_threads)
+    : chaos_(chaos),
+      observer_(observer),
+      outlet_(outlet),
+      awake_(thread_count(pool_threads, count_here(outlet, specifications.size()))),
+      uncounted_(0) {
   core::expect(!specifications.empty(), "a computer has at least the host");
   core::expect(outlet == nullptr || outlet->is_here.size() == specifications.size(), "each node is here or elsewhere");
   const auto peer_count = static_cast<std::uint32_t>(specifications.size());
@@ -56,6 +79,16 @@ NodeThreads::NodeThreads(std::span<const NodeSpecification> specifications, cons
       processors_.push_back(std::make_unique<ThreadProcessor>(specifications[i], NodeId{i}, computer));
       by_index_[i] = processors_.back().get();
     }
+  }
+  make_drivers(driver_count(pool_threads, processors_.size()));
+}
+
+/// Neighbours, which have most to say to each other, share a driver; the last one has the host.
+void NodeThreads::make_drivers(std::size_t count) {
+  const std::span<const std::unique_ptr<ThreadProcessor>> all = processors_;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t first = all.size() * i / count, end = all.size() * (i + 1) / count;
+    drivers_.push_back(std::make_unique<Driver>(all.subspan(first, end - first), awake_));
   }
 }
 
@@ -117,19 +150,33 @@ void NodeThreads::start(std::uint64_t start_ns) {
 
 void NodeThreads::start_threads() {
   starts_.reserve(processors_.size());
+  for (const auto& driver : drivers_) {
+    starts_.push_back({this, nullptr, driver.get()});
+    driver->thread.start(driver->stack_bytes(), enter, &starts_.back());
+  }
+  if (!drivers_.empty()) {
+    return;
+  }
   for (const auto& processor : processors_) {
-    starts_.push_back({this, processor.get()});
+    starts_.push_back({this, processor.get(), nullptr});
     processor->thread.start(processor->memory.plan()[Category::reserve], enter, &starts_.back());
   }
 }
 
 void NodeThreads::join() {
+  for (const auto& driver : drivers_) {
+    driver->thread.join();
+  }
   for (const auto& processor : processors_) {
     processor->thread.join();
   }
 }
 
 std::string NodeThreads::too_few_threads(std::size_t started) const {
+  if (!drivers_.empty()) {
+    return "a pool of " + std::to_string(drivers_.size()) + " threads was asked for, and this computer lets dmpc start but " +
+           std::to_string(started) + ": ask for fewer threads, or for a higher limit (ulimit -u, pids.max of a container)";
+  }
   return "a computer of " + std::to_string(by_index_.size() - 1) + " nodes takes " + std::to_string(processors_.size()) +
          " threads" + (outlet_ == nullptr ? "" : " here") + ", and this one lets dmpc start but " + std::to_string(started) +
          ": ask for fewer nodes, or for a higher limit (ulimit -u, pids.max of a container)";
@@ -137,7 +184,7 @@ std::string NodeThreads::too_few_threads(std::size_t started) const {
 
 void NodeThreads::enter(void* start) {
   const Start& self = *static_cast<Start*>(start);
-  self.nodes->run_node(*self.processor);
+  self.driver != nullptr ? self.nodes->run_driver(*self.driver) : self.nodes->run_node(*self.processor);
 }
 
 void NodeThreads::run_node(ThreadProcessor& self) {
@@ -146,7 +193,12 @@ void NodeThreads::run_node(ThreadProcessor& self) {
   const std::uint64_t start_ns = nanoseconds(CLOCK_MONOTONIC);
   try {
     while (ending() == Ending::none) {
-      step(self);
+      const Next next = step(self);
+      if (next == Next::pass) {
+        self.pass_idly();
+      } else if (next == Next::rest) {
+        rest(self);
+      }
     }
   } catch (...) {
     fail(std::current_exception());
@@ -155,11 +207,49 @@ void NodeThreads::run_node(ThreadProcessor& self) {
   counters.wall_ns = nanoseconds(CLOCK_MONOTONIC) - start_ns;
 }
 
-/// Receives all that has come and works one quantum; with nothing to do, sleeps until a packet comes or the run ends. A node that
-/// holds packets back does not sleep: they are under way.
-void NodeThreads::step(ThreadProcessor& self) {
+void NodeThreads::run_driver(Driver& driver) {
+  core::use_usual_arithmetic();
+  driver.begin_turns();
+  const std::uint64_t start_ns = driver.times.now_ns();
+  try {
+    while (ending() == Ending::none) {
+      driver.awake_nodes.take_woken([&driver](std::uint32_t number) { driver.note_sleep(*driver.nodes[number]); });
+      const std::optional<std::uint32_t> next = driver.awake_nodes.next();
+      next ? take_turn(driver, *next) : sleep(driver);
+    }
+  } catch (...) {
+    fail(std::current_exception());
+  }
+  driver.end_turns(start_ns);
+}
+
+/// A node runs until it has nothing to do, or has had its quanta; who is awake after that has another turn after all others.
+void NodeThreads::take_turn(Driver& driver, std::uint32_t number) {
+  ThreadProcessor& self = *driver.nodes[number];
+  Next next = Next::go_on;
+  for (int quantum = 0; next == Next::go_on && quantum < quanta_per_turn && ending() == Ending::none; ++quantum) {
+    next = step(self);
+  }
+  if (next == Next::pass) {
+    self.pass_idly();
+  }
+  if (next != Next::rest || !falls_asleep(self)) {
+    driver.awake_nodes.stay(number);
+  }
+  driver.end_turn(self);
+}
+
+/// Of a driver's node with nothing to do: it need not look for packets that come soon, as others have their turn before it.
+bool NodeThreads::falls_asleep(ThreadProcessor& self) {
+  self.is_asleep = !self.program->has_leftovers() && self.mailbox.fall_asleep();
+  self.node.counters().sleeps += self.is_asleep ? 1 : 0;
+  return self.is_asleep;
+}
+
+/// Receives all that has come and works one quantum. A node that holds packets back does not sleep: they are under way.
+NodeThreads::Next NodeThreads::step(ThreadProcessor& self) {
   if (self.sits_out()) {
-    return self.pass_idly();
+    return Next::pass;
   }
   self.mailbox.drain([this, &self](const Packet& packet) {
     self.node.counters().received[packet.kind].add(packet.payload.size());
@@ -174,11 +264,7 @@ void NodeThreads::step(ThreadProcessor& self) {
   if (!has_more || (self.waiting_count > 0 && ++self.quanta_waited >= patience_quanta_max)) {
     hand_over(self);
   }
-  if (!has_more && holds_packets) {
-    self.pass_idly();
-  } else if (!has_more && !packet_comes_soon(self) && !self.program->has_leftovers()) {
-    sleep(self);
-  }
+  return has_more ? Next::go_on : holds_packets ? Next::pass : Next::rest;
 }
 
 bool NodeThreads::work(ThreadProcessor& self) {
@@ -229,8 +315,9 @@ void NodeThreads::end_span(ThreadProcessor& self, Span& span) const {
   observer_->ended(span, *self.program);
 }
 
-void NodeThreads::sleep(ThreadProcessor& self) {
-  if (!go_to_sleep(self)) {
+/// With nothing to do: sleeps until a packet comes or the run ends.
+void NodeThreads::rest(ThreadProcessor& self) {
+  if (packet_comes_soon(self) || self.program->has_leftovers() || !go_to_sleep(self.mailbox)) {
     return;
   }
   ++self.node.counters().sleeps;
@@ -239,10 +326,19 @@ void NodeThreads::sleep(ThreadProcessor& self) {
   self.node.counters().asleep_ns += nanoseconds(CLOCK_MONOTONIC) - start_ns;
 }
 
-/// Whether there is something to sleep for.
-bool NodeThreads::go_to_sleep(ThreadProcessor& self) {
+/// Until a node is woken or the run ends.
+void NodeThreads::sleep(Driver& driver) {
+  if (go_to_sleep(driver.awake_nodes.woken())) {
+    driver.share_out_time();
+    driver.awake_nodes.woken().wait();
+    driver.begin_turns();
+  }
+}
+
+/// Whether there is something to sleep for, before a node's mailbox, or a driver's.
+bool NodeThreads::go_to_sleep(Mailbox& inbox) {
   // The order matters: ASLEEP first, so that end() either finds it or is seen; then the count, so that zero means all ASLEEP.
-  if (!self.mailbox.fall_asleep() || ending() != Ending::none) {
+  if (!inbox.fall_asleep() || ending() != Ending::none) {
     return false;
   }
   if (!awake_.leave()) {
@@ -269,8 +365,13 @@ void NodeThreads::end(Ending ending) {
   if (!ending_.compare_exchange_strong(none, ending, std::memory_order_release, std::memory_order_relaxed)) {
     return;
   }
-  for (const auto& processor : processors_) {
-    processor->mailbox.rouse();
+  for (const auto& driver : drivers_) {
+    driver->awake_nodes.woken().rouse();
+  }
+  if (drivers_.empty()) {
+    for (const auto& processor : processors_) {
+      processor->mailbox.rouse();
+    }
   }
   if (outlet_ != nullptr) {
     outlet_->outbox.rouse();

@@ -1,4 +1,4 @@
-// The nodes of this process, each on a thread of its own: all of a computer's, or a rank's share of them.
+// The nodes of this process, each on a thread of its own or many to a driver: all of a computer's, or a rank's share of them.
 #pragma once
 
 #include <atomic>
@@ -17,6 +17,7 @@
 #include "nodes/node.h"
 #include "nodes/observer.h"
 #include "nodes/runner.h"
+#include "nodes/threads/driver.h"
 #include "nodes/threads/thread_processor.h"
 
 namespace dmpc::nodes {
@@ -40,9 +41,9 @@ std::string stall_text(const std::optional<Chaos>& chaos);
 class NodeThreads final : public Network {
  public:
   /// Makes the programs of the nodes that are here; without an outlet those of all. `observer`, if there is one, is told on the
-  /// nodes' threads; it and the outlet outlive this.
+  /// nodes' threads; it and the outlet outlive this. `pool_threads`: as ComputerRequest's.
   NodeThreads(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer,
-              const Outlet* outlet = nullptr);
+              const Outlet* outlet = nullptr, const std::optional<std::uint32_t>& pool_threads = std::nullopt);
   ~NodeThreads() override;
 
   void deliver(NodeId target, const PacketHeader& header, std::span<const std::byte> payload) override;
@@ -93,6 +94,13 @@ class NodeThreads final : public Network {
   struct Start {
     NodeThreads* nodes;
     ThreadProcessor* processor;
+    Driver* driver;  ///< or this one
+  };
+  /// What a node does after a quantum.
+  enum class Next : std::uint8_t {
+    go_on,
+    pass,  ///< chaos alone keeps it from sleeping
+    rest   ///< it has nothing to do
   };
 
   Mailbox& mailbox_towards(NodeId target) const;
@@ -100,31 +108,37 @@ class NodeThreads final : public Network {
                    std::span<const std::byte> front, bool may_wait);
   void hand_over(ThreadProcessor& source);
   AwakeCount& count_towards(NodeId target) { return by_index_[index_of(target)] != nullptr ? awake_ : uncounted_; }
+  void make_drivers(std::size_t count);
   void start_threads();
   std::string too_few_threads(std::size_t started) const;
   static void enter(void* start);
   void run_node(ThreadProcessor& self);
-  void step(ThreadProcessor& self);
+  void run_driver(Driver& driver);
+  void take_turn(Driver& driver, std::uint32_t number);
+  static bool falls_asleep(ThreadProcessor& self);
+  Next step(ThreadProcessor& self);
   bool work(ThreadProcessor& self);
   std::uint64_t since_start_ns() const;
   bool work_observed(ThreadProcessor& self);
   void receive_observed(ThreadProcessor& self, const Packet& packet);
   Span begin_span(ThreadProcessor& self, Activity activity, PacketKind packet) const;
   void end_span(ThreadProcessor& self, Span& span) const;
-  void sleep(ThreadProcessor& self);
-  bool go_to_sleep(ThreadProcessor& self);
+  void rest(ThreadProcessor& self);
+  void sleep(Driver& driver);
+  bool go_to_sleep(Mailbox& inbox);
 
   std::optional<Chaos> chaos_;
   Observer* observer_;
   const Outlet* outlet_;
   std::uint64_t start_ns_ = 0;  ///< of the run; written before the threads start
-  AwakeCount awake_;            ///< nodes, and the bringer while it brings
+  AwakeCount awake_;            ///< nodes or drivers, and the bringer while it brings
   AwakeCount uncounted_;        ///< of the outbox, whose receiver is no node: read by nobody
   alignas(cache_line_bytes) std::atomic<Ending> ending_{Ending::none};
   std::atomic<bool> failing_{false};
   std::exception_ptr failure_;                                ///< written once, before the release in end(); read after the joins
   std::vector<std::unique_ptr<ThreadProcessor>> processors_;  ///< those that are here
   std::vector<ThreadProcessor*> by_index_;                    ///< of all; nothing for those that are elsewhere
+  std::vector<std::unique_ptr<Driver>> drivers_;              ///< none where each node has a thread
   std::vector<Start> starts_;
 };
 

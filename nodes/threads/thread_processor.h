@@ -143,7 +143,9 @@ struct alignas(cache_line_bytes) ThreadProcessor {
   std::uint64_t call = 0;           ///< number of the program's call, if somebody looks on
   Charges charged;                  ///< until the last one's end, likewise
   std::uint32_t quanta_to_run = 0;  ///< this many quanta from now the node runs one
-  Thread thread;
+  bool is_asleep = false;           ///< of a driver's: its mailbox's word was made ASLEEP
+  std::uint64_t asleep_since_ns = 0;
+  Thread thread;  ///< not of a driver's
 };
 
 }  // namespace dmpc::nodes

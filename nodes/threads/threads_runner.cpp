@@ -12,8 +12,9 @@
 namespace dmpc::nodes {
 
 struct ThreadsRunner::Implementation {
-  Implementation(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer)
-      : nodes(specifications, chaos, observer), disturbance(chaos) {}
+  Implementation(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos, Observer* observer,
+                 const std::optional<std::uint32_t>& pool_threads)
+      : nodes(specifications, chaos, observer, nullptr, pool_threads), disturbance(chaos) {}
 
   RunEnd judge() const {
     switch (nodes.ending()) {
@@ -36,8 +37,8 @@ struct ThreadsRunner::Implementation {
 };
 
 ThreadsRunner::ThreadsRunner(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos,
-                             Observer* observer)
-    : implementation_(std::make_unique<Implementation>(specifications, chaos, observer)) {}
+                             Observer* observer, const std::optional<std::uint32_t>& pool_threads)
+    : implementation_(std::make_unique<Implementation>(specifications, chaos, observer, pool_threads)) {}
 ThreadsRunner::~ThreadsRunner() = default;
 
 RunEnd ThreadsRunner::run(std::stop_token stop) {

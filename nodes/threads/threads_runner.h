@@ -1,7 +1,8 @@
-// Runs the node programs on one thread a node, wall clock; an idle node sleeps.
+// Runs the node programs on one thread a node, or on a few that drive all in turn, wall clock; who is idle sleeps.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,17 +18,17 @@ namespace dmpc::nodes {
 /// The least thread stack that a plan may reserve (Category::reserve), in bytes. Sanitizers get a larger one, outside the plan.
 inline constexpr std::size_t thread_stack_bytes_min = std::size_t{64} << 10U;
 
-/// As Runner; on one thread a node, wall clock.
+/// As Runner; on one thread a node or on a pool of threads, wall clock.
 class ThreadsRunner final : public Runner {
  public:
   /// `specifications`: the nodes in order, then the host, last. With `chaos` the computer delays and reorders packets, and some
   /// of its nodes are slow; the credits are the strategy's to shrink (shrunk_credits()). `observer`, if there is one, is told on
-  /// the nodes' threads.
+  /// the nodes' threads. `pool_threads`: as ComputerRequest's.
   explicit ThreadsRunner(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos = std::nullopt,
-                         Observer* observer = nullptr);
+                         Observer* observer = nullptr, const std::optional<std::uint32_t>& pool_threads = std::nullopt);
   ~ThreadsRunner() override;
 
-  /// Starts a thread for each. After a stop is requested every thread ends within a quantum. A stall is found exactly, without a
+  /// Starts the threads. After a stop is requested every thread ends within a quantum. A stall is found exactly, without a
   /// time-out: all nodes sleep and nothing is under way.
   RunEnd run(std::stop_token stop) override;
   Node& node(std::size_t index) override;

@@ -27,14 +27,15 @@ class Spendthrift final : public TokenRound {
   std::vector<int> kept_;
 };
 
-std::uint64_t allocated_by(const ProgramMaker& maker, const std::optional<nodes::Chaos>& chaos = std::nullopt) {
+std::uint64_t allocated_by(const ProgramMaker& maker, const std::optional<nodes::Chaos>& chaos = std::nullopt,
+                           const std::optional<std::uint32_t>& pool_threads = std::nullopt) {
   auto specifications = equal_nodes(8, TokenRound::mailbox, maker);
   for (nodes::NodeSpecification& specification : specifications) {
     specification = watched(specification);
     specification.held_bytes = nodes::HeldPackets::room_bytes(nodes::small_payload_bytes);
     specification.plan[nodes::Category::queues] += specification.held_bytes;
   }
-  nodes::ThreadsRunner runner(specifications, chaos);
+  nodes::ThreadsRunner runner(specifications, chaos, nullptr, pool_threads);
   const Allocations before = watched_allocations();
   static_cast<void>(runner.run({}));
   const Allocations after = watched_allocations();
@@ -43,6 +44,13 @@ std::uint64_t allocated_by(const ProgramMaker& maker, const std::optional<nodes:
 
 TEST_CASE("from start to end no thread of a node allocates or frees, the runner's code included") {
   CHECK(allocated_by(making<TokenRound>(50U)) == 0);
+}
+
+TEST_CASE("the threads of a pool allocate as little, in turns, sleeps and chaos") {
+  for (const std::uint32_t threads : {1U, 2U, 5U}) {
+    CHECK(allocated_by(making<TokenRound>(50U), std::nullopt, threads) == 0);
+    CHECK(allocated_by(making<TokenRound>(50U), nodes::Chaos{.seed = 1, .slow_node_percent = 50}, threads) == 0);
+  }
 }
 
 TEST_CASE("packets held back take nothing but the node's own memory") {
