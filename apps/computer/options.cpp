@@ -39,9 +39,14 @@ void add_computer_group(OptionSet& options, ProgramOptions& program) {
       "The bound of each node's memory, such as 256KiB: refused if the program takes more");
   options.add_choice<RunnerKind>(
       "--runner", program.runner,
-      {{"threads", RunnerKind::threads}, {"virtual", RunnerKind::virtual_time}, {"mpi", RunnerKind::mpi}},
-      "threads: a thread for each node. virtual: the model of a machine, in its own time, the same whenever it is repeated. mpi: "
-      "threads of all the processes that mpirun or srun has started");
+      {{"threads", RunnerKind::threads},
+       {"pool", RunnerKind::pool},
+       {"virtual", RunnerKind::virtual_time},
+       {"mpi", RunnerKind::mpi}},
+      "threads: a thread for each node. pool: a few threads drive all nodes in turn. virtual: the model of a machine, in its own "
+      "time, the same whenever it is repeated. mpi: threads of all the processes that mpirun or srun has started");
+  options.add_number("--pool-threads", program.computer.pool_threads, 1, program_nodes_max, "as many as processors; mpi none",
+                     "Threads that drive all nodes of a process in turn (pool; mpi, in place of a thread for each node)");
   options.add_text(
       "--machine", "MACHINE|FILE.json [ipsc2]", [&program](const std::string& name) { program.machine_name = name; },
       "The machine that is modelled (virtual): " + machine_preset_names() + " or a file such as dmpc machine prints");
@@ -69,6 +74,11 @@ void check_runner(const OptionSet& options, const ProgramOptions& program) {
     const std::string reason = program.runner == RunnerKind::mpi ? "what ranks run on is no model" : "threads model no machine";
     refuse("--machine", reason);
     refuse("--topology", reason);
+  }
+  if (program.runner == RunnerKind::threads) {
+    refuse("--pool-threads", "each node has a thread of its own");
+  } else if (program.is_modelled()) {
+    refuse("--pool-threads", "a model has no threads");
   }
   if (program.runner != RunnerKind::mpi) {
     refuse("--idle", "only ranks have a thread that sends and receives for others");
@@ -126,6 +136,9 @@ void add_closer_look(OptionSet options, ProgramOptions& program) {
   options.check_in_the_end([options, &program] {
     check_runner(options, program);
     program.is_node_count_given = options.is_given("--nodes");
+    if (program.runner == RunnerKind::pool && !program.computer.pool_threads) {
+      program.computer.pool_threads = 0;
+    }
     if (program.chaos_seed) {
       program.computer.chaos = nodes::chaos_of(*program.chaos_seed);
     }

@@ -45,7 +45,8 @@ std::string runner_text(const ProgramOptions& options) {
   if (const nodes::Machine* const machine = options.computer.model()) {
     return "virtual, in the time of a modelled " + machine->name;
   }
-  return std::string("threads") + (options.runner == RunnerKind::mpi ? " on ranks" : "") + ", one a node, by the wall clock";
+  return std::string("threads") + (options.runner == RunnerKind::mpi ? " on ranks" : "") +
+         (options.computer.pool_threads ? ", a pool that drives all nodes in turn" : ", one a node") + ", by the wall clock";
 }
 
 }  // namespace

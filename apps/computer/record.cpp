@@ -134,9 +134,10 @@ nodes::Traffic sent(const ProgramRecord& record) {
 
 std::string computer_text(const ProgramOptions& options) {
   const nodes::Machine* const machine = options.computer.model();
-  const std::string kind = options.runner == RunnerKind::mpi ? " on ranks"
-                           : machine == nullptr              ? " on threads"
-                                                             : " of " + machine->name;
+  const std::string kind = options.runner == RunnerKind::mpi    ? " on ranks"
+                           : options.runner == RunnerKind::pool ? " on a pool of threads"
+                           : machine == nullptr                 ? " on threads"
+                                                                : " of " + machine->name;
   return counted(options.computer.node_count, "node") + kind;
 }
 

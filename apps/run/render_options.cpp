@@ -30,9 +30,15 @@ void add_runner_options(OptionSet& options, RenderOptions& render) {
   options.begin_group("What drives the computer");
   options.add_choice<RunnerKind>(
       "--runner", render.runner.kind,
-      {{"threads", RunnerKind::threads}, {"virtual", RunnerKind::virtual_time}, {"mpi", RunnerKind::mpi}},
-      "threads: a thread for each node. virtual: the model of a machine, in its own time, the same whenever it is repeated. mpi: "
-      "threads of all the processes that mpirun or srun has started; the first of them reads, prints and writes");
+      {{"threads", RunnerKind::threads},
+       {"pool", RunnerKind::pool},
+       {"virtual", RunnerKind::virtual_time},
+       {"mpi", RunnerKind::mpi}},
+      "threads: a thread for each node. pool: a few threads drive all nodes in turn, which is done sooner where nodes outnumber "
+      "processors. virtual: the model of a machine, in its own time, the same whenever it is repeated. mpi: threads of all the "
+      "processes that mpirun or srun has started; the first of them reads, prints and writes");
+  options.add_number("--pool-threads", render.computer.pool_threads, 1, nodes::node_count_max, "as many as processors; mpi none",
+                     "Threads that drive all nodes of a process in turn (pool; mpi, in place of a thread for each node)");
   add_machine_options(options, render.runner, " (virtual)");
   options.add_choice<std::optional<nodes::Idle>>(
       "--idle", render.runner.idle, {{"auto", std::nullopt}, {"spin", nodes::Idle::spin}, {"sleep", nodes::Idle::sleep}},
@@ -81,12 +87,18 @@ constexpr Conflict conflicts[] = {
     {"--machine", RunnerKind::threads, "threads model no machine"},
     {"--no-contention", RunnerKind::threads, "threads model no links"},
     {"--memory-port", RunnerKind::threads, "threads model no ports"},
+    {"--pool-threads", RunnerKind::threads, "each node has a thread of its own"},
+    {"--machine", RunnerKind::pool, "threads model no machine"},
+    {"--no-contention", RunnerKind::pool, "threads model no links"},
+    {"--memory-port", RunnerKind::pool, "threads model no ports"},
     {"--chaos", RunnerKind::virtual_time, "chaos disturbs threads only"},
     {"--checkpoint", RunnerKind::virtual_time, "the time of two halves of a run is not the time of a whole one"},
     {"--machine", RunnerKind::mpi, "what ranks run on is no model"},
     {"--no-contention", RunnerKind::mpi, "what ranks run on is no model"},
     {"--memory-port", RunnerKind::mpi, "what ranks run on is no model"},
     {"--idle", RunnerKind::threads, "the nodes of one process wake each other"},
+    {"--idle", RunnerKind::pool, "the nodes of one process wake each other"},
+    {"--pool-threads", RunnerKind::virtual_time, "a model has no threads"},
     {"--idle", RunnerKind::virtual_time, "nobody waits in virtual time"},
     {"--topology", RunnerKind::virtual_time, "the machine has a topology of its own, onto which regions are mapped"},
 };
@@ -103,6 +115,13 @@ void check_runner(const OptionSet& options, const RenderOptions& render) {
   }
   if (render.tracer == TracerChoice::embree && runner == RunnerKind::mpi) {
     throw UsageError("--tracer=embree does not go with --runner=mpi: Embree sees the whole scene, which one process alone has");
+  }
+}
+
+/// As many threads as processors, unless the line says how many.
+void choose_pool(RenderOptions& render) {
+  if (render.runner.kind == RunnerKind::pool && !render.computer.pool_threads) {
+    render.computer.pool_threads = 0;
   }
 }
 
@@ -172,6 +191,7 @@ void add_options(OptionSet options, RenderOptions& render) {
     settle_database(options, render.strategy, render.database);
     render.is_node_count_given = options.is_given("--nodes");
     check(options, render);
+    choose_pool(render);
   });
   options.set_examples(
       "Examples:\n"
@@ -183,6 +203,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render rings-4-t1 --cache-pages=64 --heatmap=faults:faults.png --report=rings.html -o rings.png\n"
       "  dmpc render rings-4-t1 --work-item=0 --in-flight=1 --references=rings.csv -o rings.png\n"
       "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"
+      "  dmpc render teapot-12 --nodes=64 --runner=pool -o teapot.png\n"
       "  dmpc render teapot-12 --nodes=64 --runner=virtual --machine=ipsc860 --stats=teapot.json -o teapot.png\n"
       "  mpirun -n 4 dmpc render tetra-10 --runner=mpi --nodes=28 -o tetra.exr\n"
       "  dmpc render balls-6 --samples=256 --checkpoint=balls.checkpoint --resume -o balls.exr\n"

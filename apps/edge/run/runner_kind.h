@@ -5,12 +5,23 @@
 
 namespace dmpc::apps {
 
-/// Threads, by the wall clock, of one process or of the ranks that MPI has started, or the model of a machine, in virtual time.
-enum class RunnerKind : std::uint8_t { threads, virtual_time, mpi };
+/// By the wall clock a thread a node or a pool of threads for all, in one process, or threads of the ranks that MPI has started;
+/// or the model of a machine, in virtual time.
+enum class RunnerKind : std::uint8_t { threads, pool, virtual_time, mpi };
 
 /// As the command line calls it.
 constexpr const char* name_of(RunnerKind runner) {
-  return runner == RunnerKind::threads ? "threads" : runner == RunnerKind::virtual_time ? "virtual" : "mpi";
+  switch (runner) {
+    case RunnerKind::threads:
+      return "threads";
+    case RunnerKind::pool:
+      return "pool";
+    case RunnerKind::virtual_time:
+      return "virtual";
+    case RunnerKind::mpi:
+      return "mpi";
+  }
+  return "";
 }
 
 }  // namespace dmpc::apps

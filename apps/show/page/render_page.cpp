@@ -27,8 +27,9 @@ namespace {
 
 std::string runner_text(const RenderOptions& options, const Account& account) {
   const std::string where = account.ranks.empty() ? "" : " on " + counted(account.ranks.size(), "rank");
+  const std::string which = options.computer.pool_threads ? ", a pool that drives all nodes in turn" : ", one a node";
   return options.computer.machine ? "virtual, in the time of a modelled " + options.computer.machine->name
-                                  : "threads" + where + ", one a node, by the wall clock";
+                                  : "threads" + where + which + ", by the wall clock";
 }
 
 /// By which another run is known to be the same.

@@ -437,6 +437,27 @@ TEST_CASE("threads drive the computer unless a machine is to be modelled") {
   CHECK(render({"--runner=threads", "--chaos=1"}).runner.kind == RunnerKind::threads);
 }
 
+TEST_CASE("a pool has as many threads as processors unless the line says how many, and so may each of several ranks") {
+  CHECK_FALSE(render().computer.pool_threads);
+  CHECK(render({"--runner=pool"}).runner.kind == RunnerKind::pool);
+  CHECK(render({"--runner=pool"}).computer.pool_threads == 0U);
+  CHECK(render({"--runner=pool", "--pool-threads=3", "--chaos=1"}).computer.pool_threads == 3U);
+  CHECK_FALSE(render({"--runner=mpi"}).computer.pool_threads);
+  CHECK(render({"--runner=mpi", "--pool-threads=2"}).computer.pool_threads == 2U);
+}
+
+TEST_CASE("what does not go with a pool, or has none, is refused with the reason") {
+  CHECK(contains(render_complaint({"--pool-threads=2"}),
+                 "--pool-threads does not go with --runner=threads: each node has a thread of its own"));
+  CHECK(contains(render_complaint({"--runner=virtual", "--pool-threads=2"}),
+                 "--pool-threads does not go with --runner=virtual: a model has no threads"));
+  CHECK(contains(render_complaint({"--runner=pool", "--machine=hdr"}),
+                 "--machine does not go with --runner=pool: threads model no machine"));
+  CHECK(contains(render_complaint({"--runner=pool", "--idle=spin"}),
+                 "--idle does not go with --runner=pool: the nodes of one process wake each other"));
+  CHECK(contains(render_complaint({"--runner=pool", "--pool-threads=0"}), "--pool-threads"));
+}
+
 TEST_CASE("an option of the other runner is refused with the reason") {
   for (const std::string option : {"--machine=ipsc2", "--no-contention", "--memory-port"}) {
     for (const std::string strategy : {"svm", "replicated", "dataflow"}) {
@@ -519,7 +540,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--no-backpressure",
                                  "--topology",
                                  "--runner",
-                                 "threads|virtual|mpi [threads]",
+                                 "threads|pool|virtual|mpi [threads]",
                                  "MACHINE|FILE.json [ipsc2]",
                                  "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
                                  "--no-contention",
