@@ -45,6 +45,12 @@ class ChaosCase {
     return draws.chance(40) ? 1 : std::min(nodes_, 2 + draws.below(4));
   }
 
+  /// The threads that drive the nodes of each process, or nothing where each node has one, by a draw of its own.
+  std::optional<std::uint32_t> pool_threads() const {
+    nodes::ChaosStream draws(core::mix(seed_ ^ 0xd21fe));
+    return draws.chance(40) ? std::optional(1 + draws.below(4)) : std::nullopt;
+  }
+
   /// Options of svm; replicated and forest have no cache. `round` tells the parts of one picture apart.
   svm::RunOptions page_options(const svm::Strategy* strategy, std::uint32_t round = 0) {
     svm::RunOptions options{.computer = {.node_count = nodes_}};
@@ -94,8 +100,10 @@ class ChaosCase {
 
   friend std::ostream& operator<<(std::ostream& out, const ChaosCase& one) {
     return out << chaos_subjects().at(one.subject_).name << " on " << one.nodes_ << " nodes, "
-               << (one.is_modelled_ ? "modelled" : "threads") << (one.is_in_parts() ? ", in parts" : "") << ", "
-               << one.rank_count() << " ranks";
+               << (one.is_modelled_     ? "modelled"
+                   : one.pool_threads() ? "pool"
+                                        : "threads")
+               << (one.is_in_parts() ? ", in parts" : "") << ", " << one.rank_count() << " ranks";
   }
 
  private:
@@ -121,6 +129,7 @@ class ChaosCase {
   void disturb(Options& options, std::uint32_t round) {
     if (!is_modelled_) {
       options.computer.chaos = nodes::chaos_of(core::mix(seed_) + round);
+      options.computer.pool_threads = pool_threads();
       return;
     }
     nodes::Machine machine{.topology = one_of({nodes::TopologyKind::crossbar, nodes::TopologyKind::mesh,

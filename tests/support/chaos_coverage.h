@@ -40,6 +40,8 @@ void cover_computer(Coverage& covered, const ChaosCase& one, const Options& opti
   covered.count("modelled machine", is_modelled);
   covered.count("threads", !is_modelled && one.rank_count() == 1);
   covered.count("several ranks", !is_modelled && one.rank_count() > 1);
+  covered.count("a pool", options.computer.pool_threads && one.rank_count() == 1);
+  covered.count("pools on several ranks", options.computer.pool_threads && one.rank_count() > 1);
 }
 
 inline void cover(Coverage& covered, const ChaosCase& one, const svm::RunOptions& options, const svm::Strategy& strategy) {
