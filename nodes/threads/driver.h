@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "nodes/atomics.h"
 #include "nodes/awake_count.h"

@@ -28,9 +28,11 @@ nlohmann::json stats_of(const Application<Asker>& application, Words words) {
 
 }  // namespace
 
-TEST_CASE("a program comes to the same on threads, on modelled machines, with any number of nodes, and disturbed") {
+TEST_CASE("a program comes to the same on threads, on a pool, on modelled machines, with any number of nodes, and disturbed") {
   const Application<Asker> program = asker(10);
   for (const Words& words : std::vector<Words>{{"--nodes=4"},
+                                               {"--nodes=4", "--runner=pool"},
+                                               {"--nodes=4", "--runner=pool", "--pool-threads=1"},
                                                {"--nodes=4", "--runner=virtual"},
                                                {"--nodes=4", "--runner=virtual", "--machine=hdr", "--topology=mesh"}}) {
     const Ran ran = run_with(program, words);
@@ -40,7 +42,9 @@ TEST_CASE("a program comes to the same on threads, on modelled machines, with an
   }
   for (int seed = 0; seed < 10; ++seed) {
     INFO("seed ", seed);
-    CHECK(run_with(program, {"--nodes=4", "--chaos=" + std::to_string(seed), "--quiet"}).output == "sum 1140\n");
+    const std::string chaos = "--chaos=" + std::to_string(seed);
+    CHECK(run_with(program, {"--nodes=4", chaos, "--quiet"}).output == "sum 1140\n");
+    CHECK(run_with(program, {"--nodes=4", chaos, "--runner=pool", "--pool-threads=2", "--quiet"}).output == "sum 1140\n");
   }
   CHECK(run_with(program, {"--nodes=1", "--quiet"}).output == "sum 285\n");
   CHECK(run_with(program, {"--nodes=64", "--quiet"}).output == "sum 18240\n");
@@ -61,7 +65,7 @@ TEST_CASE("what a program does that it has not declared ends the run, and is sai
       {Fault::takes_for_other, "a packet of 4 bytes is copied to 1 values of 8"},
       {Fault::throws_a_number, "what it threw is no std::exception"}};
   for (const auto& [fault, message] : faults) {
-    for (const std::string runner : {"threads", "virtual"}) {
+    for (const std::string runner : {"threads", "pool", "virtual"}) {
       const Ran ran = run_with(asker(10, fault), {"--nodes=2", "--runner=" + runner});
       CHECK(ran.status == 3);
       CHECK(says(ran, "asker: the program: "));
@@ -80,7 +84,7 @@ TEST_CASE("a program without needs is told to declare them, and its name stands 
 }
 
 TEST_CASE("nodes that stand still are found out, with what each says of itself, who waits for whom, and in which circle") {
-  for (const std::string runner : {"threads", "virtual"}) {
+  for (const std::string runner : {"threads", "pool", "virtual"}) {
     const Ran ran = run_with(asker(10, Fault::answers_nothing, 3), {"--nodes=3", "--runner=" + runner});
     CHECK(ran.status == 3);
     for (const std::string line : {"node 0: 3 asked; waits for 3 'square' of node 1; owes 3 'square' to node 2\n",
@@ -148,6 +152,9 @@ TEST_CASE("options that do not go together, or are none, are refused with a hint
   };
   CHECK(complaint({"--machine=hdr"}).find("--machine does not go with --runner=threads") != std::string::npos);
   CHECK(complaint({"--topology=mesh"}).find("--topology does not go with --runner=threads") != std::string::npos);
+  CHECK(complaint({"--pool-threads=2"}).find("--pool-threads does not go with --runner=threads") != std::string::npos);
+  CHECK(complaint({"--runner=virtual", "--pool-threads=2"}).find("--pool-threads does not go with --runner=virtual") !=
+        std::string::npos);
   CHECK(complaint({"--chaos=1", "--runner=virtual"}).find("chaos disturbs threads only") != std::string::npos);
   CHECK(complaint({"--trace=a.txt"}).find("--trace=a.txt: expected a file with the ending .json") != std::string::npos);
   CHECK(complaint({"--node=3"}).find("Try: asker --help") != std::string::npos);
