@@ -34,9 +34,9 @@ void add_runner_options(OptionSet& options, RenderOptions& render) {
        {"pool", RunnerKind::pool},
        {"virtual", RunnerKind::virtual_time},
        {"mpi", RunnerKind::mpi}},
-      "threads: a thread for each node. pool: a few threads drive all nodes in turn, which is done sooner where nodes outnumber "
-      "processors. virtual: the model of a machine, in its own time, the same whenever it is repeated. mpi: threads of all the "
-      "processes that mpirun or srun has started; the first of them reads, prints and writes");
+      "threads: a thread for each node. pool: a few threads drive all nodes in turn, for less processor time where nodes "
+      "outnumber processors. virtual: the model of a machine, in its own time, the same whenever it is repeated. mpi: threads of "
+      "all the processes that mpirun or srun has started; the first of them reads, prints and writes");
   options.add_number("--pool-threads", render.computer.pool_threads, 1, nodes::node_count_max, "as many as processors; mpi none",
                      "Threads that drive all nodes of a process in turn (pool; mpi, in place of a thread for each node)");
   add_machine_options(options, render.runner, " (virtual)");
