@@ -26,6 +26,7 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
       refinement_(plan.request.refinement, plan.request.first_samples, film.width(), film.height(), detail, film.scale()),
       undealt_(plan.node_count(), plan.request.is_dealt_on_the_way ? run_rays_max : ~std::uint64_t{0}),
       kept_(plan.node_count(), plan.tested_objects()),
+      termination_(Termination::initiator({plan.node_count()})),
       node_count_(plan.node_count()),
       ray_batch_(plan.ray_batch),
       tested_objects_(plan.tested_objects()),
@@ -103,12 +104,12 @@ bool HostProgram::work() {
   if (finishing_ || !is_passive()) {
     return false;
   }
-  if (const std::optional<Token> token = termination_.hand_on()) {
+  if (const std::optional<TokenHandover> handover = termination_.hand_on()) {
     ++counters_.token_rounds;
-    send_control(*node_, next_on_ring(node_->id(), node_count_), Kind::token, *token);
+    send_tokens(*node_, *handover);
   } else if (termination_.is_terminated()) {
     finishing_ = true;
-    tell_all(Kind::finish);
+    tell_children(*node_, termination_.place(), Kind::finish, Finish{});
   }
   return false;
 }
@@ -182,12 +183,11 @@ void HostProgram::take_entry(const FilmEntry& entry) {
 
 void HostProgram::take_done(const Done& done) {
   core::expect(finishing_, "a node is done after the end is proved");
-  ++nodes_done_;
-  entries_announced_ += done.entries;
-  if (nodes_done_ < node_count_) {
+  below_.add(done);
+  if (below_.told < termination_.place().child_count) {
     return;
   }
-  core::expect(entries_announced_ == counters_.film_entries, "all light that was sent has arrived");
+  core::expect(below_.entries == counters_.film_entries, "all light that was sent has arrived");
   if (undealt_.holds_back()) {
     return go_on_dealing();
   }
@@ -200,7 +200,7 @@ void HostProgram::take_done(const Done& done) {
 /// All light of the pass is on the film: deals the next, or stops all.
 void HostProgram::end_pass() {
   if (!refinement_.next_pass(*film_)) {
-    tell_all(Kind::stop);
+    tell_children(*node_, termination_.place(), Kind::stop, Stop{});
     stopped_ = true;
     return;
   }
@@ -227,7 +227,7 @@ bool HostProgram::is_due() const { return continuation_.is_due && continuation_.
 void HostProgram::begin_again() {
   finishing_ = false;
   termination_.begin_again();
-  entries_announced_ = nodes_done_ = 0;
+  below_ = {};
   deal_all();
 }
 
@@ -248,22 +248,13 @@ void HostProgram::deal(std::uint32_t index) {
 /// In the sense of termination: has no ray to send.
 bool HostProgram::is_passive() const { return host_is_passive(kept_.size()) && undealt_.is_empty(); }
 
-void HostProgram::tell_all(Kind kind) {
-  for (std::uint32_t i = 0; i < node_count_; ++i) {
-    if (kind == Kind::finish) {
-      send_control(*node_, nodes::NodeId{i}, kind, Finish{});
-    } else {
-      send_control(*node_, nodes::NodeId{i}, kind, Stop{});
-    }
-  }
-}
-
 std::string HostProgram::describe() const {
   return std::to_string(kept_.size()) + " rays kept, light on " + std::to_string(pixels_with_light_) + " of " +
          std::to_string(refinement_.pixel_count()) + " pixels of pass " + std::to_string(refinement_.result().passes) +
          ", ray packets sent - received " + std::to_string(termination_.balance()) +
          (termination_.holds_token() ? ", holds the token" : "") + (termination_.is_black() ? ", black, " : ", white, ") +
-         std::to_string(nodes_done_) + " of " + std::to_string(node_count_) + " nodes done" + (finishing_ ? ", finishing" : "");
+         std::to_string(below_.told) + " of " + std::to_string(termination_.place().child_count) + " branches of nodes done" +
+         (finishing_ ? ", finishing" : "");
 }
 
 HostCounters HostProgram::report() const {

@@ -35,7 +35,7 @@ struct HostCounters {
   std::uint64_t rays_out = 0;            ///< forwarded: at the end the same
   std::uint64_t rays_kept_max = 0;       ///< at once
   std::size_t kept_bytes_max = 0;        ///< of the host's heap, beyond its plan: the places of kept rays
-  std::uint64_t token_rounds = 0;        ///< of the termination's ring
+  std::uint64_t token_rounds = 0;        ///< of the proof of the end (termination.h)
   std::uint64_t film_entries = 0;        ///< received
   std::uint64_t deposits_saturated = 0;  ///< on the host's film, and gatherings of its planes
 };
@@ -81,7 +81,6 @@ class HostProgram final : public nodes::Program {
   void deal_all();
   void deal(std::uint32_t index);
   bool is_passive() const;
-  void tell_all(Kind kind);
 
   nodes::Node* node_;
   core::Film* film_;
@@ -91,7 +90,7 @@ class HostProgram final : public nodes::Program {
   core::Refinement refinement_;
   Undealt undealt_;
   KeptRays kept_;
-  Termination termination_ = Termination::initiator();
+  Termination termination_;
   std::span<std::byte> packet_;         ///< where a packet is put together
   std::span<std::uint64_t> has_light_;  ///< a bit a pixel
   std::uint32_t node_count_;
@@ -99,8 +98,7 @@ class HostProgram final : public nodes::Program {
   std::uint32_t tested_objects_;
   std::uint32_t pixels_total_;
   std::uint32_t pixels_with_light_ = 0;
-  std::uint32_t nodes_done_ = 0;
-  std::uint64_t entries_announced_ = 0;
+  DoneBelow below_;
   HostCounters counters_;
   bool finishing_ = false;
   bool stopped_ = false;

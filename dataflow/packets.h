@@ -11,10 +11,10 @@
 //   hold_acknowledgement   node -> node          control   small  the announcement that it answers
 //   film                   node -> host          film      bulk   the sender's film credits
 //   film_acknowledgement   host -> node          control   small  the film packet
-//   token                  member -> next        control   small  itself: one goes round the ring
-//   finish                 host -> node          control   small  once a run
-//   done                   node -> host          control   small  once a run
-//   stop                   host -> node          control   small  once a run
+//   token                  parent <-> child      control   small  the token before: calls and what is told take turns
+//   finish                 parent -> child       control   small  once a run
+//   done                   child -> parent       control   small  the child's last token; once a run
+//   stop                   parent -> child       control   small  once a run
 //   primaries              host -> node          film      bulk   the host's credits for dealing to that node
 //   primaries_taken        node -> host          control   small  the packet of primaries whose credit it gives back
 //   unit_ask               node -> node          control   small  itself: a node asks one at a time
@@ -233,9 +233,20 @@ struct Finish {
   std::uint32_t padding = 0;
 };
 
-/// All that the sender put on the film has been acknowledged.
+/// All that the sender, and those below it in the tree, put on the film has been acknowledged.
 struct Done {
   std::uint64_t entries = 0;  ///< since the start
+};
+
+/// What a member's children in the tree have said since the end was proved.
+struct DoneBelow {
+  std::uint32_t told = 0;
+  std::uint64_t entries = 0;
+
+  void add(const Done& done) {
+    ++told;
+    entries += done.entries;
+  }
 };
 
 /// Primary rays of a pass that enter the grid in the target's region.
@@ -308,6 +319,25 @@ void send_control(nodes::Node& node, nodes::NodeId target, Kind kind, const T& v
   static_assert(is_small_packet<T>);
   node.grant(target, control_channel);
   node.send_reserved(target, control_channel, number_of(kind), value);
+}
+
+/// Sends it to `count` members from `first` on.
+template <class T>
+void send_control_to(nodes::Node& node, nodes::NodeId first, std::uint32_t count, Kind kind, const T& value) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    send_control(node, nodes::NodeId{nodes::index_of(first) + i}, kind, value);
+  }
+}
+
+/// Hands a token on.
+inline void send_tokens(nodes::Node& node, const TokenHandover& handover) {
+  send_control_to(node, handover.first, handover.count, Kind::token, handover.token);
+}
+
+/// Tells the children in the tree.
+template <class T>
+void tell_children(nodes::Node& node, const TreePlace& place, Kind kind, const T& value) {
+  send_control_to(node, nodes::NodeId{place.first_child}, place.child_count, kind, value);
 }
 
 }  // namespace dmpc::dataflow

@@ -62,6 +62,7 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const std::uint32_t others = plan.node_count() - 1;
   const std::uint32_t dealt = plan.dealing_credits();
   const std::uint32_t moving = plan.is_moving() ? 1 : 0;
+  const TerminationTree tree{plan.node_count()};
   return {.small_slots = others * plan.ray_credits              // credits back from each other node, at least one a packet
                          + (plan.shares_places() ? others : 0)  // requests for places: one from each other node
                          + (plan.shares_places() ? others : 0)  // grants: one for each of this node's requests
@@ -69,7 +70,7 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
                          + others                               // Hold: one from each other node, until it is acknowledged
                          + others                               // acknowledgements of this node's
                          + plan.film_credits                    // acknowledgements: one for each film packet of this node's
-                         + 1                                    // the token
+                         + tree.packets_max(nodes::NodeId{0})   // tokens or done: nobody has more children than the first
                          + 1                                    // Finish
                          + 1                                    // Stop
                          + moving * unit_slots_of(plan),
@@ -83,11 +84,11 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
 }
 
 nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
-  return {.small_slots = plan.node_count() * plan.host_credits          // credits back for forwarded rays
-                         + 1                                            // the token
-                         + plan.node_count()                            // Done: one from each node
-                         + plan.node_count() * plan.dealing_credits(),  // credits back for primary rays
-          .bulk_slots = plan.node_count() * plan.host_credits           // overflow: each node's credits for the host
+  const TerminationTree tree{plan.node_count()};
+  return {.small_slots = plan.node_count() * plan.host_credits                 // credits back for forwarded rays
+                         + tree.packets_max(nodes::NodeId{plan.node_count()})  // tokens, or Done, of its children
+                         + plan.node_count() * plan.dealing_credits(),         // credits back for primary rays
+          .bulk_slots = plan.node_count() * plan.host_credits                  // overflow: each node's credits for the host
                         + plan.node_count() * plan.film_credits,
           .bulk_payload_bytes = std::max(plan.packet_bytes(), film_packet_bytes(film_packet_entries))};
 }

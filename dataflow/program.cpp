@@ -108,7 +108,8 @@ RayProgram<RaysTask, Units>::RayProgram(nodes::Node& node, const Plan& plan, con
       task_(make_task<RaysTask>(node, plan)),
       gather_(node, gather_capacity(plan)),
       film_(node, plan.node_count(), plan.film_credits, deposits_at_once<RaysTask>(deal.header)),
-      backpressure_(plan.node_count() - 1, plan.queue_packets, !plan.request.rays.without_backpressure) {
+      backpressure_(plan.node_count() - 1, plan.queue_packets, !plan.request.rays.without_backpressure),
+      termination_(Termination::member(node.id(), {plan.node_count()})) {
   core::expect(RaysTask::rays_max == plan.rays_a_task, "a node's task is that of the plan");
 }
 
@@ -154,8 +155,9 @@ void RayProgram<RaysTask, Units>::receive(const nodes::Packet& packet) {
       return termination_.take(packet.as<Token>());
     case Kind::finish:
       core::expect(is_passive(state()), "the end is proved only when every node is passive");
-      finishing_ = true;
-      done_ = false;
+      return finish();
+    case Kind::done:
+      below_.add(packet.as<Done>());
       return;
     case Kind::primaries:
       return receive_primaries(packet.as<DealtPrimaries>());
@@ -163,7 +165,7 @@ void RayProgram<RaysTask, Units>::receive(const nodes::Packet& packet) {
       core::expect(done_ && !stopped_, "the host stops only nodes that are done, and once");
       core::expect(places_.are_all_free(), "every shared place has become free again");
       stopped_ = true;
-      return;
+      return tell_children(*node_, termination_.place(), Kind::stop, Stop{});
     default:
       return units_.receive(packet, termination_);
   }
@@ -568,8 +570,8 @@ void RayProgram<RaysTask, Units>::rest() {
 /// Keeps no token, and once the end is proved no light.
 template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::be_passive() {
-  if (const std::optional<Token> token = termination_.hand_on()) {
-    send_control(*node_, next_on_ring(node_->id(), nodes::index_of(host_)), Kind::token, *token);
+  if (const std::optional<TokenHandover> handover = termination_.hand_on()) {
+    send_tokens(*node_, *handover);
   }
   if (finishing_ && !done_) {
     settle();
@@ -577,10 +579,19 @@ void RayProgram<RaysTask, Units>::be_passive() {
 }
 
 template <class RaysTask, class Units>
+void RayProgram<RaysTask, Units>::finish() {
+  finishing_ = true;
+  done_ = false;
+  below_ = {};
+  tell_children(*node_, termination_.place(), Kind::finish, Finish{});
+}
+
+template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::settle() {
   film_.flush();
-  if (film_.settled()) {
-    send_control(*node_, host_, Kind::done, Done{film_.counters().entries});
+  const TreePlace& place = termination_.place();
+  if (film_.settled() && below_.told == place.child_count) {
+    send_control(*node_, place.parent, Kind::done, Done{film_.counters().entries + below_.entries});
     done_ = true;
   }
 }

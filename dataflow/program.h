@@ -147,6 +147,7 @@ class RayProgram final : public NodeProgram {
   void send_credits(nodes::NodeId sender, std::uint32_t count);
   void rest();
   void be_passive();
+  void finish();
   void settle();
 
   std::optional<nodes::Meter> meter_;
@@ -165,7 +166,8 @@ class RayProgram final : public NodeProgram {
   Gather gather_;
   FilmGather film_;
   Backpressure backpressure_;
-  Termination termination_ = Termination::member();
+  Termination termination_;
+  DoneBelow below_;
   core::Operations operations_;
   RayCounters counters_;
   Newest newest_;                ///< of the quantum under way or just over, if it was one that works on a ray

@@ -52,13 +52,16 @@ struct LoneHost {
     dataflow::FilmHeader header{1};
     FilmEntry entry;
   };
-  /// The token goes round, untouched by nodes that are white and have sent what they have received.
+  /// Calls both nodes and hears from them what nodes say that are white; the sum of their balances is `balance`.
   void pass_token_round(std::int64_t balance) {
     program.work();
-    const Parcel token = single.take();
-    REQUIRE(Kind{token.kind} == Kind::token);
-    CHECK(token.target == NodeId{1});
-    receive(0, Kind::token, dataflow::Token{balance, 0});
+    for (const std::uint32_t node : {0U, 1U}) {
+      const Parcel call = single.take();
+      REQUIRE(Kind{call.kind} == Kind::token);
+      CHECK(call.target == NodeId{node});
+    }
+    receive(1, Kind::token, dataflow::Token{balance, 0});
+    receive(0, Kind::token, dataflow::Token{});
     program.work();
   }
 
@@ -106,6 +109,7 @@ TEST_CASE("primary rays of a later pass are dealt as nodes have room, and the ho
   receive(0, Kind::film, light);
   host.work();
   receive(0, Kind::token, dataflow::Token{0, 0});
+  receive(1, Kind::token, dataflow::Token{0, 0});
   host.work();
   receive(0, Kind::done, dataflow::Done{1});
   receive(1, Kind::done, dataflow::Done{0});
@@ -118,7 +122,7 @@ TEST_CASE("primary rays of a later pass are dealt as nodes have room, and the ho
   CHECK(sent(Kind::primaries) == dataflow::dealt_packets + 1);
   CHECK(single.post.parcels.back().packet().as<dataflow::DealtPrimaries>().count == 1);
   host.work();
-  CHECK(sent(Kind::token) == tokens + 1);
+  CHECK(sent(Kind::token) == tokens + 2);
 }
 
 TEST_CASE("a pass whose rays were not all found, as a stop was requested, is not taken for one that has ended") {

@@ -22,6 +22,8 @@ namespace dmpc::tests {
 inline constexpr std::size_t model_nodes = 3;
 inline constexpr std::size_t model_host = model_nodes;
 inline constexpr std::size_t model_peers = model_nodes + 1;
+/// The host has two children, of which one has the third node.
+inline constexpr dataflow::TerminationTree model_tree{.node_count = model_nodes, .branches = 2};
 
 /// The rules as they are. Broken ones derive from this and hide a member.
 struct ProtocolRules {
@@ -199,7 +201,8 @@ class ProtocolModel {
 
   Member member(std::size_t peer) const {
     const bool is_host = peer == model_host;
-    Member m{.termination = is_host ? Rules::Termination::initiator() : Rules::Termination::member(),
+    Member m{.termination = is_host ? Rules::Termination::initiator(model_tree)
+                                    : Rules::Termination::member(nodes::NodeId{narrow(peer)}, model_tree),
              .backpressure{model_nodes - 1, settings_.queue_packets, settings_.has_backpressure}};
     m.primaries = is_host ? std::uint8_t{0} : settings_.primaries[peer];
     for (std::size_t target = 0; target < model_peers; ++target) {
@@ -218,6 +221,7 @@ class ProtocolModel {
     const auto& token = m.termination.token();
     const bool flags[] = {m.termination.is_black(),
                           m.termination.holds_token(),
+                          m.termination.is_called(),
                           m.termination.is_terminated(),
                           m.backpressure.is_announced(),
                           m.is_finished,
@@ -229,6 +233,7 @@ class ProtocolModel {
     bytes += {bits,
               static_cast<char>(m.termination.balance()),
               static_cast<char>(token.balance),
+              static_cast<char>(m.termination.awaited()),
               static_cast<char>(m.primaries),
               static_cast<char>(m.children),
               static_cast<char>(m.backpressure.missing()),
@@ -719,12 +724,13 @@ class ProtocolModel {
     }
     State next = state;
     auto& termination = next.member[peer].termination;
-    const std::size_t target = index_of(dataflow::next_on_ring(nodes::NodeId{narrow(peer)}, model_nodes));
-    if (const auto token = termination.hand_on()) {
-      send(next, peer, target,
-           {Kind::token, static_cast<std::uint8_t>(token->is_black), 0, static_cast<std::int8_t>(token->balance)});
+    const auto handover = termination.hand_on();
+    for (std::uint32_t i = 0; handover && i < handover->count; ++i) {
+      send(next, peer, index_of(handover->first) + i,
+           {Kind::token, static_cast<std::uint8_t>(handover->token.is_black), 0,
+            static_cast<std::int8_t>(handover->token.balance)});
     }
-    visit(Action{"hands on the token", narrow(peer), narrow(target), 0, !termination.is_terminated()}, next);
+    visit(Action{"hands on the token", narrow(peer), narrow(peer), 0, !termination.is_terminated()}, next);
   }
 
   // ---- The host's quantum ------------------------------------------------------------------------------------------------

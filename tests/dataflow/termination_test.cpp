@@ -2,101 +2,144 @@
 
 #include <doctest/doctest.h>
 
+#include <set>
+
 #include "core/base/expect.h"
 
 namespace dmpc::tests::termination_test {
 
 using dataflow::Termination;
+using dataflow::TerminationTree;
 using dataflow::Token;
+using dataflow::TokenHandover;
+using dataflow::TreePlace;
 using nodes::NodeId;
 
 namespace {
 
-/// The token of a member that holds one.
-Token handed_on(Termination& member) {
-  const auto token = member.hand_on();
-  REQUIRE(token.has_value());
-  return *token;
+TokenHandover handed_on(Termination& member) {
+  const auto handover = member.hand_on();
+  REQUIRE(handover.has_value());
+  return *handover;
 }
 
-/// Takes the token once around a host and two nodes that are all passive.
-void go_round(Termination& host, Termination& last, Termination& first) {
-  last.take(handed_on(host));
-  first.take(handed_on(last));
-  host.take(handed_on(first));
-}
+/// A host, its child, and its child's child, which are all passive.
+struct Chain {
+  static constexpr TerminationTree tree{.node_count = 2, .branches = 1};
+  Termination host = Termination::initiator(tree);
+  Termination middle = Termination::member(NodeId{0}, tree), last = Termination::member(NodeId{1}, tree);
+
+  /// Down and up: the host has yet to judge.
+  void go_round() {
+    middle.take(handed_on(host).token);
+    last.take(handed_on(middle).token);
+    middle.take(handed_on(last).token);
+    host.take(handed_on(middle).token);
+  }
+  void prove_end() {
+    go_round();
+    CHECK_FALSE(host.hand_on().has_value());
+    CHECK(host.is_terminated());
+  }
+};
 
 }  // namespace
 
-TEST_CASE("the ring goes from the host down the nodes and back") {
-  CHECK(dataflow::next_on_ring(NodeId{3}, 3) == NodeId{2});
-  CHECK(dataflow::next_on_ring(NodeId{2}, 3) == NodeId{1});
-  CHECK(dataflow::next_on_ring(NodeId{0}, 3) == NodeId{3});
-  CHECK(dataflow::next_on_ring(NodeId{1}, 1) == NodeId{0});
+TEST_CASE("the tree has every node once, below a parent that comes before it") {
+  for (const std::uint32_t count : {1U, 2U, 4U, 5U, 6U, 20U, 21U, 1024U}) {
+    CAPTURE(count);
+    const TerminationTree tree{count};
+    std::set<std::uint32_t> met;
+    for (std::uint32_t member = 0; member <= count; ++member) {
+      const TreePlace place = tree.place_of(NodeId{member});
+      for (std::uint32_t i = 0; i < place.child_count; ++i) {
+        const NodeId child{place.first_child + i};
+        CHECK(met.insert(nodes::index_of(child)).second);
+        CHECK(tree.place_of(child).parent == NodeId{member});
+        CHECK((member == count || member < nodes::index_of(child)));
+      }
+      CHECK(place.child_count <= 4);
+      CHECK(tree.packets_max(NodeId{member}) <= (member == count ? 4 : tree.packets_max(NodeId{0})));
+    }
+    CHECK(met.size() == count);
+  }
 }
 
-TEST_CASE("the host holds the token first, and that alone proves nothing") {
-  Termination host = Termination::initiator();
+TEST_CASE("the host is called first, and that alone proves nothing") {
+  Termination host = Termination::initiator({.node_count = 9});
   CHECK(host.holds_token());
-  CHECK(host.hand_on().has_value());
+  const TokenHandover call = handed_on(host);
+  CHECK(call.first == NodeId{0});
+  CHECK(call.count == 4);
+  CHECK(call.token == Token{});
   CHECK_FALSE(host.is_terminated());
   CHECK_FALSE(host.holds_token());
 }
 
 TEST_CASE("one round without any packet proves the end") {
-  Termination host = Termination::initiator(), last = Termination::member(), first = Termination::member();
-  go_round(host, last, first);
-  CHECK_FALSE(host.hand_on().has_value());
-  CHECK(host.is_terminated());
+  Chain chain;
+  chain.prove_end();
+  CHECK_FALSE(chain.host.hand_on().has_value());
 }
 
-TEST_CASE("a packet received before the token came asks for a second round") {
-  Termination host = Termination::initiator(), last = Termination::member(), first = Termination::member();
-  first.ray_packet_sent();
-  last.ray_packet_received();
-  go_round(host, last, first);
-  CHECK(host.token() == Token{0, 1});
-  go_round(host, last, first);
-  CHECK_FALSE(host.hand_on().has_value());
-  CHECK(host.is_terminated());
+TEST_CASE("a packet received since the round before, or the start, asks for another round") {
+  Chain chain;
+  chain.last.ray_packet_sent();
+  chain.middle.ray_packet_received();
+  chain.go_round();
+  CHECK(chain.host.token() == Token{0, 1});
+  chain.go_round();
+  CHECK_FALSE(chain.host.hand_on().has_value());
+  CHECK(chain.host.is_terminated());
 }
 
 TEST_CASE("a packet under way keeps the end from being proved, round after round") {
-  Termination host = Termination::initiator(), last = Termination::member(), first = Termination::member();
-  first.ray_packet_sent();
+  Chain chain;
+  chain.last.ray_packet_sent();
   for (int round = 0; round < 3; ++round) {
-    go_round(host, last, first);
-    CHECK(host.token() == Token{1, 0});
+    chain.go_round();
+    CHECK(chain.host.token() == Token{1, 0});
   }
-  host.ray_packet_received();
-  CHECK(host.hand_on().has_value());  // black now
-  CHECK_FALSE(host.is_terminated());
+  chain.host.ray_packet_received();
+  CHECK(chain.host.hand_on().has_value());  // black now
+  CHECK_FALSE(chain.host.is_terminated());
 }
 
 TEST_CASE("what begins again is proved anew, from the packets that follow") {
-  Termination host = Termination::initiator(), last = Termination::member(), first = Termination::member();
-  CHECK_THROWS_AS(host.begin_again(), core::InternalError);
-  go_round(host, last, first);
-  CHECK_FALSE(host.hand_on().has_value());
-  host.begin_again();
-  CHECK_FALSE(host.is_terminated());
-  host.ray_packet_sent();
-  go_round(host, last, first);
-  CHECK(host.token() == Token{0, 0});
-  CHECK(host.hand_on().has_value());  // the packet is under way
-  first.ray_packet_received();
+  Chain chain;
+  CHECK_THROWS_AS(chain.host.begin_again(), core::InternalError);
+  chain.prove_end();
+  chain.host.begin_again();
+  CHECK_FALSE(chain.host.is_terminated());
+  chain.host.ray_packet_sent();
+  for (int round = 0; round < 3; ++round) {  // the packet is under way
+    chain.go_round();
+    CHECK(chain.host.token() == Token{0, 0});
+  }
+  chain.last.ray_packet_received();
+  chain.go_round();
+  CHECK(chain.host.token() == Token{-1, 1});
+  chain.prove_end();
 }
 
-TEST_CASE("a member without the token hands nothing on") {
-  Termination member = Termination::member();
+TEST_CASE("a member tells when all below it have told, and not before it is called") {
+  const TerminationTree tree{.node_count = 3, .branches = 2};
+  Termination member = Termination::member(NodeId{0}, tree);
   CHECK_FALSE(member.hand_on().has_value());
   member.take({});
-  CHECK(member.hand_on().has_value());
+  CHECK(handed_on(member).first == NodeId{2});
+  CHECK_FALSE(member.hand_on().has_value());
+  member.ray_packet_sent();
+  member.take({.balance = 2, .is_black = 1});
+  const TokenHandover told = handed_on(member);
+  CHECK(told.token == Token{3, 1});
+  CHECK(told.first == NodeId{3});
+  CHECK(told.count == 1);
   CHECK_FALSE(member.hand_on().has_value());
 }
 
-TEST_CASE("a second token is a broken ring") {
-  Termination member = Termination::member();
+TEST_CASE("a second call in a round is a broken tree") {
+  Termination member = Termination::member(NodeId{0}, {.node_count = 1});
   member.take({});
   CHECK_THROWS_AS(member.take({}), core::InternalError);
 }

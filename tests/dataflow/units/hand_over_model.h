@@ -17,6 +17,8 @@
 namespace dmpc::tests {
 
 inline constexpr std::size_t unit_nodes = 3, unit_host = unit_nodes, unit_peers = unit_nodes + 1;
+/// The host has two children, of which one has the third node.
+inline constexpr dataflow::TerminationTree unit_tree{.node_count = unit_nodes, .branches = 2};
 
 /// The rules as they are. Broken ones derive from this and hide a member.
 struct HandOverRules {
@@ -62,7 +64,7 @@ class HandOverModel {
   };
   struct Member {
     dataflow::HandOver hand_over;
-    dataflow::Termination termination = dataflow::Termination::member();
+    dataflow::Termination termination = dataflow::Termination::initiator(unit_tree);
     std::uint8_t owner = 0, version = 0;  ///< of the unit, as it is known
     std::uint8_t rays = 0;                ///< not looked at yet
     std::uint8_t held = 0;                ///< not started
@@ -93,6 +95,7 @@ class HandOverModel {
     state.questions_left = settings_.questions;
     for (std::size_t node = 0; node < unit_nodes; ++node) {
       Member& m = state.member[node];
+      m.termination = dataflow::Termination::member(nodes::NodeId{narrow(node)}, unit_tree);
       m.rays = settings_.rays[node];
       m.held = settings_.held[node];
       state.alive = narrow(state.alive + m.rays + m.held);
@@ -100,7 +103,6 @@ class HandOverModel {
       m.wants = true;
     }
     state.member[0].has_pages = true;
-    state.member[unit_host].termination = dataflow::Termination::initiator();
     return state;
   }
 
@@ -199,6 +201,8 @@ class HandOverModel {
                             int(m.termination.balance()),
                             int{m.termination.is_black()},
                             int{m.termination.holds_token()},
+                            int{m.termination.is_called()},
+                            int(m.termination.awaited()),
                             int{m.termination.is_terminated()},
                             int(token.balance),
                             int(token.is_black),
@@ -354,9 +358,11 @@ class HandOverModel {
     }
     State next = state;
     auto& termination = next.member[peer].termination;
-    if (const auto token = termination.hand_on()) {
-      send(next, peer, nodes::index_of(dataflow::next_on_ring(nodes::NodeId{narrow(peer)}, unit_nodes)),
-           {Kind::token, static_cast<std::uint8_t>(token->is_black), 0, static_cast<std::int8_t>(token->balance)});
+    const auto handover = termination.hand_on();
+    for (std::uint32_t i = 0; handover && i < handover->count; ++i) {
+      send(next, peer, nodes::index_of(handover->first) + i,
+           {Kind::token, static_cast<std::uint8_t>(handover->token.is_black), 0,
+            static_cast<std::int8_t>(handover->token.balance)});
     }
     visit(Action{"hands on the token", narrow(peer), !termination.is_terminated()}, next);
   }
