@@ -1,12 +1,11 @@
 #include "apps/foreign/polygon/ply_header.h"
 
 #include <array>
-#include <charconv>
 #include <limits>
 #include <map>
-#include <system_error>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/polygon/text_words.h"
 #include "apps/foreign/text/small_letters.h"
@@ -23,12 +22,6 @@ std::optional<PlyType> type_of(std::string_view name) {
       {"float", float32}, {"float32", float32}, {"double", float64}, {"float64", float64}};
   const auto found = types.find(name);
   return found == types.end() ? std::nullopt : std::optional(found->second);
-}
-
-std::optional<std::uint64_t> count_in(std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
 class PlyHeaderReader {
@@ -84,7 +77,7 @@ void PlyHeaderReader::add_format(std::string_view word) {
 
 void PlyHeaderReader::add_element(TextWords& words) {
   const std::string_view name = words.next();
-  const auto count = count_in(words.next());
+  const auto count = number_in<std::uint64_t>(words.next());
   if (!count || !words.next().empty()) {
     fail("expected 'element NAME COUNT'");
   }

@@ -1,7 +1,6 @@
 #include "apps/edge/show/references/reference_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/system/byte_order_mark.h"
 #include "apps/edge/system/text_input.h"
 #include "core/base/expect.h"
@@ -126,13 +126,12 @@ class ReferenceReader {
   }
 
   std::uint64_t number_in(std::string_view field, const char* column, std::uint64_t most) const {
-    std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-    if (error != std::errc() || end != field.data() + field.size() || number > most) {
+    const auto number = apps::number_in<std::uint64_t>(field);
+    if (!number || *number > most) {
       fail(std::string("the ") + column + " is '" + std::string(field.substr(0, 40)) + "'; expected a whole number up to " +
            std::to_string(most));
     }
-    return number;
+    return *number;
   }
 
   void read_reference(const Columns& columns) {

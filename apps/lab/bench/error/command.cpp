@@ -1,7 +1,6 @@
 #include "apps/lab/bench/error/command.h"
 
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <set>
 #include <span>
@@ -9,6 +8,7 @@
 
 #include "apps/edge/line/folded_text.h"
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/real_load.h"
@@ -31,10 +31,8 @@ constexpr Resolution quick_resolution{192, 192};
 
 /// An even number: the reference has two halves.
 std::uint32_t parse_reference_side(const std::string& text) {
-  std::uint32_t side = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, side);
-  if (error != std::errc() || rest != end || side < 2 || side > 128 || side % 2 != 0) {
+  const std::uint32_t side = number_in<std::uint32_t>(text).value_or(0);
+  if (side < 2 || side > 128 || side % 2 != 0) {
     throw core::UsageError("--reference-samples=" + text + ": expected an even number from 2 to 128");
   }
   return side;
