@@ -109,6 +109,8 @@ void Counts::take_collada(const Tag& tag) {
     number_of(tag, "count", 0);
   } else if (tag.is("p") || tag.is("vcount") || tag.is("ph")) {
     check_whole(tag);
+  } else if (tag.is("skew")) {
+    refuse(tag.begin, "a node is skewed, which is not shown; write its transforms as one matrix");
   }
 }
 
