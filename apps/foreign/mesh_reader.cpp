@@ -79,6 +79,7 @@ std::vector<MeshMaterial> materials_of(const ImportedFile& imported, const Place
       use->edges.alpha = material.material.alpha != core::AlphaUse::none ? TextureAlpha::kept
                          : says_what_alpha_does(*file.mMaterials[i])     ? TextureAlpha::ignored
                                                                          : TextureAlpha::said;
+      use->edges.cutoff = material.material.alpha == core::AlphaUse::cut ? material.material.alpha_cutoff : 0;
     }
     if (const auto texture = use ? textures.find(*use) : std::nullopt) {
       material.material.texture = *texture;
