@@ -83,9 +83,8 @@ std::string title_of(const ErrorOptions& options) {
 
 const std::vector<std::string>& explanations() {
   static const std::vector<std::string> sentences = {
-      "Errors without a word before them are against the converged picture in double precision; a row below the reference, whose "
-      "RMSE is less than 10 times the reference's own error, claims nothing and is on no Pareto front; plots show what is left "
-      "of it, "
+      "Errors without a word before them are against the converged picture in double precision; a row whose RMSE is "
+      "less than 10 times the reference's own error claims nothing and is on no Pareto front; plots show what is left of it, "
       "hollow, between what is left if that error were twice as large, a tenth at least, and all of it.",
       "Deterministic errors are those of the knob alone: against the picture with the same samples and the knob at its exact "
       "position, of arithmetic against the same samples in double precision.",
