@@ -180,6 +180,32 @@ class ReferenceReader {
   ReferenceTrace trace_;
 };
 
+/// So much of a packed text is looked at behind a fault; no more, since a pipe may never end.
+constexpr std::streamsize text_behind_fault_max = std::streamsize{1} << 30U;
+
+/// A text that is damaged while it is packed becomes another one, with a fault of its own, before the sum at its end says so.
+/// Throws core::InputError if it is.
+void check_rest(std::istream& text, const std::string& name) {
+  try {
+    if (text.good()) {
+      text.ignore(text_behind_fault_max);
+    }
+  } catch (const core::InputError& error) {
+    throw core::InputError(name + ": " + error.what());
+  }
+}
+
+ReferenceTrace read_packed(std::istream& text, const std::string& name, const ReferenceColumns& columns) {
+  try {
+    return read_references(text, name, columns);
+  } catch (const core::RoomError&) {
+    throw;
+  } catch (const core::InputError&) {
+    check_rest(text, name);
+    throw;
+  }
+}
+
 bool is_packed(std::istream& input, const std::string& name) {
   try {
     return input.peek() == first_of_gzip;
@@ -214,7 +240,7 @@ ReferenceTrace read_references(const std::filesystem::path& path, const Referenc
     throw core::InputError(name + ": " + error.what() + "; a CSV file of page references was expected");
   }
   if (unpack && is_packed(*input, name)) {
-    return read_references(*unpack(*input), name, columns);
+    return read_packed(*unpack(*input), name, columns);
   }
   return read_references(*input, name, columns);
 }
