@@ -28,8 +28,6 @@ class Writer {
   std::unique_ptr<aiMaterial> material(const Part& source, TexturePlace& place);
   /// How often a texture was named that names no picture.
   std::uint64_t without_picture() const { return without_picture_; }
-  /// How many materials have a factor that is no share.
-  std::uint64_t beyond_unit() const { return beyond_unit_; }
 
  private:
   void add_texture(const Part& use, aiMaterial& target, aiTextureType type, unsigned number);
@@ -43,7 +41,7 @@ class Writer {
   std::vector<Part> textures_, samplers_;
   std::size_t image_count_;
   Images& images_;
-  std::uint64_t without_picture_ = 0, beyond_unit_ = 0;
+  std::uint64_t without_picture_ = 0;
 };
 
 void add_number(aiMaterial& target, double value, const char* key, unsigned type, unsigned index) {
@@ -111,18 +109,6 @@ void add_extensions(const Part& source, aiMaterial& target) {
   if (const auto coat = source.extension("KHR_materials_clearcoat")) {
     add_number(target, coat->number("clearcoatFactor", 0), AI_MATKEY_CLEARCOAT_FACTOR);
   }
-}
-
-/// What a share may be; light may be brighter.
-bool has_factor_beyond_unit(const Part& source, const Base& base) {
-  const auto is_beyond = [](double share) { return share < 0 || share > 1; };
-  const std::vector<double> color = base.colours.numbers(base.color, {1, 1, 1, 1}),
-                            light = source.numbers("emissiveFactor", {0, 0, 0});
-  const auto transmission = source.extension("KHR_materials_transmission");
-  return std::any_of(color.begin(), color.end(), is_beyond) || *std::min_element(light.begin(), light.end()) < 0 ||
-         is_beyond(base.roughness.number(base.is_glossy ? "glossinessFactor" : "roughnessFactor", 1)) ||
-         is_beyond(base.is_glossy ? 0 : base.roughness.number("metallicFactor", 1)) ||
-         is_beyond(transmission ? transmission->number("transmissionFactor", 0) : 0);
 }
 
 std::string alpha_mode(const Part& source) {
@@ -211,7 +197,6 @@ std::unique_ptr<aiMaterial> Writer::material(const Part& source, TexturePlace& p
   auto target = std::make_unique<aiMaterial>();
   const Base base = base_of(source, Part(nothing));
   add_base(base, *target);
-  beyond_unit_ += has_factor_beyond_unit(source, base) ? 1 : 0;
   add_look(source, *target);
   add_extensions(source, *target);
   if (const auto texture = base.colours.find(base.texture)) {
@@ -237,7 +222,6 @@ std::vector<TexturePlace> add_materials(const Document& document, Images& images
     ++scene.mNumMaterials;
   }
   note_count(notes, "textures that name no picture, left out", writer.without_picture());
-  note_count(notes, "materials with factors outside 0 to 1, brought into it", writer.beyond_unit());
   return places;
 }
 

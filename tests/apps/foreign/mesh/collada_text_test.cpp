@@ -123,6 +123,14 @@ TEST_CASE("what of Collada Assimp passes over is said with a count") {
   const auto says = [](const std::string& shader, const std::string& nodes, const std::string& note) {
     return notes(read_mesh("a.dae", collada(shader, "", nodes)), note);
   };
+  const auto says_of = [](const std::string& shader) {
+    return notes(read_mesh("a.dae", collada(shader)), "materials with factors outside 0 to 1, brought into it: 1");
+  };
+  CHECK(says_of("<lambert><diffuse><color>2 0 0 1</color></diffuse></lambert>"));
+  CHECK(says_of("<phong><shininess><float>-4</float></shininess></phong>"));
+  CHECK_FALSE(says_of("<phong><emission><color>2 0 0 1</color></emission><shininess><float>4</float></shininess></phong>"));
+  const apps::MeshFile splines = read_with(collada("<lambert/>"), "<mesh>", "<spline closed=\"0\"></spline><mesh>");
+  CHECK(notes(splines, "splines, boundaries and hulls (spline, brep, convex_mesh), which are not shown: 1"));
   const std::string by_name = R"(<lambert><diffuse><param ref="c"/></diffuse></lambert>)";
   CHECK(says(by_name, "", "values by a parameter's name (param ref), which are not followed: 1"));
   CHECK(says("<lambert/>", "<node><extra><wrap_s> CLAMP</wrap_s></extra></node>",
