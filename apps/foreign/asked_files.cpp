@@ -9,7 +9,9 @@
 namespace dmpc::apps {
 namespace {
 
-Packer& add_edges(Packer& fields, const TextureEdges& edges) { return fields.add(edges.s).add(edges.t).add(edges.alpha); }
+Packer& add_edges(Packer& fields, const TextureEdges& edges) {
+  return fields.add(edges.s).add(edges.t).add(edges.alpha).add(edges.cutoff);
+}
 
 std::string_view as_text(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 

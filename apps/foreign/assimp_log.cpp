@@ -20,6 +20,8 @@ constexpr std::array harmless{
     std::string_view("Collada: unable to determine UV channel for texture"),  // it is found by collada_in_full()
     std::string_view("Collada: No material specified for subgroup <=>"),      // which is grey in all formats
     std::string_view("AC3D: No material has been found"),
+    std::string_view("FBX: no material assigned to mesh, setting default material"),
+    std::string_view("FBX-DOM: unsupported, newer format version"),  // any of this decade, which it reads
     std::string_view("FBX: ignoring additional tangent layer"),
     std::string_view("FBX: ignoring additional binormal layer"),
     std::string_view("ScenePreprocessor: UVs are declared to be 3D"),

@@ -26,6 +26,8 @@
 #include "apps/foreign/gltf/extensions.h"
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/mesh/bare_meshes.h"
+#include "apps/foreign/mesh/collada_bindings.h"
+#include "apps/foreign/mesh/collada_losses.h"
 #include "apps/foreign/mesh/collada_text.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/file_ending.h"
@@ -235,6 +237,10 @@ ImportedFile import_file(const std::string& path, SceneFiles& files) {
   ImportedFile file;
   import_by_assimp(path, ending, files, file);
   take_back_invented(*file.scene, ending, text);
+  if (ending == "dae") {
+    note_loose_bindings(text, file.notes);
+    note_collada_losses(text, file.notes);
+  }
   if (ending == "fbx") {
     note_count(file.notes, "objects that the file switches off (Visibility or Show), shown all the same",
                count_hidden_nodes(text));

@@ -55,12 +55,13 @@ void note_other_names(const std::vector<std::string>& names, std::vector<std::st
   }
 }
 
-/// Tells what of textures was not to be had, or was had from elsewhere.
-void note_textures(const TextureReader& textures, MeshScene& result, std::vector<std::string>& missing) {
+/// Tells what of textures was not to be had, or was had from elsewhere, or is multiplied by nothing: `black`.
+void note_textures(const TextureReader& textures, std::uint64_t black, MeshScene& result, std::vector<std::string>& missing) {
   for (const std::string& texture : textures.missing()) {
     missing.push_back(texture);
   }
   note_other_names(textures.other_names(), result.notes);
+  note_count(result.notes, "materials that are black, so that nothing of their texture shows", black);
 }
 
 /// With the textures of those that are used, which the scene is given; what cannot be had is added to `missing`.
@@ -69,6 +70,7 @@ std::vector<MeshMaterial> materials_of(const ImportedFile& imported, const Place
   const aiScene& file = *imported.scene;
   TextureReader textures(&file, result.scene.name, files, result.scene.textures);
   const std::vector<bool> used = used_materials(file, placements);
+  std::uint64_t black = 0;
   std::vector<MeshMaterial> materials;
   for (std::size_t i = 0; i < file.mNumMaterials; ++i) {
     MeshMaterial material{.material = material_of(*file.mMaterials[i]), .is_cut_away = is_cut_away(*file.mMaterials[i])};
@@ -77,15 +79,17 @@ std::vector<MeshMaterial> materials_of(const ImportedFile& imported, const Place
       use->edges.alpha = material.material.alpha != core::AlphaUse::none ? TextureAlpha::kept
                          : says_what_alpha_does(*file.mMaterials[i])     ? TextureAlpha::ignored
                                                                          : TextureAlpha::said;
+      use->edges.cutoff = material.material.alpha == core::AlphaUse::cut ? material.material.alpha_cutoff : 0;
     }
     if (const auto texture = use ? textures.find(*use) : std::nullopt) {
       material.material.texture = *texture;
+      black += material.material.color == core::Vec3d{} ? 1 : 0;
       material.coordinates = use->coordinates;
       material.place = i < imported.texture_places.size() ? imported.texture_places[i] : TexturePlace{};
     }
     materials.push_back(material);
   }
-  note_textures(textures, result, missing);
+  note_textures(textures, black, result, missing);
   return materials;
 }
 
@@ -97,6 +101,7 @@ std::vector<core::Material> materials_of(const PolygonFile& file, SceneFiles& fi
   for (const PolygonMesh& mesh : file.meshes) {
     used[mesh.material] = true;
   }
+  std::uint64_t black = 0;
   std::vector<core::Material> materials;
   for (std::size_t i = 0; i < used.size(); ++i) {
     core::Material material = file.materials[i].material;
@@ -105,9 +110,10 @@ std::vector<core::Material> materials_of(const PolygonFile& file, SceneFiles& fi
       use->edges.alpha = TextureAlpha::said;
     }
     material.texture = used[i] && use ? textures.find(*use).value_or(core::Material::no_texture) : core::Material::no_texture;
+    black += material.texture != core::Material::no_texture && material.color == core::Vec3d{} ? 1 : 0;
     materials.push_back(material);
   }
-  note_textures(textures, result, missing);
+  note_textures(textures, black, result, missing);
   return materials;
 }
 

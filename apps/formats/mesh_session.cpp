@@ -16,6 +16,7 @@
 #include "apps/formats/named_file.h"
 #include "apps/picture/texture_size.h"
 #include "core/base/expect.h"
+#include "core/scene/alpha_coverage.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::apps {
@@ -63,7 +64,10 @@ ReaderLimits with_sandbox(ReaderLimits limits, Sandbox sandbox) {
 
 TextureEdges take_edges(Unpacker& fields) {
   const auto s = fields.take_choice(core::TextureWrap::clamp), t = fields.take_choice(core::TextureWrap::clamp);
-  return {s, t, fields.take_choice(TextureAlpha::kept)};
+  const auto alpha = fields.take_choice(TextureAlpha::kept);
+  const auto cutoff = fields.take<double>();
+  Unpacker::require(cutoff >= 0 && cutoff <= 1);
+  return {s, t, alpha, cutoff};
 }
 
 }  // namespace
@@ -275,6 +279,7 @@ core::Texture MeshSession::texture_of_texels(Unpacker fields) {
   std::memcpy(texture.levels.front().texels.data(), bytes_.data(), bytes_.size());
   texture.format = edges.alpha == TextureAlpha::kept ? core::TexelFormat::srgb_alpha : core::TexelFormat::srgb;
   core::add_levels(texture);
+  core::keep_coverage(texture, edges.cutoff);
   return texture;
 }
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <istream>
 #include <optional>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/system/byte_order_mark.h"
 #include "core/base/expect.h"
 
@@ -33,10 +33,8 @@ std::optional<double> number_from(std::string_view token) {
   if (token.starts_with('+') && looks_like_number(token)) {
     token.remove_prefix(1);
   }
-  double value = 0;
-  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-  const bool is_whole = error == std::errc() && end == token.data() + token.size();
-  return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+  const auto value = number_in<double>(token);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "apps/picture/texture_size.h"
 #include "apps/reader/input_file.h"
 #include "core/base/expect.h"
+#include "core/scene/alpha_coverage.h"
 
 namespace dmpc::apps {
 namespace {
@@ -86,6 +87,7 @@ core::Texture PictureReader::read_texture(const PictureFile& file, const Texture
     texture.levels.push_back({head.width, head.height, receive_values<std::uint32_t>(std::uint64_t{head.width} * head.height)});
   });
   core::add_levels(texture);
+  core::keep_coverage(texture, edges.cutoff);
   return texture;
 }
 

@@ -18,6 +18,7 @@ enum class TextureAlpha : std::uint8_t { ignored, said, kept };
 struct TextureEdges {
   core::TextureWrap s = core::TextureWrap::repeat, t = core::TextureWrap::repeat;
   TextureAlpha alpha = TextureAlpha::ignored;
+  double cutoff = 0;  ///< of alpha that cuts out what is less, up to 1; 0: it cuts nothing out
 };
 
 /// Reads the first three channels (one or two: the first is taken thrice) of the first picture in the file, and makes its smaller

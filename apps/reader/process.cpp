@@ -18,6 +18,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/companion_path.h"
 #include "apps/edge/system/memory_file.h"
+#include "apps/edge/system/memory_room.h"
 #include "apps/edge/system/shortage.h"
 #include "core/base/expect.h"
 
@@ -204,7 +205,8 @@ Message ReaderProcess::receive() {
     end("ended without a word");
   }
   if (message->saying == Saying::out_of_memory) {
-    throw core::RoomError("took more than the " + mebibytes_text(memory_bytes_) + " of memory that it may take");
+    const std::uint64_t most = std::min(memory_bytes_, memory_room().bytes);  // addresses of a large file are not all memory
+    throw core::RoomError("took more than the " + mebibytes_text(most) + " of memory that it may take");
   }
   return std::move(*message);
 }

@@ -1,9 +1,9 @@
 #include "apps/run/trace_options.h"
 
-#include <charconv>
 #include <string_view>
 
 #include "apps/edge/line/option_values.h"
+#include "apps/edge/line/parsed_number.h"
 #include "core/base/expect.h"
 #include "nodes/watch/trace.h"
 
@@ -24,20 +24,14 @@ std::uint64_t parse_time_ns(const std::string& text, const std::string& whole) {
   return static_cast<std::uint64_t>(milliseconds * 1e6 + 0.5);
 }
 
-std::optional<std::uint32_t> parse_node(std::string_view text) {
-  std::uint32_t node = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), node);
-  return error == std::errc() && end == text.data() + text.size() ? std::optional(node) : std::nullopt;
-}
-
 void parse_row(std::string_view text, const std::string& whole, TraceNodes& nodes) {
   if (text == "host") {
     nodes.has_host = true;
     return;
   }
   const std::size_t dash = text.find('-');
-  const auto first = parse_node(text.substr(0, dash));
-  const auto last = dash == std::string_view::npos ? first : parse_node(text.substr(dash + 1));
+  const auto first = number_in<std::uint32_t>(text.substr(0, dash));
+  const auto last = dash == std::string_view::npos ? first : number_in<std::uint32_t>(text.substr(dash + 1));
   if (!first || !last || *last < *first) {
     throw UsageError("--trace-nodes=" + whole + ": expected numbers of nodes, rows of them, or the host, such as 0,3-5,host");
   }

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "apps/edge/line/option_values.h"
+#include "apps/edge/line/parsed_number.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -70,13 +71,6 @@ namespace {
 constexpr double voxels_per_primitive_least = 0.001, voxels_per_primitive_most = 1000;
 constexpr double usual_voxels_along = 256, voxels_along_most = 512;
 
-/// All of `text`, or nothing.
-std::optional<double> number_in(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
-}
-
 }  // namespace
 
 core::VoxelRule parse_voxels(const std::string& text) {
@@ -85,9 +79,9 @@ core::VoxelRule parse_voxels(const std::string& text) {
   }
   core::VoxelRule rule;
   const std::size_t colon = text.find(':');
-  const auto each = number_in(std::string_view(text).substr(0, colon));
-  const auto along =
-      colon == std::string::npos ? std::optional(usual_voxels_along) : number_in(std::string_view(text).substr(colon + 1));
+  const auto each = number_in<double>(std::string_view(text).substr(0, colon));
+  const auto along = colon == std::string::npos ? std::optional(usual_voxels_along)
+                                                : number_in<double>(std::string_view(text).substr(colon + 1));
   const bool is_good = each && *each >= voxels_per_primitive_least && *each <= voxels_per_primitive_most && along &&
                        *along >= 1 && *along <= voxels_along_most && *along == std::floor(*along);
   if (!is_good) {

@@ -1,5 +1,7 @@
 #include "apps/scene/load_scene.h"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -46,13 +48,24 @@ core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadN
   return std::move(file.scene);
 }
 
+/// What is to be done about a file that no reader reads.
+std::string advice_on(const std::string& path, const std::string& ending) {
+  constexpr std::array packed{".gz", ".bz2", ".xz", ".zst", ".zip", ".7z", ".tgz"};
+  constexpr std::array foreign{".wrl",  ".vrml", ".x3dv", ".blend", ".usd", ".usda", ".usdc", ".usdz", ".abc", ".3dm", ".dxf",
+                               ".step", ".stp",  ".iges", ".igs",   ".max", ".c4d",  ".ma",   ".mb",   ".skp", ".b3d", ".dwg"};
+  const auto is_in = [&](const auto& endings) { return std::find(endings.begin(), endings.end(), ending) != endings.end(); };
+  return is_in(packed)    ? ": unpack " + path + " first, and take what is in it"
+         : is_in(foreign) ? ": convert " + path + " to glTF, OBJ, PLY, STL or OFF"
+                          : "";
+}
+
 /// `is_seen_otherwise`: by a camera that is not the file's.
 core::Scene load_nff(const std::string& path, bool is_seen_otherwise, std::int64_t pixels_max, LoadNotes notes,
                      OpenedFiles& opened) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
-    throw core::InputError(path + ": files that end in " + ending + " are not read; expected .nff or one of " +
-                           known_mesh_formats());
+    throw core::InputError(path + ": files that end in " + ending + " are not read" + advice_on(path, ending) +
+                           "; expected .nff or one of " + known_mesh_formats());
   }
   core::Scene scene;
   {

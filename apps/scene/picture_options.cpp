@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/edge/line/option_values.h"
+#include "apps/edge/line/parsed_number.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "core/picture/background.h"
@@ -24,9 +25,8 @@ void take_samples(PictureOptions& picture, std::string_view text) {
     picture.samples = refined_samples;
     return;
   }
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, picture.samples);
-  if (error != std::errc() || rest != end || picture.samples < 1 || picture.samples > samples_max) {
+  picture.samples = number_in<decltype(picture.samples)>(text).value_or(0);
+  if (picture.samples < 1 || picture.samples > samples_max) {
     throw core::UsageError("--samples=" + std::string(text) + ": expected a whole number from 1 to 32768, or auto");
   }
 }

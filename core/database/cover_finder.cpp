@@ -16,8 +16,21 @@ constexpr std::size_t one_square_max = 16;
 /// Squares that a face is in, on average, at most.
 constexpr std::size_t squares_per_face = 8;
 constexpr std::size_t raster_side_max = 4096;
+/// From so many on a square's faces are looked through for those that are there many times over.
+constexpr std::size_t crowd_least = 64;
+/// The object of a face that stands for equal ones of several.
+constexpr std::uint32_t several_objects = 0xffffffff;
 /// Planes of one bucket, where pairs are too many to be looked at.
 constexpr std::size_t planes_max = 64;
+
+/// Any order in which equal corners come together.
+bool is_before(const std::array<Vec3d, 3>& a, const std::array<Vec3d, 3>& b) {
+  const auto values = [](const std::array<Vec3d, 3>& corner) {
+    return std::array{corner[0].x, corner[0].y, corner[0].z, corner[1].x, corner[1].y,
+                      corner[1].z, corner[2].x, corner[2].y, corner[2].z};
+  };
+  return values(a) < values(b);
+}
 
 }  // namespace
 
@@ -123,7 +136,7 @@ bool CoverFinder::list_squares(const Raster& raster) {
     }
     for (std::size_t y = bottom; y <= top; ++y) {
       for (std::size_t x = left; x <= right; ++x) {
-        entries_.push_back({static_cast<std::uint32_t>(y * raster.side() + x), place});
+        entries_.push_back({static_cast<std::uint32_t>(y * raster.side() + x), place, faces_[face.face].object});
       }
     }
   }
@@ -138,18 +151,42 @@ bool CoverFinder::look_at_pairs(std::size_t axis) {
     while (last < entries_.size() && entries_[last].square == entries_[first].square) {
       ++last;
     }
-    if (!look_at_square(axis, std::span(entries_).subspan(first, last - first))) {
+    const auto square = std::span<const Entry>(entries_).subspan(first, last - first);
+    if (!look_at_square(axis, square.size() < crowd_least ? square : without_twins(axis, square))) {
       return false;
     }
   }
   return true;
 }
 
-/// Those of one object come one behind the other.
+/// Of faces with the same corners, which meet the same others, one is left in place of those that it covers.
+std::span<const CoverFinder::Entry> CoverFinder::without_twins(std::size_t axis, std::span<const Entry> square) {
+  const auto corner_of = [&](const Entry& entry) -> const auto& { return faces_[seen_[entry.place].face].corner; };
+  distinct_.assign(square.begin(), square.end());
+  std::stable_sort(distinct_.begin(), distinct_.end(),
+                   [&](const Entry& a, const Entry& b) { return is_before(corner_of(a), corner_of(b)); });
+  std::size_t kept = 0, first = 0;  // how many are left, and the first of those that are alike
+  for (std::size_t i = 0; i < distinct_.size(); ++i) {
+    const Entry entry = distinct_[i];
+    const bool is_twin = kept > 0 && corner_of(distinct_[first]) == corner_of(entry);
+    first = is_twin ? first : kept;
+    Entry& like = distinct_[first];
+    if (is_twin && like.object != entry.object && judge(seen_[like.place].face, seen_[entry.place].face, axis)) {
+      like.object = several_objects;
+    } else {
+      distinct_[kept++] = entry;
+    }
+  }
+  distinct_.resize(kept);
+  std::sort(distinct_.begin(), distinct_.end(), [](const Entry& a, const Entry& b) { return a.place < b.place; });
+  return distinct_;
+}
+
+/// Those of one object come one behind the other, but for what stands for several.
 bool CoverFinder::look_at_square(std::size_t axis, std::span<const Entry> square) {
-  const auto object_at = [&](std::size_t i) { return faces_[seen_[square[i].place].face].object; };
+  const auto is_one_object = [](const Entry& a, const Entry& b) { return a.object == b.object && a.object != several_objects; };
   for (std::size_t i = 0, others = 0; i < square.size(); ++i) {
-    while (others < square.size() && (others <= i || object_at(others) == object_at(i))) {
+    while (others < square.size() && (others <= i || is_one_object(square[others], square[i]))) {
       ++others;
     }
     const std::size_t pairs = square.size() - others;
@@ -164,7 +201,7 @@ bool CoverFinder::look_at_square(std::size_t axis, std::span<const Entry> square
     };
     for (const Entry& other : square.subspan(others)) {
       const Seen& b = seen_[other.place];
-      if (meets(b)) {
+      if (meets(b) && !is_one_object(square[i], other)) {
         judge(a.face, b.face, axis);
       }
     }
@@ -172,16 +209,21 @@ bool CoverFinder::look_at_square(std::size_t axis, std::span<const Entry> square
   return true;
 }
 
-void CoverFinder::judge(std::uint32_t a, std::uint32_t b, std::size_t axis) {
+bool CoverFinder::judge(std::uint32_t a, std::uint32_t b, std::size_t axis) {
   const bool is_known = close_.leads(a, b);
-  if ((is_known && coplanar_.leads(a, b)) || !cover(faces_[a], faces_[b], axis)) {
-    return;
+  if (is_known && coplanar_.leads(a, b)) {
+    return true;
   }
-  if (are_coplanar(faces_[a], faces_[b])) {
+  if (!cover(faces_[a], faces_[b], axis)) {
+    return false;
+  }
+  const bool share_plane = are_coplanar(faces_[a], faces_[b]);
+  if (share_plane) {
     merge(a, b, true);
   } else if (!is_known && are_near(faces_[a], faces_[b])) {
     merge(a, b, false);
   }
+  return share_plane;
 }
 
 /// Takes the largest, all that lie in its plane or near to it, the largest of the others, and so on.

@@ -47,9 +47,9 @@ class CoverFinder {
     std::uint32_t face;
     std::array<double, 2> low, high;
   };
-  /// A place in `seen_` that a square holds.
+  /// A place in `seen_` that a square holds, and whose face that is.
   struct Entry {
-    std::uint32_t square, place;
+    std::uint32_t square, place, object;
   };
   class Raster;
   /// What is found.
@@ -68,8 +68,10 @@ class CoverFinder {
   void sort_by_square(std::size_t square_count);
   bool look_at_pairs(std::size_t axis);
   bool look_at_square(std::size_t axis, std::span<const Entry> square);
+  std::span<const Entry> without_twins(std::size_t axis, std::span<const Entry> square);
   void look_at_planes(std::span<const std::uint32_t> some);
-  void judge(std::uint32_t a, std::uint32_t b, std::size_t axis);
+  /// Whether they lead to each other by all that faces of one plane do.
+  bool judge(std::uint32_t a, std::uint32_t b, std::size_t axis);
   void merge(std::uint32_t a, std::uint32_t b, bool are_coplanar);
   void merge_in(Found& found, std::uint32_t a, std::uint32_t b);
 
@@ -77,7 +79,7 @@ class CoverFinder {
   Found coplanar_, close_;
   std::vector<std::uint32_t> unseen_;
   std::vector<Seen> seen_;
-  std::vector<Entry> entries_, sorted_;
+  std::vector<Entry> entries_, sorted_, distinct_;
   std::vector<std::uint32_t> next_;  ///< by square: where its next entry goes
   std::size_t pairs_left_ = 0;
 };

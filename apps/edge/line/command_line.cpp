@@ -1,9 +1,9 @@
 #include "apps/edge/line/command_line.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "apps/edge/line/help_text.h"
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/typed_line.h"
 #include "apps/edge/line/words.h"
 #include "core/base/expect.h"
@@ -78,14 +78,12 @@ bool is_among(const std::vector<std::string>& words, const std::string& word) {
 
 /// The whole number that the text is, from `least` to `most`.
 std::int64_t whole_number(const std::string& option, const std::string& text, std::int64_t least, std::int64_t most) {
-  std::int64_t number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || rest != end || number < least || number > most) {
+  const auto number = number_in<std::int64_t>(text);
+  if (!number || *number < least || *number > most) {
     throw UsageError(option + "=" + text + ": expected a whole number from " + std::to_string(least) + " to " +
                      std::to_string(most));
   }
-  return number;
+  return *number;
 }
 
 CommandDescription described(const DeclaredCommand& command, const Suggestions& known) {

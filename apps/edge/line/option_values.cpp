@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/words.h"
 #include "core/base/expect.h"
 
@@ -21,11 +22,8 @@ namespace {
 }  // namespace
 
 double finite_number(std::string_view text) {
-  double number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  const bool is_one = error == std::errc() && rest == end && std::isfinite(number);
-  return is_one ? number : std::numeric_limits<double>::quiet_NaN();
+  const double number = number_in<double>(text).value_or(std::numeric_limits<double>::quiet_NaN());
+  return std::isfinite(number) ? number : std::numeric_limits<double>::quiet_NaN();
 }
 
 double amount_in(std::string_view text) {
@@ -67,21 +65,18 @@ std::size_t parse_size_bytes(std::string_view text, std::string_view option) {
 }
 
 std::uint64_t parse_seed(std::string_view text, std::string_view option) {
-  std::uint64_t seed = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, seed);
-  if (error != std::errc() || rest != end) {
+  const auto seed = number_in<std::uint64_t>(text);
+  if (!seed) {
     refuse(text, option, "a whole number from 0 to 18446744073709551615");
   }
-  return seed;
+  return *seed;
 }
 
 std::vector<std::uint32_t> parse_numbers(std::string_view text, const std::string& option, std::uint32_t most) {
   std::vector<std::uint32_t> numbers;
   for (const std::string& word : words_between_commas(std::string(text), option)) {
-    const char* const end = word.data() + word.size();
-    const auto [rest, error] = std::from_chars(word.data(), end, numbers.emplace_back());
-    if (error != std::errc() || rest != end || numbers.back() < 1 || numbers.back() > most) {
+    numbers.push_back(number_in<std::uint32_t>(word).value_or(0));
+    if (numbers.back() < 1 || numbers.back() > most) {
       throw core::UsageError(option + "=" + std::string(text) + ": expected numbers from 1 to " + std::to_string(most) +
                              " with commas between them, such as 4,8,16");
     }

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdlib>
 #include <iostream>
 #include <string_view>
-#include <system_error>
 
+#include "apps/edge/line/parsed_number.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -31,12 +30,7 @@ constexpr std::array<const char*, 3> signs_of_pmi = {"PMIX_RANK", "PMI_RANK", "P
 
 constexpr useconds_t time_to_say_it_us = 500'000;
 
-std::optional<std::uint32_t> number(const char* text) {
-  const std::string_view digits = text == nullptr ? "" : text;
-  std::uint32_t value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return error == std::errc() && end == digits.data() + digits.size() ? std::optional(value) : std::nullopt;
-}
+std::optional<std::uint32_t> number(const char* text) { return number_in<std::uint32_t>(text == nullptr ? "" : text); }
 
 bool has_pmi(const Variable& variable) {
   return std::any_of(signs_of_pmi.begin(), signs_of_pmi.end(), [&](const char* sign) { return variable(sign) != nullptr; });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "core/base/elementary.h"
 
@@ -110,6 +111,14 @@ void add_extensions(const Part& source, aiMaterial& target) {
   }
 }
 
+std::string alpha_mode(const Part& source) {
+  std::string mode = source.text("alphaMode", "OPAQUE");
+  if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") {
+    source.get("alphaMode").fail("is '" + clipped(mode, 40) + "', expected OPAQUE, MASK or BLEND");
+  }
+  return mode;
+}
+
 void add_look(const Part& source, aiMaterial& target) {
   const std::vector<double> light = source.numbers("emissiveFactor", {0, 0, 0});
   const auto stronger = source.extension("KHR_materials_emissive_strength");
@@ -117,7 +126,7 @@ void add_look(const Part& source, aiMaterial& target) {
   const auto channel = [&](std::size_t i) { return static_cast<ai_real>(light[i] * strength); };
   const aiColor3D emission(channel(0), channel(1), channel(2));
   target.AddProperty(&emission, 1, AI_MATKEY_COLOR_EMISSIVE);
-  const aiString mode(source.text("alphaMode", "OPAQUE")), name(source.text("name", ""));
+  const aiString mode(alpha_mode(source)), name(source.text("name", ""));
   target.AddProperty(&mode, AI_MATKEY_GLTF_ALPHAMODE);
   add_number(target, source.number("alphaCutoff", 0.5), AI_MATKEY_GLTF_ALPHACUTOFF);
   target.AddProperty(&name, AI_MATKEY_NAME);

@@ -1,11 +1,13 @@
 #include "apps/foreign/gltf/nodes.h"
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/foreign/gltf/skins.h"
 
 namespace dmpc::apps::gltf {
@@ -23,17 +25,35 @@ aiMatrix4x4 composed(const aiVector3D& translation, const aiQuaternion& rotation
   return moved * aiMatrix4x4(rotation.GetMatrix()) * scaled;
 }
 
-aiQuaternion quaternion_of(const std::vector<double>& q) {
+/// `where` names it. One that is rounded to bytes is of length 1 but for this.
+aiQuaternion quaternion_of(const std::vector<double>& q, const Part& where) {
+  constexpr double rounding = 0.02;
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (!(std::abs(length - 1) <= rounding)) {
+    where.fail("a rotation is a quaternion of length " + rounded(length) + ", expected one of length 1");
+  }
   return {static_cast<ai_real>(q[3]), static_cast<ai_real>(q[0]), static_cast<ai_real>(q[1]), static_cast<ai_real>(q[2])};
+}
+
+/// Throws for a matrix that does more than move what is straight to what is straight.
+void check_matrix(const Part& node, const std::vector<double>& columns) {
+  constexpr double rounding = 1e-6;
+  if (node.find("translation") || node.find("rotation") || node.find("scale")) {
+    node.fail("has a matrix beside a translation, rotation or scale, expected either");
+  }
+  if (!(std::abs(columns[3]) + std::abs(columns[7]) + std::abs(columns[11]) + std::abs(columns[15] - 1) <= rounding)) {
+    node.get("matrix").fail("expected 0, 0, 0 and 1 for its last row, the numbers 4, 8, 12 and 16");
+  }
 }
 
 aiMatrix4x4 transform_of(const Part& node) {
   aiMatrix4x4 result;
   if (!node.find("matrix")) {
-    return composed(vector_of(node.numbers("translation", {0, 0, 0})), quaternion_of(node.numbers("rotation", {0, 0, 0, 1})),
-                    vector_of(node.numbers("scale", {1, 1, 1})));
+    return composed(vector_of(node.numbers("translation", {0, 0, 0})),
+                    quaternion_of(node.numbers("rotation", {0, 0, 0, 1}), node), vector_of(node.numbers("scale", {1, 1, 1})));
   }
   const std::vector<double> columns = node.numbers("matrix", std::vector<double>(16));
+  check_matrix(node, columns);
   for (unsigned row = 0; row < 4; ++row) {
     for (unsigned column = 0; column < 4; ++column) {
       result[row][column] = static_cast<ai_real>(columns[4 * column + row]);
@@ -116,7 +136,7 @@ void Tree::add_instances(const Part& instancing, std::size_t mesh, Nodes& childr
   for (std::size_t i = 0; i < count; ++i) {
     children.push_back(std::make_unique<aiNode>(instancing.where() + "[" + std::to_string(i) + "]"));
     children.back()->mTransformation =
-        composed(vector_of(instance(moves, i, {0, 0, 0})), quaternion_of(instance(turns, i, {0, 0, 0, 1})),
+        composed(vector_of(instance(moves, i, {0, 0, 0})), quaternion_of(instance(turns, i, {0, 0, 0, 1}), attributes),
                  vector_of(instance(scales, i, {1, 1, 1})));
     uses.push_back({children.back().get(), mesh, std::nullopt});
   }
@@ -229,7 +249,8 @@ aiNode* root_of(Nodes& roots) {
 
 }  // namespace
 
-void add_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, aiScene& scene) {
+void add_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, aiScene& scene,
+               std::vector<std::string>& notes) {
   const Part root = document.root();
   const std::vector<Part> scenes = root.list("scenes");
   if (scenes.empty()) {
@@ -243,7 +264,7 @@ void add_nodes(const Document& document, Accessors& accessors, const Meshes& mes
     roots.push_back(tree.node(where, 0, false));
   }
   scene.mRootNode = root_of(roots);
-  give_meshes(document, accessors, meshes, tree.uses, tree.names, scene);
+  give_meshes(document, accessors, meshes, tree.uses, tree.names, scene, notes);
   const auto punctual = root.extension("KHR_lights_punctual");
   add_named(tree.cameras, root.list("cameras"), root, scene.mCameras, scene.mNumCameras, "cameras");
   add_named(tree.lights, punctual ? punctual->list("lights") : std::vector<Part>(), root, scene.mLights, scene.mNumLights,

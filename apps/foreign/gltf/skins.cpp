@@ -6,6 +6,8 @@
 #include <cmath>
 #include <memory>
 
+#include "apps/foreign/mesh/count_note.h"
+
 namespace dmpc::apps::gltf {
 namespace {
 
@@ -134,7 +136,7 @@ class Skins {
 }  // namespace
 
 void give_meshes(const Document& document, Accessors& accessors, const Meshes& meshes, const std::vector<MeshUse>& uses,
-                 const std::map<std::size_t, std::string>& names, aiScene& scene) {
+                 const std::map<std::size_t, std::string>& names, aiScene& scene, std::vector<std::string>& notes) {
   Skins skins(document, accessors, meshes, names, scene);
   constexpr std::size_t plain = std::size_t{1} << 32U;  // never the last
   std::map<unsigned, std::size_t> left;
@@ -145,7 +147,12 @@ void give_meshes(const Document& document, Accessors& accessors, const Meshes& m
       }
     }
   };
-  for_each([&](const MeshUse& use, unsigned mesh) { left[mesh] += skins.holds(use, mesh) ? 1 : plain; });
+  std::uint64_t loose = 0;
+  for_each([&](const MeshUse& use, unsigned mesh) {
+    left[mesh] += skins.holds(use, mesh) ? 1 : plain;
+    loose += use.skin && !skins.holds(use, mesh) ? 1 : 0;
+  });
+  note_count(notes, "meshes with a skin and without joints and weights, shown where their node stands", loose);
   for (const MeshUse& use : uses) {
     use.node->mMeshes = new unsigned[meshes.ranges[use.mesh].second - meshes.ranges[use.mesh].first + 1];
   }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 #include <system_error>
 #include <vector>
 
 #include "apps/edge/line/shown_text.h"
+#include "apps/foreign/text/name_list.h"
 #include "apps/foreign/text/xml_tags.h"
 #include "core/base/expect.h"
 
@@ -27,6 +29,7 @@ class Bindings {
  public:
   void take(const Tag& tag);
   ColladaSets sets() const;
+  void note_loose(std::vector<std::string>& notes) const;
 
  private:
   void take_library(const Tag& tag);
@@ -36,6 +39,7 @@ class Bindings {
 
   std::string material_, effect_, controller_, instance_;  ///< in which the text is
   bool is_in_diffuse_ = false;
+  std::set<std::string> material_ids_, effect_ids_;
   std::map<std::string, std::string> effects_;   ///< of materials
   std::map<std::string, std::string> channels_;  ///< of effects: their textures' names of coordinates
   std::map<std::string, std::string> skinned_;   ///< of controllers: geometries, or controllers
@@ -50,10 +54,12 @@ void Bindings::take(const Tag& tag) {
 void Bindings::take_library(const Tag& tag) {
   if (tag.is("material")) {
     material_ = value_of(tag, "id");
+    material_ids_.insert(material_);
   } else if (tag.is("instance_effect")) {
     effects_[material_] = target(tag, "url");
   } else if (tag.is("effect")) {
     effect_ = value_of(tag, "id");
+    effect_ids_.insert(effect_);
   } else if (tag.is("diffuse") || tag.is("/diffuse")) {
     is_in_diffuse_ = tag.is("diffuse");
   } else if (tag.is("texture") && is_in_diffuse_) {
@@ -113,6 +119,20 @@ ColladaSets Bindings::sets() const {
   return sets;
 }
 
+void Bindings::note_loose(std::vector<std::string>& notes) const {
+  std::set<std::string> materials, effects;
+  for (const BoundSymbol& bound : bound_) {
+    const auto effect = effects_.find(bound.material);
+    if (!material_ids_.contains(bound.material)) {
+      materials.insert(bound.material);
+    } else if (effect == effects_.end() || !effect_ids_.contains(effect->second)) {
+      effects.insert(bound.material);
+    }
+  }
+  note_names(notes, "materials that are bound and not in the file, shown grey", {materials.begin(), materials.end()});
+  note_names(notes, "materials whose effect is not in the file, shown grey", {effects.begin(), effects.end()});
+}
+
 }  // namespace
 
 std::optional<unsigned> leading_number(std::string_view text) {
@@ -125,6 +145,12 @@ ColladaSets collada_sets(std::string_view text) {
   Bindings bindings;
   for_each_tag(text, [&](const Tag& tag) { bindings.take(tag); });
   return bindings.sets();
+}
+
+void note_loose_bindings(std::string_view text, std::vector<std::string>& notes) {
+  Bindings bindings;
+  for_each_tag(text, [&](const Tag& tag) { bindings.take(tag); });
+  bindings.note_loose(notes);
 }
 
 }  // namespace dmpc::apps

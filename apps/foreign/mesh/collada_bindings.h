@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace dmpc::apps {
 
@@ -15,6 +16,9 @@ using ColladaSets = std::map<std::pair<std::string, std::string>, unsigned>;
 
 /// Throws core::InputError for a geometry that stands in two places with different sets, which is not shown.
 ColladaSets collada_sets(std::string_view text);
+
+/// Appends which materials are bound and lead nowhere, or have an effect that is not there: what is bound to them is grey.
+void note_loose_bindings(std::string_view text, std::vector<std::string>& notes);
 
 /// The whole number that a text begins with.
 std::optional<unsigned> leading_number(std::string_view text);

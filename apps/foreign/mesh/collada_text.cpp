@@ -17,10 +17,13 @@ constexpr std::string_view no_highlight = "<specular><color>0 0 0 1</color></spe
 constexpr std::string_view whole_reflection = "<reflectivity><float>1</float></reflectivity>";
 constexpr std::string_view no_diffuse = "<diffuse><color>0 0 0 1</color></diffuse>";
 
+constexpr std::string_view plain_profile =
+    R"(<profile_COMMON><technique sid="t"><lambert><diffuse><color>0.6 0.6 0.6 1</color></diffuse>)"
+    R"(<specular><color>0 0 0 1</color></specular><shininess><float>0</float></shininess></lambert></technique></profile_COMMON>)";
+
 /// Before all others in the order of ids and symbols.
-constexpr std::string_view plain_material =
-    R"(<library_effects><effect id=" "><profile_COMMON><technique sid="t"><lambert><diffuse><color>0.6 0.6 0.6 1</color></diffuse>)"
-    R"(<specular><color>0 0 0 1</color></specular><shininess><float>0</float></shininess></lambert></technique></profile_COMMON>)"
+const std::string plain_material =
+    R"(<library_effects><effect id=" ">)" + std::string(plain_profile) +
     R"(</effect></library_effects><library_materials><material id=" "><instance_effect url="# "/></material></library_materials>)";
 constexpr std::string_view plain_instance = R"(<instance_material symbol="" target="# "/>)";
 
@@ -28,6 +31,33 @@ struct TexcoordInput {
   Tag tag;
   unsigned set = 0;
 };
+
+/// What an accessor calls its values.
+struct AccessorNames {
+  std::vector<std::string_view> values;
+  std::vector<std::size_t> nameless;  ///< where a name is to stand
+  bool are_known = true, are_numbers = true;
+};
+
+AccessorNames accessor_names(std::string_view text, const Tag& accessor) {
+  constexpr std::string_view known = "XYZRGBASTPUV";
+  constexpr std::size_t bytes_max = 4096;  // so that those that are not closed take no longer
+  const std::string_view ahead = text.substr(accessor.end, bytes_max);
+  AccessorNames names;
+  for_each_tag(ahead.substr(0, ahead.find("</accessor")), [&](const Tag& param) {
+    if (!param.is("param")) {
+      return;
+    }
+    names.are_numbers = names.are_numbers && value_of(param, "type") == "float";
+    if (const auto name = attribute(param, "name")) {
+      names.values.push_back(*name);
+      names.are_known = names.are_known && name->size() == 1 && known.find(*name) != std::string_view::npos;
+    } else {
+      names.nameless.push_back(accessor.end + param.end_of_name());
+    }
+  });
+  return names;
+}
 
 class ColladaFiller {
  public:
@@ -38,6 +68,7 @@ class ColladaFiller {
  private:
   void fill_effect(const Tag& tag);
   void fill_camera(const Tag& tag);
+  void fill_accessor(const Tag& tag);
   void fill_materials(const Tag& tag);
   void fill_faces(const Tag& tag, std::string_view name);
   void number_sets(const Tag& tag, std::string_view name, const std::string& symbol);
@@ -48,10 +79,15 @@ class ColladaFiller {
   ColladaSets sets_;
   Filled filled_;
   std::string geometry_;
-  bool binds_ = false;
+  bool binds_ = false, is_common_ = false;
 };
 
 void ColladaFiller::fill_effect(const Tag& tag) {
+  if (tag.is("effect") || tag.is("profile_COMMON")) {
+    is_common_ = tag.is("profile_COMMON");
+  } else if (tag.is("/effect") && !is_common_) {
+    filled_.insert(tag.begin, plain_profile);
+  }
   for (const std::string name : {"lambert", "constant", "phong", "blinn"}) {
     const bool has_highlight = name == "phong" || name == "blinn";
     const std::string first = name == "constant" ? std::string(no_diffuse) : "";
@@ -78,6 +114,28 @@ void ColladaFiller::fill_camera(const Tag& tag) {
   const auto has = [&](std::string_view what) { return inside.find(what) != std::string_view::npos; };
   if (has("<yfov") && !has("<xfov") && !has("<aspect_ratio")) {
     filled_.insert(tag.end, "<aspect_ratio>1</aspect_ratio>");
+  }
+}
+
+/// Values come in the order in which they stand, whatever they are called, and as Assimp's names for them.
+void ColladaFiller::fill_accessor(const Tag& tag) {
+  constexpr std::array<std::string_view, 4> places{"X", "Y", "Z", "A"};
+  if (!tag.is("accessor") || tag.is_whole()) {
+    return;
+  }
+  const AccessorNames names = accessor_names(text_, tag);
+  const bool has_names = !names.values.empty();  // what has none beside them is passed over
+  const std::size_t count = has_names ? names.values.size() : names.nameless.size();
+  if ((has_names && names.are_known) || !names.are_numbers || count < 2 || count > places.size()) {
+    return;
+  }
+  for (std::size_t i = 0; i < names.values.size(); ++i) {
+    const std::size_t begin = filled_.place_of(names.values[i]);
+    filled_.leave_out(begin, begin + names.values[i].size());
+    filled_.insert(begin + names.values[i].size(), places[i]);
+  }
+  for (std::size_t i = 0; i < names.nameless.size() && !has_names; ++i) {
+    filled_.insert(names.nameless[i], " name=\"" + std::string(places[i]) + "\"");
   }
 }
 
@@ -136,6 +194,7 @@ std::string ColladaFiller::fill() {
   for_each_tag(text_, [&](const Tag& tag) {
     fill_effect(tag);
     fill_camera(tag);
+    fill_accessor(tag);
     fill_materials(tag);
     for (const char* const faces : {"triangles", "polylist", "polygons", "tristrips", "trifans"}) {
       if (tag.is(faces) && !tag.is_whole()) {

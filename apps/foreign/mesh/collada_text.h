@@ -13,6 +13,8 @@ namespace dmpc::apps {
 /// - sees 0.8 degrees by a camera without a name, or with a vertical angle alone: here it is named by its id, its aspect is 1;
 /// - gives faces that are bound to no material another's: here symbols begin with '=', so that they are no material's id, and
 ///   there is a grey material before all others, which such faces have;
+/// - gives an effect of another profile than COMMON all that it makes up: here such a one is grey;
+/// - looks for values by the letters XYZ, RGBA, STP and UV alone: here two to four numbers of other names have those;
 /// - forgets which set of texture coordinates is bound: here the one that shows the texture has number 0.
 /// Throws core::InputError as collada_sets() does.
 std::string collada_in_full(std::string_view text);

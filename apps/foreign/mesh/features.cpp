@@ -59,6 +59,7 @@ void note_materials(const std::set<const aiMaterial*>& materials, std::vector<st
   note_count(notes, "materials that mirror by a colour of their own (reflective), shown without that",
              count(materials, is_reflective));
   note_count(notes, "materials with a clear coat, shown without it", count(materials, has_clear_coat));
+  note_count(notes, "materials with factors outside 0 to 1, brought into it", count(materials, has_factor_beyond));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <assimp/ObjMaterial.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -162,6 +163,23 @@ bool has_moved_texture(const aiMaterial& source) {
 bool is_reflective(const aiMaterial& source) {
   return color(source, {AI_MATKEY_COLOR_REFLECTIVE}).value_or(Vec3d{}) * number(source, {AI_MATKEY_REFLECTIVITY}).value_or(0) !=
          Vec3d{};
+}
+
+bool has_factor_beyond(const aiMaterial& source) {
+  constexpr double rounding = 1e-5;
+  const auto is_beyond = [](double value, double most) { return value < -rounding || value > most + rounding; };
+  const auto has_color_beyond = [&](const Key& key, double most) {
+    aiColor3D color;
+    return source.Get(key.name, key.type, key.index, color) == aiReturn_SUCCESS &&
+           (is_beyond(double{color.r}, most) || is_beyond(double{color.g}, most) || is_beyond(double{color.b}, most));
+  };
+  const std::array<Key, 3> colors{{{AI_MATKEY_COLOR_DIFFUSE}, {AI_MATKEY_BASE_COLOR}, {AI_MATKEY_COLOR_SPECULAR}}};
+  const std::array<Key, 4> shares{
+      {{AI_MATKEY_OPACITY}, {AI_MATKEY_METALLIC_FACTOR}, {AI_MATKEY_ROUGHNESS_FACTOR}, {AI_MATKEY_TRANSMISSION_FACTOR}}};
+  return std::any_of(colors.begin(), colors.end(), [&](const Key& key) { return has_color_beyond(key, 1); }) ||
+         std::any_of(shares.begin(), shares.end(),
+                     [&](const Key& key) { return is_beyond(number(source, key).value_or(0), 1); }) ||
+         has_color_beyond({AI_MATKEY_COLOR_EMISSIVE}, light_max) || number(source, {AI_MATKEY_SHININESS}).value_or(0) < 0;
 }
 
 bool has_clear_coat(const aiMaterial& source) { return share(source, {AI_MATKEY_CLEARCOAT_FACTOR}, 0) > 0; }

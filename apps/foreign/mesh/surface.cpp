@@ -8,8 +8,6 @@ namespace {
 using core::Material;
 using core::Vec3d;
 
-constexpr double shine_max = 10'000;
-
 double mean(const Vec3d& v) { return (v.x + v.y + v.z) / 3; }
 
 /// What a dielectric reflects straight ahead (Fresnel).
@@ -39,7 +37,7 @@ void set_specular(Material& material, const Vec3d& color) {
 
 double shine_of_roughness(double roughness) {
   const double alpha = roughness * roughness;
-  return alpha * alpha * shine_max > 0.5 ? std::clamp((2 / (alpha * alpha) - 2) / 4, 1.0, shine_max) : shine_max;
+  return alpha * alpha * shine_max > 0.5 ? std::clamp<double>((2 / (alpha * alpha) - 2) / 4, 1, shine_max) : shine_max;
 }
 
 Material material_of(const PhongSurface& surface) {
@@ -48,7 +46,7 @@ Material material_of(const PhongSurface& surface) {
   const bool mirrors = illumination >= 3 && illumination <= 9;
   Material material;
   material.color = surface.diffuse;
-  material.shine = surface.shine > 0 ? std::min(surface.shine, shine_max) : sharp;
+  material.shine = surface.shine > 0 ? std::min<double>(surface.shine, shine_max) : sharp;
   material.refraction_index = surface.refraction_index > 0 ? surface.refraction_index : 1;
   material.emission = surface.emission;
   if (mirrors || (illumination >= 2 && surface.shine > 0)) {

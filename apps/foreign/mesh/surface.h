@@ -1,6 +1,7 @@
 // Surfaces as files describe them, and as ours.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "core/base/vec.h"
@@ -13,6 +14,9 @@ inline constexpr double plain_grey = 0.6;
 
 /// The brightest light that a surface shines with by itself; more is as much.
 inline constexpr double light_max = 1e12;
+
+/// The largest exponent of a highlight; more is as much.
+inline constexpr std::uint32_t shine_max = 10'000;
 
 /// Phong's, as MTL has it. Colours are linear, in 0 to 1 but for emission.
 struct PhongSurface {

@@ -90,7 +90,8 @@ void TextureReader::read(const TextureUse& use) {
 
 std::optional<std::uint32_t> TextureReader::find(const TextureUse& use) {
   const std::string key = use.path + '\n' + std::to_string(static_cast<int>(use.edges.s)) +
-                          std::to_string(static_cast<int>(use.edges.t)) + std::to_string(static_cast<int>(use.edges.alpha));
+                          std::to_string(static_cast<int>(use.edges.t)) + std::to_string(static_cast<int>(use.edges.alpha)) +
+                          ' ' + std::to_string(use.edges.cutoff);
   const auto [known, is_new] = known_.try_emplace(key);
   if (is_new) {
     try {

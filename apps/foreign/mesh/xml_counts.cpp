@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <system_error>
 #include <vector>
 
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/text/xml_tags.h"
 
@@ -17,13 +16,6 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
-
-/// All of the word.
-std::optional<std::uint64_t> whole_number(std::string_view word) {
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() ? std::optional(number) : std::nullopt;
-}
 
 template <std::size_t count>
 bool is_one_of(const Tag& tag, const std::array<const char*, count>& names) {
@@ -61,7 +53,7 @@ class Counts {
 
 std::uint64_t Counts::number_of(const Tag& tag, const char* name, std::uint64_t standard) const {
   const auto text = attribute(tag, name);
-  const auto number = text ? whole_number(*text) : std::optional(standard);
+  const auto number = text ? number_in<std::uint64_t>(*text) : std::optional(standard);
   if (!number || *number > file_.size()) {
     refuse(tag.begin, "found " + std::string(name) + "=\"" + clipped(std::string(*text), 40) +
                           "\", expected a whole number that the file has room for");
@@ -100,7 +92,7 @@ void Counts::check_accessors() const {
 
 void Counts::check_whole(const Tag& tag) const {
   for_each_word(content(file_, tag), blanks, [&](std::string_view word) {
-    if (!whole_number(word)) {
+    if (!number_in<std::uint64_t>(word)) {
       refuse(static_cast<std::size_t>(word.data() - file_.data()),
              "found '" + clipped(std::string(word), 40) + "', expected a whole number from 0 on");
     }
@@ -117,6 +109,8 @@ void Counts::take_collada(const Tag& tag) {
     number_of(tag, "count", 0);
   } else if (tag.is("p") || tag.is("vcount") || tag.is("ph")) {
     check_whole(tag);
+  } else if (tag.is("skew")) {
+    refuse(tag.begin, "a node is skewed, which is not shown; write its transforms as one matrix");
   }
 }
 

@@ -1,10 +1,9 @@
 #include "apps/foreign/obj/corner.h"
 
 #include <algorithm>
-#include <charconv>
 #include <string>
-#include <system_error>
 
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/obj/geometry.h"
 #include "core/base/expect.h"
@@ -26,11 +25,11 @@ std::string missing_one(std::size_t kind, std::int64_t index, const std::string&
 }  // namespace
 
 std::uint32_t CornerReader::index(std::string_view text, std::size_t kind, const LineWords& words, const Counts& so_far) {
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) {
+  const auto found = number_in<std::int64_t>(text);
+  if (!found) {
     refuse_corner(text, words);
   }
+  const std::int64_t value = *found;
   const auto count = static_cast<std::int64_t>(so_far[kind]);
   if (value == 0) {
     words.refuse(missing_one(kind, 0, "they are counted from 1"));

@@ -8,6 +8,8 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/count_note.h"
+#include "apps/foreign/mesh/surface.h"
+#include "apps/foreign/text/name_list.h"
 
 namespace dmpc::apps::obj {
 namespace {
@@ -24,10 +26,19 @@ class Losses {
   std::set<std::string> textures_;
   std::map<std::string, std::uint64_t> options_;
   std::uint64_t emissive_ = 0, light_textures_ = 0, coated_ = 0, filtered_ = 0, other_colors_ = 0, contradictory_ = 0,
-                beyond_ = 0, without_exponent_ = 0, otherwise_lit_ = 0, halos_ = 0;
+                beyond_ = 0, dark_ = 0, beyond_shine_ = 0, beyond_shares_ = 0, beyond_index_ = 0, without_exponent_ = 0,
+                otherwise_lit_ = 0, halos_ = 0;
 };
 
-bool is_beyond_unit(const Vec3d& v) { return std::min({v.x, v.y, v.z}) < 0 || std::max({v.x, v.y, v.z}) > 1; }
+bool is_beyond_unit(double share) { return share < 0 || share > 1; }
+bool is_beyond_unit(const Vec3d& v) { return is_beyond_unit(v.x) || is_beyond_unit(v.y) || is_beyond_unit(v.z); }
+
+/// How much of something there is: d, Tr, Pr and Pm.
+bool has_share_beyond_unit(const MtlMaterial& material) {
+  const auto& m = material;
+  return is_beyond_unit(m.d.value_or(0)) || is_beyond_unit(m.transparency.value_or(0)) ||
+         is_beyond_unit(m.roughness.value_or(0)) || is_beyond_unit(m.metallic.value_or(0));
+}
 
 void Losses::add(const MtlMaterial& material) {
   const Vec3d white{1, 1, 1};
@@ -47,6 +58,10 @@ void Losses::add(const MtlMaterial& material) {
   otherwise_lit_ += material.illumination.value_or(1) < 1 || material.illumination.value_or(1) > 9 ? 1 : 0;
   halos_ += material.has_halo ? 1 : 0;
   beyond_ += is_beyond_unit(material.diffuse.value_or(white)) || is_beyond_unit(material.specular) ? 1 : 0;
+  dark_ += std::min({material.emission.x, material.emission.y, material.emission.z}) < 0 ? 1 : 0;
+  beyond_shine_ += material.shine < 0 || material.shine > shine_max ? 1 : 0;
+  beyond_shares_ += has_share_beyond_unit(material) ? 1 : 0;
+  beyond_index_ += material.refraction_index > 0 ? 0 : 1;
 }
 
 void Losses::note(std::vector<std::string>& notes) const {
@@ -64,16 +79,10 @@ void Losses::note(std::vector<std::string>& notes) const {
   note_count(notes, "materials with an illum other than 1 to 9, shaded all the same", otherwise_lit_);
   note_count(notes, "materials with d -halo, as opaque at their edges as elsewhere", halos_);
   note_count(notes, "materials with colours outside 0 to 1, brought into it", beyond_);
-}
-
-/// "'a', 'b' and 3 more".
-std::string list_of(const std::vector<std::string>& names) {
-  constexpr std::size_t shown = 4;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
-    list += (i > 0 ? ", '" : "'") + clipped(names[i], 60) + "'";
-  }
-  return list + (names.size() > shown ? " and " + grouped(names.size() - shown) + " more" : "");
+  note_count(notes, "materials with a d, Tr, Pr or Pm outside 0 to 1, brought into it", beyond_shares_);
+  note_count(notes, "materials with an Ns outside 0 to " + grouped(shine_max) + ", brought into it", beyond_shine_);
+  note_count(notes, "materials with a Ke below 0, taken for 0", dark_);
+  note_count(notes, "materials with an Ni of 0 or less, shown as if they had none", beyond_index_);
 }
 
 class Resolver {
@@ -168,9 +177,7 @@ Materials Resolver::resolve() {
     }
     result_.of_runs.push_back(known->second);
   }
-  if (!unknown_.empty()) {
-    result_.notes.push_back("materials that are named and in no file of materials, shown grey: " + list_of(unknown_));
-  }
+  note_names(result_.notes, "materials that are named and in no file of materials, shown grey", unknown_);
   judge_textures();
   losses_.note(result_.notes);
   return std::move(result_);

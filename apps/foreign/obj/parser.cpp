@@ -11,6 +11,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/obj/corner.h"
 #include "apps/foreign/obj/tally.h"
@@ -109,6 +110,7 @@ class Parser {
   std::unordered_map<std::string, std::uint32_t> names_;
   std::unordered_set<std::string> libraries_;
   Tally tally_;
+  std::uint64_t colored_ = 0;  ///< vertices
   UnknownWords unknown_;
 };
 
@@ -120,6 +122,8 @@ Geometry Parser::read(std::string_view file, const std::function<void(float)>& p
   }
   corner_reader_.check_named(counts());
   tally_.note(result_.notes);
+  note_count(result_.notes, "vertices without a colour beside others that have one, shown white",
+             result_.colors.empty() ? 0 : result_.vertices.size() - colored_);
   unknown_.note("unknown statements left out", result_.notes);
   return std::move(result_);
 }
@@ -189,6 +193,7 @@ void Parser::color(const Vec3d& color) {
   if (!(shown == color)) {
     tally_.add(strange_colors);
   }
+  ++colored_;
   result_.colors.resize(result_.vertices.size(), {1, 1, 1});
   const auto linear = [](double channel) { return core::linear_from_srgb(channel); };
   result_.colors.push_back({linear(shown.x), linear(shown.y), linear(shown.z)});

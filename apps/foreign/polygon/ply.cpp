@@ -45,6 +45,13 @@ bool is_see_through(const PlyRow& row) {
   return row.has(alpha) && row[alpha] < (full > 0 ? full : 1);
 }
 
+std::uint64_t count_beyond(const std::vector<Color>& colors, double full) {
+  return static_cast<std::uint64_t>(std::count_if(colors.begin(), colors.end(), [full](const Color& color) {
+    const auto [least, most] = std::minmax_element(color.begin(), color.end());
+    return color != no_ply_color && (*least < 0 || double{*most} > full);
+  }));
+}
+
 class PlyReader {
  public:
   PlyReader(std::string_view file, ReadingProgress& progress)
@@ -59,6 +66,8 @@ class PlyReader {
   void read_element(const PlyElement& element);
   void read_vertices(const PlyElement& element);
   void note_left_out(const PlyElement& element, const PlyRow& row);
+  /// Of properties that mean something together alone.
+  void note_incomplete(const PlyElement& element, const PlyRow& row);
   void set_precision(const PlyRow& row);
   void take_vertex(const PlyRow& row, bool has_normals, bool has_places);
   void read_faces(const PlyElement& element);
@@ -121,6 +130,17 @@ void PlyReader::note_left_out(const PlyElement& element, const PlyRow& row) {
              element.count > 0 ? names.size() : 0);
 }
 
+void PlyReader::note_incomplete(const PlyElement& element, const PlyRow& row) {
+  const auto note = [&](const char* what, std::initializer_list<PlyRole> roles) {
+    const bool has_some = std::any_of(roles.begin(), roles.end(), [&](PlyRole role) { return row.has(role); });
+    note_count(notes_, what + (" of the element '" + clipped(element.name, 40) + "', which are not shown"),
+               has_some && !row.has_all(roles) ? element.count : 0);
+  };
+  note("colours without all of red, green and blue", {red, green, blue});
+  note("normals without all of nx, ny and nz", {normal_x, normal_y, normal_z});
+  note("texture coordinates without both of s and t", {s, t});
+}
+
 void PlyReader::set_precision(const PlyRow& row) {
   const auto is_float = [&row](PlyRole role) { return row.type_of(role) == PlyType::float32; };
   const bool is_rounded = header_.format != PlyFormat::text && (is_float(x) || is_float(y) || is_float(z));
@@ -140,6 +160,7 @@ void PlyReader::take_vertex(const PlyRow& row, bool has_normals, bool has_places
 void PlyReader::read_vertices(const PlyElement& element) {
   PlyRow row(element, *values_, {x, y, z, normal_x, normal_y, normal_z, s, t, red, green, blue, alpha});
   note_left_out(element, row);
+  note_incomplete(element, row);
   if (!row.has_all({x, y, z})) {
     throw core::InputError("the element 'vertex' has no properties x, y and z; expected all three");
   }
@@ -230,6 +251,7 @@ void PlyReader::take_face(const PlyRow& row, std::uint64_t number) {
 void PlyReader::read_faces(const PlyElement& element) {
   PlyRow row(element, *values_, {corners, corner_places, texture, material, red, green, blue, alpha});
   note_left_out(element, row);
+  note_incomplete(element, row);
   if (!row.has(corners) && element.count > 0) {
     throw core::InputError("the element 'face' has no list vertex_indices or vertex_index; expected one");
   }
@@ -336,8 +358,13 @@ void PlyReader::finish_colors() {
     mesh_.face_colors = {};
   }
   const auto light = [](double full, const std::vector<Color>& colors) { return full > 0 ? full : apps::full_light(colors); };
-  make_linear(mesh_.colors, light(vertex_light_, mesh_.colors));
-  const double full = light(face_light_, mesh_.face_colors);
+  const double vertex_full = light(vertex_light_, mesh_.colors), full = light(face_light_, mesh_.face_colors);
+  const auto note_beyond = [this](const std::vector<Color>& colors, double most) {
+    note_count(notes_, "colours outside 0 to " + rounded(most) + ", brought into it", count_beyond(colors, most));
+  };
+  note_beyond(mesh_.colors, vertex_full);
+  note_beyond(mesh_.face_colors, full);
+  make_linear(mesh_.colors, vertex_full);
   for (Color& color : mesh_.face_colors) {
     color = color == no_ply_color ? colour_of_none : linear_color(color, full);
   }

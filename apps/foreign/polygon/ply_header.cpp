@@ -1,12 +1,11 @@
 #include "apps/foreign/polygon/ply_header.h"
 
 #include <array>
-#include <charconv>
 #include <limits>
 #include <map>
-#include <system_error>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/polygon/text_words.h"
 #include "apps/foreign/text/small_letters.h"
@@ -25,12 +24,6 @@ std::optional<PlyType> type_of(std::string_view name) {
   return found == types.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::optional<std::uint64_t> count_in(std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
-}
-
 class PlyHeaderReader {
  public:
   explicit PlyHeaderReader(std::string_view file) : file_(file) {}
@@ -42,9 +35,13 @@ class PlyHeaderReader {
   std::string_view next_line();
   /// Whether that was the last line.
   bool read_line(std::string_view line);
-  void add_format(std::string_view word);
-  void add_element(TextWords& words);
-  void add_property(TextWords& words);
+  /// "line 3: found 'LINE', expected WHAT".
+  [[noreturn]] void fail_at(std::string_view line, const std::string& what) const {
+    fail("found '" + clipped(line, 60) + "', expected " + what);
+  }
+  void add_format(TextWords& words, std::string_view line);
+  void add_element(TextWords& words, std::string_view line);
+  void add_property(TextWords& words, std::string_view line);
   void add_comment(TextWords& words);
 
   std::string_view file_;
@@ -71,27 +68,27 @@ std::string_view PlyHeaderReader::next_line() {
   return text;
 }
 
-void PlyHeaderReader::add_format(std::string_view word) {
+void PlyHeaderReader::add_format(TextWords& words, std::string_view line) {
   static const std::map<std::string_view, PlyFormat> formats = {{"ascii", PlyFormat::text},
                                                                 {"binary_little_endian", PlyFormat::little_endian},
                                                                 {"binary_big_endian", PlyFormat::big_endian}};
-  const auto found = formats.find(word);
+  const auto found = formats.find(words.next());
   if (found == formats.end()) {
-    fail("expected 'format' and ascii, binary_little_endian or binary_big_endian");
+    fail_at(line, "'format' and ascii, binary_little_endian or binary_big_endian");
   }
   format_ = found->second;
 }
 
-void PlyHeaderReader::add_element(TextWords& words) {
+void PlyHeaderReader::add_element(TextWords& words, std::string_view line) {
   const std::string_view name = words.next();
-  const auto count = count_in(words.next());
+  const auto count = number_in<std::uint64_t>(words.next());
   if (!count || !words.next().empty()) {
-    fail("expected 'element NAME COUNT'");
+    fail_at(line, "'element NAME COUNT', with a whole number from 0 on");
   }
   header_.elements.push_back({name, *count, {}});
 }
 
-void PlyHeaderReader::add_property(TextWords& words) {
+void PlyHeaderReader::add_property(TextWords& words, std::string_view line) {
   PlyProperty property;
   std::string_view word = words.next();
   const bool is_list = word == "list";
@@ -102,7 +99,7 @@ void PlyHeaderReader::add_property(TextWords& words) {
   const auto type = type_of(word);
   property.name = words.next();
   if (!type || (is_list && !property.count_type) || property.name.empty() || !words.next().empty() || header_.elements.empty()) {
-    fail("expected 'property TYPE NAME' or 'property list TYPE TYPE NAME' below an element, with a type such as float or uchar");
+    fail_at(line, "'property TYPE NAME' or 'property list TYPE TYPE NAME' below an element, with a type such as float or uchar");
   }
   property.type = *type;
   header_.elements.back().properties.push_back(property);
@@ -121,11 +118,11 @@ bool PlyHeaderReader::read_line(std::string_view line) {
     return true;
   }
   if (first == "format") {
-    add_format(words.next());
+    add_format(words, line);
   } else if (first == "element") {
-    add_element(words);
+    add_element(words, line);
   } else if (first == "property") {
-    add_property(words);
+    add_property(words, line);
   } else if (first == "comment") {
     add_comment(words);
   } else if (!first.empty() && first != "obj_info" && ++strange_lines_ == 1) {  // as Blender 2.47 wrote one

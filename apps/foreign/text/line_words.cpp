@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/shown_text.h"
 #include "core/base/expect.h"
 
@@ -99,13 +100,12 @@ double LineWords::number() {
 }
 
 std::int64_t LineWords::integer() {
-  const std::string_view word = next(), plain = without_plus(word);
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
-  if (error != std::errc{} || end != plain.data() + plain.size()) {
+  const std::string_view word = next();
+  const auto value = number_in<std::int64_t>(without_plus(word));
+  if (!value) {
     refuse("expected a whole number, found " + (word.empty() ? "the end of the line" : "'" + clipped(word, 60) + "'"));
   }
-  return value;
+  return *value;
 }
 
 void LineWords::expect_end() const {

@@ -196,6 +196,21 @@ TEST_CASE("more triangles than a database has room for are refused before the fi
   CHECK(contains(refusal_of(folder / "a.ply"), "a.ply" + expected));
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow is larger than any limit
+TEST_CASE("a reader whose memory ends names the bound that held, and not the addresses of a large file") {
+  const TemporaryFolder folder;
+  constexpr std::uint32_t facets = 200'000'000;
+  path_to_read = folder / "a.stl";
+  make_sparse(path_to_read, std::string(80, ' ') + tests::bytes_of(facets), 84 + std::uint64_t{50} * facets);
+  const tests::ForkedProcess limited([] {
+    const rlimit limit{std::uint64_t{1} << 30U, RLIM_INFINITY};
+    ::setrlimit(RLIMIT_DATA, &limit);
+    return contains(refusal_of(path_to_read), "the reader of STL files took more than the 1024 MiB of memory") ? 0 : 1;
+  });
+  CHECK(limited.status() == 0);
+}
+#endif
+
 TEST_CASE("a file that has no room for what it says is cut short, and not too large") {
   const std::string message = tests::mesh_refusal("a.stl", std::string(80, ' ') + tests::bytes_of(std::uint32_t{4'000'000'000}));
   CHECK(contains(message, "the file is cut short"));

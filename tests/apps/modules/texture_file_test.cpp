@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <fstream>
 #include <sstream>
@@ -14,6 +15,7 @@
 #include "core/base/expect.h"
 #include "core/scene/texel.h"
 #include "tests/support/mesh_files.h"
+#include "tests/support/packed_gltf.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::tests::texture_file_test {
@@ -107,6 +109,38 @@ TEST_CASE("an EXR's colours, which are multiplied by its alpha, are divided by i
   REQUIRE(kept.format == TexelFormat::srgb_alpha);
   const core::Vec3d color(core::decoded(kept.format, kept.levels[0].texels[0]));
   CHECK(length(color - core::Vec3d{0.5, 0.25, 1}) < 0.01);
+}
+
+namespace {
+
+/// How many of the texels of level 2 come up to half of alpha: of 16 x 16, of which every third is there, with this mode.
+std::size_t there_from_afar(const std::string& mode) {
+  const TemporaryFolder folder;
+  std::vector<std::uint8_t> texels;
+  for (std::size_t i = 0; i < 256; ++i) {
+    texels.insert(texels.end(), {9, 8, 7, static_cast<std::uint8_t>(i % 3 == 0 ? 255 : 0)});
+  }
+  write(folder / "a.png", 16, 16, 4, OIIO::TypeDesc::UINT8, texels);
+  GltfDocument document;
+  const std::size_t positions = document.accessor(document.view(bytes_of(triangle_corners)), 5126, 3, "VEC3"),
+                    places = document.accessor(document.view(bytes_of(std::array<float, 6>{0, 0, 1, 0, 0, 1})), 5126, 3, "VEC2");
+  write_text(folder / "a.gltf",
+             document.text(R"({"material":0,"attributes":{"POSITION":)" + std::to_string(positions) + R"(,"TEXCOORD_0":)" +
+                               std::to_string(places) + "}}",
+                           R"("materials":[{"alphaMode":")" + mode +
+                               R"(","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"textures":[{"source":0}],)" +
+                               R"("images":[{"uri":"a.png"}])"));
+  const core::Texture texture = apps::read_mesh_file(folder / "a.gltf").scene.textures.at(0);
+  return static_cast<std::size_t>(std::count_if(texture.levels.at(2).texels.begin(), texture.levels.at(2).texels.end(),
+                                                [](std::uint32_t texel) { return texel >> 24U >= 128; }));
+}
+
+}  // namespace
+
+TEST_CASE("what a texture of mode MASK cuts out stays as large from afar, and what blends is the mean") {
+  CHECK(there_from_afar("MASK") > 2);
+  CHECK(there_from_afar("MASK") < 9);
+  CHECK(there_from_afar("BLEND") == 0);
 }
 
 TEST_CASE("alpha of a texture that OBJ does not show is said, if some of it is not 1") {

@@ -96,6 +96,19 @@ TEST_CASE("of equal triangles one that lets light through is no other's that doe
   CHECK(database.sources().front().object == 4000);  // who looks through glass at what it lies on sees that
 }
 
+TEST_CASE("triangles that are there many times over leave time to look at which others they cover") {
+  Scene scene;
+  SceneBuilder builder(scene);
+  for (std::size_t i = 0; i < 1500; ++i) {  // in one tilted plane, and side by side
+    builder.polygon({{0, 0, 0}, {1, 0, 0.5}, {0, 1, 0.25}});
+    builder.polygon({{3, 3, 2.25}, {4, 3, 2.75}, {3, 4, 2.5}});
+  }
+  const Database database = build_database(scene, {.threads = 1});
+  CHECK(database.primitives().size() == 2);
+  CHECK(database.duplicates() == 2998);
+  CHECK(database.planes().empty());  // which they need not share
+}
+
 TEST_CASE("of triangles that are equal for floats those stay that doubles tell apart") {
   Scene scene = stacked(3000, 0);
   SceneBuilder builder(scene);

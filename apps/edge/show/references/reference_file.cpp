@@ -1,7 +1,6 @@
 #include "apps/edge/show/references/reference_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/system/byte_order_mark.h"
 #include "apps/edge/system/text_input.h"
 #include "core/base/expect.h"
@@ -126,13 +126,12 @@ class ReferenceReader {
   }
 
   std::uint64_t number_in(std::string_view field, const char* column, std::uint64_t most) const {
-    std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-    if (error != std::errc() || end != field.data() + field.size() || number > most) {
+    const auto number = apps::number_in<std::uint64_t>(field);
+    if (!number || *number > most) {
       fail(std::string("the ") + column + " is '" + std::string(field.substr(0, 40)) + "'; expected a whole number up to " +
            std::to_string(most));
     }
-    return number;
+    return *number;
   }
 
   void read_reference(const Columns& columns) {
@@ -181,6 +180,32 @@ class ReferenceReader {
   ReferenceTrace trace_;
 };
 
+/// So much of a packed text is looked at behind a fault; no more, since a pipe may never end.
+constexpr std::streamsize text_behind_fault_max = std::streamsize{1} << 30U;
+
+/// A text that is damaged while it is packed becomes another one, with a fault of its own, before the sum at its end says so.
+/// Throws core::InputError if it is.
+void check_rest(std::istream& text, const std::string& name) {
+  try {
+    if (text.good()) {
+      text.ignore(text_behind_fault_max);
+    }
+  } catch (const core::InputError& error) {
+    throw core::InputError(name + ": " + error.what());
+  }
+}
+
+ReferenceTrace read_packed(std::istream& text, const std::string& name, const ReferenceColumns& columns) {
+  try {
+    return read_references(text, name, columns);
+  } catch (const core::RoomError&) {
+    throw;
+  } catch (const core::InputError&) {
+    check_rest(text, name);
+    throw;
+  }
+}
+
 bool is_packed(std::istream& input, const std::string& name) {
   try {
     return input.peek() == first_of_gzip;
@@ -215,7 +240,7 @@ ReferenceTrace read_references(const std::filesystem::path& path, const Referenc
     throw core::InputError(name + ": " + error.what() + "; a CSV file of page references was expected");
   }
   if (unpack && is_packed(*input, name)) {
-    return read_references(*unpack(*input), name, columns);
+    return read_packed(*unpack(*input), name, columns);
   }
   return read_references(*input, name, columns);
 }

@@ -1,7 +1,6 @@
 #include "apps/lab/bench/error/command.h"
 
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <set>
 #include <span>
@@ -9,6 +8,7 @@
 
 #include "apps/edge/line/folded_text.h"
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/real_load.h"
@@ -31,10 +31,8 @@ constexpr Resolution quick_resolution{192, 192};
 
 /// An even number: the reference has two halves.
 std::uint32_t parse_reference_side(const std::string& text) {
-  std::uint32_t side = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, side);
-  if (error != std::errc() || rest != end || side < 2 || side > 128 || side % 2 != 0) {
+  const std::uint32_t side = number_in<std::uint32_t>(text).value_or(0);
+  if (side < 2 || side > 128 || side % 2 != 0) {
     throw core::UsageError("--reference-samples=" + text + ": expected an even number from 2 to 128");
   }
   return side;
@@ -85,9 +83,8 @@ std::string title_of(const ErrorOptions& options) {
 
 const std::vector<std::string>& explanations() {
   static const std::vector<std::string> sentences = {
-      "Errors without a word before them are against the converged picture in double precision; a row below the reference, whose "
-      "RMSE is less than 10 times the reference's own error, claims nothing and is on no Pareto front; plots show what is left "
-      "of it, "
+      "Errors without a word before them are against the converged picture in double precision; a row whose RMSE is "
+      "less than 10 times the reference's own error claims nothing and is on no Pareto front; plots show what is left of it, "
       "hollow, between what is left if that error were twice as large, a tenth at least, and all of it.",
       "Deterministic errors are those of the knob alone: against the picture with the same samples and the knob at its exact "
       "position, of arithmetic against the same samples in double precision.",

@@ -89,7 +89,7 @@ std::string adaptive_text(const SceneResult& result) {
   const bool is_unclaimed =
       std::any_of(ratios.begin(), ratios.end(), [](const auto& one) { return one.rays && !one.is_claimed; });
   return result.scene + ": at the RMSE of 16, 32, 64 uniform samples adaptive sampling takes " + times_text(ratios) +
-         (is_unclaimed ? "; an error here is below the reference and rests on the reference's own being taken off" : "") + ".";
+         (is_unclaimed ? "; an error here is less than 10 times the reference's own, which is taken off" : "") + ".";
 }
 
 /// "1/255 (0.123/255, 0.81 times the rays)".
@@ -124,7 +124,7 @@ const Measurement* measured(const SceneResult& result, Knob knob, const std::str
 /// "0.9/255" with a mark where it is not claimed.
 std::string error_text(const SceneResult& result, const Measurement& measurement) {
   return fixed(255 * measurement.error.root_mean_square, 2) + "/255" +
-         (is_claimed(result, measurement) ? "" : " (below the reference)");
+         (is_claimed(result, measurement) ? "" : " (less than 10 times the reference's own error)");
 }
 
 std::string quality_text(const SceneResult& result) {
@@ -216,9 +216,9 @@ std::string summary_of(std::span<const SceneResult> results) {
   return all == 0 ? ""
                   : gains + grouped(claimed) + " of " + counted(all, "setting") +
                         " have errors of at least 10 times the reference's own" +
-                        (claimed == all
-                             ? "."
-                             : "; of the others the reference's is taken off in squares, and plots show them hollow, with an interval.");
+                        (claimed == all ? "."
+                                        : "; of the others the reference's is taken off in squares, and plots show them hollow, "
+                                          "with an interval.");
 }
 
 std::vector<std::string> findings_of_all(std::span<const SceneResult> results) {

@@ -14,7 +14,7 @@ namespace dmpc::apps {
 struct AdaptiveRatio {
   int samples = 16;
   std::optional<double> rays, seconds;  ///< nothing: not measured, or outside what was
-  bool is_claimed = true;               ///< no error that it rests on is below the reference
+  bool is_claimed = true;               ///< no error that it rests on is less than 10 times the reference's own
 };
 
 /// What uniform samples take for a root mean square error of one 8-bit step, 1/255, as a multiple of what adaptive sampling

@@ -79,7 +79,7 @@ FilledColumns<ErrorRow> make_error_columns() {
   add_errors(
       "", [](const Row& row) { return std::optional(row.measured().error); }, columns);
   columns.push_back({{"remark"}, [](const Row& row) {
-                       return std::string(is_claimed(row.result, row.measured()) ? "" : "below the reference");
+                       return std::string(is_claimed(row.result, row.measured()) ? "" : "less than 10 times the reference's own");
                      }});
   const auto is_on = [](const std::vector<bool>& front, const Row& row) {
     return yes_if(front[row.result.measurement_of[row.point]]);

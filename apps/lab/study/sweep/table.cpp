@@ -1,13 +1,13 @@
 #include "apps/lab/study/sweep/table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/option_values.h"
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/words.h"
 #include "apps/lab/figures/known_figures.h"
 #include "apps/lab/study/engine/render_process.h"
@@ -19,13 +19,6 @@ namespace {
 /// What the values of a variation are.
 enum class ValueKind : std::uint8_t { counts, sizes, texts };
 
-std::optional<std::uint64_t> count_in(const std::string& text) {
-  std::uint64_t count = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, count);
-  return error == std::errc() && rest == end ? std::optional(count) : std::nullopt;
-}
-
 std::optional<std::uint64_t> size_in(const std::string& text) {
   try {
     return parse_size_bytes(text, "");
@@ -36,14 +29,16 @@ std::optional<std::uint64_t> size_in(const std::string& text) {
 
 ValueKind kind_of(const VariedOption& variation) {
   const auto all = [&](const auto& is_one) { return std::all_of(variation.values.begin(), variation.values.end(), is_one); };
-  return all([](const std::string& text) { return count_in(text).has_value(); })  ? ValueKind::counts
-         : all([](const std::string& text) { return size_in(text).has_value(); }) ? ValueKind::sizes
-                                                                                  : ValueKind::texts;
+  return all([](const std::string& text) { return number_in<std::uint64_t>(text).has_value(); }) ? ValueKind::counts
+         : all([](const std::string& text) { return size_in(text).has_value(); })                ? ValueKind::sizes
+                                                                                                 : ValueKind::texts;
 }
 
 Cell cell_of(const VariedOption& variation, const std::string& value) {
   const ValueKind kind = kind_of(variation);
-  return kind == ValueKind::counts ? Cell(*count_in(value)) : kind == ValueKind::sizes ? Cell(*size_in(value)) : Cell(value);
+  return kind == ValueKind::counts  ? Cell(*number_in<std::uint64_t>(value))
+         : kind == ValueKind::sizes ? Cell(*size_in(value))
+                                    : Cell(value);
 }
 
 /// "page-size" of "--page-size".

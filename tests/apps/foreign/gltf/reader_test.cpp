@@ -18,6 +18,7 @@
 #include "apps/formats/mesh_file.h"
 #include "core/base/expect.h"
 #include "tests/support/packed_gltf.h"
+#include "tests/support/read_mesh.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -402,6 +403,26 @@ TEST_CASE("instances stand where their attributes say, and hidden nodes are not 
   REQUIRE(scene.objects.size() == 2);
   CHECK(scene.vertices[0] == Vec3d{0, 0, 1});
   CHECK(scene.vertices[3] == Vec3d{0, 0, 2});
+}
+
+TEST_CASE("transforms of nodes that are none are refused by their place") {
+  const auto refusal_of = [](const std::string& member) {
+    return mesh_refusal("a.gltf", Gltf{.nodes = R"([{"mesh":0,)" + member + "}]"}.text());
+  };
+  const std::string matrix = R"("matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1])";
+  CHECK(contains(refusal_of(R"("rotation":[0,0,0,2])"),
+                 "nodes[0]: a rotation is a quaternion of length 2, expected one of length 1"));
+  CHECK(contains(refusal_of(R"("rotation":[0,0,0,0])"), "of length 0"));
+  CHECK(contains(refusal_of(matrix + R"(,"scale":[2,2,2])"), "nodes[0]: has a matrix beside a translation, rotation or scale"));
+  CHECK(contains(refusal_of(R"("matrix":[1,0,0,0.5,0,1,0,0,0,0,1,0,0,0,0,1])"), "nodes[0].matrix: expected 0, 0, 0 and 1 for"));
+  CHECK(refusal_of(matrix).empty());
+  CHECK(refusal_of(R"("rotation":[0.7071,0,0,0.7071])").empty());
+}
+
+TEST_CASE("a skin of a mesh without joints and weights holds nothing, which is said") {
+  const Gltf gltf{.nodes = R"([{"mesh":0,"skin":0},{}])", .roots = "[0,1]", .more = R"("skins":[{"joints":[1]}])"};
+  CHECK(notes(read_mesh("a.gltf", gltf.text()),
+              "meshes with a skin and without joints and weights, shown where their node stands: 1"));
 }
 
 }  // namespace dmpc::tests::reader_test

@@ -8,6 +8,7 @@
 #include "apps/formats/mesh_file.h"
 #include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
+#include "tests/support/read_mesh.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -83,6 +84,72 @@ TEST_CASE("faces that are bound to no material are grey, and no other's") {
   write_text(folder / "a.dae", collada(red));
   const core::Scene scene = apps::read_mesh_file(folder / "a.dae").scene;
   CHECK(scene.materials.at(scene.objects.at(0).material).color == core::Vec3d{1, 0, 0});
+}
+
+namespace {
+
+apps::MeshFile read_with(std::string text, const std::string& what, const std::string& by) {
+  text.replace(text.find(what), what.size(), by);
+  return read_mesh("a.dae", text);
+}
+
+}  // namespace
+
+TEST_CASE("a Collada material or effect that leads nowhere is said by name, and grey") {
+  const std::string red = collada("<lambert><diffuse><color>1 0 0 1</color></diffuse></lambert>");
+  const core::Vec3d grey{0.6, 0.6, 0.6};
+  const auto is_grey = [&](const apps::MeshFile& file) { return length(material_of_object(file, 0).color - grey) < 1e-6; };
+  const apps::MeshFile material = read_with(red, R"(target="#m")", R"(target="#n")");
+  CHECK(notes(material, "materials that are bound and not in the file, shown grey: 'n'"));
+  CHECK(is_grey(material));
+  const apps::MeshFile effect = read_with(red, R"(url="#e")", R"(url="#f")");
+  CHECK(notes(effect, "materials whose effect is not in the file, shown grey: 'm'"));
+  CHECK(is_grey(effect));
+  CHECK_FALSE(notes(read_mesh("a.dae", red), "shown grey"));
+}
+
+TEST_CASE("a Collada effect of another profile than COMMON is grey, without a highlight, and said") {
+  std::string text = collada("<phong/>");
+  for (std::size_t at = text.find("profile_COMMON"); at != std::string::npos; at = text.find("profile_COMMON")) {
+    text.replace(at, 14, "profile_GLSL");
+  }
+  const apps::MeshFile file = read_mesh("a.dae", text);
+  CHECK(notes(file, "profiles of effects other than COMMON, which are not shown: an effect without that is grey: 1"));
+  CHECK(material_of_object(file, 0).specular == 0);
+  CHECK(length(material_of_object(file, 0).color - core::Vec3d{0.6, 0.6, 0.6}) < 1e-6);
+}
+
+TEST_CASE("what of Collada Assimp passes over is said with a count") {
+  const auto says = [](const std::string& shader, const std::string& nodes, const std::string& note) {
+    return notes(read_mesh("a.dae", collada(shader, "", nodes)), note);
+  };
+  const auto says_of = [](const std::string& shader) {
+    return notes(read_mesh("a.dae", collada(shader)), "materials with factors outside 0 to 1, brought into it: 1");
+  };
+  CHECK(says_of("<lambert><diffuse><color>2 0 0 1</color></diffuse></lambert>"));
+  CHECK(says_of("<phong><shininess><float>-4</float></shininess></phong>"));
+  CHECK_FALSE(says_of("<phong><emission><color>2 0 0 1</color></emission><shininess><float>4</float></shininess></phong>"));
+  const apps::MeshFile splines = read_with(collada("<lambert/>"), "<mesh>", "<spline closed=\"0\"></spline><mesh>");
+  CHECK(notes(splines, "splines, boundaries and hulls (spline, brep, convex_mesh), which are not shown: 1"));
+  const std::string by_name = R"(<lambert><diffuse><param ref="c"/></diffuse></lambert>)";
+  CHECK(says(by_name, "", "values by a parameter's name (param ref), which are not followed: 1"));
+  CHECK(says("<lambert/>", "<node><extra><wrap_s> CLAMP</wrap_s></extra></node>",
+             "edges of textures other than WRAP (wrap_s, wrap_t), shown as WRAP: 1"));
+  CHECK(contains(mesh_refusal("a.dae", collada("<lambert/>", "", "<node><skew>45 0 1 0 1 0 0</skew></node>")),
+                 "a node is skewed, which is not shown; write its transforms as one matrix"));
+  CHECK_FALSE(says("<lambert/>", "", "not followed"));
+}
+
+TEST_CASE("values of Collada come in the order in which they stand, whatever they are called") {
+  const apps::MeshFile plain = read_mesh("a.dae", collada("<lambert/>"));
+  std::string text = collada("<lambert/>"), nameless = text;
+  for (const std::string letter : {"X", "Y", "Z"}) {
+    const std::string name = "name=\"" + letter + "\"";
+    text.replace(text.find(name), name.size(), "name=\"place_" + letter + "\"");
+    nameless.erase(nameless.find(name), name.size());
+  }
+  CHECK(read_mesh("a.dae", text).scene.vertices == plain.scene.vertices);
+  CHECK(read_mesh("a.dae", nameless).scene.vertices == plain.scene.vertices);
 }
 
 namespace {

@@ -8,6 +8,7 @@
 
 #include "apps/formats/mesh_file.h"
 #include "apps/picture/image_file.h"
+#include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 
@@ -72,6 +73,24 @@ TEST_CASE("glass that colours what shines through it is said, grey glass is not"
   };
   CHECK(glass("[1,0,0,1]"));
   CHECK(!glass("[0.5,0.5,0.5,1]"));
+}
+
+TEST_CASE(
+    "a glTF factor that is no share is said, light that is brighter than white is not, and a mode that is none is refused") {
+  const auto notes_of = [](const std::string& material) {
+    return notes_of_text("a.gltf", tests::Gltf{.materials = "[{" + material + "}]"}.text());
+  };
+  const std::string said = "materials with factors outside 0 to 1, brought into it: 1";
+  for (const char* const beyond :
+       {R"("pbrMetallicRoughness":{"baseColorFactor":[2,0,0,1]})", R"("pbrMetallicRoughness":{"metallicFactor":5})",
+        R"("pbrMetallicRoughness":{"roughnessFactor":-1})", R"("emissiveFactor":[0,-1,0])",
+        R"("extensions":{"KHR_materials_transmission":{"transmissionFactor":2}})"}) {
+    CAPTURE(beyond);
+    CHECK(has(notes_of(beyond), said));
+  }
+  CHECK_FALSE(has(notes_of(R"("emissiveFactor":[1,2,1])"), said));
+  CHECK_THROWS_WITH_AS(notes_of(R"("alphaMode":"mask")"),
+                       doctest::Contains("materials[0].alphaMode: is 'mask', expected OPAQUE, MASK or BLEND"), core::InputError);
 }
 
 TEST_CASE("what is cut away altogether is said, and a mask that cuts nothing is not") {

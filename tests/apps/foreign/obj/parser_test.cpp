@@ -48,6 +48,7 @@ TEST_CASE("a vertex has three coordinates as doubles, a weight by which they are
   CHECK(colored.colors ==
         std::vector<Vec3d>{{1, 1, 1}, {core::linear_from_srgb(0.5), core::linear_from_srgb(0.25), 1}, {1, 1, 1}});
   CHECK(notes("v 0 0 0 255 0 -1", "vertices whose colour lies outside 0 to 1, brought into it: 1"));
+  CHECK(notes("v 0 0 0\nv 0 0 0 1 0 0\nv 0 0 0\n", "vertices without a colour beside others that have one, shown white: 2"));
   CHECK(refusal("v 1 2") == "line 1: expected a number, found the end of the line");
   CHECK(refusal("v 1 2 3 4 5") == "line 1: expected a number, found the end of the line");
   CHECK(refusal("v 1 2 3 1 1 1 1") == "line 1: expected the end of the line, found '1'");

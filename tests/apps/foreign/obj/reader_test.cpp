@@ -164,6 +164,8 @@ TEST_CASE("a texture lies where corners have a place on it, and what has none is
   const MeshFile plain = read(obj + face, wood);
   CHECK(plain.scene.textures.empty());
   CHECK(notes(plain, "textures not shown, since no corner has a place on it: 1"));
+  CHECK(notes(read(obj + placed, "newmtl wood\nKd 0 0 0\nmap_Kd wood.png\n"),
+              "materials that are black, so that nothing of their texture shows: 1"));
   CHECK(read(obj + placed, "newmtl wood\nmap_Kd wood #1.png\n").scene.textures.at(0).name.ends_with("wood #1.png"));
 }
 
@@ -193,6 +195,19 @@ TEST_CASE("a Ks without an Ns, an illum of 0 and a halo are said, for each mater
   CHECK(notes(file, "materials with a Ks and no Ns, shown without a highlight: 1"));
   CHECK(notes(file, "materials with an illum other than 1 to 9, shaded all the same: 1"));
   CHECK(notes(file, "materials with d -halo, as opaque at their edges as elsewhere: 1"));
+}
+
+TEST_CASE("a material's numbers that lie outside of what they may be are said, once a kind") {
+  const MeshFile file = read("mtllib a.mtl\n" + square + "usemtl a\n" + face + "usemtl b\n" + face + "usemtl c\n" + face,
+                             "newmtl a\nKd 1 0 0\nNs -5\nd 2\nNi 0\nnewmtl b\nNs 10001\nTr -1\nNi -1\nKe 1 -1 0\n"
+                             "newmtl c\nPr 1.5\nPm 1\nNs 10000\nd 1\nTr 0\nNi 0.5\n");
+  for (const char* note :
+       {"materials with a d, Tr, Pr or Pm outside 0 to 1, brought into it: 3",
+        "materials with an Ns outside 0 to 10,000, brought into it: 2", "materials with a Ke below 0, taken for 0: 1",
+        "materials with an Ni of 0 or less, shown as if they had none: 2"}) {
+    CAPTURE(note);
+    CHECK(notes(file, note));
+  }
 }
 
 TEST_CASE("names of files may stand in quotes") {

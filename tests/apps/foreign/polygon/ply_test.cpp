@@ -245,6 +245,24 @@ TEST_CASE("what is wrong in PLY is refused with its line or byte") {
   CHECK(contains(mesh_refusal("a.ply", with(with(whole, "face 1", "face 0"), "3 0 1 2\n", "")), "there is no mesh in it"));
 }
 
+TEST_CASE("properties of PLY that mean nothing without others, and colours that are too large, are said") {
+  const std::string& plain = tests::triangle_ply;
+  const auto with_more = [&](const std::string& properties, const std::string& values) {
+    std::string text = with(plain, "property float z\n", "property float z\n" + properties);
+    for (const std::string vertex : {"0 0 0\n", "2 0 0\n", "0 1 0\n"}) {
+      text = with(text, vertex, vertex.substr(0, vertex.size() - 1) + " " + values + "\n");
+    }
+    return tests::read_mesh("a.ply", text);
+  };
+  CHECK(notes(with_more("property uchar red\n", "9"),
+              "colours without all of red, green and blue of the element 'vertex', which are not shown: 3"));
+  CHECK(notes(with_more("property float nx\n", "1"), "normals without all of nx, ny and nz of the element 'vertex'"));
+  CHECK(notes(with_more("property float u\n", "1"), "texture coordinates without both of s and t of the element 'vertex'"));
+  const std::string colors = "property short red\nproperty short green\nproperty short blue\n";
+  CHECK(notes(with_more(colors, "-5 0 256"), "colours outside 0 to 255, brought into it: 3"));
+  CHECK_FALSE(notes(with_more(colors, "0 0 255"), "colours"));
+}
+
 TEST_CASE("a PLY file cut within its header is refused at once, wherever it is cut") {
   const std::string header = tests::triangle_ply.substr(0, tests::triangle_ply.find("end_header") + 10);
   for (std::size_t length = 0; length <= header.size(); ++length) {
@@ -252,8 +270,11 @@ TEST_CASE("a PLY file cut within its header is refused at once, wherever it is c
   }
   CHECK(contains(mesh_refusal("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nprop"),
                  "a.ply: line 4: the file ends within its header"));
-  CHECK(contains(mesh_refusal("a.ply", "ply\nelement vertex three\n"), "line 2: expected 'element NAME COUNT'"));
-  CHECK(contains(mesh_refusal("a.ply", "ply\nelement vertex 3\nproperty real x\n"), "line 3: expected 'property TYPE NAME'"));
+  CHECK(contains(mesh_refusal("a.ply", "ply\nelement vertex -3\n"),
+                 "line 2: found 'element vertex -3', expected 'element NAME COUNT', with a whole number from 0 on"));
+  CHECK(contains(mesh_refusal("a.ply", "ply\nelement vertex 3\nproperty real x\n"),
+                 "line 3: found 'property real x', expected 'property TYPE NAME'"));
+  CHECK(contains(mesh_refusal("a.ply", "ply\nformat ascii2 1.0\n"), "line 2: found 'format ascii2 1.0', expected 'format' and"));
   read_ply_header("ply\nformat ascii 1.0\nCreated by somebody\ncomment b\nobj_info c\nend_header\n");
 }
 

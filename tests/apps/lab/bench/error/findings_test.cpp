@@ -78,7 +78,7 @@ TEST_CASE("what adaptive sampling is worth in time stands first, at an error of 
   CHECK(contains(apps::findings_of_all(std::vector{result, result}).front(), "(of 2 scenes) times the time of adaptive ones"));
 }
 
-TEST_CASE("an error below the reference is not claimed and one that is hidden by it gives no ratio") {
+TEST_CASE("an error of less than 10 times the reference's own is not claimed and one that is hidden by it gives no ratio") {
   const auto ratios = apps::adaptive_ratios(scene_result(0.5, 0.1));
   CHECK(*ratios[0].rays == doctest::Approx(0.5).epsilon(0.1));
   CHECK_FALSE(ratios[0].is_claimed);
@@ -122,12 +122,12 @@ TEST_CASE("a table of errors has the rows that are measured and marks fronts and
   const std::size_t remark = 15, front = 16;
   CHECK(cell(0, remark).empty());
   CHECK(cell(0, front).empty());
-  CHECK(cell(2, remark) == "below the reference");
+  CHECK(cell(2, remark) == "less than 10 times the reference's own");
   CHECK(cell(3, front) == "yes");
   CHECK(cell(5, front).empty());
 }
 
-TEST_CASE("what is below the reference is drawn hollow, by what is left of it and between what") {
+TEST_CASE("what is less than 10 times the reference's own is drawn hollow, by what is left of it and between what") {
   const SceneResult result = scene_result(0.25, 0.03);
   const apps::Table table = apps::plotted_table(result);
   REQUIRE(table.rows().size() == 7);

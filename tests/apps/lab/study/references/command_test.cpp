@@ -3,12 +3,15 @@
 #include <doctest/doctest.h>
 
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "apps/edge/show/page/escaped.h"
+#include "apps/edge/show/references/reference_file.h"
 #include "apps/lab/study/cache_curves.h"
+#include "apps/lab/study/references/gzip_text.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
@@ -89,6 +92,32 @@ TEST_CASE("references packed by gzip, in one piece or several, are read as they 
   write_text(path, packed.substr(0, 12) + "damaged" + packed.substr(19));
   CHECK_THROWS_WITH_AS(apps::study_references_command(options, interrupt, output),
                        (path + ": is packed by gzip and damaged; pack it anew").c_str(), core::InputError);
+}
+
+TEST_CASE("references that were damaged while they were packed are said to be, and not their lines to be wrong") {
+  const TemporaryFolder folder;
+  const std::string path = folder / "trace.csv.gz";
+  std::string lines = "page\n";
+  for (std::uint64_t i = 0; i < 50'000; ++i) {
+    lines += std::to_string((i * i * i * 2654435761U >> 9U) % 100'003) + "\n";
+  }
+  write_text(folder / "trace.csv", lines);
+  REQUIRE(ChildProcess({"/bin/sh", "-c", "gzip -1 " + (folder / "trace.csv").string()}).status() == 0);
+  const std::string packed = file_text(path);
+  int damaged = 0;
+  for (std::size_t at = packed.size() / 4; at < packed.size() - 8; at += packed.size() / 16) {
+    std::string bytes = packed;
+    bytes[at] = static_cast<char>(bytes[at] ^ 0x10);
+    write_text(path, bytes);
+    try {
+      apps::read_references(path, {}, [](std::istream& text) { return std::make_unique<apps::GzipText>(text); });
+    } catch (const core::InputError& error) {
+      CAPTURE(at);
+      CHECK_MESSAGE(contains(error.what(), path + ": is packed by gzip and "), error.what());
+      ++damaged;
+    }
+  }
+  CHECK(damaged > 8);
 }
 
 TEST_CASE("the study of references draws its curves, in a folder and on a page") {
