@@ -126,6 +126,7 @@ DatabaseFigures figures_of(const core::Database& database, const SceneFigures& s
                           .top_cells = core::top_cells(database.header().frame),
                           .occupied_top_cells = trees.occupied,
                           .levels_max = trees.levels_max,
+                          .has_voxels = database.header().has_voxels(),
                           .references = database.records().voxel_references,
                           .records = records_of(database, scene, trees)};
   figures.unused_bytes = figures.bytes;

@@ -26,7 +26,8 @@ struct DatabaseFigures {
   std::array<std::int32_t, 3> cells{}, top_cells{};
   std::uint64_t occupied_top_cells = 0;
   std::uint64_t levels_max = 0;  ///< bricks from a top cell to a block, at most
-  std::uint64_t references = 0;  ///< of voxels, which are the top cells then; 0 without
+  bool has_voxels = false;       ///< which are the top cells then
+  std::uint64_t references = 0;  ///< of voxels
   std::vector<RecordFigures> records;
   std::uint64_t unused_bytes = 0;  ///< between records, so that they begin at 8 bytes and cross no page border
 

@@ -83,7 +83,10 @@ std::string sizes_text(const std::array<std::int32_t, 3>& sizes) {
 }
 
 std::string grid_text(const DatabaseFigures& database) {
-  if (database.references > 0) {
+  if (database.has_voxels && database.occupied_top_cells == 0) {
+    return sizes_text(database.top_cells) + " voxels, none of them with a list";
+  }
+  if (database.has_voxels) {
     const double each = static_cast<double>(database.references) / static_cast<double>(database.occupied_top_cells);
     return sizes_text(database.top_cells) + " voxels, " + grouped(database.occupied_top_cells) + " of them with lists, of " +
            fixed(each, 2) + " blocks in the mean; " + fixed(database.primitives_a_block(), 2) + " primitives a block";

@@ -10,33 +10,48 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<SystemDescription, 12> descriptions = {{
-    {System::replicated, "replicated", "every node has the whole scene and renders its part of the picture"},
-    {System::replicated_extents, "replicated-extents", "the same with one tree of boxes for the scene"},
-    {System::svm, "svm", "a shared virtual memory (Badouel, Bouatouch, Priol 1994): pages travel from node to node"},
+// Who shared out space had plain cells with lists of what lies in them.
+constexpr core::Structure cells = core::Structure::voxels, boxes = core::Structure::extents;
+constexpr std::array<SystemDescription, 13> descriptions = {{
+    {System::replicated, "replicated", "every node has the whole scene and renders its part of the picture", cells,
+     "a plain grid, as the article"},
+    {System::replicated_extents, "replicated-extents", "the same with one tree of boxes for the scene", boxes,
+     "a tree of extents"},
+    {System::svm, "svm", "a shared virtual memory (Badouel, Bouatouch, Priol 1994): pages travel from node to node", cells,
+     "a plain grid"},
+    {System::svm_extents, "svm-extents", "the same with one tree of boxes for the scene, a page each for its subtrees", boxes,
+     "nobody described it"},
     {System::svm_resident, "svm-resident",
-     "the same with what helps green-paddon: the host deals all work, and half of what a node keeps is what a small picture uses "
-     "most"},
+     "as svm, with what helps green-paddon: the host deals all work, and half of what a node keeps is what a small picture uses "
+     "most",
+     boxes, "nobody described it: what green-paddon has, beside which it stands"},
     {System::pixel_machine, "pixel-machine",
      "after the Pixel Machine (Potmesil, Hoffert 1989): each node has every m-th pixel of every n-th line for good, and pages "
-     "come from the host, where the article of 1994 says that virtual memory was"},
+     "come from the host, where the article of 1994 says that virtual memory was",
+     boxes, "a tree of bounding volumes"},
     {System::green_paddon, "green-paddon",
      "after Green and Paddon (1989): the host has all pages and deals all work, nodes ask their parents in a tree for pages, and "
-     "half of what a node keeps is what a small picture uses most; the top of their octree, which every node had, is paged, too"},
+     "half of what a node keeps is what a small picture uses most; the top of their octree, which every node had, is paged, too",
+     boxes, "an octree, to which of ours a tree of boxes is nearest"},
     {System::forest, "forest",
      "after Goldsmith and Salmon (1988): the top of one tree is everywhere, owners of subtrees are asked; idle nodes get pixels "
      "of "
-     "busy ones, which they did not"},
+     "busy ones, which they did not",
+     boxes, "a tree of bounding volumes"},
     {System::forest_static, "forest-static",
-     "after Goldsmith and Salmon (1988): the same, but each node has every m-th pixel of every n-th line for good"},
-    {System::equal_size, "equal-size", "after Cleary and others (1986): rays travel between regions of equal size"},
+     "after Goldsmith and Salmon (1988): the same, but each node has every m-th pixel of every n-th line for good", boxes,
+     "a tree of bounding volumes"},
+    {System::equal_size, "equal-size", "after Cleary and others (1986): rays travel between regions of equal size", cells,
+     "cells of equal size"},
     {System::scattered, "scattered",
-     "after Kobayashi and others (1988): rays travel between regions of equal size, 16 a node, neighbours on different nodes"},
+     "after Kobayashi and others (1988): rays travel between regions of equal size, 16 a node, neighbours on different nodes",
+     cells, "cells of equal size"},
     {System::subsampled, "subsampled",
-     "Badouel, Bouatouch, Priol (1994): rays travel between regions of equal work, by a small picture"},
+     "Badouel, Bouatouch, Priol (1994): rays travel between regions of equal work, by a small picture", cells, "a plain grid"},
     {System::moving, "moving",
      "after Dippe and Swensen (1984), Nemoto and Omachi (1986): the same, but idle nodes take units of busy ones' regions, with "
-     "their rays to come, while rays travel; 16 units a node"},
+     "their rays to come, while rays travel; 16 units a node",
+     cells, "cells of equal size (Nemoto, Omachi)"},
 }};
 
 std::string text_of_value(std::uint32_t value) { return std::to_string(value); }
@@ -68,6 +83,8 @@ constexpr SystemSettings settings_of(System system) {
       return {.strategy = Strategy::replicated, .structure = Structure::extents};
     case System::svm:
       return {.pixel_shares = PixelShares::submaps, .homes = PageHomes::spread};
+    case System::svm_extents:
+      return {.structure = Structure::extents, .pixel_shares = PixelShares::submaps, .homes = PageHomes::spread};
     case System::pixel_machine:
       return {.structure = Structure::extents,
               .work_item_side = 0,
@@ -116,16 +133,25 @@ void for_each_setting(System system, StrategyOptions& run, DatabaseOptions& data
   visit_if_said("--regions", run.rays.balance.regions_a_node, settings.regions_a_node);
 }
 
+const SystemDescription& description_of(System system) {
+  const auto* const found = std::find_if(descriptions.begin(), descriptions.end(),
+                                         [&](const SystemDescription& description) { return description.system == system; });
+  core::expect(found != descriptions.end(), "a system has a description");
+  return *found;
+}
+
+/// Whether a structure that is asked for may stand in place of the system's own of today: that which it had, and for a grid
+/// voxels, which are one.
+bool may_have(System system, core::Structure structure) {
+  return structure == description_of(system).had ||
+         (settings_of(system).structure == core::Structure::grid && structure == core::Structure::voxels);
+}
+
 }  // namespace
 
 std::span<const SystemDescription> systems() { return descriptions; }
 
-const char* name_of(System system) {
-  const auto found = std::find_if(descriptions.begin(), descriptions.end(),
-                                  [&](const SystemDescription& description) { return description.system == system; });
-  core::expect(found != descriptions.end(), "a system has a description");
-  return found->name;
-}
+const char* name_of(System system) { return description_of(system).name; }
 
 std::string options_of(System system) {
   StrategyOptions run;
@@ -168,6 +194,13 @@ DatabaseOptions database_of(System system) {
   return database;
 }
 
+DatabaseOptions original_database_of(System system) {
+  DatabaseOptions database = database_of(system);
+  database.build.structure = description_of(system).had;
+  database.build.voxels = core::article_voxels;
+  return database;
+}
+
 void add_system_option(OptionSet options, std::optional<System>& system) {
   OptionSet::Choices<System> choices;
   for (const SystemDescription& description : descriptions) {
@@ -178,10 +211,9 @@ void add_system_option(OptionSet options, std::optional<System>& system) {
 }
 
 void settle_system(const OptionSet& options, System system, StrategyOptions& run, DatabaseOptions& database) {
-  const bool keeps_voxels = settings_of(system).structure == core::Structure::grid && options.is_given("--structure") &&
-                            database.build.structure == core::Structure::voxels;  // a grid, too
+  const bool keeps_structure = options.is_given("--structure") && may_have(system, database.build.structure);
   for_each_setting(system, run, database, [&](const char* option, auto& field, const auto& value) {
-    if (keeps_voxels && std::string_view(option) == "--structure") {
+    if (keeps_structure && std::string_view(option) == "--structure") {
       return;
     }
     if (options.is_given(option) && field != value) {

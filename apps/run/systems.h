@@ -16,6 +16,7 @@ enum class System : std::uint8_t {
   replicated,
   replicated_extents,
   svm,
+  svm_extents,
   svm_resident,
   pixel_machine,
   green_paddon,
@@ -29,8 +30,10 @@ enum class System : std::uint8_t {
 
 struct SystemDescription {
   System system;
-  const char* name;     ///< as the command line calls it
-  const char* meaning;  ///< who described it, and how it works
+  const char* name;      ///< as the command line calls it
+  const char* meaning;   ///< who described it, and how it works
+  core::Structure had;   ///< the structure that it had when it was described, or the nearest to that
+  const char* had_what;  ///< what that was, in a few words
 };
 /// All of them.
 std::span<const SystemDescription> systems();
@@ -46,6 +49,8 @@ std::string system_names();
 /// What stands for a system: its strategy, and the database that it asks for.
 StrategyOptions strategy_of(System system);
 DatabaseOptions database_of(System system);
+/// The same on the structure that it had; voxels by core::article_voxels.
+DatabaseOptions original_database_of(System system);
 
 /// Declares --system.
 void add_system_option(OptionSet options, std::optional<System>& system);

@@ -147,6 +147,7 @@ class Extractor {
     writer_.write(part_.header.directory, 0, std::as_bytes(std::span(entries_)));
   }
 
+  /// Then a ray may meet it again, in the same region as in others, and it has a shared_name.
   bool lies_in_several_voxels(Address block) const {
     const Box box = bounds_of_block(at(block)).padded(pad_);
     const double edge = double{whole_.frame.finest_cell} * finest_per_top;

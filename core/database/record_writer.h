@@ -44,11 +44,12 @@ class RecordWriter {
     sizes_.push_back(static_cast<std::uint16_t>(bytes));
     return take(places_.empty() ? place_in_page(end_, bytes, page_size_) : byte_offset(places_.at(sizes_.size() - 1)), bytes);
   }
-  /// The same, for records that take `share` bytes each on the average, if that is more than they need and not 0: none crosses a
-  /// page's border, so some lie a little closer together than others. For one run of records.
+  /// The same, for one run of records that take `share` bytes each on the average, or what they need if that is more: none
+  /// crosses a page's border, so some lie a little closer together than others. 0: what they need.
   Address allocate(std::size_t bytes, std::size_t share) {
     const std::size_t taken = std::max(bytes, share);
-    if (share == 0 || !places_.empty()) {
+    const bool is_in_run = share > 0 || shared_end_ > 0;
+    if (!is_in_run || !places_.empty()) {
       return allocate(taken);
     }
     shared_end_ = shared_end_ == 0 ? end_ : shared_end_;

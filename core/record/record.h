@@ -137,8 +137,8 @@ struct BlockHeader {
   /// file's doubles say and floats cannot tell from others next to it; what is more is its layer among those.
   std::uint8_t plane = 0;
   std::uint8_t shared_lanes = 0;  ///< a bit for each triangle that shares its plane with others (core/database/coplanar.h)
-  /// In a part of a database (core/database/extract.h) what names the block in all parts, if its box reaches beyond each of the
-  /// part's regions; else 0.
+  /// In a part of a database (core/database/extract.h) what names the block in all parts, if a ray may meet it again: its box
+  /// reaches beyond each of the part's regions or, of voxels, beyond one of those; else 0.
   std::uint32_t shared_name = 0;
 
   static constexpr std::uint8_t shared_plane = 1, exact_plane = 2;

@@ -55,8 +55,8 @@ void RayTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, core
   stage_ = Stage::ended;
 }
 
-/// A block on the list is tested no more. One that gave a candidate is not put there: the node where that proves to be the hit
-/// is to meet it itself, so that it need not go back to its finder.
+/// A block on the list is tested no more. The candidate's is not put there, though the ray meet it again in another voxel: the
+/// node where it proves to be the hit is to meet it itself, so that it need not go back to its finder.
 core::Traced RayTask::trace_with_list(PartTracer& tracer, core::Operations& operations) {
   const core::ShearedRay sheared(flight_->ray);
   const auto test = [&](const std::byte* record, core::Address address, core::Hit& best) {
@@ -64,9 +64,8 @@ core::Traced RayTask::trace_with_list(PartTracer& tracer, core::Operations& oper
     if (tested_.has(header.shared_name)) {
       tests_avoided_ += header.count;
     } else {
-      const core::Hit before = best;
       core::test_block(flight_->ray, sheared, record, address, best, operations);
-      if (best.block == before.block) {
+      if (best.block != address) {
         tested_.add(header.shared_name);
       }
     }

@@ -11,7 +11,7 @@ namespace dmpc::dataflow {
 inline constexpr std::uint32_t tested_objects_max = 8;
 
 /// Names of blocks that a ray has tested where it comes from and may meet again where it goes: those whose boxes reach beyond a
-/// region (core::BlockHeader::shared_name), the newest first; 0 where there is none. A block is tested for all of a ray, wherever
+/// region or a voxel (core::BlockHeader::shared_name), the newest first; 0 where there is none. A block is tested for all of a ray, wherever
 /// its box is met, so a second test finds nothing new.
 using TestedNames = std::array<std::uint32_t, tested_objects_max>;
 

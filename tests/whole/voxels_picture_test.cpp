@@ -168,6 +168,18 @@ TEST_CASE("rays that remember what they have tested test less where they walk on
   CHECK(with.operations().primitive_tests[0] < reference(subject, {.bundles = false}).primitive_tests[0]);
 }
 
+TEST_CASE("a candidate's block that a ray meets again in another voxel is on no list, so no hit more is sent back") {
+  for (const char* name : {"tetra-3", "rings-2-t1", "mount-3"}) {
+    CAPTURE(name);
+    const Subject subject(tests::built_in(name), {16, 12}, voxels_by(many_voxels));
+    const auto sent_back = [&](std::uint32_t names) {
+      const dataflow::RayOptions rays{.balance = {.balance = dataflow::Balance::equal_size}, .tested_objects = names};
+      return run_dataflow(subject, {.computer = {.node_count = 8}, .rays = rays}).rays().hits_sent_back;
+    };
+    CHECK(sent_back(8) == sent_back(0));
+  }
+}
+
 TEST_CASE("virtual time: voxels give the same events again, of which these are") {
   const Subject subject(tests::mirrors_and_glass(), {20, 16}, voxels_by(core::article_voxels, 1024));
   nodes::Machine machine{.name = "slow", .topology = nodes::TopologyKind::hypercube};

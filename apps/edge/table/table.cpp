@@ -150,7 +150,10 @@ std::string markdown_rule(const std::vector<Layout>& layouts, const Fold& fold) 
   return text + "\n";
 }
 
-std::string markdown(const Table& table) {
+std::string caption(const std::string& text) { return folded("**" + text + "**", markdown_width_max, "  ") + "\n"; }
+
+/// Its rows in lines, in pieces that fit.
+std::string markdown_rows(const Table& table) {
   std::vector<Line> lines = markdown_cells(table);
   std::vector<Layout> layouts = layouts_of(table, lines);
   if (is_wide(layouts) && has_wide_key(lines, layouts)) {
@@ -159,12 +162,39 @@ std::string markdown(const Table& table) {
     numbered.insert(numbered.end(), layouts.begin(), layouts.end());
     layouts = std::move(numbered);
   }
-  std::string text = folded("**" + table.title() + "**", markdown_width_max, "  ") + "\n";
+  std::string text;
   for (const Fold& fold : folds_of(lines, layouts)) {
     text += "\n" + markdown_line(lines[0], layouts, fold) + markdown_rule(layouts, fold);
     for (std::size_t row = 1; row < lines.size(); ++row) {
       text += markdown_line(lines[row], layouts, fold);
     }
+  }
+  return text;
+}
+
+/// The rows below each heading, as a table without that column, in the order in which headings first come.
+std::vector<Table> parts_of(const Table& table) {
+  const std::vector<Column> columns(table.columns().begin() + 1, table.columns().end());
+  std::vector<Table> parts;
+  for (const std::vector<Cell>& row : table.rows()) {
+    const std::string title = table.columns()[0].name + " " + std::get<std::string>(row[0]);
+    auto part = std::find_if(parts.begin(), parts.end(), [&](const Table& other) { return other.title() == title; });
+    if (part == parts.end()) {
+      part = parts.emplace(parts.end(), title, columns);
+    }
+    part->add_row({row.begin() + 1, row.end()});
+  }
+  return parts;
+}
+
+std::string markdown(const Table& table) {
+  std::string text = caption(table.title());
+  if (!table.columns().empty() && table.columns().front().is_heading) {
+    for (const Table& part : parts_of(table)) {
+      text += "\n" + caption(part.title()) + markdown_rows(part);
+    }
+  } else {
+    text += markdown_rows(table);
   }
   text += table.notes().empty() ? "" : "\n";
   for (const std::string& note : table.notes()) {

@@ -20,6 +20,8 @@ struct Column {
   std::string name;  ///< in words, unlike any other column's: "average load"
   std::string unit;  ///< "%", "bytes"; empty for mere numbers and texts
   int digits = 0;    ///< decimal places of real numbers in Markdown; the other formats have all there are
+  /// Of the first column, of texts: in Markdown rows with the same text in it stand in a table of their own, under that text.
+  bool is_heading = false;
 };
 
 /// "average load (%)": how CSV and Markdown call it.
@@ -70,7 +72,8 @@ std::string csv_text(const std::string& text);
 
 /// The whole table with a line end.
 ///   markdown   the title in bold, the table with its columns in line, the notes as a list, folded; a table that is wider than
-///              markdown_width_max stands in pieces, each with the columns on the left that tell the rows apart
+///              markdown_width_max stands in pieces, each with the columns on the left that tell the rows apart; a heading in
+///              bold, behind the column's name, and its rows below it
 ///   csv        a line of column names with their units, then a line a row as RFC 4180 quotes it; neither title nor notes
 ///   json       {"format", "title", "columns": [{"name", "unit"}], "rows": [{by name}], "notes": [...]}; names with underscores
 ///   for spaces,

@@ -201,7 +201,8 @@ std::uint64_t print_report(std::ostream& output, const CheckOptions& options, co
                            const core::Camera& camera, const Inspection& inspection) {
   const auto width = static_cast<std::uint32_t>(camera.width());
   output << options.picture.scene << ": " << database.primitives().size() << " primitives, " << width << "x" << camera.height()
-         << " pixels, our grid against Embree " << embree_version() << " (robust)\n";
+         << " pixels, our " << name_of(options.database.build.structure) << " against Embree " << embree_version()
+         << " (robust)\n";
   const Referee referee(database);
   std::uint64_t unexplained = print_table(output, inspection);
   print_list(output, referee, inspection.differences, options.list, width);
@@ -226,7 +227,9 @@ void announce_effort(const CheckOptions& options, const Subject& subject) {
 
 void add_options(OptionSet options, CheckOptions& check) {
   add_options(options, check.picture);
-  options.check_in_the_end([&check] {
+  add_options(options, check.database);
+  options.check_in_the_end([options, &check] {
+    check_voxels(options, check.database.build);
     if (check.picture.is_refined) {
       throw core::UsageError(
           "--samples=auto and --quality go with render and study; check traces as many rays through each pixel as you say");
@@ -249,13 +252,14 @@ void add_options(OptionSet options, CheckOptions& check) {
       "  dmpc check teapot-12\n"
       "  dmpc check tetra-9 --resolution=128x128 --brute-force=1000\n"
       "  dmpc check rings-3 --certify=1000000\n"
+      "  dmpc check balls-4 --structure=voxels\n"
       "Exit status 3 says that a difference stays unexplained or a certificate does not hold.");
 }
 
 int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostream& output) {
   const Interrupt::EndAtOnce end_at_once(interrupt);
   core::Scene scene = load_scene(options.picture);
-  const Subject subject = build_subject(std::move(scene), options.picture, {}, true);
+  const Subject subject = build_subject(std::move(scene), options.picture, options.database, true);
   announce_effort(options, subject);
   const core::Database& database = subject.database;
   const core::RenderSettings& settings = subject.settings;

@@ -7,12 +7,14 @@
 
 #include "apps/edge/line/command_line.h"
 #include "apps/edge/system/interrupt.h"
+#include "apps/scene/database_options.h"
 #include "apps/scene/picture_options.h"
 
 namespace dmpc::apps {
 
 struct CheckOptions {
   PictureOptions picture;
+  DatabaseOptions database;
   std::uint32_t list = 10;        ///< differences to print in full, at most
   std::uint64_t brute_force = 0;  ///< rays of the render that go to the referee too, whether they differ or not
   std::uint64_t certify = 0;      ///< hits of the render whose certificates are held against rational arithmetic

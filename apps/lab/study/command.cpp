@@ -152,10 +152,11 @@ std::uint32_t run_count(const OneStudy& study) {
 
 /// A study that compares structures is given the scene to build them from.
 void give_scene(SystemsStudy& study, const core::Scene& scene, const StudyOptions& options) {
-  study.build = [&scene, &options](core::Structure structure, std::size_t page_size_bytes) {
+  study.build = [&scene, &options](const core::BuildOptions& asked) {
     DatabaseOptions other = options.database;
-    other.build.structure = structure;
-    other.build.page_size_bytes = page_size_bytes;
+    other.build.structure = asked.structure;
+    other.build.voxels = asked.voxels;
+    other.build.page_size_bytes = asked.page_size_bytes;
     return build_subject_quietly(scene, options.picture, other);
   };
 }

@@ -10,6 +10,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/words.h"
 #include "apps/lab/study/engine/time_part_columns.h"
+#include "apps/lab/study/systems_plan.h"
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"
 
@@ -17,77 +18,6 @@ namespace dmpc::apps {
 namespace {
 
 constexpr double system_seconds_of_ns = 1e-9;
-
-/// A system on a computer: a row of the table, or a run.
-struct SystemRun {
-  std::uint32_t node_count;
-  const MemoryRule* memory;
-  System system;
-};
-
-/// The runs, the rows, and by row the run that is good for it.
-struct SystemPlan {
-  std::vector<SystemRun> runs, rows;
-  std::vector<std::size_t> run_of;
-};
-
-constexpr MemoryRule as_needed = {};
-
-/// The rows, each with the first run that is good for it.
-SystemPlan plan_of(const SystemsStudy& study) {
-  SystemPlan plan;
-  plan.runs.push_back({1, &as_needed, System::replicated});  // that efficiencies are by
-  for (const std::uint32_t node_count : study.node_counts) {
-    std::map<System, std::size_t> unbounded;
-    for (const MemoryRule& memory : study.memories) {
-      for (const System system : study.chosen) {
-        const auto before = unbounded.find(system);
-        const bool is_new = memory.changes(system) || before == unbounded.end();
-        plan.rows.push_back({node_count, &memory, system});
-        plan.run_of.push_back(is_new ? plan.runs.size() : before->second);
-        if (is_new) {
-          plan.runs.push_back({node_count, memory.changes(system) ? &memory : &as_needed, system});
-        }
-        if (!memory.changes(system)) {
-          unbounded.emplace(system, plan.run_of.back());
-        }
-      }
-    }
-  }
-  return plan;
-}
-
-/// What a system renders.
-struct Rendered {
-  const core::Database* database;
-  const core::RenderSettings* settings;
-};
-
-/// The study's scene, and the same in other structures that its systems ask for, each built when it is first wanted.
-class Structures {
- public:
-  Structures(const Rendered& usual, const SystemsStudy::Build& build) : usual_(usual), build_(build) {}
-
-  Rendered of(System system) {
-    const core::BuildOptions asked = database_of(system).build;
-    if (asked.structure == core::Structure::grid) {
-      return usual_;
-    }
-    // Forest's subtrees are its pages; others have pages of one size, so that faults can be compared.
-    const std::size_t page_size_bytes =
-        strategy_of(system).strategy == Strategy::forest ? asked.page_size_bytes : usual_.database->page_size();
-    auto found = extents_.find(page_size_bytes);
-    if (found == extents_.end()) {
-      found = extents_.emplace(page_size_bytes, build_(asked.structure, page_size_bytes)).first;
-    }
-    return {&found->second.database, &found->second.settings};
-  }
-
- private:
-  Rendered usual_;
-  const SystemsStudy::Build& build_;
-  std::map<std::size_t, Subject> extents_;  ///< by size of pages
-};
 
 double ratio(double part, double whole) { return whole == 0 ? 0 : part / whole; }
 
@@ -141,7 +71,7 @@ double all_memory_bytes(const Account& account) {
 /// What stands in a row of a run that fits.
 struct FittingRun {
   const Account& account;
-  RunTimes times, one;  ///< its own, and those of one node with the whole scene
+  RunTimes times, one;  ///< its own, and those of one node with the whole scene in the same structure
   std::size_t database_bytes;
 
   double a_ray(std::uint64_t count) const {
@@ -188,23 +118,29 @@ class SystemRows {
 
   void take(std::size_t run, const StudyOutcome& outcome) {
     const SystemRun& done = plan_.runs[run];
-    add_notes(std::string(name_of(done.system)) + " on " + counted(done.node_count, "node") + ", memory " + done.memory->text(),
+    add_notes(std::string(name_of(done.system)) + ", " + apps::name_of(done.asked().structure) + ", on " +
+                  counted(done.node_count, "node") + ", memory " + done.memory->text(),
               outcome, table_);
     if (outcome.report) {
       note(run, account_of(*outcome.report));
     }
     is_done_[run] = true;
-    for (; one_ && next_ < plan_.rows.size() && is_done_[plan_.run_of[next_]]; ++next_) {
+    for (; next_ < plan_.rows.size() && is_done_[plan_.run_of[next_]]; ++next_) {
       add(plan_.rows[next_], plan_.run_of[next_]);
     }
   }
 
  private:
-  /// The first run is the one that efficiencies are by.
+  /// Runs of one node with the whole scene come before all others.
   void note(std::size_t run, const Account& account) {
     const RunTimes times(account);
-    one_ = one_.value_or(times);
-    const FittingRun fitting{account, times, *one_, runs_[run].database->bytes().size()};
+    const core::Structure structure = plan_.runs[run].asked().structure;
+    if (plan_.alone.at(structure) == run) {
+      alone_.emplace(structure, times);
+    }
+    const auto one = alone_.find(structure);
+    core::expect(one != alone_.end(), "one node has as much memory as it needs, and ends before others");
+    const FittingRun fitting{account, times, one->second, runs_[run].database->bytes().size()};
     outcomes_[run] = {most_held_bytes(account), row_of(system_columns(), fitting)};
   }
 
@@ -212,7 +148,11 @@ class SystemRows {
     const core::Database& database = *runs_[run].database;
     const std::optional<SystemOutcome>& outcome = outcomes_[run];
     const bool fits = outcome && planned.memory->allows(outcome->held_bytes, database, planned.node_count);
-    std::vector<Cell> row = {name_of(planned.system), planned.memory->text(), std::uint64_t{planned.node_count},
+    std::vector<Cell> row = {text_of(planned.structures),
+                             name_of(planned.system),
+                             planned.memory->text(),
+                             std::uint64_t{planned.node_count},
+                             apps::name_of(planned.asked().structure),
                              fits ? "yes" : "no"};
     row.push_back(outcome ? Cell(100 * static_cast<double>(outcome->held_bytes) / static_cast<double>(database.bytes().size()))
                           : Cell());
@@ -226,7 +166,7 @@ class SystemRows {
   const SystemPlan& plan_;
   const std::vector<StudyRun>& runs_;
   Table& table_;
-  std::optional<RunTimes> one_;
+  std::map<core::Structure, RunTimes> alone_;
   std::vector<std::optional<SystemOutcome>> outcomes_;  ///< by run
   std::vector<bool> is_done_;                           ///< by run
   std::size_t next_ = 0;
@@ -243,11 +183,27 @@ std::vector<System> parse_systems(const std::string& text) {
   return chosen;
 }
 
+/// "papers,today", in that order, each once.
+std::vector<SystemStructures> parse_structures(const std::string& text) {
+  std::vector<SystemStructures> chosen;
+  for (const std::string& word : words_between(text, ',')) {
+    const bool is_original = word == name_of(SystemStructures::of_papers);
+    if (!is_original && word != name_of(SystemStructures::of_today)) {
+      throw core::UsageError("--structures=" + text + ": expected papers, today or both");
+    }
+    const SystemStructures structures = is_original ? SystemStructures::of_papers : SystemStructures::of_today;
+    if (std::find(chosen.begin(), chosen.end(), structures) == chosen.end()) {
+      chosen.push_back(structures);
+    }
+  }
+  return chosen;
+}
+
 /// In the end: the database is that of the systems in a grid.
 void check_database(const OptionSet& set) {
   for (const char* option : {"--structure", "--voxels"}) {
     if (set.is_given(option)) {
-      throw core::UsageError(std::string(option) + " does not go with study systems: each system has its own");
+      throw core::UsageError(std::string(option) + " does not go with study systems: each system has its own (--structures)");
     }
   }
   if (set.is_given("--record-order")) {
@@ -256,6 +212,8 @@ void check_database(const OptionSet& set) {
 }
 
 }  // namespace
+
+const char* name_of(SystemStructures structures) { return structures == SystemStructures::of_papers ? "papers" : "today"; }
 
 std::vector<System> SystemsStudy::all_systems() {
   std::vector<System> all;
@@ -270,6 +228,10 @@ void SystemsStudy::add_options(StudyLine line) {
   line.set.add_text(
       "--systems", "NAME,NAME,... [all]", [this](const std::string& text) { chosen = parse_systems(text); },
       "Which are compared: " + system_names());
+  line.set.add_text(
+      "--structures", "NAME,... [papers,today]", [this](const std::string& text) { structures = parse_structures(text); },
+      "On which they are compared, a table each: papers, as each had it when it was described, voxels or a tree of boxes; today, "
+      "as render --system has it");
   line.set.add_text(
       "--node-memory", "RULE,RULE,... [auto,25%,5%,1%]", [this](const std::string& text) { memories = parse_memory_rules(text); },
       "What a node may hold: auto, as much as its system needs; S%, its part and so much of the database more; or a size such "
@@ -289,25 +251,50 @@ void SystemsStudy::add_options(StudyLine line) {
 }
 
 std::vector<Column> SystemsStudy::columns() const {
-  std::vector<Column> columns = {{"system"}, {"memory"}, {"nodes"}, {"fits"}, {"database held", "%", 1}};
+  std::vector<Column> columns = {{.name = "structures", .unit = "", .is_heading = true},
+                                 {"system"},
+                                 {"memory"},
+                                 {"nodes"},
+                                 {"structure"},
+                                 {"fits"},
+                                 {"database held", "%", 1}};
   const std::vector<Column> figures = heads_of(system_columns());
   columns.insert(columns.end(), figures.begin(), figures.end());
   return columns;
 }
 
+namespace {
+
+/// Of one figure, bars for each system, by the rule of memory.
+Plot bars_of(const SystemsStudy& study, SystemStructures structures, Plot bars, const char* figure) {
+  bars.name += structures == SystemStructures::of_papers ? "_papers" : "";
+  bars.title += std::string(" of the systems, structures ") + text_of(structures);
+  bars.places = {"system"};
+  for (const MemoryRule& memory : study.memories) {
+    const std::string text = memory.text();
+    bars.series.push_back({"memory " + text,
+                           figure,
+                           {{"structures", text_of(structures)}, {"memory", text}},
+                           PlotMark::bars,
+                           bars.series.size() % plot_color_count});
+  }
+  return bars;
+}
+
+}  // namespace
+
 std::vector<Plot> SystemsStudy::plots() const {
-  const auto bars = [&](const char* plot, const char* title, const char* column, PlotAxis axis) {
-    Plot bars{.name = plot, .title = title, .places = {"system"}, .x = {}, .y = std::move(axis), .series = {}};
-    for (const MemoryRule& memory : memories) {
-      const std::string text = memory.text();
-      bars.series.push_back(
-          {"memory " + text, column, {{"memory", text}}, PlotMark::bars, bars.series.size() % plot_color_count});
-    }
-    return bars;
-  };
-  const PlotAxis times{.label = "virtual time (s)", .scale = PlotScale::powers_of_10};
-  return {bars("systems_time", "Virtual time of the systems", "virtual time", times),
-          bars("systems_efficiency", "Efficiency of the systems", "efficiency", percent_axis("efficiency"))};
+  std::vector<Plot> plots;
+  for (const SystemStructures one : structures) {
+    const PlotAxis times{.label = "virtual time (s)", .scale = PlotScale::powers_of_10};
+    const auto bars = [&](const char* name, const char* title, const PlotAxis& axis, const char* figure) {
+      plots.push_back(
+          bars_of(*this, one, {.name = name, .title = title, .places = {}, .x = {}, .y = axis, .series = {}}, figure));
+    };
+    bars("systems_time", "Virtual time", times, "virtual time");
+    bars("systems_efficiency", "Efficiency", percent_axis("efficiency"), "efficiency");
+  }
+  return plots;
 }
 
 std::vector<PlannedRun> SystemsStudy::planned() const {
@@ -320,11 +307,11 @@ std::vector<PlannedRun> SystemsStudy::planned() const {
 
 void SystemsStudy::measure(StudyRuns& runs, Table& table) const {
   const SystemPlan plan = plan_of(*this);
-  Structures structures({&runs.database(), &runs.settings()}, build);
+  Structures built({&runs.database(), &runs.settings()}, build);
   std::vector<StudyRun> wanted;
   for (const SystemRun& run : plan.runs) {
     runs.check();
-    const Rendered rendered = structures.of(run.system);
+    const Rendered rendered = built.of(run.asked());
     StrategyOptions options = strategy_of(run.system);
     options.runner = machine.runner;
     choose_machine(options, *machine.computer.machine);
@@ -345,7 +332,8 @@ std::vector<std::string> SystemsStudy::notes(const std::string&) const {
                                     in_flight_text(Strategy::forest) + "."};
   for (const SystemDescription& description : systems()) {
     if (std::find(chosen.begin(), chosen.end(), description.system) != chosen.end()) {
-      notes.push_back(std::string(description.name) + ": " + description.meaning + ".");
+      notes.push_back(std::string(description.name) + ": " + description.meaning + ". Its structure: " + description.had_what +
+                      " (" + name_of(description.had) + ").");
     }
   }
   notes.insert(
@@ -353,7 +341,12 @@ std::vector<std::string> SystemsStudy::notes(const std::string&) const {
       {"Memory auto: what each system needs, caches that hold the whole database. S%: a node holds its part, an Nth of the "
        "database, and S % of it more. A size: all that a node's memory holds. Database held: at the node that holds most, caches "
        "as large as they may become.",
-       "Efficiency and work: against one node with the whole scene, in node-seconds and in those of them that are computing. "
+       "Structures of the papers: that which each system had when it was described, or of ours the nearest: a plain grid of "
+       "voxels "
+       "by the rule that the article's memories tell (--voxels=article), or a tree of extents. Structures of today: as render "
+       "--system has them.",
+       "Efficiency and work: against one node with the whole scene in the same structure, in node-seconds and in those of them "
+       "that are computing. "
        "Average load: mean over maximum of the nodes' computing.",
        "Parts of the nodes' time, summed over them: they add up to 100 %. data_wait is for pages, rays or answers.",
        "Messages and bytes of all kinds. Host: the bytes that it sends or is sent, of all. Busiest link: the time that it is "
@@ -362,21 +355,34 @@ std::vector<std::string> SystemsStudy::notes(const std::string&) const {
   return notes;
 }
 
-std::string SystemsStudy::conclusion(const Table& table) const {
+namespace {
+
+/// The row of the least time among systems that do not hold the whole scene; nullptr if none has a time.
+const std::vector<Cell>* fastest_of(const Table& table, const std::string& structures) {
   const std::vector<Cell>* fastest = nullptr;
-  double seconds = 0;
   for (const std::vector<Cell>& row : table.rows()) {
     const auto time = number_in(table, row, "virtual time");
-    const bool is_copy = std::get<std::string>(row[0]).starts_with("replicated");
-    if (time && !is_copy && (fastest == nullptr || *time < seconds)) {
+    const bool is_meant = std::get<std::string>(row[0]) == structures && !std::get<std::string>(row[1]).starts_with("replicated");
+    if (is_meant && time && (fastest == nullptr || *time < number_in(table, *fastest, "virtual time"))) {
       fastest = &row;
-      seconds = *time;
     }
   }
-  return fastest == nullptr ? ""
-                            : "Of the systems whose nodes do not hold the whole scene " + std::get<std::string>((*fastest)[0]) +
-                                  " is the fastest: " + amount_text(seconds, "s") + " on " + nodes_text(table, *fastest) +
-                                  ", memory " + std::get<std::string>((*fastest)[1]) + ".";
+  return fastest;
+}
+
+}  // namespace
+
+std::string SystemsStudy::conclusion(const Table& table) const {
+  std::string text;
+  for (const SystemStructures one : structures) {
+    if (const std::vector<Cell>* const row = fastest_of(table, text_of(one))) {
+      text += (text.empty() ? "Of the systems whose nodes do not hold the whole scene " : "; ") +
+              std::get<std::string>((*row)[1]) + " is the fastest on structures " + text_of(one) + ": " +
+              amount_text(*number_in(table, *row, "virtual time"), "s") + " on " + nodes_text(table, *row) + ", memory " +
+              std::get<std::string>((*row)[2]);
+    }
+  }
+  return text.empty() ? text : text + ".";
 }
 
 }  // namespace dmpc::apps

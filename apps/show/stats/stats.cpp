@@ -282,6 +282,7 @@ Json database_json(const core::Database& database) {
           {"dropped", database.dropped()},
           {"collapsed", database.collapsed().size()},
           {"bricks", records.bricks},
+          {"voxel_references", records.voxel_references},
           {"triangle_blocks", block_count(core::PrimitiveKind::triangle)},
           {"sphere_blocks", block_count(core::PrimitiveKind::sphere)},
           {"cone_blocks", block_count(core::PrimitiveKind::cone)},

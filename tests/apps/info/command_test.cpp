@@ -147,6 +147,12 @@ TEST_CASE("an empty scene is told without numbers that it has not") {
   CHECK_FALSE(contains(text, "**Textures**"));
 }
 
+TEST_CASE("an empty scene on voxels is told as one of voxels") {
+  InfoRecord record;
+  record.database = figures_of(core::build_database({}, {.structure = core::Structure::voxels}), {});
+  CHECK(contains(info_text(record), "1x1x1 voxels, none of them with a list"));
+}
+
 TEST_CASE("a text has a line for each matter and tables of records, textures and memory") {
   const tests::TemporaryFolder folder;
   const std::string text = info_text(find_out(info(tests::write_painted_square(folder, 8), {"--nodes=3", "--quiet"})));

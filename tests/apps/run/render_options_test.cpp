@@ -375,6 +375,10 @@ TEST_CASE("a system by name stands for its options") {
   CHECK(render({"--system=replicated-extents"}).database.build.structure == core::Structure::extents);
   CHECK(render({"--system=replicated"}).database.build.structure == core::Structure::grid);
   CHECK(render({"--system=replicated", "--structure=voxels"}).database.build.structure == core::Structure::voxels);
+  CHECK(render({"--system=green-paddon", "--structure=extents"}).database.build.structure == core::Structure::extents);
+  CHECK(render({"--system=svm-extents"}).database.build.structure == core::Structure::extents);
+  CHECK(render({"--system=svm-extents"}).database.build.page_size_bytes == 1024);
+  CHECK(contains(render_complaint({"--system=svm", "--structure=extents"}), "--structure=extents does not go with --system=svm"));
   CHECK(contains(render_complaint({"--system=pixel-machine", "--structure=voxels"}),
                  "--structure=voxels does not go with --system=pixel-machine"));
   CHECK(render({"--system=equal-size"}).rays.balance.balance == dataflow::Balance::equal_size);

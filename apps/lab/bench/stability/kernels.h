@@ -12,7 +12,7 @@
 
 namespace dmpc::apps {
 
-/// The first eight answer any ray; the others are asked by the tests that are about them.
+/// The first ten answer any ray; the others are asked by the tests that are about them.
 enum class StabilityKernel : std::uint8_t {
   grid,           ///< the walk with vectors of 8 triangles
   scalar,         ///< the walk with the scalar twin
@@ -20,6 +20,8 @@ enum class StabilityKernel : std::uint8_t {
   resumed,        ///< the walk stopped by an absent record before each of its steps
   bundle,         ///< the walk beside three others
   any_hit,        ///< as a shadow ray: only whether there is a hit
+  voxels,         ///< the walk of a plain grid of voxels with lists, over the same scene
+  voxels_bundle,  ///< the same beside three others
   embree_fast,    ///< Embree without its robust flag
   embree_robust,  ///< Embree with it
   regions,        ///< the walk from owner to owner of a space cut into regions
@@ -27,12 +29,15 @@ enum class StabilityKernel : std::uint8_t {
   listing,        ///< no walk: which primitives the boxes around a point list
   certified,      ///< hits of the grid or of its scalar twins, each with a certificate
 };
-inline constexpr std::size_t stability_kernel_count = 12;
-inline constexpr std::size_t compared_kernel_count = 8;
+inline constexpr std::size_t stability_kernel_count = 14;
+inline constexpr std::size_t compared_kernel_count = 10;
 
 constexpr std::size_t index_of(StabilityKernel kernel) { return static_cast<std::size_t>(kernel); }
 constexpr bool is_embree(StabilityKernel kernel) {
   return kernel == StabilityKernel::embree_fast || kernel == StabilityKernel::embree_robust;
+}
+constexpr bool is_of_voxels(StabilityKernel kernel) {
+  return kernel == StabilityKernel::voxels || kernel == StabilityKernel::voxels_bundle;
 }
 /// A few words for tables.
 std::string_view name_of(StabilityKernel kernel);
@@ -40,7 +45,7 @@ std::string_view name_of(StabilityKernel kernel);
 /// By kernel. Of `any_hit` only found() means anything.
 using StabilityAnswers = std::array<core::Hit, compared_kernel_count>;
 
-/// One ray through each of the first eight kernels; Embree misses what it does not take. Closest hits for all but `any_hit`,
+/// One ray through each of the first ten kernels; Embree misses what it does not take. Closest hits for all but `any_hit`,
 /// whatever the ray's kind. Thread-safe.
 StabilityAnswers ask_kernels(const StabilitySubject& subject, const core::Ray& ray);
 

@@ -42,7 +42,8 @@ core::Hit shoot_resumed(const core::Database& database, const core::Ray& ray) {
   return cursor.best;
 }
 
-/// The third of four rays that walk together. The others go nearly the same way or, beside every second ray, some other ways.
+}  // namespace
+
 core::Hit shoot_in_bundle(const core::Database& database, const core::Ray& ray) {
   core::LocalRecords records(database.bytes());
   core::Operations operations;
@@ -58,8 +59,6 @@ core::Hit shoot_in_bundle(const core::Database& database, const core::Ray& ray) 
   core::trace(bundle, records, database.header(), {}, operations);
   return bundle.best.of(2);
 }
-
-}  // namespace
 
 OwnAnswers ask_own_kernels(const core::Database& database, const core::Ray& ray) {
   const core::Ray nearest = of_kind(ray, core::RayKind::reflected);

@@ -10,7 +10,7 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr const char* first_line = "dmpc bench stability, state 2";
+constexpr const char* first_line = "dmpc bench stability, state 3";
 
 std::ostream& operator<<(std::ostream& text, const StabilityCounts& counts) {
   return text << counts.tried << ' ' << counts.leaks << ' ' << counts.wrong_hits << ' ' << counts.double_claims << ' '

@@ -13,9 +13,15 @@ namespace dmpc::apps {
 struct StabilitySubject {
   explicit StabilitySubject(const core::Scene& scene) : StabilitySubject(scene, several_top_cells(scene)) {}
   StabilitySubject(const core::Scene& scene, const core::BuildOptions& options)
-      : database(core::build_database(scene, options)) {}
+      : database(core::build_database(scene, options)), voxels(core::build_database(scene, with_voxels(options))) {}
+
+  static core::BuildOptions with_voxels(core::BuildOptions options) {
+    options.structure = core::Structure::voxels;
+    return options;
+  }
 
   core::Database database;
+  core::Database voxels;  ///< of the same floats
   EmbreeScene embree_fast{database.primitives(), EmbreeMode::fast};
   EmbreeScene embree_robust{database.primitives(), EmbreeMode::robust};
   Referee referee{database};

@@ -41,6 +41,9 @@ void add_tables(Catalogue& catalogue, const PaperRun& like) {
     catalogue.one_worker[scene] = base == 0 ? catalogue.timed[scene][0] : catalogue.add(alone);
     PaperRun run = like;
     run.scene = paper_scenes[scene].scene;
+    run.structure = core::Structure::extents;
+    catalogue.extents[scene] = catalogue.add(run);
+    run.structure = core::Structure::grid;
     run.pages.count_pages = true;
     catalogue.counted[scene] = catalogue.add(run);
   }

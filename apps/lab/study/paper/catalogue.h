@@ -98,6 +98,7 @@ struct Catalogue {
   std::array<std::size_t, page_sizes_bytes.size()> paged{}, paged_by_hardware{};
   std::size_t lit_by_rays = 0, lit_by_pages = 0;  ///< Rings4 on 64 nodes, a light in its middle
   std::size_t copies = 0;                         ///< the small scene on 64 nodes, replicated
+  RunsByScene extents{};                          ///< as those of Table 2, on a tree of extents
   std::size_t faster_machine = 0;                 ///< Rings4 on 32 nodes of an iPSC/860
   std::size_t dearer_cache = 0;                   ///< the calibration's scene on two nodes, a cached look-up at twice its price
 

@@ -7,6 +7,8 @@
 
 #include "apps/edge/table/table.h"
 #include "apps/lab/study/paper/data.h"
+#include "apps/lab/study/paper/runs.h"
+#include "apps/lab/study/paper/voxel_runs.h"
 
 namespace dmpc::apps {
 
@@ -33,5 +35,10 @@ class Claims {
   bool is_judged_;
   Table table_;
 };
+
+/// That trees of extents need less memory but more time than a subdivision of space, which are these runs of one node with the
+/// whole scene; `remark` stands behind the figures.
+void claim_extents(Claims& rows, const PaperResults& results, const RunsByScene& in_space, const RunsByScene& in_extents,
+                   const std::string& remark);
 
 }  // namespace dmpc::apps

@@ -42,7 +42,7 @@ PictureOptions picture_of(const PaperRun& run) {
   PictureOptions picture{.scene = run.scene, .resolution = Resolution{side, side}, .convention = core::Convention::paper};
   picture.skips.background = false;
   picture.skips.idle_nodes = false;
-  if (run.structure == core::Structure::voxels) {
+  if (run.structure == core::Structure::voxels || run.lacks_later_skips) {
     picture.skips = article_skips();
   }
   if (run.has_inner_light) {
@@ -93,6 +93,7 @@ PaperResult result_of(const Report& report, const core::Database& database) {
                      .rays = account.operations.ray_count(),
                      .tests = std::accumulate(account.operations.primitive_tests.begin(),
                                               account.operations.primitive_tests.end(), std::uint64_t{0}),
+                     .database_bytes = database.bytes().size(),
                      .film_hash = account.film.hash()};
   if (const auto* rays = std::get_if<dataflow::Report>(&report)) {
     result.flood = shadow_flood(database, *rays);
@@ -129,6 +130,7 @@ std::vector<PaperSubject> paper_subjects(std::span<const PaperRun> runs) {
     if (std::none_of(subjects.begin(), subjects.end(), [&](const PaperSubject& subject) { return subject.is_of(run); })) {
       const PictureOptions picture = picture_of(run);
       subjects.push_back({run.scene, run.resolution, run.record_order, run.page_size_bytes, run.has_inner_light, run.structure,
+                          run.lacks_later_skips,
                           build_subject(load_scene(picture), picture,
                                         {.build = {.page_size_bytes = run.page_size_bytes,
                                                    .record_order = run.record_order,

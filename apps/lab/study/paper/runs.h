@@ -33,6 +33,7 @@ struct PaperRun {
   std::optional<std::uint32_t> shared_pages = std::nullopt;
   /// Grid: dmpc's own. Voxels: the article's, by core::article_voxels, without the skips that its program did not have.
   core::Structure structure = core::Structure::grid;
+  bool lacks_later_skips = false;             ///< of grid and extents: without those skips, too
   svm::PageOptions pages = {.in_flight = 1};  ///< of svm and replicated, but for the cache
   dataflow::RayOptions rays = {};             ///< of dataflow; regions are mapped onto the machine
   std::optional<std::size_t> node_memory_bytes = std::nullopt;
@@ -57,6 +58,7 @@ struct PaperResult {
   double flood = 0;               ///< what comes to a light's region or from a page's home, over the mean (hot_spots.h)
   std::uint32_t cache_pages = 0;  ///< of a node, if pages travelled
   double pages_a_pixel = 0;       ///< if they were counted
+  std::size_t database_bytes = 0;
   std::uint64_t film_hash = 0;
 
   double seconds() const { return 1e-9 * static_cast<double>(total_ns); }
@@ -76,12 +78,14 @@ struct PaperSubject {
   std::size_t page_size_bytes = 1024;
   bool has_inner_light = false;
   core::Structure structure = core::Structure::grid;
+  bool lacks_later_skips = false;
   Subject subject;
 
   /// Whether it is the run's.
   bool is_of(const PaperRun& run) const {
     return scene == run.scene && resolution == run.resolution && record_order == run.record_order &&
-           page_size_bytes == run.page_size_bytes && has_inner_light == run.has_inner_light && structure == run.structure;
+           page_size_bytes == run.page_size_bytes && has_inner_light == run.has_inner_light && structure == run.structure &&
+           lacks_later_skips == run.lacks_later_skips;
   }
 };
 /// Those that the runs need. Takes a second or so for the largest.

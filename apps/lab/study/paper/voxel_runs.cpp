@@ -67,6 +67,10 @@ void add_voxel_runs(Catalogue& catalogue) {
     PaperRun counted = timed_voxel_run(like, scene, 0);
     counted.pages.count_pages = true;
     voxels.counted[scene] = catalogue.add(counted);
+    counted.structure = core::Structure::extents;
+    counted.lacks_later_skips = true;
+    counted.pages.count_pages = false;
+    voxels.extents[scene] = catalogue.add(counted);
   }
   add_voxel_caches(catalogue, like);
   add_voxel_loads(catalogue, like);

@@ -18,6 +18,9 @@ using RunsByNodeCount = std::array<std::size_t, paper_node_counts.size()>;
 /// Pages of a node's shared memory: its own and its cache.
 inline constexpr auto shared_pages = static_cast<std::uint32_t>(shared_kilobytes);
 
+/// Numbers of runs, one for each of paper_scenes.
+using RunsByScene = std::array<std::size_t, paper_scenes.size()>;
+
 /// Those that the prices of voxel_machine() are fitted to: the smallest and the largest machine of Mountain and of Rings4.
 inline constexpr std::array<PaperPlace, 4> fitted_places = {{{1, 0}, {1, 6}, {2, 1}, {2, 6}}};
 
@@ -35,9 +38,10 @@ inline constexpr std::array<std::uint32_t, 3> loaded_node_counts = {16, 32, 64};
 
 /// Numbers of runs, by scene.
 struct VoxelRuns {
-  std::array<std::size_t, paper_scenes.size()> counted{};                      ///< Table 2
+  RunsByScene counted{};                                                       ///< Table 2
+  RunsByScene extents{};                                                       ///< the same on a tree of extents
   std::array<RunsByNodeCount, paper_scenes.size()> timed{};                    ///< Table 3
-  std::array<std::size_t, paper_scenes.size()> one_worker{};                   ///< on the smallest machine that is printed
+  RunsByScene one_worker{};                                                    ///< on the smallest machine that is printed
   std::array<std::array<std::size_t, 6>, voxel_caches_tried.size()> cached{};  ///< by size; on one node: those that are counted
   /// Rays that travel, Rings3, by loaded_node_counts: regions by a subsampled picture, cut in alternating directions, and of
   /// equal size; and one node.

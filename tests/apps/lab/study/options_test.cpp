@@ -177,6 +177,10 @@ TEST_CASE("systems and rules of memory are chosen by name, and each system has i
   const SystemsStudy standard = chosen({});
   CHECK(standard.chosen.size() == systems().size());
   CHECK(standard.memories.size() == 4);
+  CHECK(standard.structures == std::vector{SystemStructures::of_papers, SystemStructures::of_today});
+  CHECK(chosen({"--structures=today"}).structures == std::vector{SystemStructures::of_today});
+  CHECK_THROWS_WITH_AS(chosen({"--structures=today,best"}), doctest::Contains("expected papers, today or both"),
+                       core::UsageError);
   CHECK(standard.machine.computer.machine->name == "ipsc2");
   const SystemsStudy taken =
       chosen({"--systems=forest,svm,forest", "--node-memory=auto,2%,1MiB", "--nodes=8,64", "--machine=hdr"});

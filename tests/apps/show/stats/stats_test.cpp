@@ -239,6 +239,12 @@ TEST_CASE("the records of the database are told by kind") {
   CHECK(value(json, "bricks") == std::to_string(rendered.database.records().bricks));
   CHECK(value(json, "sphere_blocks") != "0");
   CHECK(value(json, "cone_blocks") == "0");
+  CHECK(value(json, "voxel_references") == "0");
+  RenderOptions with_voxels = small();
+  with_voxels.database.build.structure = core::Structure::voxels;
+  const Rendered on_voxels(with_voxels);
+  CHECK(on_voxels.database.records().voxel_references > 0);
+  CHECK(value(on_voxels.json(), "voxel_references") == std::to_string(on_voxels.database.records().voxel_references));
   CHECK(value(json, "normals") == "0");
   CHECK(value(json, "normal_reads") == "0");
   CHECK(value(json, "lights") == "3");

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "core/base/expect.h"
 
@@ -66,6 +67,19 @@ TEST_CASE("check honours convention, depth and samples") {
   const std::string haines = check(options).text;
   options.picture.convention = core::Convention::paper;
   CHECK(check(options).text != haines);
+}
+
+TEST_CASE("check traces the structure that is asked for, and says which") {
+  CHECK(check(small("balls-1")).text.find("40x30 pixels, our grid against Embree ") != std::string::npos);
+  for (const auto& [structure, name] : {std::pair(core::Structure::voxels, "voxels"), {core::Structure::extents, "extents"}}) {
+    apps::CheckOptions options = small("balls-1");
+    options.database.build.structure = structure;
+    options.certify = 100;
+    const Said said = check(options);
+    CHECK(said.status == 0);
+    CHECK(said.text.find(std::string("40x30 pixels, our ") + name + " against Embree ") != std::string::npos);
+    CHECK(said.text.find("Every ray is explained.") != std::string::npos);
+  }
 }
 
 TEST_CASE("check of a scene that does not exist is bad input") {

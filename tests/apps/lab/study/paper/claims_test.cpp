@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "tests/support/paper_results.h"
 
@@ -15,7 +17,7 @@ using namespace apps;
 
 namespace {
 
-constexpr std::size_t claim_count = 15;
+constexpr std::size_t claim_count = 16;
 
 using ByNodeCount = std::array<double, paper_node_counts.size()>;
 
@@ -56,6 +58,10 @@ struct Claimed {
     set_items({1.16, 1.08, 1.01, 1, 1.003, 1.04, 1.09});
     set_dealt(110'000, 120'000);
     results[catalogue.copies] = result_of_seconds(198);
+    for (std::size_t scene = 0; scene < paper_scenes.size(); ++scene) {
+      results[catalogue.counted[scene]] = PaperResult{.total_ns = 1'000'000'000, .database_bytes = 1000};
+      results[catalogue.extents[scene]] = PaperResult{.total_ns = 1'500'000'000, .database_bytes = 900};
+    }
   }
 
   void set_dealt(std::uint64_t seconds, std::uint64_t seconds_of_pixels) {
@@ -313,6 +319,41 @@ TEST_CASE("what pages of a small scene cost is said and not judged, since its pr
   Claimed claimed;
   CHECK(claimed.found("small scene").starts_with("pages take 1.01 times as long as copies made beforehand, by a price"));
   CHECK(claimed.verdict("small scene") == "not judged");
+}
+
+TEST_CASE("a tree of extents that takes more memory or less time in one scene does not hold the claim") {
+  const std::string words = "A tree of extents";
+  Claimed claimed;
+  CHECK(claimed.verdict(words) == "held");
+  CHECK(claimed.found(words).starts_with(
+      "memory and time of a tree over those in space, on one node: Teapot 0.90 and 1.50, Mountain 0.90 and 1.50, Rings4"));
+  PaperResult& mountain = *claimed.results[claimed.catalogue.extents[1]];
+  mountain.total_ns = 1'005'000'000;
+  CHECK(claimed.verdict(words) == "a tie");
+  mountain.total_ns = 900'000'000;
+  CHECK(claimed.verdict(words) == "not held");
+  mountain = PaperResult{.total_ns = 1'500'000'000, .database_bytes = 1000};
+  CHECK(claimed.verdict(words) == "not held");
+  claimed.results[claimed.catalogue.extents[4]].reset();
+  CHECK(claimed.found(words) == "missing");
+}
+
+TEST_CASE("trees of extents are timed on the machine of what they stand beside, with its skips") {
+  const Catalogue catalogue = catalogue_of(16);
+  const VoxelRuns& voxels = catalogue.voxels;
+  for (const auto& [space, extents] :
+       {std::pair(catalogue.counted[1], catalogue.extents[1]), {voxels.counted[1], voxels.extents[1]}}) {
+    CHECK(catalogue.runs[extents].machine.cost_ps == catalogue.runs[space].machine.cost_ps);
+    CHECK(catalogue.runs[extents].node_count == 1);
+    CHECK(catalogue.runs[extents].structure == core::Structure::extents);
+  }
+  const std::vector<PaperRun> runs = {catalogue.runs[voxels.extents[1]], catalogue.runs[voxels.counted[1]],
+                                      catalogue.runs[catalogue.extents[1]]};
+  const PaperResults results = carried_out(runs, paper_subjects(runs));
+  REQUIRE((results[0] && results[1] && results[2]));
+  CHECK(results[0]->rays == results[1]->rays);
+  CHECK(results[0]->database_bytes < results[1]->database_bytes);
+  CHECK(results[0]->database_bytes == results[2]->database_bytes);
 }
 
 }  // namespace dmpc::tests::claims_test
