@@ -1,6 +1,7 @@
 // OpenEXR files, as dmpc writes them: scan lines of 32-bit floats, packed without loss.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,8 +22,8 @@ struct ExrPicture {
   std::vector<std::pair<std::string, std::string>> remarks;  ///< attributes that are texts
 };
 
-/// The file's bytes, the same for the same picture. Requires a pixel, a channel, and names of 1 to 31
-/// bytes, no two alike.
-std::string exr_file(const ExrPicture& picture);
+/// The file's bytes, the same for the same picture. `threads`: how many pack its rows; 0: one for each core. Requires a pixel, a
+/// channel, and names of 1 to 31 bytes, no two alike.
+std::string exr_file(const ExrPicture& picture, std::uint32_t threads = 0);
 
 }  // namespace dmpc::apps
