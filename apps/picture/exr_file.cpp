@@ -59,30 +59,35 @@ void say_nothing(exr_const_context_t, exr_result_t, const char*) noexcept {}
 class BlockPacker {
  public:
   /// `first`: the picture's first block, which is as large as any.
-  BlockPacker(exr_context_t context, const ExrPicture& picture, const exr_chunk_info_t& first);
+  BlockPacker(exr_context_t context, const ExrRows& picture, const exr_chunk_info_t& first);
   ~BlockPacker();
   BlockPacker(const BlockPacker&) = delete;
   BlockPacker& operator=(const BlockPacker&) = delete;
 
   /// What one takes.
-  static std::size_t bytes_for(const exr_chunk_info_t& block) { return 3 * block.unpacked_size + 1_MiB; }
+  static std::size_t bytes_for(const exr_chunk_info_t& block) { return 4 * block.unpacked_size + 1_MiB; }
   void pack(const exr_chunk_info_t& block);
   /// Writes what was packed. Requires that the block before it is written.
   void write();
 
  private:
   static exr_result_t deflate(exr_encode_pipeline_t* encoder) noexcept;
-  void point_at_values(int row);
+  void take_numbers();
 
   exr_context_t context_;
-  const ExrPicture& picture_;
+  const ExrRows& picture_;
   Deflater deflater_{effort};
+  std::vector<float> numbers_;
   std::vector<std::uint8_t> split_, deflated_;
   exr_encode_pipeline_t encoder_ = EXR_ENCODE_PIPELINE_INITIALIZER;
 };
 
-BlockPacker::BlockPacker(exr_context_t context, const ExrPicture& picture, const exr_chunk_info_t& first)
-    : context_(context), picture_(picture), split_(first.unpacked_size), deflated_(first.unpacked_size) {
+BlockPacker::BlockPacker(exr_context_t context, const ExrRows& picture, const exr_chunk_info_t& first)
+    : context_(context),
+      picture_(picture),
+      numbers_(first.unpacked_size / sizeof(float)),
+      split_(first.unpacked_size),
+      deflated_(first.unpacked_size) {
   check(::exr_encoding_initialize(context_, the_part, &first, &encoder_));
   check(::exr_encoding_choose_default_routines(context_, the_part, &encoder_));
   encoder_.encoding_user_data = this;
@@ -110,21 +115,22 @@ exr_result_t BlockPacker::deflate(exr_encode_pipeline_t* encoder) noexcept {
 }
 
 /// OpenEXR sorts the channels by their names.
-void BlockPacker::point_at_values(int row) {
+void BlockPacker::take_numbers() {
   const auto width = static_cast<std::size_t>(picture_.width);
+  const std::size_t pixel_floats = picture_.channels.size(), row_floats = width * pixel_floats;
+  picture_.take(static_cast<std::size_t>(encoder_.chunk.start_y) * width,
+                std::span(numbers_).first(static_cast<std::size_t>(encoder_.chunk.height) * row_floats));
   for (exr_coding_channel_info_t& place : std::span(encoder_.channels, static_cast<std::size_t>(encoder_.channel_count))) {
-    const auto channel = std::find_if(picture_.channels.begin(), picture_.channels.end(),
-                                      [&](const ExrChannel& one) { return one.name == place.channel_name; });
-    const float* const values = channel->values.data() + static_cast<std::size_t>(row) * width * channel->stride;
-    place.encode_from_ptr = reinterpret_cast<const std::uint8_t*>(values);
-    place.user_pixel_stride = static_cast<std::int32_t>(channel->stride * sizeof(float));
-    place.user_line_stride = static_cast<std::int32_t>(width * channel->stride * sizeof(float));
+    const auto channel = std::find(picture_.channels.begin(), picture_.channels.end(), place.channel_name);
+    place.encode_from_ptr = reinterpret_cast<const std::uint8_t*>(numbers_.data() + (channel - picture_.channels.begin()));
+    place.user_pixel_stride = static_cast<std::int32_t>(pixel_floats * sizeof(float));
+    place.user_line_stride = static_cast<std::int32_t>(row_floats * sizeof(float));
   }
 }
 
 void BlockPacker::pack(const exr_chunk_info_t& block) {
   check(::exr_encoding_update(context_, the_part, &block, &encoder_));
-  point_at_values(block.start_y);
+  take_numbers();
   check(::exr_encoding_run(context_, the_part, &encoder_));
 }
 
@@ -136,7 +142,7 @@ void BlockPacker::write() {
 /// A file on its way into memory.
 class ExrWriter {
  public:
-  explicit ExrWriter(const ExrPicture& picture);
+  explicit ExrWriter(const ExrRows& picture);
   ~ExrWriter();
   ExrWriter(const ExrWriter&) = delete;
   ExrWriter& operator=(const ExrWriter&) = delete;
@@ -150,12 +156,12 @@ class ExrWriter {
   exr_chunk_info_t block_from(int row) const;
   std::vector<exr_chunk_info_t> blocks() const;
 
-  const ExrPicture& picture_;
+  const ExrRows& picture_;
   std::string file_;
   exr_context_t context_ = nullptr;
 };
 
-ExrWriter::ExrWriter(const ExrPicture& picture) : picture_(picture) {
+ExrWriter::ExrWriter(const ExrRows& picture) : picture_(picture) {
   exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
   initializer.error_handler_fn = say_nothing;
   initializer.user_data = &file_;
@@ -169,8 +175,8 @@ void ExrWriter::write_header() {
   int part = the_part;
   check(::exr_add_part(context_, nullptr, EXR_STORAGE_SCANLINE, &part));
   check(::exr_initialize_required_attr_simple(context_, part, picture_.width, picture_.height, EXR_COMPRESSION_ZIP));
-  for (const ExrChannel& channel : picture_.channels) {
-    check(::exr_add_channel(context_, part, channel.name.c_str(), EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
+  for (const std::string& channel : picture_.channels) {
+    check(::exr_add_channel(context_, part, channel.c_str(), EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
   }
   check(::exr_attr_set_string(context_, part, "Software", "dmpc"));
   for (const auto& [name, text] : picture_.remarks) {
@@ -221,15 +227,32 @@ void ExrWriter::write_rows(const core::Parallel& parallel) {
 
 }  // namespace
 
+std::string exr_file(const ExrRows& picture, std::uint32_t threads) {
+  ExrWriter writer(picture);
+  writer.write_header();
+  writer.write_rows(core::Parallel(threads));
+  return writer.take_file();
+}
+
 std::string exr_file(const ExrPicture& picture, std::uint32_t threads) {
   const auto pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   for (const ExrChannel& channel : picture.channels) {
     core::expect(pixels > 0 && (pixels - 1) * channel.stride < channel.values.size(), "a channel has a number for each pixel");
   }
-  ExrWriter writer(picture);
-  writer.write_header();
-  writer.write_rows(core::Parallel(threads));
-  return writer.take_file();
+  const std::span<const ExrChannel> channels(picture.channels);
+  const auto take = [channels](std::size_t first, std::span<float> numbers) {
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const float* from = channels[i].values.data() + first * channels[i].stride;
+      for (std::size_t place = i; place < numbers.size(); place += channels.size(), from += channels[i].stride) {
+        numbers[place] = *from;
+      }
+    }
+  };
+  ExrRows rows{picture.width, picture.height, {}, take, picture.remarks};
+  for (const ExrChannel& channel : channels) {
+    rows.channels.push_back(channel.name);
+  }
+  return exr_file(rows, threads);
 }
 
 }  // namespace dmpc::apps
