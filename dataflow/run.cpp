@@ -253,17 +253,18 @@ Prepared prepare(const core::Database& database, const core::RenderSettings& set
 Report run_prepared(const Prepared& prepared, const core::RenderSettings& settings, const RunOptions& options,
                     std::stop_token stop) {
   const core::PartialPicture* const start = options.continuation.start;
-  core::expect(start == nullptr || start->film.pixels().size() == settings.camera.pixel_count(),
+  core::expect(start == nullptr || start->film.pixel_count() == settings.camera.pixel_count(),
                "what is gone on with is of the same picture");
   Report report{.film = start != nullptr
                             ? start->film
-                            : core::Film(settings.camera.width(), settings.camera.height(), settings.shade.film_scale),
+                            : core::Film(settings.camera.width(), settings.camera.height(), settings.shade.film_scale,
+                                         core::planes_for(settings.first_samples().count)),
                 .samples_found_done = start != nullptr ? start->samples_done() : 0,
                 .plan = prepared.plan,
                 .regions = prepared.distribution.regions,
                 .predicted = prepared.predicted,
                 .duplication = prepared.duplication};
-  core::expect(options.watching.heat == nullptr || options.watching.heat->item_count() == report.film.pixels().size(),
+  core::expect(options.watching.heat == nullptr || options.watching.heat->item_count() == report.film.pixel_count(),
                "a heat map is of the picture's size");
   if (options.computer.ranks != nullptr) {
     hand_out(report.plan, prepared.distribution, settings, options.watching.elsewhere.order, *options.computer.ranks);

@@ -114,7 +114,7 @@ void HostProgram::keep() const {
 }
 
 void HostProgram::take_pixel(const FilmEntry& entry) {
-  core::expect(entry.pixel < film_->pixels().size() && refinement_.pass().has(entry.pixel), "a finished pixel is of the pass");
+  core::expect(entry.pixel < film_->pixel_count() && refinement_.pass().has(entry.pixel), "a finished pixel is of the pass");
   core::expect(!has_arrived(entry.pixel), "each pixel arrives once");
   arrived_[entry.pixel / 64] |= std::uint64_t{1} << (entry.pixel % 64);
   ++pixels_done_;

@@ -163,14 +163,14 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
   const core::PartialPicture* const start = plan.request.start;
   Report report{.film = start != nullptr ? start->film
                                          : core::Film(static_cast<int>(plan.request.width), static_cast<int>(plan.request.height),
-                                                      plan.request.film_scale),
+                                                      plan.request.film_scale, core::planes_for(plan.request.first_samples)),
                 .end = nodes::RunEnd::finished,
                 .plan = plan,
                 .nodes = {},
                 .host = {}};
   report.plan.request.detail = nullptr;  // it is the run's, and so is the database
   report.plan.request.database = {};
-  core::expect(options.watching.heat == nullptr || options.watching.heat->item_count() == report.film.pixels().size(),
+  core::expect(options.watching.heat == nullptr || options.watching.heat->item_count() == report.film.pixel_count(),
                "a heat map is of the picture's size");
   const auto runner =
       nodes::make_runner(specifications_of(plan, make_program, report.film, options.watching.progress, options.continuation),

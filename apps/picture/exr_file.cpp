@@ -5,16 +5,27 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <new>
+#include <numeric>
 #include <string_view>
 
+#include "apps/picture/deflater.h"
+#include "apps/picture/exr_bytes.h"
 #include "core/base/expect.h"
+#include "core/base/units.h"
+#include "core/database/parallel.h"
 
 namespace dmpc::apps {
 namespace {
 
 constexpr int the_part = 0;
 constexpr int effort = 4;  ///< floats gain nothing from more
+
+using core::operator""_MiB;
+/// Blocks that are packed at a time: some for each thread, so that none waits long for another's, and no more than these bytes.
+constexpr std::size_t blocks_a_thread = 4;
+constexpr std::size_t blocks_bytes_max = 64_MiB;
 
 /// Writing fails for want of room alone, and so does packing, which OpenEXR takes for a broken block.
 void check(exr_result_t result) {
@@ -30,61 +41,142 @@ void check(exr_result_t result) {
 std::int64_t write_at(exr_const_context_t, void* file, const void* bytes, std::uint64_t size, std::uint64_t place,
                       exr_stream_error_func_ptr_t) noexcept {
   auto& to = *static_cast<std::string*>(file);
+  const std::size_t inside = std::min<std::size_t>(size, to.size() - std::min<std::size_t>(to.size(), place));
   try {
-    to.resize(std::max<std::size_t>(to.size(), place + size));
+    to.resize(std::max<std::size_t>(to.size(), place));
+    to.append(static_cast<const char*>(bytes) + inside, size - inside);
   } catch (const std::bad_alloc&) {
     return -1;
   }
-  std::memcpy(to.data() + place, bytes, size);
+  std::memcpy(to.data() + place, bytes, inside);
   return static_cast<std::int64_t>(size);
 }
 
 /// OpenEXR would say it on stderr; check() throws it.
 void say_nothing(exr_const_context_t, exr_result_t, const char*) noexcept {}
 
+/// Where blocks of rows are packed, one after the other, each by any thread.
+class BlockPacker {
+ public:
+  /// `first`: the picture's first block, which is as large as any.
+  BlockPacker(exr_context_t context, const ExrRows& picture, const exr_chunk_info_t& first);
+  ~BlockPacker();
+  BlockPacker(const BlockPacker&) = delete;
+  BlockPacker& operator=(const BlockPacker&) = delete;
+
+  /// What one takes.
+  static std::size_t bytes_for(const exr_chunk_info_t& block) { return 4 * block.unpacked_size + 1_MiB; }
+  void pack(const exr_chunk_info_t& block);
+  /// Writes what was packed. Requires that the block before it is written.
+  void write();
+
+ private:
+  static exr_result_t deflate(exr_encode_pipeline_t* encoder) noexcept;
+  void take_numbers();
+
+  exr_context_t context_;
+  const ExrRows& picture_;
+  Deflater deflater_{effort};
+  std::vector<float> numbers_;
+  std::vector<std::uint8_t> split_, deflated_;
+  exr_encode_pipeline_t encoder_ = EXR_ENCODE_PIPELINE_INITIALIZER;
+};
+
+BlockPacker::BlockPacker(exr_context_t context, const ExrRows& picture, const exr_chunk_info_t& first)
+    : context_(context),
+      picture_(picture),
+      numbers_(first.unpacked_size / sizeof(float)),
+      split_(first.unpacked_size),
+      deflated_(first.unpacked_size) {
+  check(::exr_encoding_initialize(context_, the_part, &first, &encoder_));
+  check(::exr_encoding_choose_default_routines(context_, the_part, &encoder_));
+  encoder_.encoding_user_data = this;
+  encoder_.compress_fn = deflate;
+  encoder_.yield_until_ready_fn = nullptr;
+  encoder_.write_fn = nullptr;  // write() does it
+}
+
+BlockPacker::~BlockPacker() {
+  encoder_.compressed_buffer = nullptr;  // it is not OpenEXR's
+  ::exr_encoding_destroy(context_, &encoder_);
+}
+
+/// In place of OpenEXR's own, by zlib. A block that does not get smaller is kept as it is, which is how readers know it.
+exr_result_t BlockPacker::deflate(exr_encode_pipeline_t* encoder) noexcept {
+  auto& self = *static_cast<BlockPacker*>(encoder->encoding_user_data);
+  const std::span bytes(static_cast<const std::uint8_t*>(encoder->packed_buffer), encoder->packed_bytes);
+  const std::span split = std::span(self.split_).first(bytes.size());
+  split_bytes(bytes, split);
+  const std::size_t size = self.deflater_.pack(split, std::span(self.deflated_).first(bytes.size() - 1));
+  encoder->compressed_buffer = size > 0 ? self.deflated_.data() : encoder->packed_buffer;
+  encoder->compressed_bytes = size > 0 ? size : bytes.size();
+  encoder->compressed_alloc_size = 0;
+  return EXR_ERR_SUCCESS;
+}
+
+/// OpenEXR sorts the channels by their names.
+void BlockPacker::take_numbers() {
+  const auto width = static_cast<std::size_t>(picture_.width);
+  const std::size_t pixel_floats = picture_.channels.size(), row_floats = width * pixel_floats;
+  picture_.take(static_cast<std::size_t>(encoder_.chunk.start_y) * width,
+                std::span(numbers_).first(static_cast<std::size_t>(encoder_.chunk.height) * row_floats));
+  for (exr_coding_channel_info_t& place : std::span(encoder_.channels, static_cast<std::size_t>(encoder_.channel_count))) {
+    const auto channel = std::find(picture_.channels.begin(), picture_.channels.end(), place.channel_name);
+    place.encode_from_ptr = reinterpret_cast<const std::uint8_t*>(numbers_.data() + (channel - picture_.channels.begin()));
+    place.user_pixel_stride = static_cast<std::int32_t>(pixel_floats * sizeof(float));
+    place.user_line_stride = static_cast<std::int32_t>(row_floats * sizeof(float));
+  }
+}
+
+void BlockPacker::pack(const exr_chunk_info_t& block) {
+  check(::exr_encoding_update(context_, the_part, &block, &encoder_));
+  take_numbers();
+  check(::exr_encoding_run(context_, the_part, &encoder_));
+}
+
+void BlockPacker::write() {
+  check(::exr_write_scanline_chunk(context_, the_part, encoder_.chunk.start_y, encoder_.compressed_buffer,
+                                   encoder_.compressed_bytes));
+}
+
 /// A file on its way into memory.
 class ExrWriter {
  public:
-  explicit ExrWriter(const ExrPicture& picture);
+  explicit ExrWriter(const ExrRows& picture);
   ~ExrWriter();
   ExrWriter(const ExrWriter&) = delete;
   ExrWriter& operator=(const ExrWriter&) = delete;
 
   void write_header();
-  void write_rows();
+  void write_rows(const core::Parallel& parallel);
   /// Whole after both.
   std::string take_file() { return std::move(file_); }
 
  private:
-  exr_chunk_info_t block_from(int row);
-  void point_at_values(int row);
+  exr_chunk_info_t block_from(int row) const;
+  std::vector<exr_chunk_info_t> blocks() const;
 
-  const ExrPicture& picture_;
+  const ExrRows& picture_;
   std::string file_;
   exr_context_t context_ = nullptr;
-  exr_encode_pipeline_t encoder_ = EXR_ENCODE_PIPELINE_INITIALIZER;
 };
 
-ExrWriter::ExrWriter(const ExrPicture& picture) : picture_(picture) {
+ExrWriter::ExrWriter(const ExrRows& picture) : picture_(picture) {
   exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
   initializer.error_handler_fn = say_nothing;
   initializer.user_data = &file_;
   initializer.write_fn = write_at;
-  initializer.zip_level = effort;
   check(::exr_start_write(&context_, "in memory", EXR_WRITE_FILE_DIRECTLY, &initializer));
 }
 
-ExrWriter::~ExrWriter() {
-  ::exr_encoding_destroy(context_, &encoder_);
-  ::exr_finish(&context_);
-}
+ExrWriter::~ExrWriter() { ::exr_finish(&context_); }
 
 void ExrWriter::write_header() {
   int part = the_part;
   check(::exr_add_part(context_, nullptr, EXR_STORAGE_SCANLINE, &part));
   check(::exr_initialize_required_attr_simple(context_, part, picture_.width, picture_.height, EXR_COMPRESSION_ZIP));
-  for (const ExrChannel& channel : picture_.channels) {
-    check(::exr_add_channel(context_, part, channel.name.c_str(), EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
+  for (const std::string& channel : picture_.channels) {
+    check(::exr_add_channel(context_, part, channel.c_str(), EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
   }
   check(::exr_attr_set_string(context_, part, "Software", "dmpc"));
   for (const auto& [name, text] : picture_.remarks) {
@@ -93,52 +185,74 @@ void ExrWriter::write_header() {
   check(::exr_write_header(context_));
 }
 
-exr_chunk_info_t ExrWriter::block_from(int row) {
+exr_chunk_info_t ExrWriter::block_from(int row) const {
   exr_chunk_info_t block = {};
   check(::exr_write_scanline_chunk_info(context_, the_part, row, &block));
   return block;
 }
 
-/// OpenEXR sorts the channels by their names.
-void ExrWriter::point_at_values(int row) {
-  const auto width = static_cast<std::size_t>(picture_.width);
-  for (exr_coding_channel_info_t& place : std::span(encoder_.channels, static_cast<std::size_t>(encoder_.channel_count))) {
-    const auto channel = std::find_if(picture_.channels.begin(), picture_.channels.end(),
-                                      [&](const ExrChannel& one) { return one.name == place.channel_name; });
-    const float* const values = channel->values.data() + static_cast<std::size_t>(row) * width * channel->stride;
-    place.encode_from_ptr = reinterpret_cast<const std::uint8_t*>(values);
-    place.user_pixel_stride = static_cast<std::int32_t>(channel->stride * sizeof(float));
-    place.user_line_stride = static_cast<std::int32_t>(width * channel->stride * sizeof(float));
+std::vector<exr_chunk_info_t> ExrWriter::blocks() const {
+  std::vector<exr_chunk_info_t> all;
+  for (int row = 0; row < picture_.height; row += all.back().height) {
+    all.push_back(block_from(row));
   }
+  return all;
 }
 
-void ExrWriter::write_rows() {
-  exr_chunk_info_t block = block_from(0);
-  check(::exr_encoding_initialize(context_, the_part, &block, &encoder_));
-  check(::exr_encoding_choose_default_routines(context_, the_part, &encoder_));
-  for (int row = 0;;) {
-    point_at_values(row);
-    check(::exr_encoding_run(context_, the_part, &encoder_));
-    row += block.height;
-    if (row >= picture_.height) {
-      return;
+/// The most that blocks take, each with two numbers before it, so that the file need not be moved as it grows.
+std::size_t bytes_max(const std::vector<exr_chunk_info_t>& blocks) {
+  return std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}, [](std::size_t sum, const exr_chunk_info_t& block) {
+    return sum + block.unpacked_size + 2 * sizeof(std::int32_t);
+  });
+}
+
+/// Some blocks at a time: any thread packs each, and this one writes them in order.
+void ExrWriter::write_rows(const core::Parallel& parallel) {
+  const std::vector<exr_chunk_info_t> all = blocks();
+  const std::size_t room = std::max<std::size_t>(1, blocks_bytes_max / BlockPacker::bytes_for(all.front()));
+  const std::size_t wanted = parallel.threads() == 1 ? 1 : blocks_a_thread * parallel.threads();
+  std::vector<std::unique_ptr<BlockPacker>> packers(std::min({room, wanted, all.size()}));
+  for (auto& packer : packers) {
+    packer = std::make_unique<BlockPacker>(context_, picture_, all.front());
+  }
+  file_.reserve(file_.size() + bytes_max(all));
+  for (std::size_t first = 0; first < all.size(); first += packers.size()) {
+    const std::size_t count = std::min(packers.size(), all.size() - first);
+    parallel.for_each(count, [&](std::size_t i) { packers[i]->pack(all[first + i]); });
+    for (std::size_t i = 0; i < count; ++i) {
+      packers[i]->write();
     }
-    block = block_from(row);
-    check(::exr_encoding_update(context_, the_part, &block, &encoder_));
   }
 }
 
 }  // namespace
 
-std::string exr_file(const ExrPicture& picture) {
+std::string exr_file(const ExrRows& picture, std::uint32_t threads) {
+  ExrWriter writer(picture);
+  writer.write_header();
+  writer.write_rows(core::Parallel(threads));
+  return writer.take_file();
+}
+
+std::string exr_file(const ExrPicture& picture, std::uint32_t threads) {
   const auto pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   for (const ExrChannel& channel : picture.channels) {
     core::expect(pixels > 0 && (pixels - 1) * channel.stride < channel.values.size(), "a channel has a number for each pixel");
   }
-  ExrWriter writer(picture);
-  writer.write_header();
-  writer.write_rows();
-  return writer.take_file();
+  const std::span<const ExrChannel> channels(picture.channels);
+  const auto take = [channels](std::size_t first, std::span<float> numbers) {
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const float* from = channels[i].values.data() + first * channels[i].stride;
+      for (std::size_t place = i; place < numbers.size(); place += channels.size(), from += channels[i].stride) {
+        numbers[place] = *from;
+      }
+    }
+  };
+  ExrRows rows{picture.width, picture.height, {}, take, picture.remarks};
+  for (const ExrChannel& channel : channels) {
+    rows.channels.push_back(channel.name);
+  }
+  return exr_file(rows, threads);
 }
 
 }  // namespace dmpc::apps

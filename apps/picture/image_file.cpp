@@ -1,7 +1,9 @@
 #include "apps/picture/image_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -48,12 +50,38 @@ std::vector<std::uint8_t> srgb_bytes(const Image& image) {
   return bytes;
 }
 
-std::string exr_of(const Image& image) {
-  const std::span<const float> values(image.rgb);
-  return exr_file({.width = image.width,
-                   .height = image.height,
-                   .channels = {{"R", values, 3}, {"G", values.subspan(1), 3}, {"B", values.subspan(2), 3}},
-                   .remarks = image.remarks});
+std::string exr_of(const ImageRows& image) {
+  return exr_file(ExrRows{
+      .width = image.width, .height = image.height, .channels = {"R", "G", "B"}, .take = image.take, .remarks = image.remarks});
+}
+
+constexpr std::size_t pixels_at_once = 256;
+
+void take_srgb(const ImageRows& image, std::size_t first, std::span<std::uint8_t> rgb) {
+  std::array<float, 3 * pixels_at_once> room;
+  for (std::size_t done = 0; done < rgb.size();) {
+    const std::span some = std::span(room).first(std::min(room.size(), rgb.size() - done));
+    image.take(first + done / 3, some);
+    std::transform(some.begin(), some.end(), rgb.begin() + static_cast<std::ptrdiff_t>(done), core::srgb_byte);
+    done += some.size();
+  }
+}
+
+std::string png_of(const ImageRows& image) {
+  return png_file(
+      {image.width, image.height, [&image](std::size_t first, std::span<std::uint8_t> rgb) { take_srgb(image, first, rgb); }});
+}
+
+/// Which the image outlives.
+ImageRows rows_of(const Image& image) {
+  core::expect(image.rgb.size() == 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
+               "an image has three floats for each pixel");
+  const std::span<const float> rgb(image.rgb);
+  const auto take = [rgb](std::size_t first, std::span<float> some) {
+    const std::span<const float> from = rgb.subspan(3 * first, some.size());
+    std::copy(from.begin(), from.end(), some.begin());
+  };
+  return {image.width, image.height, take, image.remarks};
 }
 
 std::string file_of(const fs::path& path, const Image& image) {
@@ -76,6 +104,13 @@ std::string file_of(const fs::path& path, const Image& image) {
 
 }  // namespace
 
+Image image_of(const ImageRows& rows) {
+  Image image(rows.width, rows.height);
+  rows.take(0, image.rgb);
+  image.remarks = rows.remarks;
+  return image;
+}
+
 void check_image_path(const fs::path& path, std::string_view option) {
   check_extension(path);
   check_output_path(path, option);
@@ -88,27 +123,34 @@ void check_image_path(const fs::path& path, std::string_view option) {
 }
 
 std::string encoded_picture(const fs::path& path, const Image& image) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".exr" || extension == ".png") {
+    return encoded_picture(path, rows_of(image));
+  }
+  core::expect(image.width > 0 && image.height > 0, "a picture to be written has at least one pixel");
+  check_extension(path);
+  return file_of(path, image);
+}
+
+std::string encoded_picture(const fs::path& path, const ImageRows& image) {
   core::expect(image.width > 0 && image.height > 0, "a picture to be written has at least one pixel");
   const std::string extension = lower_extension(path);
   if (extension == ".exr") {
     return exr_of(image);
   }
-  if (extension == ".png") {
-    return png_file(image.width, image.height, srgb_bytes(image));
-  }
-  check_extension(path);
-  return file_of(path, image);
+  return extension == ".png" ? png_of(image) : encoded_picture(path, image_of(image));
 }
 
 std::string encoded_picture(const fs::path& path, const Channel& channel) {
   core::expect(lower_extension(path) == ".exr", "numbers are kept in EXR files");
-  return exr_file({.width = channel.width,
-                   .height = channel.height,
-                   .channels = {{channel.name, channel.values}},
-                   .remarks = channel.remarks});
+  return exr_file(ExrPicture{.width = channel.width,
+                             .height = channel.height,
+                             .channels = {{channel.name, channel.values}},
+                             .remarks = channel.remarks});
 }
 
 void write_image(const fs::path& path, const Image& image) { write_file(path, encoded_picture(path, image)); }
+void write_image(const fs::path& path, const ImageRows& image) { write_file(path, encoded_picture(path, image)); }
 
 Image read_image(const fs::path& path, Sandbox sandbox) {
   return PictureReader({.sandbox = sandbox}).read_image(open_picture(path));

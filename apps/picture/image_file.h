@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,6 +28,18 @@ struct Image {
   std::vector<std::pair<std::string, std::string>> remarks = {};  ///< names and texts, kept where the format is EXR
 };
 
+/// A picture of which nobody holds all pixels.
+struct ImageRows {
+  int width = 0, height = 0;
+  /// Writes three floats of linear radiance for each pixel from the `first` on, as many as there is room for. Several threads
+  /// call it at once.
+  std::function<void(std::size_t first, std::span<float> rgb)> take;
+  std::vector<std::pair<std::string, std::string>> remarks = {};  ///< as those of an image
+};
+
+/// All its pixels.
+Image image_of(const ImageRows& rows);
+
 /// One number a pixel, row by row from the top left, with what a reader should know of them.
 struct Channel {
   int width = 0, height = 0;
@@ -44,9 +57,11 @@ void check_image_path(const std::filesystem::path& path, std::string_view option
 /// Writes the picture whole or not at all. EXR, TIFF and HDR get 32-bit linear floats (HDR its own shared exponents); every other
 /// format gets 8 bits, clamped to 0..1, with the sRGB curve. Throws core::InputError if that fails.
 void write_image(const std::filesystem::path& path, const Image& image);
+void write_image(const std::filesystem::path& path, const ImageRows& image);
 
 /// What write_image() would write to `path`, which is not touched.
 std::string encoded_picture(const std::filesystem::path& path, const Image& image);
+std::string encoded_picture(const std::filesystem::path& path, const ImageRows& image);
 
 /// The bytes of the channel alone, as 32-bit floats. Requires a path that ends in .exr, and a number for each pixel.
 std::string encoded_picture(const std::filesystem::path& path, const Channel& channel);

@@ -68,12 +68,12 @@ class Writer {
 };
 
 void put_pixels(Writer& writer, const core::Film& film) {
-  const auto pixel_count = static_cast<std::uint32_t>(film.pixels().size());
+  const auto pixel_count = static_cast<std::uint32_t>(film.pixel_count());
   std::vector<PixelRecord> block;
   for (std::uint32_t first = 0; first < pixel_count; first += block_pixels) {
     block.clear();
     for (std::uint32_t pixel = first; pixel < std::min(first + block_pixels, pixel_count); ++pixel) {
-      block.push_back({film.pixels()[pixel], film.samples(pixel)});
+      block.push_back({film.sums(pixel), film.samples(pixel)});
     }
     writer.put(std::as_bytes(std::span(block)));
   }
@@ -170,7 +170,7 @@ class Reader {
 };
 
 void take_pixels(Reader& reader, core::Film& film) {
-  const auto pixel_count = static_cast<std::uint32_t>(film.pixels().size());
+  const auto pixel_count = static_cast<std::uint32_t>(film.pixel_count());
   std::vector<PixelRecord> block;
   for (std::uint32_t first = 0; first < pixel_count; first += block_pixels) {
     block.resize(std::min(block_pixels, pixel_count - first));

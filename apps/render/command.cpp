@@ -232,7 +232,7 @@ class Rendering {
     const Interrupt::EndAtOnce end_at_once(interrupt_, Interrupt::EndAtOnce::Before::is_passed_over);
     Stopwatch stopwatch;
     OutputFile picture(options_.image, {.option = "-o"}, files_);
-    picture.write(encoded_picture(options_.image, image_of(film)));
+    picture.write(encoded_picture(options_.image, rows_of(film)));
     interrupt_.set_consequence("perhaps the picture was not written");
     picture.commit();
     interrupt_.set_consequence("the picture was written, what follows it is incomplete");

@@ -11,7 +11,7 @@ namespace {
 constexpr double steps_min = 256;
 
 std::string cut_note(const core::Film& film, const core::FilmRange& range) {
-  return grouped(range.pixels_cut) + " of " + counted(film.pixels().size(), "pixel") +
+  return grouped(range.pixels_cut) + " of " + counted(film.pixel_count(), "pixel") +
          " are brighter than the film can hold and were cut, from a radiance of " + rounded(range.cut_from) +
          " on, so that their colours are wrong, too: lights that shine by a power of two less keep all other bits";
 }

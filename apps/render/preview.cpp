@@ -105,7 +105,7 @@ PictureTile Preview::tile_of(const core::Film& film, std::uint32_t index) const 
   tile.rgb.reserve(std::size_t{3} * width * height);
   for (std::uint32_t row = y; row < y + height; ++row) {
     for (std::uint32_t pixel = row * width_ + x; pixel < row * width_ + x + width; ++pixel) {
-      add_pixel(tile.rgb, film.pixels()[pixel], film.step(), film.samples(pixel) + new_samples_[pixel]);
+      add_pixel(tile.rgb, film.sums(pixel), film.step(), film.samples(pixel) + new_samples_[pixel]);
     }
   }
   return tile;

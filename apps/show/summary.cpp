@@ -110,7 +110,7 @@ std::string sampling_line(const RenderOptions& options, const Account& account) 
   if (!options.picture.is_refined) {
     return "";
   }
-  const double mean = static_cast<double>(account.film.samples()) / static_cast<double>(account.film.pixels().size());
+  const double mean = static_cast<double>(account.film.samples()) / static_cast<double>(account.film.pixel_count());
   const core::RefinementResult& result = account.refinement;
   return "samples  " + fixed(mean, 2) + " a pixel, in " + std::to_string(result.passes) +
          (result.passes == 1 ? " pass" : " passes") + "; estimated error " + fixed(255 * result.error, 3) + "/255" +

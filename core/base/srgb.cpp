@@ -1,7 +1,7 @@
 #include "core/base/srgb.h"
 
-#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 
 namespace dmpc::core {
@@ -17,15 +17,44 @@ constexpr std::array<double, 255> byte_limits() {
   return limits;
 }
 
+/// Floats of one exponent and the same first bits of the fraction are in one bin, of which each spans two limits at most; bins
+/// begin where a byte of 1 can, and end at 1.
+constexpr int fraction_bits = 23, bin_bits = 7;
+constexpr std::uint32_t bin_of(float linear) { return std::bit_cast<std::uint32_t>(linear) >> (fraction_bits - bin_bits); }
+constexpr float darkest = 0x1p-13F;
+constexpr std::uint32_t first_bin = bin_of(darkest), bin_count = bin_of(1.0F) - first_bin;
+
+constexpr std::array<double, 255> limits = byte_limits();
+static_assert(limits[0] > double{darkest} && limits[254] < 1);
+
+/// By bin: the byte of the least value in it.
+constexpr std::array<std::uint8_t, bin_count> least_bytes = [] {
+  std::array<std::uint8_t, bin_count> bytes{};
+  std::size_t byte = 0;
+  for (std::uint32_t bin = 0; bin < bin_count; ++bin) {
+    const auto least = std::bit_cast<float>((first_bin + bin) << (fraction_bits - bin_bits));
+    while (byte < limits.size() && limits[byte] < double{least}) {
+      ++byte;
+    }
+    bytes[bin] = static_cast<std::uint8_t>(byte);
+  }
+  return bytes;
+}();
+
 }  // namespace
 
 std::uint8_t srgb_byte(float linear) {
-  static constexpr std::array<double, 255> limits = byte_limits();
-  if (!(linear > 0)) {
+  if (!(linear >= darkest)) {
     return 0;
   }
-  const auto above = std::lower_bound(limits.begin(), limits.end(), static_cast<double>(linear));
-  return static_cast<std::uint8_t>(above - limits.begin());
+  if (linear >= 1) {
+    return 255;
+  }
+  std::size_t byte = least_bytes[bin_of(linear) - first_bin];
+  while (byte < limits.size() && limits[byte] < double{linear}) {
+    ++byte;
+  }
+  return static_cast<std::uint8_t>(byte);
 }
 
 }  // namespace dmpc::core

@@ -16,6 +16,7 @@ namespace dmpc::core {
 struct Parallel::Arena {
   static std::unique_ptr<Arena> of(std::uint32_t) { return nullptr; }
   void for_each(std::size_t, const std::function<void(std::size_t)>&) {}
+  std::size_t concurrency() const { return 1; }
 };
 
 #else
@@ -38,6 +39,7 @@ struct Parallel::Arena {
     });
     use_usual_arithmetic();
   }
+  std::size_t concurrency() const { return static_cast<std::size_t>(threads.max_concurrency()); }
 
   tbb::task_arena threads;
 };
@@ -46,6 +48,8 @@ struct Parallel::Arena {
 
 Parallel::Parallel(std::uint32_t threads) : arena_(Arena::of(threads)) {}
 Parallel::~Parallel() = default;
+
+std::size_t Parallel::threads() const { return arena_ == nullptr ? 1 : arena_->concurrency(); }
 
 void Parallel::for_each(std::size_t count, const std::function<void(std::size_t)>& part) const {
   if (arena_ != nullptr && count > 1) {

@@ -1,4 +1,4 @@
-// Work shared out among the cores, for building; tracing has no threads.
+// Work shared out among the cores, before and after the run; tracing has no threads.
 #pragma once
 
 #include <cstddef>
@@ -18,6 +18,8 @@ class Parallel {
   Parallel(const Parallel&) = delete;
   Parallel& operator=(const Parallel&) = delete;
 
+  /// How many parts are done at a time at most; at least 1.
+  std::size_t threads() const;
   /// Calls part(i) once for each i below `count` and returns when all are done. Throws what a part throws, one of them if several
   /// do.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& part) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
+#include <span>
 
 #include "core/base/expect.h"
 
@@ -28,6 +29,13 @@ class Fnv1a {
     }
     hash_ *= prime_powers[zeros];
   }
+  void add(const FixedColor& plane) {
+    for (const std::int64_t channel : plane.channel) {
+      add(static_cast<std::uint64_t>(channel));
+    }
+  }
+  /// As add(FixedColor{}).
+  void add_no_light() { hash_ *= prime_powers[8] * prime_powers[8] * prime_powers[8]; }
   std::uint64_t value() const { return hash_; }
 
  private:
@@ -69,15 +77,25 @@ bool add(FixedColor& sum, const FixedColor& deposit) {
   return saturated;
 }
 
-Film::Film(int width, int height, FilmScale scale)
-    : width_(width), height_(height), scale_(scale), pixels_(pixel_count_of(width, height)), samples_(pixels_.size()) {
+Film::Film(int width, int height, FilmScale scale, std::uint32_t planes)
+    : width_(width),
+      height_(height),
+      scale_(scale),
+      samples_(pixel_count_of(width, height)),
+      first_(samples_.size()),
+      second_(planes == 2 ? samples_.size() : 0) {
+  expect(planes == 1 || planes == 2, "a film has one plane or two");
   expect(std::abs(scale.exponent) <= FilmScale::exponent_max, "a film's scale is one that doubles hold");
 }
 
 bool Film::deposit(std::uint32_t pixel, const PixelSums& sums) {
-  expect(pixel < pixels_.size(), "a deposit falls on the film");
-  const bool first = add(pixels_[pixel].plane[0], sums.plane[0]);
-  const bool second = add(pixels_[pixel].plane[1], sums.plane[1]);
+  expect(pixel < pixel_count(), "a deposit falls on the film");
+  const bool first = add(first_[pixel], sums.plane[0]);
+  if (!has_second()) {
+    expect(sums.plane[1] == FixedColor{}, "a film of one plane is of pictures with one sample a pixel");
+    return first;
+  }
+  const bool second = add(second_[pixel], sums.plane[1]);
   return first || second;
 }
 
@@ -88,19 +106,22 @@ std::uint64_t Film::samples() const {
 
 Vec3d Film::scaled_mean(std::uint32_t pixel) const {
   expect(samples_[pixel] > 0, "a picture has samples");
-  return (sum_of(pixels_[pixel].plane[0]) + sum_of(pixels_[pixel].plane[1])) * (film_resolution / samples_[pixel]);
+  const PixelSums both = sums(pixel);
+  return (sum_of(both.plane[0]) + sum_of(both.plane[1])) * (film_resolution / samples_[pixel]);
 }
 
 Vec3d Film::scaled_sum(std::uint32_t pixel, std::uint32_t plane) const {
-  return sum_of(pixels_[pixel].plane[plane]) * film_resolution;
+  return sum_of(sums(pixel).plane[plane]) * film_resolution;
 }
 
 bool Film::gather_planes(std::uint32_t pixel) {
   expect(samples_[pixel] > 0, "a picture has samples");
-  const std::uint32_t plane = plane_of(samples_[pixel] - 1);
-  PixelSums& sums = pixels_[pixel];
-  const bool is_saturated = add(sums.plane[plane], sums.plane[1 - plane]);
-  sums.plane[1 - plane] = {};
+  expect(has_second(), "planes that are gathered are two");
+  const bool is_last_second = plane_of(samples_[pixel] - 1) == 1;
+  FixedColor& last = is_last_second ? second_[pixel] : first_[pixel];
+  FixedColor& other = is_last_second ? first_[pixel] : second_[pixel];
+  const bool is_saturated = add(last, other);
+  other = {};
   return is_saturated;
 }
 
@@ -111,12 +132,9 @@ std::uint64_t Film::hash() const {
   if (scale_ != FilmScale{}) {
     hash.add(static_cast<std::uint64_t>(std::int64_t{scale_.exponent}));
   }
-  for (const PixelSums& sums : pixels()) {
-    for (const FixedColor& plane : sums.plane) {
-      for (const std::int64_t channel : plane.channel) {
-        hash.add(static_cast<std::uint64_t>(channel));
-      }
-    }
+  for (std::size_t pixel = 0; pixel < pixel_count(); ++pixel) {
+    hash.add(first_[pixel]);
+    has_second() ? hash.add(second_[pixel]) : hash.add_no_light();
   }
   return hash.value();
 }

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include "core/base/vec.h"
 #include "core/base/zeroed_array.h"
@@ -53,6 +53,9 @@ constexpr std::uint32_t samples_on(std::uint32_t plane, std::uint32_t samples) {
   return sum;
 }
 
+/// How many planes there is light on where no pixel has more samples than so many.
+constexpr std::uint32_t planes_for(std::uint32_t samples) { return samples <= 1 ? 1 : 2; }
+
 /// A pixel's sums on the planes that its samples fall on.
 struct PixelSums {
   std::array<FixedColor, 2> plane;
@@ -63,17 +66,21 @@ static_assert(sizeof(PixelSums) == 48);
 /// All pixels, row by row from the top left. Not thread-safe; the host owns it.
 class Film {
  public:
-  Film(int width, int height, FilmScale scale = {});
+  /// `planes`: 1 or 2, which each take 24 bytes a pixel: planes_for() the samples that a pixel may come to have.
+  Film(int width, int height, FilmScale scale = {}, std::uint32_t planes = 2);
 
   int width() const { return width_; }
   int height() const { return height_; }
+  std::size_t pixel_count() const { return samples_.size(); }
   /// Of all deposits.
   FilmScale scale() const { return scale_; }
   /// The least radiance that a deposit can have.
   double step() const { return film_resolution / scale_.factor(); }
-  /// Adds a node's sums of one pixel; returns whether a channel saturated. Requires pixel < width * height.
+  /// Adds a node's sums of one pixel; returns whether a channel saturated. Requires pixel < pixel_count(), and no light on a
+  /// plane that the film does not have.
   bool deposit(std::uint32_t pixel, const PixelSums& sums);
-  std::span<const PixelSums> pixels() const { return pixels_.span(); }
+  /// What was deposited of a pixel: nothing on a plane that there is not. Requires pixel < pixel_count().
+  PixelSums sums(std::uint32_t pixel) const { return {{first_[pixel], has_second() ? second_[pixel] : FixedColor{}}}; }
   /// Says that a pixel's deposits are those of so many more samples.
   void add_samples(std::uint32_t pixel, std::uint32_t count) { samples_[pixel] += count; }
   std::uint32_t samples(std::uint32_t pixel) const { return samples_[pixel]; }
@@ -92,10 +99,12 @@ class Film {
   std::uint64_t hash() const;
 
  private:
+  bool has_second() const { return second_.size() > 0; }
+
   int width_, height_;
   FilmScale scale_;
-  ZeroedArray<PixelSums> pixels_;
   ZeroedArray<std::uint32_t> samples_;
+  ZeroedArray<FixedColor> first_, second_;  ///< planes; the second may not be there
 };
 
 }  // namespace dmpc::core

@@ -16,12 +16,12 @@ bool is_full(const PixelSums& sums, std::size_t channel) {
 
 FilmRange range_of(const Film& film) {
   FilmRange range;
-  for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+  for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
     const Vec3d radiance = film.radiance(pixel);
     bool is_cut = false;
     for (std::size_t channel = 0; channel < 3; ++channel) {
       range.brightest = std::max(range.brightest, radiance[channel]);
-      if (is_full(film.pixels()[pixel], channel)) {
+      if (is_full(film.sums(pixel), channel)) {
         range.cut_from = is_cut || range.pixels_cut > 0 ? std::min(range.cut_from, radiance[channel]) : radiance[channel];
         is_cut = true;
       }

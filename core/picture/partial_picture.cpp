@@ -30,7 +30,7 @@ bool can_hold(const FixedColor& sum, std::uint32_t samples, const PictureTerms& 
 }
 
 const char* fault_of_done(const PartialPicture& picture) {
-  const auto pixel_count = static_cast<std::uint32_t>(picture.film.pixels().size());
+  const auto pixel_count = static_cast<std::uint32_t>(picture.film.pixel_count());
   if (is_beyond(picture.done, pixel_count)) {
     return "a pixel beyond the picture";
   }
@@ -57,7 +57,7 @@ const char* fault_of_later_pass(const PartialPicture& picture, const PictureTerm
   }
   const std::uint32_t passes_doubling = picture.passes - 2;  // that have ended
   std::uint64_t doublings = 0;
-  for (std::uint32_t pixel = 0; pixel < picture.film.pixels().size(); ++pixel) {
+  for (std::uint32_t pixel = 0; pixel < picture.film.pixel_count(); ++pixel) {
     const auto level = level_of(picture.film.samples(pixel), terms);
     const SampleStep step = picture.pass.steps()[pixel];
     if (!level || *level - 1 > passes_doubling * doublings_max) {
@@ -84,7 +84,7 @@ bool can_be(const PixelPast& past, const PictureTerms& terms) {
 }
 
 const char* fault_of_past(const PartialPicture& picture, const PictureTerms& terms) {
-  const bool is_whole = picture.past.size() == picture.film.pixels().size();
+  const bool is_whole = picture.past.size() == picture.film.pixel_count();
   const auto is_right = [&](const PixelPast& past) { return can_be(past, terms); };
   return is_whole && std::all_of(picture.past.begin(), picture.past.end(), is_right) ? nullptr : "an estimate that no film has";
 }
@@ -102,9 +102,9 @@ std::uint32_t samples_on(std::uint32_t plane, const PartialPicture& picture, std
 }
 
 const char* fault_of_light(const PartialPicture& picture, const PictureTerms& terms) {
-  for (std::uint32_t pixel = 0; pixel < picture.film.pixels().size(); ++pixel) {
+  for (std::uint32_t pixel = 0; pixel < picture.film.pixel_count(); ++pixel) {
     for (const std::uint32_t plane : {0U, 1U}) {
-      if (!can_hold(picture.film.pixels()[pixel].plane[plane], samples_on(plane, picture, pixel), terms)) {
+      if (!can_hold(picture.film.sums(pixel).plane[plane], samples_on(plane, picture, pixel), terms)) {
         return "light that no samples have brought";
       }
     }
@@ -115,8 +115,8 @@ const char* fault_of_light(const PartialPicture& picture, const PictureTerms& te
 }  // namespace
 
 PixelMask PartialPicture::missing() const {
-  PixelMask missing(static_cast<std::uint32_t>(film.pixels().size()));
-  for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+  PixelMask missing(static_cast<std::uint32_t>(film.pixel_count()));
+  for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
     if (pass.has(pixel) && !done.has(pixel)) {
       missing.add(pixel);
     }
@@ -126,7 +126,7 @@ PixelMask PartialPicture::missing() const {
 
 std::uint64_t PartialPicture::samples_done() const {
   std::uint64_t sum = film.samples();
-  for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+  for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
     sum += done.has(pixel) ? pass.samples(pixel).count : 0;
   }
   return sum;

@@ -78,7 +78,7 @@ Refinement::Refinement(const RefinementOptions& options, std::uint32_t samples, 
 }
 
 void Refinement::resume(const PartialPicture& start) {
-  expect(result_.passes == 1 && start.film.pixels().size() == pass_.steps().size(), "a picture is gone on with from the start");
+  expect(result_.passes == 1 && start.film.pixel_count() == pass_.steps().size(), "a picture is gone on with from the start");
   pass_ = start.pass;
   pixel_count_ = pass_.pixel_count();
   result_.passes = start.passes;

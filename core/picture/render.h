@@ -26,7 +26,7 @@ PixelSums render_pixel(PixelTask& task, std::uint32_t pixel, const SampleRange& 
 template <Tracer T>
 Film render(T& tracer, const RenderSettings& settings, Operations& operations, const FineDetail* detail = nullptr) {
   const int width = settings.camera.width(), height = settings.camera.height();
-  Film film(width, height, settings.shade.film_scale);
+  Film film(width, height, settings.shade.film_scale, planes_for(settings.first_samples().count));
   Refinement refinement(settings.refinement, settings.first_samples().count, width, height, detail, film.scale());
   std::vector<HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
   PixelTask task(stack);

@@ -170,8 +170,8 @@ TEST_CASE("light from several nodes is added to the film and acknowledged") {
   host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {5, 0, {{1, 2, 3}}}});
   host.receive(1, Kind::film, LoneHost::FilmPacket{.entry = {5, 0, {{10, 20, 30}}}});
   host.receive(1, Kind::film, LoneHost::FilmPacket{.entry = {5, 1, {{7, 7, 7}}}});
-  CHECK(host.film.pixels()[5].plane[0] == core::FixedColor{{11, 22, 33}});
-  CHECK(host.film.pixels()[5].plane[1] == core::FixedColor{{7, 7, 7}});
+  CHECK(host.film.sums(5).plane[0] == core::FixedColor{{11, 22, 33}});
+  CHECK(host.film.sums(5).plane[1] == core::FixedColor{{7, 7, 7}});
   CHECK(Kind{host.single.take().kind} == Kind::film_acknowledgement);
 }
 

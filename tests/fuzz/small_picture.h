@@ -38,7 +38,7 @@ inline void render_small(const core::Scene& scene) {
     const core::Camera camera(scene.view, database.header().frame, picture_side, picture_side, 1);
     core::Operations operations;
     const core::Film film = core::render(tracer, {database.header(), camera, {.depth_max = depth_max}}, operations);
-    core::expect(film.pixels().size() == picture_side * picture_side, "every pixel is there");
+    core::expect(film.pixel_count() == picture_side * picture_side, "every pixel is there");
   } catch (const core::InputError&) {  // a scene without room, or too large to be reckoned with
   }
 }

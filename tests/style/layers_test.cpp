@@ -85,6 +85,7 @@ const std::vector<Foreign> foreign = {
     {"mpi.h", {"apps/modules/mpi.cpp"}},
     {"gmpxx.h", {"apps/lab/oracle/exact.cpp"}},
     {"png.h", {"apps/picture/png_file.cpp"}},
+    {"libdeflate.h", {"apps/picture/deflater.cpp"}},
     {"zlib.h", {"apps/lab/study/references/gzip_text.cpp"}},
     {"dlfcn.h", {"apps/edge/system/module.cpp", "tests/failing_allocation/", "tests/foreign_arithmetic/"}},
     {"assimp/", {"apps/foreign/", "tests/apps/foreign/"}},

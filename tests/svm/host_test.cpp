@@ -156,8 +156,8 @@ TEST_CASE("where the error is too large each node gets its mask part by part, an
 TEST_CASE("finished pixels go onto the film and are acknowledged") {
   SmallHost small;
   small.film_from(1, {2, 0});
-  CHECK(small.film.pixels()[2].plane[1].channel[2] == 12);
-  CHECK(small.film.pixels()[0].plane[1].channel[2] == 10);
+  CHECK(small.film.sums(2).plane[1].channel[2] == 12);
+  CHECK(small.film.sums(0).plane[1].channel[2] == 10);
   CHECK(small.host.pixels_done() == 2);
   CHECK(small.sent(Kind::film_acknowledgement) == 1);
   CHECK(small.lone.post.parcels.front().target == nodes::NodeId{1});

@@ -172,8 +172,8 @@ TEST_CASE("the pixels kept as done have all their light, and the others none") {
     run(subject, {.strategy = strategy, .continuation = keeper.continuation()});
     REQUIRE(keeper.last());
     for (std::uint32_t pixel = 0; pixel < 48 * 40; ++pixel) {
-      const core::PixelSums expected = keeper.last()->done.has(pixel) ? whole.film.pixels()[pixel] : core::PixelSums{};
-      CHECK(keeper.last()->film.pixels()[pixel] == expected);
+      const core::PixelSums expected = keeper.last()->done.has(pixel) ? whole.film.sums(pixel) : core::PixelSums{};
+      CHECK(keeper.last()->film.sums(pixel) == expected);
     }
   }
 }
@@ -206,7 +206,7 @@ TEST_CASE("a picture of which nothing or everything is done can be gone on with"
   everything.done = everything.pass.pixels();
   core::Film sums(16, 9);
   for (std::uint32_t pixel = 0; pixel < 16 * 9; ++pixel) {
-    sums.deposit(pixel, everything.film.pixels()[pixel]);
+    sums.deposit(pixel, everything.film.sums(pixel));
   }
   everything.film = sums;
   for (const Strategy strategy : all_strategies) {

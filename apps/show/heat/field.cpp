@@ -74,7 +74,7 @@ Meaning meaning_of(HeatKind kind, Strategy strategy) {
 }
 
 std::vector<double> values_of(HeatKind kind, const RenderRecord& record, const core::Film& film) {
-  std::vector<double> values(film.pixels().size());
+  std::vector<double> values(film.pixel_count());
   const std::span<const std::uint64_t> counts = record.heat->values(kind);
   for (std::uint32_t pixel = 0; pixel < values.size(); ++pixel) {
     const auto count = static_cast<double>(kind == HeatKind::samples ? film.samples(pixel) : counts[pixel]);

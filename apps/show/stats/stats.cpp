@@ -49,7 +49,7 @@ Json sampling_json(const RenderRecord& record, const Account& account) {
   const std::uint64_t samples = account.film.samples();
   Json result = {{"samples", samples},
                  {"resumed", record.samples_found_done},
-                 {"samples_per_pixel", static_cast<double>(samples) / static_cast<double>(account.film.pixels().size())},
+                 {"samples_per_pixel", static_cast<double>(samples) / static_cast<double>(account.film.pixel_count())},
                  {"passes", account.refinement.passes}};
   result["estimated_error"] = record.options.picture.is_refined ? Json(account.refinement.error) : Json();
   return result;

@@ -94,6 +94,19 @@ TEST_CASE("the same picture is the same file, and an even one a small file") {
   CHECK(file.size() < rgb.size() * sizeof(float) / 100);
 }
 
+TEST_CASE("a file has the same bytes whatever the number of threads that pack it") {
+  for (const int height : {1, 16, 17, 333}) {
+    CAPTURE(height);
+    const auto count = static_cast<std::size_t>(height) * 40 * 3;
+    for (const std::vector<float>& rgb : {noise(count), slope(count)}) {
+      const std::string file = exr_file(color_picture(40, height, rgb), 1);
+      CHECK(file == exr_file(color_picture(40, height, rgb), 2));
+      CHECK(file == exr_file(color_picture(40, height, rgb), 5));
+      CHECK(values_of(ReadFile("a.exr", file)) == rgb);
+    }
+  }
+}
+
 TEST_CASE("a channel with too few numbers, and a name that is taken or that EXR has no room for, are bugs") {
   const std::vector<float> values(5);
   CHECK_THROWS_AS(exr_file({3, 2, {{"R", values}}, {}}), core::InternalError);

@@ -77,6 +77,22 @@ TEST_CASE("the same picture is the same file, and no larger than OpenImageIO's b
   }
 }
 
+TEST_CASE("a PNG has the same bytes whatever the number of threads that filter it") {
+  for (const Bytes& rgb : paintings(50, 170)) {
+    const std::string file = png_file(50, 170, rgb, 1);
+    CHECK(file == png_file(50, 170, rgb, 2));
+    CHECK(file == png_file(50, 170, rgb, 5));
+    CHECK(ReadFile("a.png", file).values<std::uint8_t>(OIIO::TypeDesc::UINT8) == rgb);
+  }
+}
+
+TEST_CASE("a PNG whose packed rows take several chunks is read") {
+  const Bytes noise = paintings(900, 500).front();
+  const std::string file = png_file(900, 500, noise);
+  CHECK(file.size() > std::size_t{1} << 20U);
+  CHECK(ReadFile("a.png", file).values<std::uint8_t>(OIIO::TypeDesc::UINT8) == noise);
+}
+
 TEST_CASE("a PNG without pixels or with too few bytes is a bug") {
   CHECK_THROWS_AS(png_file(0, 1, Bytes{}), core::InternalError);
   CHECK_THROWS_AS(png_file(2, 1, Bytes(5)), core::InternalError);

@@ -5,7 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <string>
 
 #include "core/base/expect.h"
@@ -55,6 +58,26 @@ TEST_CASE("an 8-bit picture holds the clamped values on the sRGB curve") {
       CHECK(read.rgb[index] == doctest::Approx(core::linear_from_srgb(core::srgb_byte(image.rgb[index]) / 255.0)).epsilon(1e-6));
     }
   }
+}
+
+TEST_CASE("a picture whose pixels are asked for as they are wanted is the same file in every format") {
+  const Image image = gradient(40, 70);
+  const ImageRows rows{image.width, image.height,
+                       [&image](std::size_t first, std::span<float> rgb) {
+                         std::copy_n(image.rgb.begin() + static_cast<std::ptrdiff_t>(3 * first), rgb.size(), rgb.begin());
+                       },
+                       image.remarks};
+  for (const std::string name : {"a.exr", "a.png", "a.tga"}) {
+    CAPTURE(name);
+    CHECK(encoded_picture(name, rows) == encoded_picture(name, image));
+  }
+}
+
+TEST_CASE("an image without a float for every channel is a bug") {
+  Image image(2, 2);
+  image.rgb.pop_back();
+  CHECK_THROWS_AS(encoded_picture("a.exr", image), core::InternalError);
+  CHECK_THROWS_AS(encoded_picture("a.png", image), core::InternalError);
 }
 
 TEST_CASE("a JPEG is near to what was written") {

@@ -162,7 +162,7 @@ TEST_CASE("the host does not wait for a viewer that takes nothing") {
   REQUIRE(preview != nullptr);
   const auto begin = std::chrono::steady_clock::now();
   for (int round = 0; round < 3; ++round) {
-    for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+    for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
       preview->watch(film, pass, pixel);
     }
   }

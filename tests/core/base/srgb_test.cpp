@@ -45,6 +45,19 @@ TEST_CASE("a linear value becomes the nearest byte of its encoded value") {
   }
 }
 
+TEST_CASE("the next byte begins just above the value half-way to it") {
+  for (int byte = 0; byte < 255; ++byte) {
+    const double limit = linear_from_srgb((byte + 0.5) / 255);
+    auto below = static_cast<float>(limit);
+    while (static_cast<double>(below) > limit) {
+      below = std::nextafter(below, 0.0F);
+    }
+    CHECK(srgb_byte(below) == byte);
+    CHECK(srgb_byte(std::nextafter(below, 1.0F)) == byte + 1);
+  }
+  CHECK(srgb_byte(std::numeric_limits<float>::denorm_min()) == 0);
+}
+
 TEST_CASE("bytes are clamped and NaN is black") {
   CHECK(srgb_byte(-1) == 0);
   CHECK(srgb_byte(7.5F) == 255);

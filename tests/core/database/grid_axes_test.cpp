@@ -47,7 +47,7 @@ TEST_CASE("a grid along the screen's axes gives the same picture to rounding") {
   const core::Film world = picture_of(scene, core::world_axes), screen = picture_of(scene, core::screen_axes(scene.view));
   CHECK(world.hash() != screen.hash());
   int far_apart = 0;
-  for (std::uint32_t pixel = 0; pixel < world.pixels().size(); ++pixel) {
+  for (std::uint32_t pixel = 0; pixel < world.pixel_count(); ++pixel) {
     const core::Vec3d difference = world.radiance(pixel) - screen.radiance(pixel);
     far_apart += core::length(difference) > 1e-3 ? 1 : 0;
   }

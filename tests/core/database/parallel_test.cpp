@@ -21,6 +21,12 @@ TEST_CASE("every part is done once, whatever the number of threads") {
   }
 }
 
+TEST_CASE("no more parts are done at a time than there are threads, of which there is always one") {
+  CHECK(Parallel(1).threads() == 1);
+  CHECK(Parallel(0).threads() >= 1);
+  CHECK((Parallel(8).threads() == 8 || Parallel(8).threads() == 1));  // 1: under the thread sanitizer
+}
+
 TEST_CASE("a part may share out parts of its own") {
   for (const std::uint32_t threads : {1U, 2U, 8U}) {
     const Parallel parallel(threads);

@@ -10,6 +10,7 @@
 #include "core/base/expect.h"
 #include "core/picture/background.h"
 #include "core/picture/render.h"
+#include "tests/support/same_sums.h"
 #include "tests/support/shooting.h"
 #include "tests/support/small_scenes.h"
 
@@ -84,8 +85,6 @@ Film untiled(const TiledPicture& subject, Operations& operations) {
   GridTracer<LocalRecords> tracer(records, subject.settings.header, subject.settings.skips);
   return render(tracer, subject.settings, operations);
 }
-
-bool same_sums(const Film& a, const Film& b) { return std::equal(a.pixels().begin(), a.pixels().end(), b.pixels().begin()); }
 
 void check_same_picture(const TiledPicture& subject, std::uint32_t width) {
   CAPTURE(width);

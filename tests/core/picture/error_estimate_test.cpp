@@ -29,7 +29,7 @@ class Picture {
   explicit Picture(int side)
       : film_(side, side), pass_(static_cast<std::uint32_t>(side * side), 2), estimate_(side, side, nullptr, 0) {}
 
-  std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(film_.pixels().size()); }
+  std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(film_.pixel_count()); }
   void shine(std::uint32_t pixel, const std::array<double, 2>& light) {
     film_.deposit(pixel, {{gray(light[0]), gray(light[1])}});
   }

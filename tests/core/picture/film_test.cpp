@@ -98,7 +98,7 @@ TEST_CASE("planes gathered leave the light of the block that follows alone on it
   film.deposit(0, {{to_fixed({6, 0, 2}), to_fixed({1, 1, 1})}});
   film.add_samples(0, 2);
   film.gather_planes(0);
-  CHECK(film.pixels()[0] == PixelSums{{FixedColor{}, to_fixed({7, 1, 3})}});
+  CHECK(film.sums(0) == PixelSums{{FixedColor{}, to_fixed({7, 1, 3})}});
   PixelSums third;
   third.plane[plane_of(2)] = to_fixed({1, 0, 0});
   film.deposit(0, third);
@@ -125,6 +125,27 @@ TEST_CASE("a film tells of saturation, of pixels beyond it and of no samples") {
   CHECK_THROWS_AS(film.radiance(0), InternalError);
   CHECK_THROWS_AS(film.gather_planes(0), InternalError);
   CHECK_THROWS_AS(Film(0, 1), InternalError);
+}
+
+TEST_CASE("a film of one plane is as one of two on which no second sample has fallen") {
+  const auto deposit_on = [](Film film) {
+    film.deposit(1, even({1, 2, 3}));
+    film.add_samples(1, 1);
+    return film;
+  };
+  const Film one = deposit_on(Film(2, 1, {}, planes_for(1))), two = deposit_on(Film(2, 1, {}, planes_for(2)));
+  CHECK(one.hash() == two.hash());
+  CHECK(one.sums(1) == even({1, 2, 3}));
+  CHECK(one.radiance(1) == two.radiance(1));
+  CHECK(one.scaled_sum(1, 1) == Vec3d{});
+}
+
+TEST_CASE("light of a second sample and planes that are gathered want a second plane") {
+  Film film(1, 1, {}, 1);
+  CHECK_THROWS_AS(film.deposit(0, {{FixedColor{}, to_fixed({1, 0, 0})}}), InternalError);
+  film.add_samples(0, 1);
+  CHECK_THROWS_AS(film.gather_planes(0), InternalError);
+  CHECK_THROWS_AS(Film(1, 1, {}, 3), InternalError);
 }
 
 TEST_CASE("a film's hash tells its integers, its planes and its size apart") {

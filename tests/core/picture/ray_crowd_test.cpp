@@ -52,10 +52,10 @@ struct Picture {
 
 Vec3d mean_of(const Film& film) {
   Vec3d sum;
-  for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+  for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
     sum = sum + film.radiance(pixel);
   }
-  return sum * (1.0 / static_cast<double>(film.pixels().size()));
+  return sum * (1.0 / static_cast<double>(film.pixel_count()));
 }
 
 }  // namespace

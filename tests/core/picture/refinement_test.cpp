@@ -26,7 +26,7 @@ void shine(Film& film, std::uint32_t pixel, float first, float second) {
 
 /// Every sample of the pass brings light of 1.
 void shine_evenly(Film& film, const Refinement& refinement) {
-  for (std::uint32_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+  for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
     const SampleRange samples = refinement.pass().samples(pixel);
     const auto brought = [&](std::uint32_t plane) {
       return static_cast<float>(samples_on(plane, samples.first + samples.count) - samples_on(plane, samples.first));

@@ -52,7 +52,7 @@ void render_small(const Database& database, const View& view) {
   GridTracer<LocalRecords> tracer(records, database.header(), {});
   Operations operations;
   const RenderSettings settings{database.header(), Camera(view, database.header().frame, 8, 8, 1), {}};
-  CHECK(render(tracer, settings, operations).pixels().size() == 64);
+  CHECK(render(tracer, settings, operations).pixel_count() == 64);
 }
 
 }  // namespace

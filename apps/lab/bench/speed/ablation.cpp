@@ -45,7 +45,7 @@ StrategyOptions strategy_of(const Variant& variant) {
 }
 
 double error_between(const core::Film& film, const core::Film& other) {
-  const auto pixels = static_cast<std::uint32_t>(film.pixels().size());
+  const auto pixels = static_cast<std::uint32_t>(film.pixel_count());
   double squares = 0;
   for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
     const core::Vec3d off = film.radiance(pixel) - other.radiance(pixel);

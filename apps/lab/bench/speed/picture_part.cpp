@@ -53,7 +53,7 @@ std::vector<double> render_whole(const std::string& scene_name, const SpeedSetti
   const Report report = run.start([](std::uint32_t, std::uint32_t) {}, interrupt.token());
   interrupt.check();
   end_phase();
-  write_image(path, image_of(account_of(report).film));
+  write_image(path, rows_of(account_of(report).film));
   end_phase();
   add_figures(whole, figures);
   return figures;

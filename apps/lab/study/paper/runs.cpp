@@ -110,7 +110,7 @@ PaperResult result_of(const Report& report, const core::Database& database) {
     result.cache_pages = pages->plan.pages().cache.frame_count;
     result.page_bytes = account.sent[svm::number_of(svm::Kind::page_reply)].bytes;
     result.charges = charges_of(account, pages->pages());
-    result.pages_a_pixel = static_cast<double>(pages->pages().distinct_pages) / static_cast<double>(account.film.pixels().size());
+    result.pages_a_pixel = static_cast<double>(pages->pages().distinct_pages) / static_cast<double>(account.film.pixel_count());
   }
   return result;
 }

@@ -90,7 +90,7 @@ TEST_CASE("whichever allocation fails while an EXR file is packed, it is std::ba
   const std::span<const float> values(rgb);
   const apps::ExrPicture picture{
       width, height, {{"R", values, 3}, {"G", values.subspan(1), 3}, {"B", values.subspan(2), 3}}, {{"name", "value"}}};
-  CHECK(fail_each([&] { return apps::exr_file(picture); }) > 20);
+  CHECK(fail_each([&] { return apps::exr_file(picture, 1); }) > 20);
 }
 
 TEST_CASE("whichever allocation fails while a PNG file is packed, it is std::bad_alloc") {
@@ -98,7 +98,7 @@ TEST_CASE("whichever allocation fails while a PNG file is packed, it is std::bad
   for (std::size_t i = 0; i < count; ++i) {
     rgb[i] = static_cast<std::uint8_t>(i * i % 97);
   }
-  CHECK(fail_each([&] { return apps::png_file(width, height, rgb); }) > 5);
+  CHECK(fail_each([&] { return apps::png_file(width, height, rgb, 1); }) > 5);
 }
 
 }  // namespace dmpc::tests::picture_files_allocation_test
