@@ -6,6 +6,7 @@
 
 #include "core/base/expect.h"
 #include "core/record/curved_values.h"
+#include "core/record/on_surface.h"
 
 namespace dmpc::apps {
 namespace {
@@ -38,12 +39,11 @@ std::optional<double> first_of(const std::array<double, 2>& candidates, double s
 }
 
 /// Without the root of an eye that lies on the surface, as far as rounding may have moved that: it sees what lies around it
-/// (core/trace/primitive.cpp, is_on). `c`: of the quadratic; `size`: the largest coordinate and radius; `start`: as of
+/// (core::is_on_surface()). `c`: of the quadratic; `size`: the largest coordinate and radius; `start`: as of
 /// first_of().
 std::array<double, 2> without_start(std::array<double, 2> candidates, double start, const core::Ray& ray,
                                     const core::CurvedValues& value, double c, double size, double radius) {
-  const double moved = value.passes_by() ? 0x1p-46 : 0x1p-30;
-  if (ray.kind == core::RayKind::primary && std::fabs(c) <= moved * size * std::fabs(radius)) {
+  if (ray.kind == core::RayKind::primary && core::is_on_surface(value, c, radius, size)) {
     const bool is_first = std::fabs(start + candidates[0]) < std::fabs(start + candidates[1]);
     candidates[is_first ? 0 : 1] = std::numeric_limits<double>::quiet_NaN();
   }

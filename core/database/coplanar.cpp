@@ -28,9 +28,11 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 struct CoveringPairs {
   Pairs coplanar;  ///< in one plane, by what records say of them
   Pairs close;     ///< these, and what is near
+  Pairs reached;   ///< and what layers of those may reach
   Ids unseen;      ///< nobody looked for what covers these
 
-  void look_at(std::span<const Face> faces, const BucketSize& size) {
+  /// What lies in one plane, as records have it, or in two next to each other.
+  void look_at_planes(std::span<const Face> faces, const BucketSize& size) {
     const PlaneBuckets buckets = fill_plane_buckets(faces, size);
     if (buckets.buckets.empty()) {
       return;
@@ -40,7 +42,17 @@ struct CoveringPairs {
       finder.look_at(buckets.faces_of(bucket), bucket.axis);
     }
     coplanar.insert(coplanar.end(), finder.coplanar().begin(), finder.coplanar().end());
+    add_close(finder);
+  }
+  /// What leans on something else.
+  void look_at_meeting(std::span<const Face> faces) {
+    CoverFinder finder(faces);
+    finder.look_at_meeting();
+    add_close(finder);
+  }
+  void add_close(const CoverFinder& finder) {
     close.insert(close.end(), finder.close().begin(), finder.close().end());
+    reached.insert(reached.end(), finder.reached().begin(), finder.reached().end());
     unseen.insert(unseen.end(), finder.unseen().begin(), finder.unseen().end());
   }
 };
@@ -51,6 +63,13 @@ struct Exactly {
   const Scene& scene;
   const GridFrame& frame;
 };
+
+/// A part of a curved surface, from which it is off by far more than rounding moves it.
+bool is_smooth(const Conversion& conversion, const Face& face) {
+  const auto found = std::lower_bound(conversion.smooth.begin(), conversion.smooth.end(), face.id,
+                                      [](const Conversion::Smooth& one, std::uint32_t id) { return one.primitive < id; });
+  return found != conversion.smooth.end() && found->primitive == face.id;
+}
 
 /// Those of a top cell.
 CoveringPairs covering_pairs(const Exactly& exactly, std::span<const std::uint32_t> ids) {
@@ -63,13 +82,12 @@ CoveringPairs covering_pairs(const Exactly& exactly, std::span<const std::uint32
     }
   }
   CoveringPairs pairs;
-  pairs.look_at(faces, fine_buckets);
+  pairs.look_at_planes(faces, fine_buckets);
   if (put_exact_corners(exactly.scene, exactly.frame, conversion, faces)) {
-    CoveringPairs by_doubles;
-    by_doubles.look_at(faces, coarse_buckets);
-    pairs.close.insert(pairs.close.end(), by_doubles.close.begin(), by_doubles.close.end());
-    pairs.unseen.insert(pairs.unseen.end(), by_doubles.unseen.begin(), by_doubles.unseen.end());
+    pairs.look_at_planes(faces, coarse_buckets);
   }
+  std::erase_if(faces, [&](const Face& face) { return is_smooth(conversion, face); });
+  pairs.look_at_meeting(faces);
   return pairs;
 }
 
@@ -87,11 +105,16 @@ class FaceSets {
       add(a, b);
     }
   }
-  std::vector<Ids> sets() {
+  std::uint32_t least_with(std::uint32_t id) { return sets_.least_with(id); }
+  /// Of all sets, ascending.
+  const Ids& ids() {
     std::sort(ids_.begin(), ids_.end());
     ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+    return ids_;
+  }
+  std::vector<Ids> sets() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> by_set;
-    for (const std::uint32_t id : ids_) {
+    for (const std::uint32_t id : ids()) {
       by_set.emplace_back(sets_.least_with(id), id);
     }
     std::sort(by_set.begin(), by_set.end());
@@ -113,7 +136,8 @@ class FaceSets {
 /// Triangles that cover each other.
 struct CoveringSets {
   FaceSets coplanar, close;
-  Ids unseen;  ///< ascending, once each
+  Pairs reached;  ///< what they lead to
+  Ids unseen;     ///< ascending, once each
 };
 
 CoveringSets covering_sets(const Exactly& exactly, const TopCells& cells, const Parallel& parallel) {
@@ -121,10 +145,11 @@ CoveringSets covering_sets(const Exactly& exactly, const TopCells& cells, const 
   parallel.for_each(cells.size(), [&](std::size_t cell) { pairs[cell] = covering_pairs(exactly, cells.ids(cell)); });
   const bool is_none = std::all_of(pairs.begin(), pairs.end(), [](const CoveringPairs& some) { return some.close.empty(); });
   const std::size_t count = is_none ? 0 : exactly.conversion.primitives.size();
-  CoveringSets sets{FaceSets(count), FaceSets(count), {}};
+  CoveringSets sets{FaceSets(count), FaceSets(count), {}, {}};
   for (const CoveringPairs& some : pairs) {
     sets.coplanar.add_all(some.coplanar);
     sets.close.add_all(some.close);
+    sets.reached.insert(sets.reached.end(), some.reached.begin(), some.reached.end());
     sets.unseen.insert(sets.unseen.end(), some.unseen.begin(), some.unseen.end());
   }
   std::sort(sets.unseen.begin(), sets.unseen.end());
@@ -159,7 +184,7 @@ class ExactSets {
   std::vector<Face> faces_;
 };
 
-/// One of each polygon of a set, whose triangles come one behind the other.
+/// One of each polygon of ascending ids, whose triangles come one behind the other.
 Ids one_of_each_polygon(const Conversion& conversion, const Ids& set) {
   Ids ids;
   std::unique_copy(set.begin(), set.end(), std::back_inserter(ids), [&](std::uint32_t a, std::uint32_t b) {
@@ -168,7 +193,7 @@ Ids one_of_each_polygon(const Conversion& conversion, const Ids& set) {
   return ids;
 }
 
-/// Adds the other triangles of a triangle's polygon, which come one behind the other.
+/// Adds the other triangles of a triangle's polygon.
 void add_polygon(const Conversion& conversion, std::uint32_t id, FaceSets& sets) {
   const auto is_of_it = [&](std::uint32_t other) { return conversion.sources[other].object == conversion.sources[id].object; };
   for (std::uint32_t other = id; other > 0 && is_of_it(other - 1); --other) {
@@ -176,6 +201,12 @@ void add_polygon(const Conversion& conversion, std::uint32_t id, FaceSets& sets)
   }
   for (std::uint32_t other = id + 1; other < conversion.sources.size() && is_of_it(other); ++other) {
     sets.add(other - 1, other);
+  }
+}
+
+void add_polygons(const Conversion& conversion, const Ids& ids, FaceSets& sets) {
+  for (const std::uint32_t id : one_of_each_polygon(conversion, ids)) {
+    add_polygon(conversion, id, sets);
   }
 }
 
@@ -382,26 +413,67 @@ bool is_level(const Exactly& exactly, const Ids& whole) {
   return false;
 }
 
-/// The sets that doubles take apart, with the other triangles of their polygons; what doubles cannot goes to `merged`.
-std::vector<Ids> sets_to_stack(const Exactly& exactly, FaceSets& close, std::vector<CloseFaces>& merged) {
+/// The first of each set that doubles take apart; what they cannot goes to `merged`.
+Ids sets_apart(const Exactly& exactly, FaceSets& close, std::vector<CloseFaces>& merged) {
   std::vector<Ids> doubtful = close.sets();
   std::erase_if(doubtful, [&](const Ids& set) { return is_level(exactly, set); });
   const ExactSets exact(exactly, std::move(doubtful));
-  std::vector<bool> is_apart(exactly.conversion.primitives.size());
+  Ids apart;
   for (const Ids& set : exact.sets()) {
     if (const auto in_one_plane = merged_in_one_plane(exact.faces_of(set))) {
       merged.insert(merged.end(), in_one_plane->begin(), in_one_plane->end());
-      continue;
-    }
-    is_apart[set[0]] = true;
-    for (const std::uint32_t id : one_of_each_polygon(exactly.conversion, set)) {
-      add_polygon(exactly.conversion, id, close);
+    } else {
+      apart.push_back(set[0]);
     }
   }
-  std::vector<Ids> sets = close.sets();
-  std::erase_if(
-      sets, [&](const Ids& set) { return std::none_of(set.begin(), set.end(), [&](std::uint32_t id) { return is_apart[id]; }); });
+  return apart;
+}
+
+/// Joins to the sets of `apart`, whose polygons are there, what their layers reach, and what the layers of those do.
+void add_reached(const Conversion& conversion, const Ids& apart, const Pairs& reached, FaceSets& close) {
+  FaceSets wide = close;
+  wide.add_all(reached);
+  add_polygons(conversion, Ids(wide.ids()), wide);
+  std::vector<bool> leads_to_some(conversion.primitives.size());
+  for (const std::uint32_t id : apart) {
+    leads_to_some[wide.least_with(id)] = true;
+  }
+  for (const auto& [a, b] : reached) {
+    if (leads_to_some[wide.least_with(a)]) {
+      close.add(a, b);
+    }
+  }
+}
+
+/// The sets that have one of `some`.
+std::vector<Ids> sets_of(FaceSets& faces, const Ids& some) {
+  std::vector<bool> is_wanted(some.empty() ? 0 : *std::max_element(some.begin(), some.end()) + 1);
+  for (const std::uint32_t id : some) {
+    is_wanted[faces.least_with(id)] = true;
+  }
+  std::vector<Ids> sets = faces.sets();
+  std::erase_if(sets, [&](const Ids& set) { return set[0] >= is_wanted.size() || !is_wanted[set[0]]; });
   return sets;
+}
+
+/// The sets that doubles take apart, with what their layers reach and the other triangles of their polygons; what doubles cannot
+/// take apart goes to `merged`.
+std::vector<Ids> sets_to_stack(const Exactly& exactly, CoveringSets& found, std::vector<CloseFaces>& merged) {
+  const Ids apart = sets_apart(exactly, found.close, merged);
+  if (apart.empty()) {
+    return {};
+  }
+  const auto add_whole_polygons = [&] {
+    for (const Ids& set : sets_of(found.close, apart)) {
+      add_polygons(exactly.conversion, set, found.close);
+    }
+  };
+  add_whole_polygons();
+  if (!found.reached.empty()) {
+    add_reached(exactly.conversion, apart, found.reached, found.close);
+    add_whole_polygons();
+  }
+  return sets_of(found.close, apart);
 }
 
 /// Those that nobody looked at may be swapped with others all over.
@@ -438,7 +510,7 @@ bool settle_coplanar(Conversion& conversion, const TopCells& cells, const Scene&
   std::vector<FaceStack> stacks;
   std::vector<bool> is_stacked(conversion.primitives.size());
   StackBudget budget;
-  const ExactSets exact(exactly, sets_to_stack(exactly, found.close, conversion.close_faces));
+  const ExactSets exact(exactly, sets_to_stack(exactly, found, conversion.close_faces));
   for (const Ids& set : exact.sets()) {
     stacks.push_back(stack_faces(exact.faces_of(set), budget));
     const std::vector<CloseFaces>& blurred = stacks.back().blurred;

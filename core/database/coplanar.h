@@ -20,7 +20,7 @@ namespace dmpc::core {
 /// What the file's doubles tell apart stays apart, a poster before a wall, the two sides of a pane: where faces that cover each
 /// other are not in one plane for doubles, but for floats, or nearer than rays start off a triangle, they and all triangles of
 /// their polygons get the planes that doubles say (core/database/face_stack.h); those in each are settled by themselves, as
-/// above.
+/// above. So do faces so far off these as their layers move a t, and those off these.
 ///
 /// What shares an edge or a corner does not cover. Without triangles that cover each other nothing changes. Not judged are
 /// triangles lower than a 2^13th of the scene, unless a coordinate is the same at all their corners: rounding turns them too far.

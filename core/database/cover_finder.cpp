@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/database/meeting_faces.h"
+
 namespace dmpc::core {
 namespace {
 
@@ -79,6 +81,19 @@ void CoverFinder::look_at(std::span<const std::uint32_t> some, std::size_t axis)
   see(some, axis);
   if (!look_at_pairs(axis)) {
     look_at_planes(some);
+  }
+}
+
+void CoverFinder::look_at_meeting() {
+  const bool are_all_seen = find_meeting_faces(faces_, [&](std::uint32_t a, std::uint32_t b) {
+    if (are_leaning(faces_[a], faces_[b])) {
+      judge(a, b, (faces_[a].altitude >= faces_[b].altitude ? faces_[a] : faces_[b]).main_axis());
+    }
+  });
+  for (std::size_t face = 0; face < faces_.size() && !are_all_seen; ++face) {
+    if (faces_[face].altitude < low_altitude) {
+      unseen_.push_back(faces_[face].id);
+    }
   }
 }
 
@@ -222,6 +237,8 @@ bool CoverFinder::judge(std::uint32_t a, std::uint32_t b, std::size_t axis) {
     merge(a, b, true);
   } else if (!is_known && are_near(faces_[a], faces_[b])) {
     merge(a, b, false);
+  } else if (!is_known && are_in_reach(faces_[a], faces_[b])) {
+    merge_in(reached_, a, b);
   }
   return share_plane;
 }

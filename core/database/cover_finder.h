@@ -30,14 +30,18 @@ class MergedSets {
 class CoverFinder {
  public:
   /// The faces, of ascending ids, outlive the finder.
-  explicit CoverFinder(std::span<const Face> faces) : faces_(faces), coplanar_(faces), close_(faces) {}
+  explicit CoverFinder(std::span<const Face> faces) : faces_(faces), coplanar_(faces), close_(faces), reached_(faces) {}
 
   /// Looks at some of the faces, ascending, which can be looked at along `axis`.
   void look_at(std::span<const std::uint32_t> some, std::size_t axis);
+  /// Looks at all low faces and at what those touch (core/database/meeting_faces.h).
+  void look_at_meeting();
   /// Pairs of ids: what they lead from one to the other is all that covers each other in one plane, by what records say.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& coplanar() const { return coplanar_.pairs; }
   /// The same of all that covers each other in one plane or near to it.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& close() const { return close_.pairs; }
+  /// What these and close() lead from one to the other is all that covers each other where layers may reach, too.
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& reached() const { return reached_.pairs; }
   /// Ids of faces for which there was no time: others may cover them in their plane, or near to it.
   const std::vector<std::uint32_t>& unseen() const { return unseen_; }
 
@@ -76,7 +80,7 @@ class CoverFinder {
   void merge_in(Found& found, std::uint32_t a, std::uint32_t b);
 
   std::span<const Face> faces_;
-  Found coplanar_, close_;
+  Found coplanar_, close_, reached_;
   std::vector<std::uint32_t> unseen_;
   std::vector<Seen> seen_;
   std::vector<Entry> entries_, sorted_, distinct_;

@@ -64,9 +64,6 @@ class CornerFinder {
   std::size_t next_ = 0;
 };
 
-/// Lower triangles, beside a scene of about 1, are turned by rounding to float as far as two planes that are near lean.
-constexpr double low_altitude = 0x1p-12;
-
 }  // namespace
 
 bool put_exact_corners(const Scene& scene, const GridFrame& frame, const Conversion& conversion, std::span<Face> faces) {
@@ -94,6 +91,7 @@ std::vector<Face> exact_faces(const Scene& scene, const GridFrame& frame, const 
     faces.emplace_back(finder.corners_of(conversion.primitives[id], object), beside,
                        std::max(exact_rounding, scene.coordinate_rounding), id, object);
     faces.back().moved += exact_rounding;
+    faces.back().is_by_doubles = scene.coordinate_rounding <= exact_rounding;
   }
   return faces;
 }

@@ -35,21 +35,51 @@ struct Height {
   double height, moved;
 };
 
-/// Of the corners of the smaller one above the larger one.
-std::array<Height, 3> heights_between(const Face& a, const Face& b) {
-  const Face& large = a.altitude >= b.altitude ? a : b;
-  const Face& small = a.altitude >= b.altitude ? b : a;
-  const Vec3d middle = large.middle();
+std::array<Height, 3> heights_above(const Face& base, const Face& face) {
+  const Vec3d middle = base.middle();
   std::array<Height, 3> heights{};
   for (std::size_t i = 0; i < 3; ++i) {
-    // The larger one's own plane is turned by what rounding does to its corners.
-    const double turned = 2 * length(small.corner[i] - middle) / large.altitude;
-    heights[i] = {large.plane.height_of(small.corner[i]), small.moved + large.moved * (1 + turned)};
+    // The plane itself is turned by what rounding does to its corners.
+    const double turned = 2 * length(face.corner[i] - middle) / base.altitude;
+    heights[i] = {base.plane.height_of(face.corner[i]), face.moved + base.moved * (1 + turned)};
   }
   return heights;
 }
 
+/// Of the corners of the smaller one above the larger one.
+std::array<Height, 3> heights_between(const Face& a, const Face& b) {
+  return a.altitude >= b.altitude ? heights_above(a, b) : heights_above(b, a);
+}
+
+bool is_on_one_side(const Face& base, const Face& face) {
+  const std::array<Height, 3> heights = heights_above(base, face);
+  return std::all_of(heights.begin(), heights.end(), [](const Height& corner) { return corner.height >= -corner.moved; }) ||
+         std::all_of(heights.begin(), heights.end(), [](const Height& corner) { return corner.height <= corner.moved; });
+}
+
+bool have_common_corner(const Face& a, const Face& b) {
+  const auto is_of_b = [&](const Vec3d& corner) {
+    return std::any_of(b.corner.begin(), b.corner.end(), [&](const Vec3d& other) {
+      return std::fabs(corner.x - other.x) <= corner_rounding && largest_component(corner - other) <= corner_rounding;
+    });
+  };
+  return std::any_of(a.corner.begin(), a.corner.end(), is_of_b);
+}
+
 }  // namespace
+
+double roundings_apart(const Face& a, const Face& b) {
+  double most = 0;
+  for (const Height& corner : heights_between(a, b)) {
+    most = std::max(most, std::fabs(corner.height) / corner.moved);
+  }
+  return most;
+}
+
+bool are_leaning(const Face& a, const Face& b) {
+  constexpr double seen_share = 0x1p-7;
+  return !have_common_corner(a, b) && roundings_apart(a, b) * seen_share < 1 && (is_on_one_side(a, b) || is_on_one_side(b, a));
+}
 
 bool are_coplanar(const Face& a, const Face& b) {
   const std::array<Height, 3> heights = heights_between(a, b);
@@ -57,9 +87,11 @@ bool are_coplanar(const Face& a, const Face& b) {
                      [](const Height& corner) { return std::fabs(corner.height) <= corner.moved; });
 }
 
-bool are_near(const Face& a, const Face& b) {
+namespace {
+
+/// are_near() with this tie.
+bool lie_near(const Face& a, const Face& b, double tie) {
   const std::array<Height, 3> heights = heights_between(a, b);
-  const double tie = tie_of(std::min(a.longest(), b.longest()));
   const auto near = [&](const Height& corner) { return near_roundings * corner.moved + tie; };
   const auto leans = [&](const Height& corner) { return std::fabs(corner.height) > leaning_nears * near(corner); };
   const auto is_above = [&](const Height& corner) { return corner.height > near(corner); };
@@ -67,6 +99,14 @@ bool are_near(const Face& a, const Face& b) {
   return std::none_of(heights.begin(), heights.end(), leans) && !std::all_of(heights.begin(), heights.end(), is_above) &&
          !std::all_of(heights.begin(), heights.end(), is_below);
 }
+
+double smaller_size(const Face& a, const Face& b) { return std::min(a.longest(), b.longest()); }
+
+}  // namespace
+
+bool are_near(const Face& a, const Face& b) { return lie_near(a, b, tie_of(smaller_size(a, b))); }
+
+bool are_in_reach(const Face& a, const Face& b) { return lie_near(a, b, layers_reach_of(smaller_size(a, b))); }
 
 bool cover(const Face& a, const Face& b, std::size_t axis) {
   const std::array<Flat, 3> first = seen_along(a, axis), second = seen_along(b, axis);

@@ -58,11 +58,23 @@ struct Face {
   double altitude = 0;  ///< the least of the three
   double moved = 0;     ///< how far rounding moves a corner across the plane at most
   std::uint32_t id, object;
-  bool is_by_doubles = false;  ///< its corners are not rounded, so that its slopes are known, though `moved` is what floats do
+  bool is_by_doubles = false;  ///< its corners are not rounded to float, so that its slopes are known, whatever `moved` is
 };
+
+/// Lower triangles, beside a scene of about 1, are turned by rounding to float as far as two planes that are near lean.
+inline constexpr double low_altitude = 0x1p-12;
 
 /// Triangles that lie side by side may cover each other by so much.
 inline constexpr double sliver = 0x1p-22;
+
+/// Whether two triangles that are near touch each other alone, but for rounding: one lies on one side of the other one's plane,
+/// and they have no corner in common, as neighbours in a mesh have; and whether they lean by so little that rounding swaps a
+/// 128th of the smaller one, or more.
+bool are_leaning(const Face& a, const Face& b);
+
+/// How far the corners of the smaller of two triangles are from the plane of the other at most, in what rounding may have moved
+/// them there.
+double roundings_apart(const Face& a, const Face& b);
 
 /// Whether two triangles lie in one plane but for rounding.
 bool are_coplanar(const Face& a, const Face& b);
@@ -77,6 +89,13 @@ inline double tie_of(double size) { return 0x1p-20 * size + std::min(0x1p-14 * s
 /// none is `leaning_nears` times as far.
 bool are_near(const Face& a, const Face& b);
 inline constexpr double leaning_nears = 64;
+
+/// Layers move no t, which is 8 at most, any farther: what is farther apart is met in order.
+inline constexpr double layers_reach = plane_layers_max * 0x1p-21;
+/// The same of a face of a size, which is seen from a thousand times that at most.
+inline double layers_reach_of(double size) { return std::min(layers_reach, 0x1p-10 * size); }
+/// are_near(), if they are so where layers may reach.
+bool are_in_reach(const Face& a, const Face& b);
 
 /// Whether two triangles of one plane cover each other, seen along an axis, by more than rounding does to triangles side by side.
 bool cover(const Face& a, const Face& b, std::size_t axis);

@@ -19,7 +19,8 @@ namespace dmpc::core {
 /// face and swaps nothing; across it t, points and starts of rays are right to 2^-47 of the coordinates. Where a float t
 /// would be the same for two planes, in_layer() (core/trace/primitive.h) tells them apart: it moves each t by a unit in the last
 /// place for each layer, in the order in which the ray comes to them. So (t, id) decides as ever, whatever box, node or kernel a
-/// face is met in. Near faces of one layer may be swapped where t is too coarse to tell them apart: RoundingLoss::swapped.
+/// face is met in. Near faces of one layer may be swapped where t is too coarse to tell them apart, and what is nearer than rays
+/// start off such planes is passed by those: RoundingLoss::swapped.
 struct FaceStack {
   /// Of one plane, as far as doubles tell.
   struct Layer {
@@ -28,7 +29,8 @@ struct FaceStack {
   };
   std::vector<Layer> layers;
   /// Of those that cover another one and are in its layer, in two planes or in one for want of digits, or in another layer but on
-  /// both sides of it: once each, the smaller one.
+  /// both sides of it: once each, the smaller one. And of those in another layer the smaller one, of which so much is passed by
+  /// rays as lies nearer than they start off it: that is its size, and the two are 0 apart.
   std::vector<CloseFaces> blurred;
 };
 

@@ -93,10 +93,9 @@ class BucketFiller {
     const double one_over = 1 / normal[axis], slope = -normal[next] * one_over, other_slope = -normal[last] * one_over;
     const Vec3d away = around_.middle - face.corner[0];
     const double height = (slope * away[next] + other_slope * away[last] - away[axis]) / around_.size;
-    const double height_error = std::min(
-        (8 * (near_roundings * face.moved + tie_of(face.altitude)) + error * (std::fabs(away[next]) + std::fabs(away[last]))) /
-            around_.size,
-        size_.edge);
+    const double near = 8 * (near_roundings * face.moved + layers_reach_of(face.altitude));
+    const double height_error =
+        std::min((near + error * (std::fabs(away[next]) + std::fabs(away[last]))) / around_.size, size_.edge);
     const Range slopes(slope, error, size_.edge), other_slopes(other_slope, error, size_.edge),
         heights(height, height_error, size_.edge);
     for (std::int32_t i = slopes.first; i <= slopes.last; ++i) {

@@ -7,6 +7,7 @@
 
 #include "core/base/altitude.h"
 #include "core/base/vec.h"
+#include "core/record/exact_clearance.h"
 
 namespace dmpc::core {
 
@@ -16,8 +17,6 @@ namespace dmpc::core {
 /// It starts off by so much of the largest coordinates, each by its share in the normal: vertices of triangles are rounded to
 /// float, by 2^-25, and planes through others that were one plane may be off by a few times that.
 inline constexpr double flat_clearance = 0x1p-22;
-/// From a plane that doubles tell: what they leave of a ray's start, and of its way to the plane.
-inline constexpr double exact_clearance = 0x1p-47;
 /// But by no more of the way to the triangle's own edge, behind which another may stand at a sharp angle: rays that start near it
 /// must not start behind that one. Triangles that share an edge agree about it however near it is.
 inline constexpr double edge_clearance = 0x1p-6;
@@ -76,7 +75,7 @@ inline double clearance_of(const Vec3d& corner, const Vec3d& edge1, const Vec3d&
   return std::min(rounding + tie_clearance * t, edge_clearance * way_to_edge(edge1, edge2, u, v));
 }
 
-/// The same of one in an exact plane, at `point`.
+/// The same of one in an exact plane, at `point`: by what doubles leave of it.
 inline double exact_clearance_of(const Vec3d& edge1, const Vec3d& edge2, const Vec3d& normal, const Vec3d& point, double u,
                                  double v) {
   return std::min(exact_clearance * dot_of_magnitudes(normal, point), edge_clearance * way_to_edge(edge1, edge2, u, v));

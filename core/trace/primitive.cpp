@@ -9,6 +9,7 @@
 #include "core/record/block_lane.h"
 #include "core/record/cone_floats.h"
 #include "core/record/curved_values.h"
+#include "core/record/on_surface.h"
 
 namespace dmpc::core {
 namespace {
@@ -265,13 +266,6 @@ bool passes_cone(const Ray& ray, const float* rows, std::size_t stride, std::siz
   return area > 1e-6 * dot(axis, axis) && off * off > reach * reach * area;
 }
 
-/// An eye lies on a surface if it is nearer than rounding may have moved that. `distance_squared`: from centre or axis; `size`:
-/// the largest coordinate and radius.
-bool is_on(const CurvedValues& curved, double distance_squared, double radius, double size) {
-  constexpr double moved = 0x1p-30, moved_passing = 0x1p-46;
-  return std::fabs(distance_squared - radius * radius) <= (curved.passes_by() ? moved_passing : moved) * size * std::fabs(radius);
-}
-
 /// Rays of the eye alone may start on a surface: others start off it. One that does has a root next to its start, however much it
 /// grazes the surface.
 bool may_start_on(const Ray& ray, double first_root, double second_root) {
@@ -293,8 +287,8 @@ double sphere_distance(const Ray& ray, const float* rows, std::size_t stride, st
   }
   const double half = std::sqrt(rest / a);
   const double near = middle - half, far = middle + half;
-  if (may_start_on(ray, near, far) &&
-      is_on(sphere, dot(to_origin, to_origin), radius, largest_component(center) + std::fabs(radius))) {
+  const double size = largest_component(center) + std::fabs(radius);
+  if (may_start_on(ray, near, far) && is_on_surface(sphere, dot(to_origin, to_origin) - radius * radius, radius, size)) {
     return middle > 0.0 ? far : double{missed};
   }
   return near > 0.0 && radius > 0.0 ? near : far > 0.0 ? far : double{missed};
@@ -322,7 +316,7 @@ struct ConeLine {
     const Vec3d at = across + across_rate * t;
     const double there = radius + radius_rate * t,
                  farthest = std::max(largest_component(cone.vector(0)), largest_component(cone.apex()));
-    return is_on(cone, dot(at, at), there, farthest + std::fabs(there));
+    return is_on_surface(cone, dot(at, at) - there * there, there, farthest + std::fabs(there));
   }
 };
 
