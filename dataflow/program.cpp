@@ -632,6 +632,7 @@ std::string RayProgram<RaysTask, Units>::describe() const {
          " film entries" + (film_.waits() ? " (waiting)" : "") + ", ray packets sent - received " +
          std::to_string(termination_.balance()) + (termination_.holds_token() ? ", holds the token" : "") +
          (termination_.is_black() ? ", black" : ", white") +
+         (termination_.awaited() > 0 ? ", waits for " + std::to_string(termination_.awaited()) + " below it to tell" : "") +
          (stopped_     ? ", stopped"
           : done_      ? ", done"
           : finishing_ ? ", finishing"

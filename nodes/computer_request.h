@@ -21,8 +21,8 @@ struct ComputerRequest {
   /// Disturbs the run; its result stays the same. Plans have fewer credits, and room for packets held back; mailboxes stay as
   /// they are.
   std::optional<Chaos> chaos = std::nullopt;
-  /// So many threads of a process drive all of its nodes in turn: no more than there are nodes, and 0 for as many as processors
-  /// that it may run on. Without it each node has a thread of its own. Plans are the same, stacks included. Not with a machine.
+  /// So many threads of a process, at least 1 and no more than there are nodes, drive all of its nodes in turn. Without it each
+  /// node has a thread of its own. Plans are the same, stacks included. Not with a machine.
   std::optional<std::uint32_t> pool_threads = std::nullopt;
   /// A modelled machine, in virtual time, in place of threads. Not with chaos.
   std::optional<Machine> machine = std::nullopt;

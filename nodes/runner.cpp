@@ -1,5 +1,10 @@
 #include "nodes/runner.h"
 
+#include <sched.h>
+
+#include <algorithm>
+#include <thread>
+
 #include "core/base/expect.h"
 #include "core/base/refusal.h"
 #include "nodes/ranks/ranks_runner.h"
@@ -17,6 +22,12 @@ MemoryPlan memory_beside_program(const MailboxCapacity& mailbox, std::uint32_t p
   return plan;
 }
 
+std::uint32_t processors_allowed() {
+  cpu_set_t allowed;
+  return ::sched_getaffinity(0, sizeof(allowed), &allowed) == 0 ? static_cast<std::uint32_t>(CPU_COUNT(&allowed))
+                                                                : std::max(std::thread::hardware_concurrency(), 1U);
+}
+
 void check_nodes_for(std::uint32_t node_count, std::uint32_t rank_count) {
   core::check_use(node_count >= rank_count, core::field_of<&ComputerRequest::node_count>(), "=", node_count,
                   ": expected at least one node for each of the ", rank_count, " ranks");
@@ -28,6 +39,7 @@ void check_ranks(const ComputerRequest& computer) {
 
 std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const ComputerRequest& computer,
                                     Observer* observer) {
+  core::expect(computer.pool_threads != 0U, "a pool has a thread");
   if (computer.machine) {
     core::expect(!computer.chaos && computer.ranks == nullptr && !computer.pool_threads,
                  "chaos disturbs threads only, and a model has neither ranks nor a pool");

@@ -42,6 +42,9 @@ static_assert(packet_kind_count <= 32);
 MemoryPlan memory_beside_program(const MailboxCapacity& mailbox, std::uint32_t peer_count, std::size_t held_bytes,
                                  std::size_t stack_bytes);
 
+/// Processors that this process may run on now, by its affinity: what a pool has threads for unless it is told.
+std::uint32_t processors_allowed();
+
 /// Throws core::Refusal<core::UsageError> if there are fewer nodes than ranks.
 void check_nodes_for(std::uint32_t node_count, std::uint32_t rank_count);
 /// Checks the ranks that are asked for: for plans.

@@ -40,7 +40,7 @@ void choose_nodes(ProgramOptions& options, const RankGroup& group) {
   }
   with_options_named(computer_words, [&] { nodes::check_nodes_for(options.computer.node_count, group.rank_count()); });
   if (!options.idle) {
-    options.idle = group.default_idle(options.computer.node_count);
+    options.idle = group.default_idle(options.computer);
   }
 }
 

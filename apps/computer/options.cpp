@@ -11,6 +11,7 @@
 #include "apps/edge/table/table_options.h"
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
+#include "nodes/runner.h"
 
 namespace dmpc::apps {
 namespace {
@@ -137,7 +138,7 @@ void add_closer_look(OptionSet options, ProgramOptions& program) {
     check_runner(options, program);
     program.is_node_count_given = options.is_given("--nodes");
     if (program.runner == RunnerKind::pool && !program.computer.pool_threads) {
-      program.computer.pool_threads = 0;
+      program.computer.pool_threads = nodes::processors_allowed();
     }
     if (program.chaos_seed) {
       program.computer.chaos = nodes::chaos_of(*program.chaos_seed);

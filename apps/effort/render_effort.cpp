@@ -18,7 +18,9 @@ Effort render_effort(const StrategyOptions& options, const Subject& subject) {
   const bool is_virtual = options.runner.kind == RunnerKind::virtual_time;
   const double seconds = seconds_of({options.strategy, options.computer.node_count, is_virtual},
                                     picture_seconds(subject.database, subject.settings));
-  return {.seconds = is_virtual ? seconds : seconds / std::min(core_count(), options.computer.node_count)};
+  return {.seconds = is_virtual ? seconds
+                                : seconds / std::min({core_count(), options.computer.node_count,
+                                                      options.computer.pool_threads.value_or(nodes::node_count_max)})};
 }
 
 Effort check_effort(const Subject& subject) {

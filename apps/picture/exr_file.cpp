@@ -27,9 +27,9 @@ using core::operator""_MiB;
 constexpr std::size_t blocks_a_thread = 4;
 constexpr std::size_t blocks_bytes_max = 64_MiB;
 
-/// Writing fails for want of room alone, and so does packing, which OpenEXR takes for a broken block.
+/// Writing fails for want of room alone.
 void check(exr_result_t result) {
-  if (result == EXR_ERR_OUT_OF_MEMORY || result == EXR_ERR_WRITE_IO || result == EXR_ERR_CORRUPT_CHUNK) {
+  if (result == EXR_ERR_OUT_OF_MEMORY || result == EXR_ERR_WRITE_IO) {
     throw std::bad_alloc();
   }
   if (result != EXR_ERR_SUCCESS) {

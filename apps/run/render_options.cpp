@@ -9,6 +9,7 @@
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
+#include "nodes/runner.h"
 
 namespace dmpc::apps {
 
@@ -121,7 +122,7 @@ void check_runner(const OptionSet& options, const RenderOptions& render) {
 /// As many threads as processors, unless the line says how many.
 void choose_pool(RenderOptions& render) {
   if (render.runner.kind == RunnerKind::pool && !render.computer.pool_threads) {
-    render.computer.pool_threads = 0;
+    render.computer.pool_threads = nodes::processors_allowed();
   }
 }
 

@@ -42,7 +42,7 @@ WaitKinds waits_of(const dataflow::Report&) {
           .token_kinds = bits_of({Kind::token}),
           .credit_kinds = bits_of({Kind::credits, Kind::ask, Kind::unused, Kind::hold, Kind::hold_acknowledgement}),
           .film_kinds = bits_of({Kind::film_acknowledgement}),
-          .end_kinds = bits_of({Kind::finish, Kind::stop})};
+          .end_kinds = bits_of({Kind::finish, Kind::done, Kind::stop})};
 }
 
 template <class StrategyReport>

@@ -11,8 +11,8 @@ namespace dmpc::dataflow {
 inline constexpr std::uint32_t tested_objects_max = 8;
 
 /// Names of blocks that a ray has tested where it comes from and may meet again where it goes: those whose boxes reach beyond a
-/// region or a voxel (core::BlockHeader::shared_name), the newest first; 0 where there is none. A block is tested for all of a ray, wherever
-/// its box is met, so a second test finds nothing new.
+/// region or a voxel (core::BlockHeader::shared_name), the newest first; 0 where there is none. A block is tested for all of a
+/// ray, wherever its box is met, so a second test finds nothing new.
 using TestedNames = std::array<std::uint32_t, tested_objects_max>;
 
 /// The list while its ray is traced, with room for a number of names: when it is full the oldest is forgotten.

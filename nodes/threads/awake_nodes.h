@@ -7,8 +7,7 @@
 //
 // Invariants
 // (1) A node is in line, or its turn is on, or its mailbox's word is ASLEEP, or it is woken: then its number is with the one
-// thread
-//     that has replaced ASLEEP, or in woken(), once. So woken() never has more numbers than there are nodes.
+//     thread that has replaced ASLEEP, or in woken(), once. So woken() never has more numbers than there are nodes.
 // (2) The awake count (nodes/awake_count.h) counts drivers. A driver leaves it when nobody is in line and after the word of
 //     woken() has become ASLEEP. A thread that has replaced a node's ASLEEP and not yet rung is a driver that runs, or brings
 //     packets, and is counted. So the count is zero only if every node is ASLEEP and nothing is under way.

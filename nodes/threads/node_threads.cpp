@@ -36,19 +36,9 @@ std::size_t count_here(const Outlet* outlet, std::size_t peer_count) {
   return static_cast<std::size_t>(std::count(outlet->is_here.begin(), outlet->is_here.end(), true));
 }
 
-/// Processors that this process may run on.
-std::uint32_t processors_allowed() {
-  cpu_set_t allowed;
-  return ::sched_getaffinity(0, sizeof(allowed), &allowed) == 0 ? static_cast<std::uint32_t>(CPU_COUNT(&allowed))
-                                                                : std::max(std::thread::hardware_concurrency(), 1U);
-}
-
 /// How many drivers so many nodes have, the host included, if it is a pool of so many threads (ComputerRequest).
 std::size_t driver_count(const std::optional<std::uint32_t>& pool_threads, std::size_t node_count) {
-  if (!pool_threads) {
-    return 0;
-  }
-  return std::min<std::size_t>(*pool_threads > 0 ? *pool_threads : processors_allowed(), node_count);
+  return pool_threads ? std::min<std::size_t>(*pool_threads, node_count) : 0;
 }
 
 std::uint32_t thread_count(const std::optional<std::uint32_t>& pool_threads, std::size_t node_count) {

@@ -10,7 +10,7 @@ namespace dmpc::apps {
 namespace {
 
 constexpr std::array entries = {
-    GlossaryEntry{"asleep", "Of a node's thread: it has nothing to do until a packet comes."},
+    GlossaryEntry{"asleep", "Of a node: it has nothing to do until a packet comes."},
     GlossaryEntry{"backlog", "Rays that a node has taken up and not finished."},
     GlossaryEntry{"cache", "A node's places for pages whose home is another node."},
     GlossaryEntry{"chaos",

@@ -15,8 +15,8 @@ namespace dmpc::apps {
 namespace {
 
 constexpr const char* description =
-    "dmpc emulates a distributed-memory parallel computer on this machine and renders on it. N nodes, each a thread with a "
-    "strictly "
+    "dmpc emulates a distributed-memory parallel computer on this machine and renders on it. N nodes, as a rule each a thread, "
+    "with a strictly "
     "bounded memory of its own, share nothing and talk only through mailboxes; scenes need not fit into the memory of any of "
     "them. "
     "Either pages of the scene's database travel to the nodes whose rays need them, or rays travel to the nodes that have the "

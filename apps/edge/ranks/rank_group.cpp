@@ -90,8 +90,10 @@ std::uint32_t RankGroup::default_node_count() const {
   return std::min(count, nodes::node_count_max);
 }
 
-nodes::Idle RankGroup::default_idle(std::uint32_t node_count) const {
-  return apps::default_idle(share_of_processors(processors_, rank_), (node_count + rank_count() - 1) / rank_count());
+nodes::Idle RankGroup::default_idle(const nodes::ComputerRequest& computer) const {
+  const std::uint32_t nodes_here = (computer.node_count + rank_count() - 1) / rank_count();
+  return apps::default_idle(share_of_processors(processors_, rank_),
+                            std::min(nodes_here, computer.pool_threads.value_or(nodes_here)));
 }
 
 nodes::Fabric& RankGroup::connect(std::size_t payload_bytes_max, Likeness more) {

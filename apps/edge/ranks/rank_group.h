@@ -12,6 +12,7 @@
 #include "apps/edge/ranks/processors.h"
 #include "apps/edge/system/module.h"
 #include "core/base/expect.h"
+#include "nodes/computer_request.h"
 #include "nodes/ranks/fabric.h"
 
 namespace dmpc::apps {
@@ -40,8 +41,8 @@ class RankGroup {
   /// How many nodes there are where nobody says: on each rank one less than its share of the processors that it may use, as one
   /// is the communicating thread's, and one at least.
   std::uint32_t default_node_count() const;
-  /// What this rank's communicating thread does while nothing comes, of a computer with so many nodes, where nobody says.
-  nodes::Idle default_idle(std::uint32_t node_count) const;
+  /// What this rank's communicating thread does while nothing comes, of such a computer, where nobody says.
+  nodes::Idle default_idle(const nodes::ComputerRequest& computer) const;
 
   /// Waits for all. Makes the fabric, for packets of up to so many bytes; it lives as long as this. Once. Throws
   /// core::InputError, alike on all ranks, if they want frames of different sizes, or differ in `more` that they must have in

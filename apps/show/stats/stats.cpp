@@ -223,6 +223,7 @@ Json options_json(const RenderRecord& record, const Account& account) {
                  {"system", options.system ? Json(name_of(*options.system)) : Json()},
                  {"strategy", name_of(options.strategy)},
                  {"nodes", account.nodes.size()},
+                 {"pool_threads", options.computer.pool_threads ? Json(*options.computer.pool_threads) : Json()},
                  {"node_memory", account.node_memory_max_bytes},
                  {"page_size", record.database.page_size()}};
   add_staging(result, options.picture.staging);

@@ -9,6 +9,7 @@
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "nodes/runner.h"
 #include "tests/support/text.h"
 
 namespace dmpc::apps::render_options_test {
@@ -444,7 +445,7 @@ TEST_CASE("threads drive the computer unless a machine is to be modelled") {
 TEST_CASE("a pool has as many threads as processors unless the line says how many, and so may each of several ranks") {
   CHECK_FALSE(render().computer.pool_threads);
   CHECK(render({"--runner=pool"}).runner.kind == RunnerKind::pool);
-  CHECK(render({"--runner=pool"}).computer.pool_threads == 0U);
+  CHECK(render({"--runner=pool"}).computer.pool_threads == nodes::processors_allowed());
   CHECK(render({"--runner=pool", "--pool-threads=3", "--chaos=1"}).computer.pool_threads == 3U);
   CHECK_FALSE(render({"--runner=mpi"}).computer.pool_threads);
   CHECK(render({"--runner=mpi", "--pool-threads=2"}).computer.pool_threads == 2U);

@@ -35,7 +35,7 @@ bool has_part(const Losses& losses, const std::string& name) {
 
 std::string note_on(const Losses& losses) {
   if (!losses.is_virtual) {
-    return "Wall clock of the nodes' threads. Asleep: for want of packets. They share this computer's cores.";
+    return "Wall clock. Asleep: for want of packets. The nodes share this computer's cores, and those of a pool their threads.";
   }
   const bool has_service = has_part(losses, "stolen") || has_part(losses, "lent");
   return std::string("Virtual time.") +
@@ -68,9 +68,9 @@ std::string wall_conclusion(std::span<const double> parts) {
   if (whole == 0) {
     return "No time passed.";
   }
-  return "The nodes' threads computed for " + share_text(share_of(parts[0], whole)) +
-         " of their time, slept for want of packets for " + share_text(share_of(parts[1], whole)) +
-         " and waited for a core of this computer for " + share_text(share_of(parts[2], whole)) + ".";
+  return "The nodes computed for " + share_text(share_of(parts[0], whole)) + " of their time, slept for want of packets for " +
+         share_text(share_of(parts[1], whole)) + " and waited for a core of this computer, or for their turn in a pool, for " +
+         share_text(share_of(parts[2], whole)) + ".";
 }
 
 }  // namespace
