@@ -19,8 +19,12 @@ namespace {
 constexpr std::uint32_t side = 12;
 
 svm::PlanRequest request_with(std::uint32_t nodes, std::size_t page_size, std::uint32_t page_count) {
-  return {
-      .page_count = page_count, .page_size_bytes = page_size, .computer = {.node_count = nodes}, .width = side, .height = side};
+  return {.page_count = page_count,
+          .page_size_bytes = page_size,
+          .computer = {.node_count = nodes},
+          .width = side,
+          .height = side,
+          .first_samples = 2};
 }
 
 svm::MakeProgram maker(const svm::Plan& plan, const core::RenderSettings& settings, const FakePages& pages) {

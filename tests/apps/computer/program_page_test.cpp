@@ -32,7 +32,7 @@ TEST_CASE("the page of a modelled run says what it was, came to, took and lost, 
 
 TEST_CASE("the page of a run on threads is of the wall clock, and says by what it was disturbed") {
   const std::string page = asker_page(asker(10), {"--nodes=2", "--chaos=7"});
-  check_has(page, {"<dd>2 nodes on threads</dd>", "disturbed by seed 7", "waiting for a core", "Wall clock of the nodes"});
+  check_has(page, {"<dd>2 nodes on threads</dd>", "disturbed by seed 7", "waiting for a core", "Wall clock. Asleep: "});
   CHECK_FALSE(contains(page, "The busiest links"));
   CHECK_FALSE(contains(page, "each on this machine"));
 }
