@@ -39,7 +39,6 @@ void check_ranks(const ComputerRequest& computer) {
 
 std::unique_ptr<Runner> make_runner(std::span<const NodeSpecification> specifications, const ComputerRequest& computer,
                                     Observer* observer) {
-  core::expect(computer.pool_threads != 0U, "a pool has a thread");
   if (computer.machine) {
     core::expect(!computer.chaos && computer.ranks == nullptr && !computer.pool_threads,
                  "chaos disturbs threads only, and a model has neither ranks nor a pool");

@@ -60,6 +60,7 @@ NodeThreads::NodeThreads(std::span<const NodeSpecification> specifications, cons
       awake_(thread_count(pool_threads, count_here(outlet, specifications.size()))),
       uncounted_(0) {
   core::expect(!specifications.empty(), "a computer has at least the host");
+  core::expect(pool_threads != 0U, "a pool has a thread");
   core::expect(outlet == nullptr || outlet->is_here.size() == specifications.size(), "each node is here or elsewhere");
   const auto peer_count = static_cast<std::uint32_t>(specifications.size());
   const ThreadComputer computer{peer_count, *this, chaos_, observer_, start_ns_, std::thread::hardware_concurrency()};

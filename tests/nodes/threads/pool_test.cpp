@@ -16,7 +16,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/expect.h"
 #include "nodes/ranks/ranks_runner.h"
+#include "nodes/runner.h"
 #include "nodes/threads/held_packets.h"
 #include "nodes/threads/threads_runner.h"
 #include "tests/nodes/toy_machine.h"
@@ -100,9 +102,9 @@ TEST_CASE("programs that are finished from the start end the run of a pool, of f
   }
 }
 
-TEST_CASE("as many threads as processors make a pool that nobody has counted") {
-  ThreadsRunner runner = pooled(0, equal_nodes(9, TokenRound::mailbox, making<TokenRound>(5U)));
-  CHECK(runner.run({}) == RunEnd::finished);
+TEST_CASE("a pool without a thread is none, and each process may use a processor") {
+  CHECK_THROWS_AS(pooled(0, equal_nodes(9, TokenRound::mailbox, making<TokenRound>(5U))), core::InternalError);
+  CHECK(nodes::processors_allowed() >= 1);
 }
 
 TEST_CASE("a token goes round the ring of a pool's nodes, as it does among threads") {
