@@ -11,7 +11,6 @@
 #include "apps/edge/table/table_options.h"
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
-#include "nodes/runner.h"
 
 namespace dmpc::apps {
 namespace {
@@ -137,9 +136,7 @@ void add_closer_look(OptionSet options, ProgramOptions& program) {
   options.check_in_the_end([options, &program] {
     check_runner(options, program);
     program.is_node_count_given = options.is_given("--nodes");
-    if (program.runner == RunnerKind::pool && !program.computer.pool_threads) {
-      program.computer.pool_threads = nodes::processors_allowed();
-    }
+    choose_pool(program.runner, program.computer);
     if (program.chaos_seed) {
       program.computer.chaos = nodes::chaos_of(*program.chaos_seed);
     }

@@ -9,7 +9,6 @@
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
-#include "nodes/runner.h"
 
 namespace dmpc::apps {
 
@@ -119,13 +118,6 @@ void check_runner(const OptionSet& options, const RenderOptions& render) {
   }
 }
 
-/// As many threads as processors, unless the line says how many.
-void choose_pool(RenderOptions& render) {
-  if (render.runner.kind == RunnerKind::pool && !render.computer.pool_threads) {
-    render.computer.pool_threads = nodes::processors_allowed();
-  }
-}
-
 /// Pages are referenced by svm's pagers alone, and by those that note references, not those that count pages.
 void check_references(const RenderOptions& render) {
   if (!render.references) {
@@ -192,7 +184,7 @@ void add_options(OptionSet options, RenderOptions& render) {
     settle_database(options, render.strategy, render.database);
     render.is_node_count_given = options.is_given("--nodes");
     check(options, render);
-    choose_pool(render);
+    choose_pool(render.runner.kind, render.computer);
   });
   options.set_examples(
       "Examples:\n"

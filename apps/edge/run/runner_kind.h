@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "nodes/computer_request.h"
+
 namespace dmpc::apps {
 
 /// By the wall clock a thread a node or a pool of threads for all, in one process, or threads of the ranks that MPI has started;
@@ -23,5 +25,8 @@ constexpr const char* name_of(RunnerKind runner) {
   }
   return "";
 }
+
+/// A pool has as many threads as there are processors, unless somebody has said how many.
+void choose_pool(RunnerKind runner, nodes::ComputerRequest& computer);
 
 }  // namespace dmpc::apps
