@@ -39,20 +39,9 @@ Origin program_origin(const std::string& name) {
   return origin;
 }
 
-namespace {
-
-std::string runner_text(const ProgramOptions& options) {
-  if (const nodes::Machine* const machine = options.computer.model()) {
-    return "virtual, in the time of a modelled " + machine->name;
-  }
-  return std::string("threads") + (options.runner == RunnerKind::mpi ? " on ranks" : "") +
-         (options.computer.pool_threads ? ", a pool that drives all nodes in turn" : ", one a node") + ", by the wall clock";
-}
-
-}  // namespace
-
 Facts computer_facts(const ProgramOptions& options) {
-  Facts facts = {{"Computer", computer_text(options)}, {"Runner", runner_text(options)}};
+  const std::string where = options.runner == RunnerKind::mpi ? " on ranks" : "";
+  Facts facts = {{"Computer", computer_text(options)}, {"Runner", runner_text(options.computer, where)}};
   if (options.chaos_seed) {
     facts.emplace_back("Chaos", "disturbed by seed " + std::to_string(*options.chaos_seed));
   }

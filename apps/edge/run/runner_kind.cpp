@@ -10,4 +10,12 @@ void choose_pool(RunnerKind runner, nodes::ComputerRequest& computer) {
   }
 }
 
+std::string runner_text(const nodes::ComputerRequest& computer, const std::string& where) {
+  if (computer.machine) {
+    return "virtual, in the time of a modelled " + computer.machine->name;
+  }
+  return "threads" + where + (computer.pool_threads ? ", a pool that drives all nodes in turn" : ", one a node") +
+         ", by the wall clock";
+}
+
 }  // namespace dmpc::apps

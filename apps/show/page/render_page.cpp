@@ -25,13 +25,6 @@ namespace dmpc::apps::html {
 
 namespace {
 
-std::string runner_text(const RenderOptions& options, const Account& account) {
-  const std::string where = account.ranks.empty() ? "" : " on " + counted(account.ranks.size(), "rank");
-  const std::string which = options.computer.pool_threads ? ", a pool that drives all nodes in turn" : ", one a node";
-  return options.computer.machine ? "virtual, in the time of a modelled " + options.computer.machine->name
-                                  : "threads" + where + which + ", by the wall clock";
-}
-
 /// By which another run is known to be the same.
 Facts results_of(const Account& account) {
   Facts results = {{"film", hash_text(account.film.hash())}};
@@ -47,7 +40,7 @@ Facts facts_of(const RenderRecord& record, const Account& account) {
       {"Scene", options.picture.scene + ", " + counted(record.database.header().primitive_count, "primitive")},
       {"Database", counted(record.database.page_count(), "page") + " of " + nodes::size_text(record.database.page_size())},
       {"Computer", computer_text(record)},
-      {"Runner", runner_text(options, account)},
+      {"Runner", runner_text(options.computer, account.ranks.empty() ? "" : " on " + counted(account.ranks.size(), "rank"))},
       {"Memory of the fullest node", bytes_text(account.node_memory_max_bytes)},
       {"Rays shot", grouped(account.operations.ray_count())},
       {"Packets sent", grouped(nodes::total(account.sent).packets) + ", " +
