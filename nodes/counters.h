@@ -37,8 +37,7 @@ struct NodeCounters {
   std::uint64_t sleeps = 0;     ///< times the node went to sleep
   std::uint64_t busy_ns = 0;    ///< processor time of its thread (threads), its turns' (pool); time without a core does not count
   std::uint64_t asleep_ns = 0;  ///< wall clock spent asleep for want of packets
-  std::uint64_t wall_ns =
-      0;  ///< from the start to the end of this node's loop; wall - busy - asleep = waited for a core or a turn
+  std::uint64_t wall_ns = 0;    ///< of this node's loop; wall - busy - asleep = waited for a core or a turn
 };
 
 /// The sum over all kinds.
