@@ -1,4 +1,4 @@
-#include "core/picture/sample_position.h"
+#include "core/picture/sample_pair.h"
 
 #include "core/base/sampling.h"
 
@@ -23,22 +23,33 @@ constexpr std::uint32_t permuted(std::uint32_t value, std::uint32_t seed) {
   return value ^ (value * 0x8d22f6e6U);
 }
 
-/// Sobol's second dimension, its digits in reverse: row i of the matrix is Pascal's triangle modulo 2.
+/// A. B. Owen's scrambling of the digits of a number below 1, of which 32 are given, the first the highest: what a digit becomes
+/// depends on those before it.
+constexpr std::uint32_t scrambled(std::uint32_t digits, std::uint32_t seed) { return reversed(permuted(reversed(digits), seed)); }
+
+/// Sobol's second dimension, its digits in reverse. Row i of the matrix is Pascal's triangle modulo 2, in which column j has a 1
+/// where the bits of i are among those of j (Lucas 1878): so a bit of the result is the sum of those whose places have its
+/// place's bits, one bit of the place after the other.
 constexpr std::uint32_t second_dimension_reversed(std::uint32_t index) {
-  std::uint32_t bits = 0;
-  for (std::uint32_t column = 1; index != 0; index >>= 1U, column ^= column << 1U) {
-    bits ^= (index & 1U) != 0 ? column : 0;
-  }
-  return bits;
+  index ^= (index & 0xaaaaaaaaU) >> 1U;
+  index ^= (index & 0xccccccccU) >> 2U;
+  index ^= (index & 0xf0f0f0f0U) >> 4U;
+  index ^= (index & 0xff00ff00U) >> 8U;
+  return index ^ (index >> 16U);
 }
 
 double unit(std::uint32_t digits) { return static_cast<double>(digits) * 0x1p-32; }
 
 }  // namespace
 
-SamplePosition sample_position(std::uint32_t pixel, std::uint32_t sample) {
+SamplePair sample_pair(std::uint32_t pixel, std::uint32_t sample, std::uint32_t pair) {
   // Twice the number serves as well as the number: pictures keep their bits by it.
-  const std::uint64_t seeds = mix((std::uint64_t{pixel} << 1U) + 0x9e3779b97f4a7c15ULL);
+  std::uint64_t seeds = mix((std::uint64_t{pixel} << 1U) + 0x9e3779b97f4a7c15ULL);
+  if (pair > 0) {
+    const std::uint64_t seed_of_order = mix(seeds + pair);
+    sample = scrambled(sample, static_cast<std::uint32_t>(seed_of_order >> 32U));
+    seeds = mix(seed_of_order + 0x9e3779b97f4a7c15ULL);
+  }
   const auto seed_x = static_cast<std::uint32_t>(seeds), seed_y = static_cast<std::uint32_t>(seeds >> 32U);
   // The first dimension's digits are the index's in reverse.
   return {unit(reversed(permuted(sample, seed_x))), unit(reversed(permuted(second_dimension_reversed(sample), seed_y)))};

@@ -1,0 +1,25 @@
+// Two numbers of a pixel's sample: evenly spread for any number of samples, the same on every node and in every order.
+#pragma once
+
+#include <cstdint>
+
+namespace dmpc::core {
+
+/// Each in [0, 1), a multiple of 2^-32.
+struct SamplePair {
+  double x = 0, y = 0;
+  constexpr bool operator==(const SamplePair&) const = default;
+};
+
+/// The pairs of one number of a pixel's samples are Sobol's (0, 2)-sequence (I. M. Sobol, "On the Distribution of Points in a
+/// Cube", 1967): of the first 2^k, and of each 2^k that follow upon a multiple of 2^k, each lies in a box of its own, for every
+/// way of cutting the unit square into 2^k equal boxes of 2^i by 2^(k - i). The digits are scrambled by a hash of pixel and pair
+/// after A. B. Owen, so that every place is equally likely, by the method of B. Burley, "Practical Hash-based Owen Scrambling",
+/// Journal of Computer Graphics Techniques 9 (4), 2020.
+///
+/// From pair 1 on the sample's number is scrambled in the same manner by another hash, so that the pairs of a sample have nothing
+/// to do with each other (the same, section 5, "Padding"), while 2^k samples as above keep a box each. Pair 0 keeps its order.
+/// Thread safety: pure.
+SamplePair sample_pair(std::uint32_t pixel, std::uint32_t sample, std::uint32_t pair);
+
+}  // namespace dmpc::core
