@@ -37,6 +37,7 @@ void put(nodes::FlatWriter& flat, const PlanRequest& request) {
   put(flat, request.computer);
   flat.put(request.rays);
   flat.put(request.depth_max);
+  flat.put(request.waiting_hits_max);
   flat.put(request.width);
   flat.put(request.height);
   flat.put(request.first_samples);
@@ -51,6 +52,7 @@ PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks) {
   request.computer = nodes::take_computer(flat, ranks);
   request.rays = flat.take<RayOptions>();
   request.depth_max = flat.take<std::uint32_t>();
+  request.waiting_hits_max = flat.take<std::uint32_t>();
   request.width = flat.take<std::uint32_t>();
   request.height = flat.take<std::uint32_t>();
   request.first_samples = flat.take<std::uint32_t>();

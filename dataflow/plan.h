@@ -33,7 +33,8 @@ struct PlanRequest {
   std::vector<Share> shares;             ///< one a node: from 1 to nodes::node_count_max
   nodes::ComputerRequest computer = {};  ///< its nodes are as many as the shares, whatever it says
   RayOptions rays = {};
-  std::uint32_t depth_max = 5;  ///< of a ray
+  std::uint32_t depth_max = 5;         ///< of a ray
+  std::uint32_t waiting_hits_max = 5;  ///< entries of a task's stack
   std::uint32_t width = 0, height = 0;
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;

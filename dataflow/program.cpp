@@ -72,10 +72,10 @@ Gather::Capacity gather_capacity(const Plan& plan) {
 template <class RaysTask>
 RaysTask make_task(nodes::Node& node, const Plan& plan) {
   if constexpr (RaysTask::rays_max == 1) {
-    return RaysTask(node.memory(), node.id(), plan.request.depth_max, plan.tested_objects());
+    return RaysTask(node.memory(), node.id(), plan.request.waiting_hits_max, plan.tested_objects());
   } else {
     core::expect(plan.tested_objects() == 0, "rays with lists of what they have tested walk alone");
-    return RaysTask(node.memory(), node.id(), plan.request.depth_max);
+    return RaysTask(node.memory(), node.id(), plan.request.waiting_hits_max);
   }
 }
 
@@ -122,9 +122,9 @@ nodes::MemoryPlan NodeProgram::layout(const Plan& plan, std::uint32_t index) {
                              RayQueue::layout(backlog_capacity(plan)) + Places::layout(places_of(plan)) +
                              Gather::layout(gather_capacity(plan)) + FilmGather::layout();
   if (plan.rays_a_task > 1) {
-    memory += BundleTask::layout(plan.request.depth_max);
+    memory += BundleTask::layout(plan.request.waiting_hits_max);
   } else {
-    memory += RayTask::layout(plan.request.depth_max);
+    memory += RayTask::layout(plan.request.waiting_hits_max);
   }
   return memory;
 }
@@ -374,7 +374,7 @@ template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::leave_background(std::uint32_t pixel, std::uint32_t sample) {
   ++operations_.rays[static_cast<std::size_t>(core::RayKind::primary)];
   ++operations_.skipped.background;
-  end_miss({.pixel = pixel, .sample = sample});
+  end_miss(constants_->settings.missing_ray(pixel, sample));
 }
 
 /// Traces the rays under way, or the next children of the hits under way.
@@ -498,12 +498,12 @@ void RayProgram<RaysTask, Units>::count_claim(core::RayKind kind) {
   ++(kind == core::RayKind::primary ? operations_.primary_hits : operations_.secondary_hits);
 }
 
-/// A shadow ray brings its light, any other the background's.
+/// A shadow ray brings its light, any other what lies behind everything.
 template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::end_miss(const core::Ray& ray) {
   ++counters_.ended;
   const core::RenderSettings& settings = constants_->settings;
-  leave_light(ray, ray.kind == core::RayKind::shadow ? ray.weight : ray.weight * settings.header.background);
+  leave_light(ray, ray.kind == core::RayKind::shadow ? ray.weight : ray.weight * settings.light_beyond(ray));
 }
 
 template <class RaysTask, class Units>

@@ -42,7 +42,7 @@ void put(nodes::FlatWriter& flat, const PlanRequest& request) {
   PageOptions pages = request.pages;
   pages.reference_logs = nullptr;  // of this process
   flat.put(pages);
-  flat.put(request.depth_max);
+  flat.put(request.waiting_hits_max);
   flat.put(request.width);
   flat.put(request.height);
   flat.put(request.first_samples);
@@ -64,7 +64,7 @@ PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks, const
   request.page_size_bytes = flat.take<std::size_t>();
   request.computer = nodes::take_computer(flat, ranks);
   request.pages = flat.take<PageOptions>();
-  request.depth_max = flat.take<int>();
+  request.waiting_hits_max = flat.take<int>();
   request.width = flat.take<std::uint32_t>();
   request.height = flat.take<std::uint32_t>();
   request.first_samples = flat.take<std::uint32_t>();

@@ -203,7 +203,7 @@ void check(const PlanRequest& request) {
             "=0: a node needs at least one frame for the pages of others");
   request.strategy->check(request);
   check_recording(request);
-  core::expect(request.page_count >= 1 && request.depth_max >= 1, "a database has a page, and a ray a depth");
+  core::expect(request.page_count >= 1 && request.waiting_hits_max >= 1, "a database has a page, and a ray a hit");
   core::expect(request.width >= 1 && request.height >= 1, "a picture has a pixel");
   core::expect(request.start == nullptr || request.start->pass.steps().size() == std::size_t{request.width} * request.height,
                "what is gone on with is of the same picture");
@@ -367,11 +367,11 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
                            nodes::LastingPieces::layout(core::MemoryUse::constants, sizeof(core::RenderSettings)) +
                            FilmGather::layout(film()) + WorkSource::layout(work(), index) +
                            request.strategy->layout(*this, index);
-  const auto depth_max = static_cast<std::uint32_t>(request.depth_max);
+  const auto waiting_max = static_cast<std::uint32_t>(request.waiting_hits_max);
   if (pixels_a_task > 1) {
-    plan += Slots<core::BundleTask>::layout(task_count(), depth_max);
+    plan += Slots<core::BundleTask>::layout(task_count(), waiting_max);
   } else {
-    plan += Slots<core::PixelTask>::layout(task_count(), depth_max);
+    plan += Slots<core::PixelTask>::layout(task_count(), waiting_max);
   }
   return plan;
 }

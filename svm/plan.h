@@ -37,7 +37,7 @@ struct PlanRequest {
   nodes::ComputerRequest computer = {};  ///< without a bound of memory, svm's caches have a quarter of the database each, at
                                          ///< least 64 pages and at most all pages that are not at home
   PageOptions pages = {};
-  int depth_max = 5;  ///< entries of a pixel's ray stack
+  int waiting_hits_max = 5;  ///< entries of a pixel's ray stack
   std::uint32_t width = 0, height = 0;
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
   core::RefinementOptions refinement;

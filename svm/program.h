@@ -54,7 +54,7 @@ class ControlProgram final : public NodeProgram {
         host_(nodes::NodeId{plan.request.computer.node_count}),
         records_(node, plan.pages(), database),
         tracer_(make_tracer(records_)),
-        slots_(node.memory(), plan.task_count(), static_cast<std::uint32_t>(plan.request.depth_max)),
+        slots_(node.memory(), plan.task_count(), static_cast<std::uint32_t>(plan.request.waiting_hits_max)),
         work_(node, plan.work(), settings.skips.idle_nodes),
         film_(node, plan.film()),
         meter_(meter) {

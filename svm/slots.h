@@ -12,7 +12,7 @@
 
 namespace dmpc::svm {
 
-/// `count` tasks, each with a ray stack of `depth_max` entries. A slot is free, or active; an active one is runnable, or known
+/// `count` tasks, each with a ray stack of `waiting_max` entries. A slot is free, or active; an active one is runnable, or known
 /// to whoever took it (the pager, when it waits). Thread safety: none.
 template <class Task>
 class Slots {
@@ -20,20 +20,20 @@ class Slots {
   struct Slot;
 
  public:
-  Slots(nodes::LocalMemory& memory, std::uint32_t count, std::uint32_t depth_max) {
+  Slots(nodes::LocalMemory& memory, std::uint32_t count, std::uint32_t waiting_max) {
     std::span<Hits> stacks;
-    std::tie(tasks_, runnable_, free_, stacks) = layout(count, depth_max).in(memory);
+    std::tie(tasks_, runnable_, free_, stacks) = layout(count, waiting_max).in(memory);
     for (std::uint32_t slot = 0; slot < count; ++slot) {
-      tasks_[slot].task = Task(stacks.subspan(std::size_t{slot} * depth_max, depth_max));
+      tasks_[slot].task = Task(stacks.subspan(std::size_t{slot} * waiting_max, waiting_max));
       free_[free_count_++] = count - 1 - slot;
     }
   }
   /// What the constructor takes.
-  static nodes::Layout<Slot, std::uint32_t, std::uint32_t, Hits> layout(std::uint32_t count, std::uint32_t depth_max) {
+  static nodes::Layout<Slot, std::uint32_t, std::uint32_t, Hits> layout(std::uint32_t count, std::uint32_t waiting_max) {
     return {{core::MemoryUse::ray_stacks, count},
             {nodes::Category::queues, count},
             {nodes::Category::queues, count},
-            {core::MemoryUse::ray_stacks, std::size_t{count} * depth_max}};
+            {core::MemoryUse::ray_stacks, std::size_t{count} * waiting_max}};
   }
 
   Task& task(std::uint32_t slot) { return tasks_[slot].task; }

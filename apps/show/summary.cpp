@@ -76,10 +76,12 @@ std::string bundles_text(const core::Operations& operations, std::uint64_t walks
 
 std::string rays_text(const core::Operations& operations, std::uint64_t walks, double render_seconds) {
   const auto count = [&](core::RayKind kind) { return grouped(operations.rays[static_cast<std::size_t>(kind)]); };
+  const bool scatters = operations.rays[static_cast<std::size_t>(core::RayKind::scattered)] > 0;
+  const std::string scattered = scatters ? ", scattered " + count(core::RayKind::scattered) : "";
   const std::uint64_t total = operations.ray_count();
   const double rate = render_seconds > 0 ? static_cast<double>(total) / render_seconds : 0;
   return grouped(total) + " (primary " + count(core::RayKind::primary) + ", reflected " + count(core::RayKind::reflected) +
-         ", refracted " + count(core::RayKind::refracted) + ", shadow " + count(core::RayKind::shadow) + "), " +
+         ", refracted " + count(core::RayKind::refracted) + ", shadow " + count(core::RayKind::shadow) + scattered + "), " +
          grouped(static_cast<std::uint64_t>(rate)) + " a second" + bundles_text(operations, walks);
 }
 

@@ -22,9 +22,9 @@ concept BundleTracer = requires(T& tracer, RayBundle& bundle, Operations& operat
 };
 
 /// The hits of a bundle's rays, being shaded side by side: all read what they are, then each light sends its bundle of shadow
-/// rays, then the mirrored rays are a bundle, then the refracted ones.
+/// rays, then the mirrored rays are a bundle, then the refracted ones; by paths the rays that go on are one.
 struct BundleHit {
-  enum class Phase : std::uint8_t { surface, light, reflected, refracted, finished };
+  enum class Phase : std::uint8_t { surface, light, reflected, refracted, continued, finished };
 
   std::array<HitState, bundle_rays_max> hit;
   std::array<std::uint8_t, bundle_rays_max> place;  ///< of the hit's pixel
@@ -46,11 +46,13 @@ struct BundleHit {
     place[count] = static_cast<std::uint8_t>(its_place);
     hit[count++] = begin_shading(ray, met);
   }
-  /// To the next phase, with so many lights.
-  void end_phase(std::uint32_t light_count) {
+  /// To the next phase: while hits wait for a light that is theirs, and then to the first that sends rays on.
+  void end_phase(Phase first_sending) {
     if (phase == Phase::surface || phase == Phase::light) {
       light += phase == Phase::light ? 1 : 0;
-      phase = light < light_count ? Phase::light : Phase::reflected;
+      const bool waits_for_light = std::any_of(hit.begin(), hit.begin() + count,
+                                               [](const HitState& state) { return state.stage == HitState::Stage::light; });
+      phase = waits_for_light ? Phase::light : first_sending;
     } else {
       phase = phase == Phase::reflected ? Phase::refracted : Phase::finished;
     }
@@ -85,8 +87,10 @@ class BundleShader {
       shoot_children(HitState::Stage::reflected, shoot);
     } else if (hits_.phase == Phase::refracted) {
       shoot_children(HitState::Stage::refracted, shoot);
+    } else if (hits_.phase == Phase::continued) {
+      send_on(shoot);
     }
-    hits_.end_phase(settings_.header.light_count);
+    hits_.end_phase(settings_.shade.transport.is_by_paths() ? Phase::continued : Phase::reflected);
     return true;
   }
 
@@ -98,6 +102,8 @@ class BundleShader {
   bool shoot_at_light(Address& absent, const Shoot& shoot);
   template <class Shoot>
   void shoot_children(HitState::Stage stage, const Shoot& shoot);
+  template <class Shoot>
+  void send_on(const Shoot& shoot);
 
   BundleHit& hits_;
   T& tracer_;
@@ -182,6 +188,18 @@ void BundleShader<T>::shoot_children(HitState::Stage stage, const Shoot& shoot) 
     Ray child;
     if (shader_.send(hits_.hit[sender[lane]], lanes.towards(lane), lanes.start(lane), child)) {
       shoot(child, sender[lane]);
+    }
+  }
+}
+
+/// The rays of paths, which go anywhere.
+template <BundleTracer T>
+template <class Shoot>
+void BundleShader<T>::send_on(const Shoot& shoot) {
+  for (std::uint32_t i = 0; i < hits_.count; ++i) {
+    Ray child;
+    if (hits_.hit[i].stage == HitState::Stage::continued && shader_.send_on(hits_.hit[i], child)) {
+      shoot(child, i);
     }
   }
 }

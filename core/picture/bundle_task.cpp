@@ -7,7 +7,7 @@ namespace dmpc::core {
 /// The first rays are shot by run(), as all others are.
 void BundleTask::start(std::span<const std::uint32_t> pixels, std::span<const SampleStep> steps, const RenderSettings& settings,
                        Operations&) {
-  expect(stack_.size() >= static_cast<std::size_t>(settings.shade.depth_max), "the ray stack holds a hit a depth");
+  expect(stack_.size() >= static_cast<std::size_t>(waiting_hits_max(settings.shade)), "the ray stack holds the hits that wait");
   expect(!pixels.empty() && pixels.size() <= pixels_max && pixels.size() == steps.size(), "a task has up to 16 pixels");
   std::copy(pixels.begin(), pixels.end(), pixels_.begin());
   std::copy(steps.begin(), steps.end(), steps_.begin());
@@ -45,8 +45,8 @@ void BundleTask::shoot_primary(std::uint32_t place, std::uint32_t sample, const 
   ++operations.rays[static_cast<std::size_t>(RayKind::primary)];
   ++operations.skipped.background;
   ++ended_;
-  const Ray ray{.pixel = pixels_[place], .sample = sample};
-  deposit(sums_[place], ray, ray.weight * settings.header.background, settings, operations);
+  const Ray ray = settings.missing_ray(pixels_[place], sample);
+  deposit(sums_[place], ray, ray.weight * settings.light_beyond(ray), settings, operations);
 }
 
 void BundleTask::add_ray(const Ray& ray, std::uint32_t place, Operations& operations) {
@@ -62,14 +62,20 @@ bool BundleTask::begin_tracing() {
   return tracing_;
 }
 
+/// The place of the next ones, which is that of those that wait for nothing more.
+BundleHit& BundleTask::fresh_hits() {
+  while (stack_size_ > 0 && stack_[stack_size_ - 1].phase == BundleHit::Phase::finished) {
+    --stack_size_;
+  }
+  expect(stack_size_ < stack_.size(), "the ray stack holds the hits that wait");
+  stack_[stack_size_].clear();
+  return stack_[stack_size_];
+}
+
 /// What traced rays leave: light on the film, or hits on the stack.
 void BundleTask::end_rays(const RenderSettings& settings, Operations& operations) {
   const bool is_shadow = bundle_.rays[0].kind == RayKind::shadow;
-  expect(is_shadow || stack_size_ < stack_.size(), "the ray stack holds a hit a depth");
-  BundleHit* const hits = is_shadow ? nullptr : &stack_[stack_size_];
-  if (!is_shadow) {
-    hits->clear();
-  }
+  BundleHit* const hits = is_shadow ? nullptr : &fresh_hits();
   for (std::uint32_t i = 0; i < bundle_.count; ++i) {
     const Ray& ray = bundle_.rays[i];
     if (const auto light = light_of_ended(ray, (bundle_.found >> i & 1U) != 0, settings, operations)) {

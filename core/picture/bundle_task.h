@@ -14,15 +14,15 @@ namespace dmpc::core {
 
 /// Renders samples of up to 16 pixels, of each those of a step of its own: 16 rays at a time, those of a pixel one behind the
 /// other, so that bundles are full however few samples each brings. Depth first, last in first out: a bundle's hits are shaded
-/// one bundle of children at a time, and each is traced to its end before the next is made, so the stack holds at most one
-/// BundleHit a depth. Lives in memory given by its owner; never allocates. Copyable as bytes. The deposits are those of
-/// PixelTask, in another order, which sums do not know.
+/// one bundle of children at a time, and each is traced to its end before the next is made, and hits leave for those of their
+/// last one, so the stack holds at most one BundleHit a depth, by paths one. Lives in memory given by its owner; never allocates.
+/// Copyable as bytes. The deposits are those of PixelTask, in another order, which sums do not know.
 class BundleTask {
  public:
   static constexpr std::uint32_t pixels_max = bundle_rays_max;
   using Hits = BundleHit;  ///< an entry of the stack
 
-  /// `stack` has at least settings.shade.depth_max entries and outlives the task.
+  /// `stack` has at least waiting_hits_max() entries and outlives the task.
   explicit BundleTask(std::span<BundleHit> stack) : stack_(stack) {}
 
   /// Starts on each of `pixels`, at most 16, with as many steps, each of which brings samples.
@@ -54,6 +54,7 @@ class BundleTask {
   void shoot_primary(std::uint32_t place, std::uint32_t sample, const RenderSettings& settings, Operations& operations);
   void add_ray(const Ray& ray, std::uint32_t place, Operations& operations);
   bool begin_tracing();
+  BundleHit& fresh_hits();
   void end_rays(const RenderSettings& settings, Operations& operations);
 
   std::span<BundleHit> stack_;

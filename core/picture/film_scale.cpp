@@ -31,9 +31,9 @@ FilmScale film_scale_for(double radiance_bound, double bound_of_one_hit, std::ui
   return scale_of(bound < unscaled_bound_min ? -exponent_above(bound) : sum_exponent - exponent_above(bound * samples_max));
 }
 
-FilmScale film_scale_for(const Scene& scene, int depth_max, std::uint32_t samples_max) {
+FilmScale film_scale_for(const Scene& scene, int depth_max, std::uint32_t samples_max, const Transport& transport) {
   // A ray from the eye is like one that is reflected, one hit earlier.
-  return film_scale_for(radiance_bound(scene, depth_max + 1), radiance_bound(scene, 2), samples_max);
+  return film_scale_for(radiance_bound(scene, depth_max + 1, transport), radiance_bound(scene, 2, transport), samples_max);
 }
 
 }  // namespace dmpc::core

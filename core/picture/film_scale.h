@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/picture/film.h"
+#include "core/picture/transport.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::core {
@@ -17,6 +18,6 @@ inline constexpr double unscaled_bound_min = 0x1p-8, unscaled_bound_max = 0x1p31
 /// brings, or the film would be coarse for the sake of light that hardly any scene has.
 FilmScale film_scale_for(double radiance_bound, double bound_of_one_hit, std::uint32_t samples_max);
 /// Of the scene, if rays have hits up to this depth, and pixels at most so many samples.
-FilmScale film_scale_for(const Scene& scene, int depth_max, std::uint32_t samples_max);
+FilmScale film_scale_for(const Scene& scene, int depth_max, std::uint32_t samples_max, const Transport& transport = {});
 
 }  // namespace dmpc::core

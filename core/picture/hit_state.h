@@ -38,6 +38,7 @@ struct HitState {
     light,
     reflected,
     refracted,
+    continued,  ///< by paths: one ray more, or none
     finished
   };
 

@@ -5,7 +5,7 @@
 namespace dmpc::core {
 
 void PixelTask::start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings, Operations& operations) {
-  expect(stack_.size() >= static_cast<std::size_t>(settings.shade.depth_max), "the ray stack holds a hit a depth");
+  expect(stack_.size() >= static_cast<std::size_t>(waiting_hits_max(settings.shade)), "the ray stack holds the hits that wait");
   pixel_ = pixel;
   sample_ = samples.first;
   sample_end_ = samples.first + samples.count;
@@ -15,10 +15,9 @@ void PixelTask::start(std::uint32_t pixel, const SampleRange& samples, const Ren
   shoot_primary(settings, operations);
 }
 
-/// Where it is not traced its direction does not matter.
 void PixelTask::shoot_primary(const RenderSettings& settings, Operations& operations) {
   if (shows_background_) {
-    shoot({.pixel = pixel_, .sample = sample_}, operations);
+    shoot(settings.missing_ray(pixel_, sample_), operations);
     ++operations.skipped.background;
   } else {
     shoot(settings.camera.primary_ray(pixel_, sample_), operations);
@@ -32,6 +31,15 @@ void PixelTask::shoot(const Ray& ray, Operations& operations) {
   ++operations.rays[static_cast<std::size_t>(ray.kind)];
 }
 
+/// In the place of those that wait for nothing more.
+void PixelTask::push(const HitState& hit) {
+  while (stack_size_ > 0 && stack_[stack_size_ - 1].stage == HitState::Stage::finished) {
+    --stack_size_;
+  }
+  expect(stack_size_ < stack_.size(), "the ray stack holds the hits that wait");
+  stack_[stack_size_++] = hit;
+}
+
 /// What a traced ray leaves: light on the film, or a hit on the stack.
 void PixelTask::end_ray(Traced result, const RenderSettings& settings, Operations& operations) {
   expect(result == Traced::hit || result == Traced::miss, "a pixel's tracer sees the whole scene");
@@ -39,8 +47,7 @@ void PixelTask::end_ray(Traced result, const RenderSettings& settings, Operation
   if (const auto light = light_of_ended(ray_, result == Traced::hit, settings, operations)) {
     deposit(sums_, ray_, *light, settings, operations);
   } else if (ray_.kind != RayKind::shadow) {
-    expect(stack_size_ < stack_.size(), "the ray stack holds a hit a depth");
-    stack_[stack_size_++] = begin_shading(ray_, cursor_.best);
+    push(begin_shading(ray_, cursor_.best));
   }
 }
 

@@ -74,6 +74,18 @@ struct RenderSettings {
   FineDetail fine_detail(const Database& database) const {
     return refinement.is_wanted() ? find_fine_detail(database, camera) : FineDetail();
   }
+  /// What a ray finds that meets nothing, and is no shadow ray.
+  Color light_beyond(const Ray& ray) const {
+    const Transport& transport = shade.transport;
+    if (transport.has_sky) {
+      return sky_light(transport, header.background, ray.direction);
+    }
+    return ray.kind == RayKind::scattered ? Color{} : header.background;
+  }
+  /// A primary ray that is known to miss: its direction is there where light_beyond() asks for it.
+  Ray missing_ray(std::uint32_t pixel, std::uint32_t sample) const {
+    return shade.transport.has_gradient ? camera.primary_ray(pixel, sample) : Ray{.pixel = pixel, .sample = sample};
+  }
   SampleRange first_samples() const { return {0, static_cast<std::uint32_t>(camera.samples())}; }
   Pass first_pass() const { return {camera.pixel_count(), first_samples().count}; }
 };
@@ -95,18 +107,18 @@ inline std::optional<Color> light_of_ended(const Ray& ray, bool hit, const Rende
                                       : operations.secondary_hits);
     return std::nullopt;
   }
-  return is_shadow ? ray.weight : ray.weight * settings.header.background;
+  return is_shadow ? ray.weight : ray.weight * settings.light_beyond(ray);
 }
 
 /// Renders samples of one pixel, depth first, last in first out: a hit is shaded one child at a time, and each child is
-/// traced to its end before the next is made, so the stack holds at most one hit a depth, whatever the number of lights. Lives in
-/// memory given by its owner; never allocates. Copyable as bytes.
+/// traced to its end before the next is made, and a hit leaves for that of its last one, so the stack holds at most one hit a
+/// depth, by paths one, whatever the number of lights. Lives in memory given by its owner; never allocates. Copyable as bytes.
 class PixelTask {
  public:
   static constexpr std::uint32_t pixels_max = 1;
   using Hits = HitState;  ///< an entry of the stack
 
-  /// `stack` has at least settings.shade.depth_max entries and outlives the task.
+  /// `stack` has at least waiting_hits_max() entries and outlives the task.
   explicit PixelTask(std::span<HitState> stack) : stack_(stack) {}
 
   void start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings, Operations& operations);
@@ -146,6 +158,7 @@ class PixelTask {
   TaskState shade(T& tracer, const RenderSettings& settings, Operations& operations);
   void shoot_primary(const RenderSettings& settings, Operations& operations);
   void shoot(const Ray& ray, Operations& operations);
+  void push(const HitState& hit);
   void end_ray(Traced result, const RenderSettings& settings, Operations& operations);
   bool next_sample(const RenderSettings& settings, Operations& operations);
 

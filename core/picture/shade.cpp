@@ -5,11 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "core/picture/hit_geometry.h"
+#include "core/picture/surface_shares.h"
 
 namespace dmpc::core {
 namespace {
@@ -18,25 +20,10 @@ using Stage = HitState::Stage;
 
 /// A shadow ray ends this share of its length before the light.
 constexpr double light_gap = 1e-6;
+/// That a ray's record can hold.
+constexpr int depth_limit = 255;
 
 TexturePlace texture_place(const HitState& state) { return {state.u, state.v}; }
-
-/// What of the light found by a reflected ray counts, in the brightest channel: what cannot be transmitted is reflected, too.
-float mirrored_share(const HitState& state) {
-  const MaterialRecord& material = state.surface.material;
-  return material.specular * state.gloss().mirror + (state.has_refraction ? 0.0F : material.transmittance);
-}
-
-/// The same in each channel, over that.
-Color mirrored_tint(const HitState& state) {
-  const MaterialRecord& material = state.surface.material;
-  const HitState::Gloss gloss = state.gloss();
-  const float mirrored = material.specular * gloss.mirror, total = state.has_refraction ? 0.0F : material.transmittance;
-  const float all = mirrored + total;
-  return all > 0.0F ? Color{(gloss.tint.x * mirrored + total) / all, (gloss.tint.y * mirrored + total) / all,
-                            (gloss.tint.z * mirrored + total) / all}
-                    : Color{1, 1, 1};
-}
 
 /// What its two children count for.
 float both_shares(const HitState& state) { return mirrored_share(state) + state.surface.material.transmittance; }
@@ -87,8 +74,6 @@ Color reflected_light(const HitState& state, const LightRecord& light, double co
   return Color(Vec3d(state.ray.weight) * Vec3d(light.intensity) * surface);
 }
 
-double brightest(const Vec3d& color) { return std::max({color.x, color.y, color.z, 0.0}); }
-
 /// Leaves a share of the surface there: through the rest the ray goes on.
 void cover(MaterialRecord& material, float share) {
   material.diffuse *= share;
@@ -120,7 +105,12 @@ HitState::Gloss gloss_of(MaterialRecord& material, const FinishRecord& finish) {
 
 }  // namespace
 
-double radiance_bound(const Scene& scene, int depth_max) {
+int ray_depth_max(const ShadeOptions& options, const DatabaseHeader& header) {
+  const bool looks_for_light = options.transport.is_by_paths() && header.has_emission != 0;
+  return std::min(options.depth_max + (looks_for_light ? 1 : 0), depth_limit);
+}
+
+double radiance_bound(const Scene& scene, int depth_max, const Transport& transport) {
   const double ambient = brightest(scene.ambient);
   double light = 0, direct = 0, passed_on = 0;
   for (const PointLight& point_light : scene.lights) {
@@ -130,10 +120,14 @@ double radiance_bound(const Scene& scene, int depth_max) {
     const double texture = material.texture == Material::no_texture ? 1 : scene.textures[material.texture].brightest;
     const double diffuse = material.diffuse * brightest(material.color) * texture, specular = material.specular_max(texture);
     direct = std::max(direct, light * (diffuse + specular) + ambient * diffuse + brightest(material.emission));
-    const double share = specular * material.mirror + material.transmittance;
-    passed_on = std::max(passed_on, material.alpha == AlphaUse::none ? share : std::max(share, 1.0));
+    const double scattered = transport.is_by_paths() ? diffuse : 0, share = specular * material.mirror + material.transmittance;
+    passed_on = std::max(passed_on, scattered + (material.alpha == AlphaUse::none ? share : std::max(share, 1.0)));
   }
-  const double background = brightest(scene.background);
+  if (transport.is_by_paths()) {
+    passed_on = std::max(passed_on, 1.0);  // who survives roulette counts for others
+  }
+  const double background =
+      std::max({brightest(scene.background), double{brightest(transport.zenith)}, transport.shows_occlusion() ? 1.0 : 0.0});
   double bound = std::max(background, direct);
   for (int depth = depth_max; depth > 2; --depth) {
     bound = std::max(background, direct + passed_on * bound);
@@ -250,8 +244,29 @@ Stage Shader::after_reflection(const HitState& state) const {
   return refracts(state) && !sends_one(state) ? Stage::refracted : Stage::finished;
 }
 
+/// What shines by itself is looked for by a ray of the path's own, as long as a ray can be as deep.
+bool Shader::is_at_last_depth(const HitState& state) const {
+  return state.ray.depth >= ray_depth_max(options_, header_) ||
+         (state.ray.depth >= options_.depth_max && header_.has_emission == 0);
+}
+
+Stage Shader::after_lights_of_path(const HitState& state) const {
+  const bool finds_light = state.ray.depth <= options_.depth_max && (!is_at_last_depth(state) || options_.transport.has_sky);
+  return finds_light || options_.transport.shows_occlusion() ? Stage::continued : Stage::finished;
+}
+
+/// Of lights that are asked. A path beyond its last bounce looks for what shines by itself alone.
+std::uint32_t Shader::light_count(const HitState& state) const {
+  const bool asks =
+      !options_.transport.is_by_paths() || (state.ray.depth <= options_.depth_max && !options_.transport.shows_occlusion());
+  return asks ? header_.light_count : 0;
+}
+
 /// The stage after the lights: children only while depth is left.
 Stage Shader::after_lights(const HitState& state) const {
+  if (options_.transport.is_by_paths()) {
+    return after_lights_of_path(state);
+  }
   if (state.ray.depth >= options_.depth_max) {
     return Stage::finished;
   }
@@ -262,11 +277,15 @@ Stage Shader::after_lights(const HitState& state) const {
   return reflects(state) ? Stage::reflected : after_reflection(state);
 }
 
-/// Which children the hit may have, and which it does not have since their share is nothing.
-void Shader::judge_children(HitState& state) const {
+void Shader::judge_refraction(HitState& state) const {
   const double index = relative_index(state);
   state.has_refraction = index <= 1.0 || !(refracted_cosine_squared(state.ray.full_direction(), state.normal, index) < 0.0);
   operations_.total_internal_reflections += !state.has_refraction && state.surface.material.transmittance > 0.0F ? 1 : 0;
+}
+
+/// Which children the hit may have, and which it does not have since their share is nothing.
+void Shader::judge_children(HitState& state) const {
+  judge_refraction(state);
   operations_.skipped.zero_terms += reflects(state) ? 0 : 1;
   operations_.skipped.zero_terms += !state.has_refraction || refracts(state) ? 0 : 1;
 }
@@ -305,10 +324,12 @@ void Shader::come_to_lights(HitState& state, const Color& emission) const {
   if (hits_glow()) {
     state.set_emission(emission);
   }
-  if (state.ray.depth < options_.depth_max) {
+  if (options_.transport.is_by_paths()) {
+    judge_refraction(state);
+  } else if (state.ray.depth < options_.depth_max) {
     judge_children(state);
   }
-  state.stage = header_.light_count > 0 ? Stage::light : after_lights(state);
+  state.stage = light_count(state) > 0 ? Stage::light : after_lights(state);
 }
 
 /// Whether a ray that brings `weight` from a light is left out, and why. The paper's convention shoots all.
@@ -380,6 +401,49 @@ bool Shader::send_alone(HitState& state, Ray& child) const {
   return send(state, towards, start_towards(towards, state.geometric_normal, state.clearance), child);
 }
 
+Ray Shader::continued_ray(const HitState& state, const Vec3d& towards, RayKind kind, const Color& weight) const {
+  Ray ray = child_ray(state, towards, start_towards(towards, state.geometric_normal, state.clearance), kind);
+  ray.weight = weight;
+  return ray;
+}
+
+/// A shadow ray brings white if nothing is near.
+bool Shader::look_around(const HitState& state, Ray& child) const {
+  const std::optional<Vec3d> towards = scattered_direction(state);
+  if (!towards) {
+    return false;
+  }
+  child = continued_ray(state, *towards, RayKind::shadow, state.ray.weight);
+  child.t_max = options_.transport.occlusion_distance;
+  return true;
+}
+
+/// A shadow ray without an end brings the sky's light.
+bool Shader::look_at_sky(const HitState& state, const PathStep& step, Ray& child) const {
+  child = continued_ray(state, step.towards, RayKind::shadow, state.ray.weight * step.weight);
+  child.weight = child.weight * sky_light(options_.transport, header_.background, child.direction);
+  return !leaves_out(true, child.weight);
+}
+
+bool Shader::send_on(HitState& state, Ray& child) const {
+  expect(state.stage == Stage::continued, "a path goes on from a hit that has come to that");
+  state.stage = Stage::finished;
+  if (options_.transport.shows_occlusion()) {
+    return look_around(state, child);
+  }
+  const std::optional<PathStep> step = path_step(state);
+  if (!step) {
+    return false;
+  }
+  if (is_at_last_depth(state)) {
+    return look_at_sky(state, *step, child);
+  }
+  const RayKind kind = state.ray.depth < options_.depth_max ? step->kind : RayKind::scattered;  // no backdrop for the last one
+  child = continued_ray(state, step->towards, kind, state.ray.weight * step->weight);
+  widen(state, child);
+  return true;
+}
+
 /// What it can bring to its sample at most, in any channel, is not below the cutoff.
 bool Shader::is_worth_it(const Ray& child) const {
   const double bound = brightest(Vec3d(child.weight)) * (child.kind == RayKind::shadow ? 1.0 : options_.radiance_bound);
@@ -411,6 +475,8 @@ bool Shader::step(HitState& state, const std::byte* record, Ray& child) const {
     case Stage::reflected:
     case Stage::refracted:
       return send_alone(state, child);
+    case Stage::continued:
+      return send_on(state, child);
     case Stage::finished:
       break;
   }

@@ -10,6 +10,8 @@
 #include "core/picture/film.h"
 #include "core/picture/hit_state.h"
 #include "core/picture/light_fall.h"
+#include "core/picture/path_step.h"
+#include "core/picture/transport.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
@@ -29,7 +31,9 @@ struct ShadeOptions {
   /// Arvo, D. Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990). The chance is a hash of the ray. 0: all hits send
   /// both.
   std::uint8_t one_child_from = 0;
-  int depth_max = 5;  ///< hits at this depth spawn shadow rays only; the primary ray has depth 1
+  /// Hits at this depth spawn shadow rays only; the primary ray has depth 1. By paths it is the bounces and 1, and a surface at
+  /// this depth still shows the sky, and what shines by itself.
+  int depth_max = 5;
   /// A ray that can bring but less light than this to its sample, in every channel, is not shot: each one cut adds less to the
   /// sample's error. 0: none is cut (after R. Hall, D. Greenberg, "A Testbed for Realistic Image Synthesis", 1983).
   double cutoff = 0;
@@ -39,7 +43,15 @@ struct ShadeOptions {
   double pixel_share = 0;
   std::uint32_t first_samples = 1;  ///< of every pixel; more follow if it is refined
   FilmScale film_scale = {};        ///< film_scale_for() the scene: of what rays deposit
+  Transport transport = {};
 };
+
+/// How many hits of a ray's path wait at once, while rays below them are traced. By paths one: it has sent its shadow rays when
+/// it sends the path on, and does not wait for that.
+constexpr int waiting_hits_max(const ShadeOptions& options) { return options.transport.is_by_paths() ? 1 : options.depth_max; }
+/// The depth of the deepest ray in a database's picture, at most 255: of paths one more where a hit at depth_max looks for what
+/// shines by itself.
+int ray_depth_max(const ShadeOptions& options, const DatabaseHeader& header);
 
 /// How far a pixel's samples lie from each other, in sides of the pixel, when those of the pass that this one belongs to have
 /// been taken: passes double them. It is so much of its pixel that a sample stands for, so the more samples there
@@ -48,8 +60,8 @@ double sample_spacing(std::uint32_t sample, std::uint32_t first_samples);
 
 /// No reflected or refracted ray in the scene finds more light than this, in any channel: each hit reflects at most the share of
 /// all lights, and of the ambient one, that its material allows, beside what that emits, and passes on at most its share of what
-/// a ray of the next depth finds.
-double radiance_bound(const Scene& scene, int depth_max);
+/// a ray of the next depth finds. By paths it passes on what it scatters, too.
+double radiance_bound(const Scene& scene, int depth_max, const Transport& transport = {});
 
 /// Whether hits send light by themselves, without a ray: what they reflect of an ambient light, or their own.
 inline bool hits_glow(const DatabaseHeader& header) { return header.has_emission != 0 || !(header.ambient == Color{}); }
@@ -69,7 +81,7 @@ class Shader {
   /// Whether step() does to a hit's geometry what read_geometry() does, and no more.
   bool reads_beside() const { return !(options_.pixel_share > 0); }
   /// Whether glow() may tell of light.
-  bool hits_glow() const { return core::hits_glow(header_); }
+  bool hits_glow() const { return core::hits_glow(header_) && !options_.transport.shows_occlusion(); }
   /// What a hit whose surface is known sends on by itself: its own light, and of the ambient one what its diffuse part
   /// reflects.
   Color glow(const HitState& state) const;
@@ -77,6 +89,8 @@ class Shader {
   bool shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const;
   /// Goes on with a hit that mirrors or lets through a ray, which leaves `towards` a unit direction from `start`.
   bool send(HitState& state, const Vec3d& towards, const RayStart& start, Ray& child) const;
+  /// Goes on with a hit of a path that has seen to its lights: one ray more, or none.
+  bool send_on(HitState& state, Ray& child) const;
 
  private:
   void read_geometry(HitState& state, const std::byte* record) const;
@@ -90,12 +104,19 @@ class Shader {
   /// Whether `child` was set.
   bool read_light(HitState& state, const std::byte* record, Ray& child) const;
   bool send_alone(HitState& state, Ray& child) const;
+  bool look_around(const HitState& state, Ray& child) const;
+  bool look_at_sky(const HitState& state, const PathStep& step, Ray& child) const;
+  Ray continued_ray(const HitState& state, const Vec3d& towards, RayKind kind, const Color& weight) const;
 
   bool reflects(const HitState& state) const;
   bool refracts(const HitState& state) const;
   bool sends_one(const HitState& state) const;
   HitState::Stage after_lights(const HitState& state) const;
   HitState::Stage after_reflection(const HitState& state) const;
+  HitState::Stage after_lights_of_path(const HitState& state) const;
+  bool is_at_last_depth(const HitState& state) const;
+  std::uint32_t light_count(const HitState& state) const;
+  void judge_refraction(HitState& state) const;
   void judge_children(HitState& state) const;
   bool leaves_out(bool is_lit, const Color& weight) const;
   bool is_worth_it(const Ray& child) const;

@@ -13,8 +13,9 @@
 
 namespace dmpc::core {
 
-enum class RayKind : std::uint8_t { primary, reflected, refracted, shadow };
-inline constexpr std::size_t ray_kind_count = 4;
+/// scattered: of a path that a surface has scattered before, whatever it has met since.
+enum class RayKind : std::uint8_t { primary, reflected, refracted, shadow, scattered };
+inline constexpr std::size_t ray_kind_count = 5;
 
 /// No primitive: a ray that missed, or one that starts on no flat primitive.
 inline constexpr std::uint32_t no_primitive = 0xffffffffU;

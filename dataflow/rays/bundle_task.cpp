@@ -8,14 +8,14 @@
 
 namespace dmpc::dataflow {
 
-BundleTask::BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max) : self_(self) {
+BundleTask::BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max) : self_(self) {
   std::span<Flights> flights;
-  std::tie(flights, stack_) = layout(depth_max).in(memory);
+  std::tie(flights, stack_) = layout(waiting_max).in(memory);
   flights_ = flights.data();
 }
 
-nodes::Layout<BundleTask::Flights, core::BundleHit> BundleTask::layout(std::uint32_t depth_max) {
-  return {{core::MemoryUse::ray_stacks, 1}, {core::MemoryUse::ray_stacks, depth_max}};
+nodes::Layout<BundleTask::Flights, core::BundleHit> BundleTask::layout(std::uint32_t waiting_max) {
+  return {{core::MemoryUse::ray_stacks, 1}, {core::MemoryUse::ray_stacks, waiting_max}};
 }
 
 void BundleTask::shoot(const core::Ray& ray) {
@@ -106,8 +106,12 @@ void BundleTask::shade_hit() {
   push(ray(), flights_->bundle.hit(ended_));
 }
 
+/// In the place of those that wait for nothing more.
 void BundleTask::push(const core::Ray& ray, const core::Hit& hit) {
-  core::expect(depth_ < stack_.size() && fresh_hits_ < rays_max, "the ray stack holds a bundle of hits a depth");
+  while (fresh_hits_ == 0 && depth_ > 0 && stack_[depth_ - 1].phase == core::BundleHit::Phase::finished) {
+    --depth_;
+  }
+  core::expect(depth_ < stack_.size() && fresh_hits_ < rays_max, "the ray stack holds the bundles of hits that wait");
   core::BundleHit& hits = stack_[depth_];
   if (fresh_hits_ == 0) {
     hits.clear();

@@ -16,19 +16,19 @@
 namespace dmpc::dataflow {
 
 /// RayTask for up to 16 rays: they are traced together, then seen to one by one. The hits among them are shaded side by side, one
-/// bundle of children at a time, each of which is traced to its end in the region before the next is made; so the stack holds at
-/// most the hits of one bundle a depth. A ray that has been seen to may go on in this region, and is then traced again with
-/// others. Thread safety: belongs to one node.
+/// bundle of children at a time, each of which is traced to its end in the region before the next is made, and hits leave for
+/// those of their last one; so the stack holds at most the hits of one bundle a depth, by paths of one. A ray that has been seen
+/// to may go on in this region, and is then traced again with others. Thread safety: belongs to one node.
 class BundleTask {
   struct Flights;
 
  public:
   static constexpr std::uint32_t rays_max = core::bundle_rays_max;
 
-  /// Nothing under way. A stack of `depth_max` bundles of hits.
-  BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max);
+  /// Nothing under way. A stack of `waiting_max` bundles of hits: core::waiting_hits_max().
+  BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max);
   /// What the constructor takes.
-  static nodes::Layout<Flights, core::BundleHit> layout(std::uint32_t depth_max);
+  static nodes::Layout<Flights, core::BundleHit> layout(std::uint32_t waiting_max);
 
   /// Rays are to be traced, once those that have ended are seen to.
   bool has_rays() const { return count_ + waiting_ > 0; }

@@ -6,15 +6,15 @@
 
 namespace dmpc::dataflow {
 
-RayTask::RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max, std::uint32_t tested_objects)
+RayTask::RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max, std::uint32_t tested_objects)
     : self_(self), tested_(tested_objects) {
   std::span<Flight> flight;
-  std::tie(flight, stack_) = layout(depth_max).in(memory);
+  std::tie(flight, stack_) = layout(waiting_max).in(memory);
   flight_ = flight.data();
 }
 
-nodes::Layout<RayTask::Flight, core::HitState> RayTask::layout(std::uint32_t depth_max) {
-  return {{core::MemoryUse::ray_stacks, 1}, {core::MemoryUse::ray_stacks, depth_max}};
+nodes::Layout<RayTask::Flight, core::HitState> RayTask::layout(std::uint32_t waiting_max) {
+  return {{core::MemoryUse::ray_stacks, 1}, {core::MemoryUse::ray_stacks, waiting_max}};
 }
 
 void RayTask::shoot(const core::Ray& ray) {
@@ -91,8 +91,12 @@ void RayTask::shade_hit() {
   push(flight_->ray, flight_->cursor.best);
 }
 
+/// In the place of those that wait for nothing more.
 void RayTask::push(const core::Ray& ray, const core::Hit& hit) {
-  core::expect(depth_ < stack_.size(), "the ray stack holds a hit a depth");
+  while (depth_ > 0 && stack_[depth_ - 1].stage == core::HitState::Stage::finished) {
+    --depth_;
+  }
+  core::expect(depth_ < stack_.size(), "the ray stack holds the hits that wait");
   stack_[depth_++] = core::begin_shading(ray, hit);
 }
 

@@ -15,19 +15,20 @@
 namespace dmpc::dataflow {
 
 /// Depth first: a hit is shaded one child at a time. A child that stays in the region is traced to its end, its own hit shaded
-/// and so on, before the next is made; so the stack holds at most one hit a depth, whatever the number of lights. A child that
-/// leaves is the caller's to send on; it leaves nothing behind. Thread safety: belongs to one node.
+/// and so on, before the next is made, and a hit leaves for that of its last one; so the stack holds at most one hit a depth, by
+/// paths one, whatever the number of lights. A child that leaves is the caller's to send on; it leaves nothing behind. Thread
+/// safety: belongs to one node.
 class RayTask {
   struct Flight;
 
  public:
   static constexpr std::uint32_t rays_max = 1;
 
-  /// Nothing under way. A stack of `depth_max` hits.
+  /// Nothing under way. A stack of `waiting_max` hits: core::waiting_hits_max().
   /// With `tested_objects` rays remember so many blocks that they have tested.
-  RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t depth_max, std::uint32_t tested_objects = 0);
+  RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max, std::uint32_t tested_objects = 0);
   /// What the constructor takes.
-  static nodes::Layout<Flight, core::HitState> layout(std::uint32_t depth_max);
+  static nodes::Layout<Flight, core::HitState> layout(std::uint32_t waiting_max);
 
   /// A ray is to be traced.
   bool has_rays() const { return stage_ == Stage::shot || stage_ == Stage::entered; }

@@ -80,7 +80,7 @@ class ChargedPicture {
     }
   }
 
-  /// Not deeper than settings.shade.depth_max, since only hits above that depth spawn rays other than shadow rays.
+  /// Not deeper than core::ray_depth_max(), 255 at most.
   void shoot(const core::Ray& ray) {
     const auto start = core::first_passage(ray, settings_.header.frame);
     if (!start) {

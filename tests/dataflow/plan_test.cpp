@@ -76,7 +76,7 @@ TEST_CASE("bundles have packets of 4 KiB, few nodes more credits, and each node 
     CHECK(plan.ray_credits == std::max(64 / nodes, 4U));
     CHECK(plan.queue_packets == (nodes == 1 ? 0 : 256));
     const nodes::MemoryPlan more = plan.node_memory(0), less = alone.node_memory(0);
-    const nodes::MemoryPlan task = dataflow::BundleTask::layout(request.depth_max);
+    const nodes::MemoryPlan task = dataflow::BundleTask::layout(request.waiting_hits_max);
     CHECK(more[core::MemoryUse::ray_stacks] == task[core::MemoryUse::ray_stacks]);
     CHECK(more[core::MemoryUse::ray_stacks] > less[core::MemoryUse::ray_stacks]);
     CHECK(more[core::MemoryUse::ray_stacks] < 32_KiB);

@@ -58,16 +58,20 @@ class Subject {
     core::RefinementOptions refinement = {};
     double cutoff = 0;
     bool knows_background = false;  ///< all but the reference renderer may leave it out
+    core::Transport transport = {};
+    int depth_max = 5;
   };
 
   Subject(const core::Scene& scene, const Size& size, const core::BuildOptions& options = {})
       : database_(core::build_database(scene, options)),
         settings_{database_.header(),
                   core::Camera(scene.view, database_.header().frame, size.width, size.height, size.samples),
-                  {.cutoff = size.cutoff,
+                  {.depth_max = size.depth_max,
+                   .cutoff = size.cutoff,
                    .radiance_bound = 10,
                    .pixel_share = 1,
-                   .first_samples = static_cast<std::uint32_t>(size.samples)},
+                   .first_samples = static_cast<std::uint32_t>(size.samples),
+                   .transport = size.transport},
                   size.refinement} {
     core::LocalRecords records(database_.bytes());
     core::GridTracer tracer(records, settings_.header, core::Skips{});

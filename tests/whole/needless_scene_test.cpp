@@ -124,6 +124,7 @@ TEST_CASE("one triangle under one light does nothing that it does not need, on o
   const Subject subject(one_triangle(), {16, 16});
   REQUIRE(subject.outcome().primary_hits > 20);
   REQUIRE(subject.outcome().rays[static_cast<std::size_t>(core::RayKind::shadow)] == subject.outcome().primary_hits);
+  CHECK(subject.outcome().rays[static_cast<std::size_t>(core::RayKind::scattered)] == 0);
   check_zero(features_of(subject.database()));
   for (const std::uint32_t nodes : {1U, 4U}) {
     CAPTURE(nodes);

@@ -20,7 +20,7 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<const char*, core::ray_kind_count> kind_names{"primary", "reflected", "refracted", "shadow"};
+constexpr std::array<const char*, core::ray_kind_count> kind_names{"primary", "reflected", "refracted", "shadow", "scattered"};
 constexpr int unexplained_status = 3;
 
 /// Counts of differences, of one kind of ray or of all.

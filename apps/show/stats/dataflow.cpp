@@ -109,11 +109,11 @@ Json pairs_json(const dataflow::Report& report) {
     for (std::size_t to = 0; to < pairs.size(); ++to) {
       if (pairs[to].rays_total() > 0) {
         const auto& [rays, packets, overflowed] = pairs[to];
-        rows.push_back({from, to, rays[0], rays[1], rays[2], rays[3], packets, overflowed});
+        rows.push_back({from, to, rays[0], rays[1], rays[2], rays[3], packets, overflowed, rays[4]});
       }
     }
   }
-  return {{"columns", {"from", "to", "primary", "reflected", "refracted", "shadow", "packets", "rays_overflowed"}},
+  return {{"columns", {"from", "to", "primary", "reflected", "refracted", "shadow", "packets", "rays_overflowed", "scattered"}},
           {"rows", rows}};
 }
 

@@ -302,6 +302,7 @@ Json rays_json(const std::array<std::uint64_t, core::ray_kind_count>& rays) {
           {"reflected", count(core::RayKind::reflected)},
           {"refracted", count(core::RayKind::refracted)},
           {"shadow", count(core::RayKind::shadow)},
+          {"scattered", count(core::RayKind::scattered)},
           {"total", std::accumulate(rays.begin(), rays.end(), std::uint64_t{0})}};
 }
 

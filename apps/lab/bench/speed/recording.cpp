@@ -42,6 +42,7 @@ RayClass class_of(core::RayKind kind) {
       return RayClass::shadow;
     case core::RayKind::reflected:
     case core::RayKind::refracted:
+    case core::RayKind::scattered:
       break;
   }
   return RayClass::secondary;

@@ -50,7 +50,7 @@ struct Distance {
 };
 
 std::string text_of(const AccurateRay& ray) {
-  constexpr std::array<const char*, core::ray_kind_count> kinds{"primary", "reflected", "refracted", "shadow"};
+  constexpr std::array<const char*, core::ray_kind_count> kinds{"primary", "reflected", "refracted", "shadow", "scattered"};
   return std::string("a ") + kinds[static_cast<std::size_t>(ray.kind)] + " ray of depth " + std::to_string(ray.depth);
 }
 

@@ -32,7 +32,9 @@ constexpr Expected about(const char* scene, Convention convention, std::uint64_t
 
 std::uint64_t apart(std::uint64_t a, std::uint64_t b) { return a > b ? a - b : b - a; }
 
-std::uint64_t sum(const std::array<std::uint64_t, core::ray_kind_count>& rays) { return rays[0] + rays[1] + rays[2] + rays[3]; }
+std::uint64_t sum(const std::array<std::uint64_t, core::ray_kind_count>& rays) {
+  return rays[0] + rays[1] + rays[2] + rays[3] + rays[4];
+}
 
 apps::Inspection inspect_all(const std::string& name, Convention convention) {
   const core::Scene scene = core::built_in_scene(core::parse_scene_name(name));

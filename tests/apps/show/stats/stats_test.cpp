@@ -39,6 +39,7 @@ TEST_CASE("the keys of the counters are an interface") {
                                 "reflected",
                                 "refracted",
                                 "shadow",
+                                "scattered",
                                 "total",
                                 "secondary",
                                 "shadow_blocked",

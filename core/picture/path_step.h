@@ -1,0 +1,36 @@
+// How a path goes on from a hit: by one of the ways in which the surface sends light on.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/base/vec.h"
+#include "core/picture/hit_state.h"
+#include "core/picture/sample_pair.h"
+
+namespace dmpc::core {
+
+struct PathStep {
+  Vec3d towards;                      ///< of unit length
+  Color weight;                       ///< what the path's own is multiplied by
+  RayKind kind = RayKind::scattered;  ///< of the ray
+};
+
+/// A direction of unit length about the unit vector `normal`, as likely as its cosine with that, for a pair that is as likely
+/// anywhere: the place on the unit disc below it, by P. Shirley, K. Chiu, "A Low Distortion Map Between Disk and Square",
+/// Journal of Graphics Tools 2 (3), 1997; axes by T. Duff and others, "Building an Orthonormal Basis, Revisited", Journal of
+/// Computer Graphics Techniques 6 (1), 2017.
+Vec3d cosine_direction(const SamplePair& pair, const Vec3d& normal);
+
+/// Whither a hit scatters its ray. Nothing if that leads into the surface, as it may where a blended normal says how light falls:
+/// such light is lost, none leaks.
+std::optional<Vec3d> scattered_direction(const HitState& state);
+
+/// One of the surface's diffuse part, its mirror and what it lets through is chosen, in proportion to the brightest channel of
+/// each, and counts for all. Nothing if all are black, or by roulette: from the third hit on the path goes on as often as the
+/// brightest channel of its weight says, if that is below 1, and counts for those that do not (J. Arvo, D. Kirk, "Particle
+/// Transport and Image Synthesis", SIGGRAPH 1990). Whatever is chosen is a function of the ray's pixel, sample and depth.
+/// Requires a hit of which all is known.
+std::optional<PathStep> path_step(const HitState& state);
+
+}  // namespace dmpc::core

@@ -1,0 +1,313 @@
+// Light along paths, held against what can be said on paper.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/elementary.h"
+#include "core/picture/render.h"
+#include "core/picture/transport.h"
+#include "core/scene/frame.h"
+#include "tests/support/scaled.h"
+#include "tests/support/shooting.h"
+#include "tests/support/small_scenes.h"
+
+namespace paths_test {
+
+using namespace dmpc::core;
+using namespace dmpc::tests;
+
+namespace {
+
+constexpr Transport paths{.kind = TransportKind::paths}, white_sky{.kind = TransportKind::paths, .has_sky = true};
+
+/// Pictures of a scene by the reference renderer.
+class Studio {
+ public:
+  explicit Studio(const Scene& scene) : scene_(scene), database_(database_of(scene)) {}
+
+  Film film(int side, int samples, const Transport& transport, int bounces) const {
+    LocalRecords records(database_.bytes());
+    GridTracer<LocalRecords> tracer(records, database_.header(), {});
+    const ShadeOptions shade{
+        .depth_max = bounces + 1, .first_samples = static_cast<std::uint32_t>(samples), .transport = transport};
+    const RenderSettings settings{database_.header(), Camera(scene_.view, frame(), side, side, samples), shade};
+    operations = {};
+    return render(tracer, settings, operations);
+  }
+  /// Of the picture's light, its mean; the red channel's.
+  double mean(int side, int samples, const Transport& transport, int bounces) const {
+    return mean_of(film(side, samples, transport, bounces));
+  }
+  static double mean_of(const Film& film) {
+    double sum = 0;
+    for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
+      sum += film.radiance(pixel).x;
+    }
+    return sum / static_cast<double>(film.pixel_count());
+  }
+  /// The red channel of a square of pixels, by paths, in the middle of a picture `times` as high: what they show does not
+  /// depend on that, but their numbers do, and so all chances.
+  std::vector<double> square(int side, int samples, int bounces, int times) const {
+    LocalRecords records(database_.bytes());
+    GridTracer<LocalRecords> tracer(records, database_.header(), {});
+    const ShadeOptions shade{.depth_max = bounces + 1, .first_samples = static_cast<std::uint32_t>(samples), .transport = paths};
+    const RenderSettings settings{database_.header(), Camera(scene_.view, frame(), side, side * times, samples), shade};
+    std::vector<HitState> stack(1);
+    PixelTask task(stack);
+    std::vector<double> light;
+    const auto count = static_cast<std::uint32_t>(side * side), first = count * (static_cast<std::uint32_t>(times) / 2);
+    for (std::uint32_t pixel = first; pixel < first + count; ++pixel) {
+      const PixelSums sums = render_pixel(task, pixel, settings.first_samples(), tracer, settings, operations);
+      light.push_back(static_cast<double>(sums.plane[0].channel[0] + sums.plane[1].channel[0]) * film_resolution / samples);
+    }
+    return light;
+  }
+  const GridFrame& frame() const { return database_.header().frame; }
+  Transport occlusion_within(double distance) const {
+    return {.kind = TransportKind::paths, .occlusion_distance = static_cast<float>(distance * frame().scale)};
+  }
+
+  mutable Operations operations;  ///< of the last film
+
+ private:
+  Scene scene_;
+  Database database_;
+};
+
+/// The error of the mean of pixels that are unlike by chance alone.
+double standard_error(const Film& film) {
+  const double mean = Studio::mean_of(film), count = static_cast<double>(film.pixel_count());
+  double squares = 0;
+  for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
+    squares += (film.radiance(pixel).x - mean) * (film.radiance(pixel).x - mean);
+  }
+  return std::sqrt(squares / count / (count - 1));
+}
+
+/// All that reflects or lets through rays becomes matt; highlights stay.
+Scene matt(Scene scene) {
+  for (Material& material : scene.materials) {
+    material.mirror = 0;
+    material.transmittance = 0;
+  }
+  return scene;
+}
+
+Material grey(double albedo, double emission = 0) {
+  return {.color = {albedo, albedo, albedo}, .diffuse = 1, .emission = {emission, emission, emission}};
+}
+
+void add_box(SceneBuilder& builder, const Vec3d& low, const Vec3d& high) {
+  const auto corner = [&](int i) {
+    return Vec3d{(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z};
+  };
+  for (const auto& face : {std::array{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}) {
+    builder.polygon({corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])});
+  }
+}
+
+/// A closed room of this material, seen from inside.
+Scene room(const Material& material, bool is_ball) {
+  Scene scene;
+  SceneBuilder builder(scene);
+  builder.material(material);
+  is_ball ? builder.sphere({0, 0, 0}, 2) : add_box(builder, {-1, -2, -1}, {2, 2, 1.5});
+  scene.view = {.from = {0.2, 0.1, 0}, .at = {1, 2, 3}, .up = {0, 1, 0}, .angle_degrees = 80};
+  return scene;
+}
+
+/// What a view of next to nothing shows: the floor at its origin, whose normal is z.
+Scene seen_at_origin(Scene scene, const Vec3d& from) {
+  scene.view = {.from = from, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 1e-3};
+  return scene;
+}
+
+Scene floor_of(const Material& material, double half_side = 50) {
+  Scene scene;
+  SceneBuilder builder(scene);
+  builder.background({1, 1, 1});
+  builder.material(material);
+  builder.polygon(
+      {{-half_side, -half_side, 0}, {half_side, -half_side, 0}, {half_side, half_side, 0}, {-half_side, half_side, 0}});
+  return scene;
+}
+
+/// A ball in a closed room, both grey, lit by a point.
+Scene lit_room() {
+  Scene scene;
+  SceneBuilder builder(scene);
+  builder.light({.position = {-0.3, -0.2, 0.7}, .color = {1, 1, 1}, .has_color = true});
+  builder.material(grey(0.7));
+  add_box(builder, {-1, -1, -1}, {1, 1, 1});
+  builder.sphere({0.3, 0.3, -0.4}, 0.5);
+  scene.view = {.from = {-0.1, -0.9, 0.1}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 20};
+  return scene;
+}
+
+double rmse(const std::vector<double>& picture, const std::vector<double>& reference) {
+  double squares = 0;
+  for (std::size_t pixel = 0; pixel < picture.size(); ++pixel) {
+    squares += (picture[pixel] - reference[pixel]) * (picture[pixel] - reference[pixel]);
+  }
+  return std::sqrt(squares / static_cast<double>(picture.size()));
+}
+
+}  // namespace
+
+TEST_CASE("without a bounce, a sky and mirrors a picture by paths is Whitted's to the last bit") {
+  Scene lit = mirrors_and_glass();
+  add_textured_walls(lit);
+  for (const Scene& scene : {matt(lit), matt(built_in("tetra-4")), matt(built_in("balls-2"))}) {
+    CAPTURE(scene.name);
+    REQUIRE(scene.background.z > 0);
+    const Studio studio(scene);
+    const Film film = studio.film(scaled_edge(48), 3, paths, 0);
+    const std::uint64_t shadows = studio.operations.rays[static_cast<std::size_t>(RayKind::shadow)];
+    CHECK(film.hash() == studio.film(scaled_edge(48), 3, {}, 4).hash());
+    CHECK(shadows == studio.operations.rays[static_cast<std::size_t>(RayKind::shadow)]);
+  }
+}
+
+TEST_CASE("without a bounce and a sky mirrors are as black as Whitted's at depth 1") {
+  const Studio studio(mirrors_and_glass());
+  CHECK(studio.film(24, 2, paths, 0).hash() == studio.film(24, 2, {}, 0).hash());
+}
+
+TEST_CASE("what is white and convex is exactly white under a white sky, however often light may bounce") {
+  for (const bool is_box : {false, true}) {
+    Scene scene;
+    SceneBuilder builder(scene);
+    builder.background({1, 1, 1});
+    builder.material(grey(1));
+    is_box ? add_box(builder, {-1, -1, -1}, {1, 1, 1}) : builder.sphere({0, 0, 0}, 1);
+    scene.view = {.from = {3, 2, 1}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 50};
+    const Studio studio(scene);
+    for (const int bounces : {0, 1, 8, 254}) {
+      CAPTURE(bounces);
+      const Film film = studio.film(24, 4, white_sky, bounces);
+      CHECK(studio.operations.primary_hits > 24 * 24);
+      for (std::uint32_t pixel = 0; pixel < 24 * 24; ++pixel) {
+        REQUIRE(std::fabs(film.radiance(pixel).x - 1) < 0x1p-20);
+      }
+    }
+  }
+}
+
+TEST_CASE("in a closed room of albedo 1/2 that shines with 1 there is 2 (1 - 2^-(b + 2)) of light after b bounces") {
+  for (const bool is_ball : {false, true}) {
+    const Studio studio(room(grey(0.5, 1), is_ball));
+    for (const int bounces : {0, 1}) {  // before roulette there is no chance in it
+      const double exact = 2 * (1 - std::ldexp(1.0, -(bounces + 2)));
+      CHECK(std::fabs(studio.mean(8, 2, paths, bounces) - exact) < 1e-6);
+    }
+    for (const int bounces : {3, 8, 64, 254}) {
+      CAPTURE(bounces);
+      const double exact = 2 * (1 - std::ldexp(1.0, -(bounces + 2)));
+      const Film film = studio.film(scaled_edge(48), 16, paths, bounces);
+      CHECK(std::fabs(Studio::mean_of(film) - exact) < 4 * standard_error(film) + 1e-6);
+      CHECK(std::fabs(Studio::mean_of(film) - exact) < (slowness == 1 ? 0.004 : 0.02));
+    }
+  }
+}
+
+TEST_CASE("roulette takes nothing away and gives nothing: a bright room has the sum of a geometric series") {
+  const Studio studio(room(grey(0.9, 1), true));
+  const int bounces = 30;
+  const double exact = (1 - std::pow(0.9, bounces + 2)) / 0.1;
+  const Film film = studio.film(scaled_edge(48), 16, paths, bounces);
+  CHECK(std::fabs(Studio::mean_of(film) - exact) < 4 * standard_error(film));
+  CHECK(standard_error(film) < 0.01 * exact * static_cast<double>(slowness));
+}
+
+TEST_CASE("a closed room without any light is black, and its paths end") {
+  const Studio studio(room(grey(0.5), false));
+  CHECK(studio.mean(8, 4, white_sky, 254) == 0);
+  CHECK(studio.operations.ray_count() < 8 * 8 * 4 * 10);
+}
+
+TEST_CASE("a floor under a sky that changes upwards shows its horizon and two thirds of what the zenith has more") {
+  const Studio studio(seen_at_origin(floor_of(grey(0.5)), {0, -1, 1}));
+  Transport transport = white_sky;
+  transport.has_gradient = true;
+  transport.zenith = {4, 4, 4};
+  transport.up = {0, 0, 1};
+  CHECK(studio.mean(1, 4096, transport, 0) == doctest::Approx(0.5 * (1 + 3 * 2.0 / 3)).epsilon(1e-4));
+}
+
+TEST_CASE("at a distance from an endless wall a floor sees its share of the sky, and of what is free so far") {
+  constexpr double distance = 1, height = 1.5;
+  Scene scene = floor_of(grey(1), 300);
+  SceneBuilder builder(scene);
+  builder.material(grey(0));
+  builder.polygon({{distance, -4000, 0}, {distance, 4000, 0}, {distance, 4000, height}, {distance, -4000, height}});
+  const Studio studio(seen_at_origin(scene, {-1, 0, 1}));
+  const double exact = (1 + distance / std::sqrt(distance * distance + height * height)) / 2;
+  CHECK(studio.mean(1, 16384, white_sky, 0) == doctest::Approx(exact).epsilon(0.002));
+  CHECK(studio.mean(1, 16384, white_sky, 3) == doctest::Approx(exact).epsilon(0.002));
+  CHECK(studio.mean(1, 16384, studio.occlusion_within(1e4), 0) == doctest::Approx(exact).epsilon(0.002));
+  CHECK(studio.mean(1, 64, studio.occlusion_within(0.99 * distance), 0) == 1);
+  CHECK(studio.mean(1, 4096, studio.occlusion_within(1.1 * distance), 0) < 0.99);
+}
+
+TEST_CASE("a black ball above a floor takes the cosine to it times the square of its radius over its distance") {
+  Scene scene = floor_of(grey(1));
+  SceneBuilder builder(scene);
+  builder.material(grey(0));
+  builder.sphere({0.6, 0, 1.8}, 0.5);
+  const Studio studio(seen_at_origin(scene, {-1, 0, 1}));
+  const double square = 0.6 * 0.6 + 1.8 * 1.8, exact = 1 - 1.8 / std::sqrt(square) * 0.25 / square;
+  CHECK(studio.mean(1, 65536 / static_cast<int>(slowness), white_sky, 0) == doctest::Approx(exact).epsilon(0.001));
+  CHECK(studio.mean(1, 65536 / static_cast<int>(slowness), studio.occlusion_within(10), 0) ==
+        doctest::Approx(exact).epsilon(0.001));
+}
+
+TEST_CASE("a floor below the middle of a square that shines, one above, shows 0.239456 of it, and a ball its square") {
+  for (const bool is_ball : {false, true}) {
+    Scene scene = floor_of(grey(0.8));
+    SceneBuilder builder(scene);
+    builder.material(grey(0, 1));
+    is_ball ? builder.sphere({0, 0, 2}, 0.5) : builder.polygon({{-0.5, -0.5, 1}, {0.5, -0.5, 1}, {0.5, 0.5, 1}, {-0.5, 0.5, 1}});
+    const Studio studio(seen_at_origin(scene, {-3, 0, 0.5}));
+    const double exact = 0.8 * (is_ball ? 0.0625 : 0.239456);
+    CHECK(studio.mean(1, 65536 / static_cast<int>(slowness), paths, 0) == doctest::Approx(exact).epsilon(0.002));
+  }
+}
+
+TEST_CASE("a backdrop is seen, in mirrors too, and lights nothing; a sky does") {
+  const Studio studio(seen_at_origin(floor_of(grey(1)), {0, -1, 1}));
+  CHECK(studio.mean(1, 16, paths, 4) == 0);
+  CHECK(studio.mean(1, 16, white_sky, 4) == doctest::Approx(1).epsilon(1e-6));
+  const Studio mirror(seen_at_origin(floor_of({.diffuse = 0, .specular = 1}), {0, -1, 1}));
+  CHECK(mirror.mean(1, 16, paths, 4) == 1);
+}
+
+TEST_CASE("occlusion knows no colour, no light and no mirror") {
+  Scene scene = matt(mirrors_and_glass());
+  const Studio matt_studio(scene), studio(mirrors_and_glass());
+  Scene black = scene;
+  for (Material& material : black.materials) {
+    material.color = {0, 0, 0};
+  }
+  black.lights.clear();
+  const Transport transport = studio.occlusion_within(0.7);
+  const std::uint64_t expected = studio.film(24, 4, transport, 0).hash();
+  CHECK(matt_studio.film(24, 4, transport, 0).hash() == expected);
+  CHECK(Studio(black).film(24, 4, transport, 0).hash() == expected);
+}
+
+// Of one sample the error is that of chance, of n by chance one over the root of n of it.
+TEST_CASE(
+    "a thousand samples err by little more than half of what chance would leave: numbers are even, and of each bounce its own") {
+  const Studio studio(lit_room());
+  const int side = scaled_edge(8);
+  for (const auto& [bounces, share] : {std::pair{1, 0.6}, std::pair{3, 0.7}}) {
+    CAPTURE(bounces);
+    const std::vector<double> reference = studio.square(side, 8192, bounces, 3);
+    const double by_chance = rmse(studio.square(side, 1, bounces, 1), reference) / 32;
+    CHECK(rmse(studio.square(side, 1024, bounces, 1), reference) < share * by_chance);
+  }
+}
+
+}  // namespace paths_test

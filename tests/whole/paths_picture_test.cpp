@@ -1,0 +1,130 @@
+// Light along paths: one picture by every strategy, on starved computers, under chaos, in virtual time and in several runs.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <utility>
+
+#include "core/picture/partial_picture.h"
+#include "nodes/chaos.h"
+#include "tests/support/mesh_surfaces.h"
+#include "tests/support/scaled.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/strategies.h"
+#include "tests/support/subject.h"
+
+namespace dmpc::tests::paths_picture_test {
+
+namespace {
+
+/// From the horizon to the zenith.
+core::Transport under_sky() {
+  return {.kind = core::TransportKind::paths, .has_sky = true, .has_gradient = true, .zenith = {0.1F, 0.3F, 2}, .up = {0, 0, 1}};
+}
+
+Subject::Size size_of(const core::Transport& transport, int bounces) {
+  return {.width = scaled_edge(22),
+          .height = scaled_edge(18),
+          .samples = 3,
+          .knows_background = true,
+          .transport = transport,
+          .depth_max = bounces + 1};
+}
+
+/// By svm with room for much and for one page, by dataflow with much and with the least, by all.
+void check_strategies(const Subject& subject, const std::optional<nodes::Chaos>& chaos = {}) {
+  for (const std::uint32_t nodes : {1U, 3U, 16U}) {
+    CAPTURE(nodes);
+    const nodes::ComputerRequest computer{.node_count = nodes, .chaos = chaos};
+    CHECK(outcome_of(run_replicated(subject, {.computer = computer})) == subject.outcome());
+    CHECK(outcome_of(run_svm(subject, {.computer = computer})) == subject.outcome());
+    CHECK(outcome_of(run_svm(subject, {.computer = computer, .pages = {.cache_pages = 1, .in_flight = 1}})) == subject.outcome());
+    CHECK(outcome_of(run_svm(subject, {.computer = computer, .pages = {.cache_pages = 1, .in_flight = 40}})) ==
+          subject.outcome());
+    CHECK(outcome_of(run_dataflow(subject, {.computer = computer})) == subject.outcome());
+    const dataflow::RayOptions least{.ray_batch = 1, .ray_credits = nodes % 2, .queue_packets = 0};
+    CHECK(outcome_of(run_dataflow(subject, {.computer = computer, .rays = least})) == subject.outcome());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("paths under a sky, with mirrors, glass, textures and what shines, give one picture by every strategy") {
+  core::Scene textured = mirrors_and_glass();
+  add_textured_walls(textured);
+  for (const core::Scene& scene : {textured, mesh_surfaces()}) {
+    CAPTURE(scene.name);
+    const Subject subject(scene, size_of(under_sky(), 3));
+    REQUIRE(subject.outcome().rays[static_cast<std::size_t>(core::RayKind::scattered)] > 0);
+    check_strategies(subject);
+    const Subject extents(scene, size_of(under_sky(), 3), {.page_size_bytes = 512, .structure = core::Structure::extents});
+    CHECK(extents.outcome() == subject.outcome());
+    for (const std::uint32_t nodes : {1U, 3U, 16U}) {
+      CHECK(outcome_of(run_forest(extents, {.computer = {.node_count = nodes}})) == subject.outcome());
+    }
+  }
+}
+
+TEST_CASE("paths of 254 bounces, and of none, give one picture on stacks of one hit") {
+  for (const int bounces : {0, 254}) {
+    CAPTURE(bounces);
+    check_strategies(Subject(mesh_surfaces(), size_of(under_sky(), bounces)));
+  }
+}
+
+TEST_CASE("occlusion gives one picture by every strategy") {
+  const Subject subject(mesh_surfaces(), size_of({.kind = core::TransportKind::paths, .occlusion_distance = 0.2F}, 0));
+  CHECK(subject.outcome().rays[static_cast<std::size_t>(core::RayKind::shadow)] <= subject.outcome().primary_hits);
+  check_strategies(subject);
+}
+
+TEST_CASE("paths give one picture under chaos") {
+  const Subject subject(mesh_surfaces(), size_of(under_sky(), 3));
+  for (std::uint64_t seed = 1; seed <= scaled(8); ++seed) {
+    CAPTURE(seed);
+    check_strategies(subject, nodes::chaos_of(seed));
+  }
+}
+
+TEST_CASE("paths give one picture whatever is left out on the way") {
+  const Subject subject(mirrors_and_glass(), size_of(under_sky(), 2));
+  for (const core::Skip& skip : core::all_skips) {
+    CAPTURE(skip.name);
+    CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 3}}, without(skip))).film_hash == subject.outcome().film_hash);
+    CHECK(outcome_of(run_dataflow(subject, {.computer = {.node_count = 3}}, without(skip))).film_hash ==
+          subject.outcome().film_hash);
+  }
+}
+
+TEST_CASE("a picture by paths that was stopped goes on to the film of one run, by another strategy") {
+  const Subject subject(mesh_surfaces(), size_of(under_sky(), 3));
+  std::optional<core::PartialPicture> kept;
+  std::stop_source stop;
+  bool asked = false;  // with the first light: of small pictures little comes
+  const core::Continuation continuation{nullptr, [&] { return !std::exchange(asked, true); },
+                                        [&](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
+                                          kept.emplace(core::partial_picture(film, pass, done));
+                                          stop.request_stop();
+                                        }};
+  svm::run_svm(subject.database(), subject.settings(), {.computer = {.node_count = 3}, .continuation = continuation},
+               stop.get_token());
+  REQUIRE(kept);
+  REQUIRE(kept->done.count() > 0);
+  const core::Continuation rest{&*kept, [] { return false; }, {}};
+  CHECK(run_svm(subject, {.computer = {.node_count = 2}, .continuation = rest}).film.hash() == subject.outcome().film_hash);
+  CHECK(run_dataflow(subject, {.computer = {.node_count = 2}, .continuation = rest}).film.hash() == subject.outcome().film_hash);
+}
+
+TEST_CASE("by paths a pixel under way takes the memory of one hit, whatever the bounces") {
+  const auto stacks = [](const core::Transport& transport, int bounces) {
+    const Subject subject(mirrors_and_glass(), size_of(transport, bounces));
+    return run_svm(subject, {.computer = {.node_count = 1}, .pages = {.in_flight = 1}})
+        .plan.node_memory(0)[core::MemoryUse::ray_stacks];
+  };
+  CHECK(stacks(under_sky(), 200) == stacks(under_sky(), 0));
+  CHECK(stacks(under_sky(), 200) == stacks({}, 0));
+  CHECK(stacks({}, 4) > stacks({}, 0));
+}
+
+}  // namespace dmpc::tests::paths_picture_test
