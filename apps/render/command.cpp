@@ -232,11 +232,20 @@ class Rendering {
     const Interrupt::EndAtOnce end_at_once(interrupt_, Interrupt::EndAtOnce::Before::is_passed_over);
     Stopwatch stopwatch;
     OutputFile picture(options_.image, {.option = "-o"}, files_);
-    picture.write(encoded_picture(options_.image, rows_of(film)));
+    picture.write(encoded_picture(options_.image, picture_rows(film)));
     interrupt_.set_consequence("perhaps the picture was not written");
     picture.commit();
     interrupt_.set_consequence("the picture was written, what follows it is incomplete");
     seconds_.write = stopwatch.lap();
+  }
+
+  /// By paths it tells so, too.
+  ImageRows picture_rows(const core::Film& film) const {
+    ImageRows rows = rows_of(film);
+    if (options_.picture.transport.is_by_paths()) {
+      rows.remarks.emplace_back("transport", text_of(options_.picture.transport));
+    }
+    return rows;
   }
 
   /// No ray from the eye has met anything of a scene that has something.

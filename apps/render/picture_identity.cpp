@@ -120,6 +120,16 @@ void add_samples(std::vector<PictureFact>& facts, const PictureOptions& picture)
   }
 }
 
+/// Pictures by Whitted's transport are told by having none of it, as they were before there was another.
+void add_transport(std::vector<PictureFact>& facts, const TransportOptions& transport) {
+  if (!transport.is_by_paths()) {
+    return;
+  }
+  facts.push_back({"transport", name_of(transport.kind)});
+  facts.push_back({"sky", transport.sky ? text_of(*transport.sky) : "none"});
+  facts.push_back({"occlusion", transport.occlusion ? text_of(*transport.occlusion) : "none"});
+}
+
 }  // namespace
 
 PictureIdentity identity_of(const RenderOptions& options, const core::Scene& scene) {
@@ -140,9 +150,9 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
            {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
            {"grid-axes", name_of(options.database.axes)}};
   add_samples(facts, picture);
-  // A ray from the eye is like one that is reflected, one hit earlier.
-  identity.terms = {static_cast<std::uint32_t>(picture.samples), picture.refinement,
-                    core::radiance_bound(scene, picture.depth + 1), film_scale_of(picture, scene)};
+  add_transport(facts, picture.transport);
+  identity.terms = {static_cast<std::uint32_t>(picture.samples), picture.refinement, radiance_bound(picture, scene),
+                    film_scale_of(picture, scene)};
   facts.push_back({film_scale_fact, apps::text_of(identity.terms.film_scale)});
   return identity;
 }

@@ -144,7 +144,8 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   const SceneKind kind = is_mesh(picture.scene) ? SceneKind::mesh : SceneKind::own;
   const std::string note = apply(picture.staging, scene, kind);
   if (notes == LoadNotes::said) {
-    say_once({note, kind == SceneKind::mesh ? shadow_note(picture.staging) : ""});
+    const bool may_be_black = kind == SceneKind::mesh && !picture.transport.is_by_paths();
+    say_once({note, may_be_black ? shadow_note(picture.staging) : ""});
     say_what_is_missing(scene);
   }
   return scene;

@@ -53,9 +53,27 @@ void apply_quality(const OptionSet& options, PictureOptions& picture) {
 }
 
 void refine_mesh(const OptionSet& options, PictureOptions& picture) {
-  if (picture.refines_meshes && !options.is_given("--samples") && !picture.quality && is_mesh(picture.scene)) {
+  if (picture.refines_meshes && !picture.transport.is_by_paths() && !options.is_given("--samples") && !picture.quality &&
+      is_mesh(picture.scene)) {
     take_samples(picture, "auto");
     picture.is_refined_unasked = !options.is_given("--error");
+  }
+}
+
+/// Of paths one number says how deep rays get, and what is seen behind everything is the sky's horizon.
+void settle_transport(const OptionSet& options, PictureOptions& picture) {
+  check(options, picture.transport);
+  if (!picture.transport.is_by_paths()) {
+    return;
+  }
+  if (picture.is_refined) {
+    throw core::UsageError(
+        "--samples=auto does not go with --transport=paths: its estimate is made for edges, not for noise; say how many rays a "
+        "pixel gets, such as --samples=64");
+  }
+  picture.depth = picture.transport.depth();
+  if (picture.transport.sky) {
+    picture.staging.background = picture.transport.sky->horizon;
   }
 }
 
@@ -73,6 +91,9 @@ void check_refinement(const OptionSet& options, PictureOptions& picture) {
 /// A sample of a picture that is refined stands for half of the sides of what is its: its estimate of the error sees how samples
 /// differ, but not what all of them blur alike.
 double pixel_share(const PictureOptions& picture) { return picture.is_refined ? 0.5 : 1; }
+
+/// What bounds of light ask of the transport, of whatever grid.
+core::Transport light_of(const PictureOptions& picture) { return transport_of(picture.transport, {}, {}); }
 
 }  // namespace
 
@@ -110,6 +131,11 @@ void add_options(OptionSet options, PictureOptions& picture) {
   });
 }
 
+void add_transport_options(OptionSet options, PictureOptions& picture) {
+  add_options(options, picture.transport);
+  options.check_in_the_end([options, &picture] { settle_transport(options, picture); });
+}
+
 void add_skip_option(OptionSet options, core::Skips& skips) {
   std::vector<std::string> names;
   std::string table;
@@ -136,7 +162,12 @@ void add_view_options(OptionSet options, PictureOptions& picture) {
 
 core::FilmScale film_scale_of(const PictureOptions& options, const core::Scene& scene) {
   const std::uint32_t samples = options.is_refined ? options.refinement.samples_max : static_cast<std::uint32_t>(options.samples);
-  return core::film_scale_for(scene, options.depth, samples);
+  return core::film_scale_for(scene, options.depth, samples, light_of(options));
+}
+
+double radiance_bound(const PictureOptions& options, const core::Scene& scene) {
+  // A ray from the eye is like one that is reflected, one hit earlier.
+  return core::radiance_bound(scene, options.depth + 1, light_of(options));
 }
 
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
@@ -151,11 +182,12 @@ core::RenderSettings render_settings(const PictureOptions& options, const core::
                 .radiance_bound = core::radiance_bound(scene, options.depth),
                 .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
                 .first_samples = static_cast<std::uint32_t>(options.samples),
-                .film_scale = film_scale_of(options, scene)},
+                .film_scale = film_scale_of(options, scene),
+                .transport = transport_of(options.transport, scene.view, database.header().frame)},
       .refinement = options.refinement,
       .skips = options.skips,
       .background = options.skips.background ? core::find_background(database, camera) : core::BackgroundTiles()};
-  settings.shade.one_child_from = core::find_one_child_depth(database, settings);
+  settings.shade.one_child_from = options.transport.is_by_paths() ? 0 : core::find_one_child_depth(database, settings);
   return settings;
 }
 

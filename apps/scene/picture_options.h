@@ -9,6 +9,7 @@
 #include "apps/edge/line/command_line.h"
 #include "apps/formats/resolution.h"
 #include "apps/scene/staging.h"
+#include "apps/scene/transport_options.h"
 #include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "core/picture/shade.h"
@@ -42,16 +43,19 @@ struct PictureOptions {
   bool refines_meshes = false;           ///< mesh files are refined, too, if neither samples nor a quality is asked for
   bool is_refined_unasked = false;       ///< for that reason, to the default error
   core::RefinementOptions refinement;    ///< its error is 0 unless the picture is refined
-  int depth = 5;                         ///< hits of this depth cast shadow rays only; 1 to 255
+  int depth = 5;                         ///< hits of this depth cast shadow rays only; 1 to 255; by paths the transport's
   core::Convention convention = core::Convention::haines;
   double cutoff = 0;               ///< core::ShadeOptions::cutoff
   std::optional<Quality> quality;  ///< --quality, already in the fields above
   core::Skips skips;               ///< what is left out on the way to it
   Staging staging;                 ///< how the scene is seen and lit, if not as it says itself
+  TransportOptions transport;
 };
 
 /// Declares them. What refines_meshes is now decides of what it says.
 void add_options(OptionSet options, PictureOptions& picture);
+/// Declares those of how light gets about, for commands that know of it. Behind the others.
+void add_transport_options(OptionSet options, PictureOptions& picture);
 /// Declares --no-skip.
 void add_skip_option(OptionSet options, core::Skips& skips);
 /// Declares those that neither are the scene nor trade error for time: --resolution, --depth and --convention.
@@ -59,6 +63,9 @@ void add_view_options(OptionSet options, PictureOptions& picture);
 
 /// What the scene's film multiplies light by.
 core::FilmScale film_scale_of(const PictureOptions& options, const core::Scene& scene);
+
+/// No sample finds more light than this, in any channel: core::radiance_bound().
+double radiance_bound(const PictureOptions& options, const core::Scene& scene);
 
 /// What the nodes need beside the records.
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database);

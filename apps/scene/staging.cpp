@@ -75,15 +75,6 @@ double parse_intensity(const std::string& text) {
   return intensity >= 0 && intensity <= intensity_max ? intensity : (refuse("--fill", text, "a number from 0 to 1e30"), 0);
 }
 
-Vec3d parse_color(const std::string& option, const std::string& text) {
-  const bool is_grey = text.find(',') == std::string::npos;
-  const auto color = parse_vector(is_grey ? text + "," + text + "," + text : text);
-  if (!color || std::min({color->x, color->y, color->z}) < 0 || largest_component(*color) > intensity_max) {
-    refuse(option, text, color_form);
-  }
-  return *color;
-}
-
 /// Lights without a colour, which share what one would have, keep what they have without the fill.
 void add_fill(double intensity, core::Scene& scene) {
   std::vector<core::PointLight> lights;
@@ -149,6 +140,15 @@ void add_light_options(OptionSet& options, Staging& staging) {
 }
 
 }  // namespace
+
+Vec3d parse_color(const std::string& option, const std::string& text) {
+  const bool is_grey = text.find(',') == std::string::npos;
+  const auto color = parse_vector(is_grey ? text + "," + text + "," + text : text);
+  if (!color || std::min({color->x, color->y, color->z}) < 0 || largest_component(*color) > intensity_max) {
+    refuse(option, text, color_form);
+  }
+  return *color;
+}
 
 CameraChoice parse_camera(const std::string& text) {
   const std::vector<std::string> parts = words_between(text, '/');

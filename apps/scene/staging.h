@@ -39,6 +39,9 @@ CameraChoice parse_camera(const std::string& text);
 /// "X,Y,Z[/R,G,B]". Throws core::UsageError for anything else, or for a colour below 0.
 core::PointLight parse_light(const std::string& text);
 
+/// "R,G,B" or one number for all three, each from 0 to 1e30. Throws core::UsageError that names the option for anything else.
+core::Vec3d parse_color(const std::string& option, const std::string& text);
+
 /// What parse_camera() reads as these very numbers. Requires an up if there are degrees.
 std::string text_of(const CameraChoice& camera);
 /// What parse_light() reads as these very numbers.

@@ -21,7 +21,7 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
   core::Database database = core::build_database(std::move(scene), build);
   const core::RenderSettings settings = render_settings(picture, scene, database);
   const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
-  return {std::move(database), settings, loss};
+  return {std::move(database), settings, loss, gain_text(scene.materials, picture.transport)};
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ Subject build_subject(core::Scene scene, const PictureOptions& picture, const Da
   Subject subject = build(scene, picture, options, shows_progress);
   for (const std::string& text :
        {dropped_text(subject.database.dropped()), loss_text(subject.loss), duplicates_text(subject.database.duplicates()),
-        crowd_text(subject.settings.shade.one_child_from)}) {
+        crowd_text(subject.settings.shade.one_child_from), subject.gain}) {
     if (!text.empty()) {
       std::cerr << "dmpc: " << text << '\n';
     }

@@ -18,6 +18,7 @@ struct Subject {
   core::Database database;
   core::RenderSettings settings;
   core::RoundingLoss loss;  ///< of the picture, by the rounding of coordinates
+  std::string gain;         ///< gain_text() of its materials
 };
 
 /// The database of `scene`, whose objects are freed on the way, and its picture. Says on stderr what was left out or is off,

@@ -120,9 +120,11 @@ std::string sampling_line(const RenderOptions& options, const Account& account) 
          "\n";
 }
 
-/// Behind the picture's name, where samples were chosen that nobody asked for.
-std::string refined_text(const PictureOptions& picture) {
-  return picture.is_refined_unasked ? ", refined to the default error of 1/255 (--samples=1 for one ray a pixel)" : "";
+/// Behind the picture's name: how light got about, if not as by default, and samples that nobody asked for.
+std::string picture_text(const PictureOptions& picture) {
+  const std::string transport = picture.transport.is_by_paths() ? ", " + text_of(picture.transport) : "";
+  return transport +
+         (picture.is_refined_unasked ? ", refined to the default error of 1/255 (--samples=1 for one ray a pixel)" : "");
 }
 
 StrategyLines lines_of(const RenderOptions& options, const svm::Report& report) {
@@ -200,7 +202,7 @@ void print_summary(std::ostream& output, const RenderRecord& record) {
          << sampling_line(record.options, account) << special.figures << virtual_lines(account, record.options.computer.machine)
          << "time     " << time_text(record.seconds) << "\npicture  " << shown(record.options.image.string()) << ", "
          << account.film.width() << "x" << account.film.height() << ", film " << hash_text(account.film.hash())
-         << refined_text(record.options.picture) << '\n';
+         << picture_text(record.options.picture) << '\n';
 }
 
 }  // namespace dmpc::apps

@@ -227,6 +227,7 @@ void announce_effort(const CheckOptions& options, const Subject& subject) {
 
 void add_options(OptionSet options, CheckOptions& check) {
   add_options(options, check.picture);
+  add_transport_options(options, check.picture);
   add_options(options, check.database);
   options.check_in_the_end([options, &check] {
     check_voxels(options, check.database.build);

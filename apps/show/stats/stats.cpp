@@ -205,6 +205,7 @@ struct JsonOf {
 
 Json options_json(const RenderRecord& record, const Account& account) {
   const RenderOptions& options = record.options;
+  const bool by_paths = options.picture.transport.is_by_paths() && !options.picture.transport.occlusion;
   const bool has_voxels = options.database.build.structure == core::Structure::voxels;
   Json result = {{"scene", options.picture.scene},
                  {"width", account.film.width()},
@@ -215,6 +216,10 @@ Json options_json(const RenderRecord& record, const Account& account) {
                  {"cutoff", options.picture.cutoff},
                  {"depth", options.picture.depth},
                  {"convention", options.picture.convention == core::Convention::haines ? "haines" : "paper"},
+                 {"transport", name_of(options.picture.transport.kind)},
+                 {"bounces", by_paths ? Json(options.picture.depth - 1) : Json()},
+                 {"sky", options.picture.transport.sky ? Json(text_of(*options.picture.transport.sky)) : Json()},
+                 {"occlusion", options.picture.transport.occlusion ? Json(*options.picture.transport.occlusion) : Json()},
                  {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
                  {"grid_axes", name_of(options.database.axes)},
                  {"record_order", name_of(options.database.build.record_order)},
@@ -298,12 +303,9 @@ Json database_json(const core::Database& database) {
 
 Json rays_json(const std::array<std::uint64_t, core::ray_kind_count>& rays) {
   const auto count = [&](core::RayKind kind) { return rays[static_cast<std::size_t>(kind)]; };
-  return {{"primary", count(core::RayKind::primary)},
-          {"reflected", count(core::RayKind::reflected)},
-          {"refracted", count(core::RayKind::refracted)},
-          {"shadow", count(core::RayKind::shadow)},
-          {"scattered", count(core::RayKind::scattered)},
-          {"total", std::accumulate(rays.begin(), rays.end(), std::uint64_t{0})}};
+  return {{"primary", count(core::RayKind::primary)},     {"reflected", count(core::RayKind::reflected)},
+          {"refracted", count(core::RayKind::refracted)}, {"shadow", count(core::RayKind::shadow)},
+          {"scattered", count(core::RayKind::scattered)}, {"total", std::accumulate(rays.begin(), rays.end(), std::uint64_t{0})}};
 }
 
 std::string stats_json(const RenderRecord& record) {

@@ -6,9 +6,11 @@
 #include <string>
 
 #include "tests/support/small_scenes.h"
+#include "tests/support/text.h"
 
 namespace dmpc::apps::picture_identity_test {
 
+using tests::contains;
 using tests::mirrors_and_glass;
 
 namespace {
@@ -72,6 +74,22 @@ TEST_CASE("a picture that is refined has an error and a bound more") {
   CHECK(difference_by_options(refine) ==
         "samples is auto, here 1; error is 0.5, here there is none; samples-max is 4096, here there is none");
   CHECK(difference_text({}, {{"error", "0.5"}}) == "no error");
+}
+
+TEST_CASE("a picture by paths is told from Whitted's, which has the facts that it had before there were paths") {
+  const auto by_paths = [](auto& options) { options.picture.transport.kind = core::TransportKind::paths; };
+  CHECK(difference_by_options(by_paths) ==
+        "transport is paths, here there is none; sky is none, here there is none; occlusion is none, here there is none");
+  CHECK(contains(difference_by_options([&](auto& options) {
+                   by_paths(options);
+                   options.picture.transport.sky = {.horizon = {1, 1, 1}, .zenith = core::Vec3d{0, 0, 2}};
+                 }),
+                 "sky is 1,1,1/0,0,2, here"));
+  CHECK(contains(difference_by_options([&](auto& options) {
+                   by_paths(options);
+                   options.picture.transport.occlusion = 0.5;
+                 }),
+                 "occlusion is 0.5, here"));
 }
 
 TEST_CASE("the computer, the strategy and what is left out are no part of the picture") {

@@ -585,4 +585,43 @@ TEST_CASE("a page needs a name that browsers know") {
   CHECK(contains(render_complaint({"--report=a.pdf"}), "--report=a.pdf: expected a file with the ending .html"));
 }
 
+TEST_CASE("paths have bounces in place of a depth, and a sky in place of a background") {
+  CHECK(render().picture.transport.kind == TransportKind::whitted);
+  const PictureOptions usual = render({"--transport=paths"}).picture;
+  CHECK(usual.transport.is_by_paths());
+  CHECK(usual.depth == 9);
+  CHECK(usual.samples == 1);
+  CHECK_FALSE(usual.staging.background);
+  CHECK(render({"--transport=paths", "--bounces=254"}).picture.depth == 255);
+  CHECK(render({"--transport=paths", "--occlusion=0.5"}).picture.depth == 1);
+  const PictureOptions sky = render({"--transport=paths", "--sky=1,0.5,0.25/0.5", "--samples=64"}).picture;
+  CHECK(sky.staging.background == Vec3d{1, 0.5, 0.25});
+  CHECK(sky.transport.sky->zenith == Vec3d{0.5, 0.5, 0.5});
+}
+
+TEST_CASE("what does not go with paths, or without, is refused, and what to do is said") {
+  CHECK(contains(render_complaint({"--bounces=3"}), "--bounces goes with --transport=paths"));
+  CHECK(contains(render_complaint({"--sky=1"}), "--sky goes with --transport=paths"));
+  CHECK(contains(render_complaint({"--occlusion=1", "--transport=whitted"}), "--occlusion goes with --transport=paths"));
+  const auto by_paths = [](std::vector<std::string> more) {
+    more.emplace_back("--transport=paths");
+    return render_complaint(more);
+  };
+  CHECK(by_paths({}).empty());
+  CHECK(contains(by_paths({"--depth=3"}), "--depth does not go with --transport=paths: say --bounces"));
+  CHECK(contains(by_paths({"--cutoff=0.1"}), "--cutoff does not go with --transport=paths: a path that counts for little"));
+  CHECK(contains(by_paths({"--ambient=0.1"}), "--ambient does not go with --transport=paths: light from everywhere is a sky"));
+  CHECK(contains(by_paths({"--quality=draft"}), "--quality does not go with --transport=paths: say how many rays"));
+  CHECK(contains(by_paths({"--samples=auto"}), "--samples=auto does not go with --transport=paths"));
+  CHECK(contains(by_paths({"--sky=1", "--background=0.5"}), "--background does not go with --sky"));
+  CHECK(contains(by_paths({"--occlusion=1", "--sky=1"}), "--sky does not go with --occlusion"));
+  CHECK(contains(by_paths({"--occlusion=1", "--light=1,2,3"}), "--light does not go with --occlusion"));
+  CHECK(contains(by_paths({"--occlusion=0"}), "--occlusion=0: expected a distance"));
+  CHECK(contains(by_paths({"--bounces=255"}), "from 0 to 254"));
+  for (const char* const sky : {"--sky=", "--sky=-1", "--sky=nan", "--sky=1,inf,0", "--sky=1,2", "--sky=1/-1", "--sky=1/1/1"}) {
+    CAPTURE(sky);
+    CHECK(contains(by_paths({sky}), "expected"));
+  }
+}
+
 }  // namespace dmpc::apps::render_options_test

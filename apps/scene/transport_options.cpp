@@ -1,0 +1,140 @@
+#include "apps/scene/transport_options.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/option_values.h"
+#include "apps/edge/line/words.h"
+#include "apps/scene/staging.h"
+#include "core/scene/frame.h"
+
+namespace dmpc::apps {
+namespace {
+
+using core::TransportKind;
+using core::UsageError;
+
+constexpr double distance_max = 1e30;
+/// Shares of light that are 1 but for rounding.
+constexpr double gain_min = 1 + 1e-6;
+
+double parse_distance(const std::string& text) {
+  const double distance = finite_number(text);
+  if (!(distance > 0 && distance <= distance_max)) {
+    throw UsageError("--occlusion=" + text + ": expected a distance in the scene's units, above 0 and at most 1e30");
+  }
+  return distance;
+}
+
+void refuse_each(const OptionSet& options, std::initializer_list<const char*> names, const std::string& why) {
+  for (const char* const name : names) {
+    if (options.is_given(name)) {
+      throw UsageError(name + why);
+    }
+  }
+}
+
+void check_paths(const OptionSet& options, const TransportOptions& transport) {
+  const std::string by_paths = " does not go with --transport=paths: ";
+  refuse_each(options, {"--depth"}, by_paths + "say --bounces");
+  refuse_each(options, {"--cutoff"}, by_paths + "a path that counts for little goes on by chance, which costs no light");
+  refuse_each(options, {"--ambient"}, by_paths + "light from everywhere is a sky, say --sky");
+  refuse_each(options, {"--quality", "--error", "--samples-max"},
+              by_paths + "say how many rays a pixel gets, such as --samples=64");
+  if (transport.sky) {
+    refuse_each(options, {"--background"}, " does not go with --sky, which is what no ray meets");
+  }
+  if (transport.occlusion) {
+    refuse_each(options, {"--bounces", "--sky", "--light", "--fill"},
+                " does not go with --occlusion, which shows what is near and nothing else");
+  }
+}
+
+/// In the brightest channel of each way in which it sends light on.
+double share_sent_on(const core::Material& material) {
+  const core::Vec3d& color = material.color;
+  return material.diffuse * std::max({color.x, color.y, color.z}) + material.specular_max() * material.mirror +
+         material.transmittance;
+}
+
+}  // namespace
+
+SkyChoice parse_sky(const std::string& text) {
+  const std::vector<std::string> parts = words_between(text, '/');
+  if (parts.size() > 2) {
+    throw UsageError("--sky=" + text + ": expected a colour such as 1,1,1, or HORIZON/ZENITH such as 1,1,1/0.2,0.4,1");
+  }
+  SkyChoice sky{.horizon = parse_color("--sky", parts[0]), .zenith = {}};
+  if (parts.size() == 2) {
+    sky.zenith = parse_color("--sky", parts[1]);
+  }
+  return sky;
+}
+
+std::string text_of(const SkyChoice& sky) { return text_of(sky.horizon) + (sky.zenith ? "/" + text_of(*sky.zenith) : ""); }
+
+std::string text_of(const TransportOptions& transport) {
+  const std::string name = name_of(transport.kind);
+  if (transport.occlusion) {
+    return name + ", occlusion " + shortest(*transport.occlusion);
+  }
+  return !transport.is_by_paths() ? name
+                                  : name + ", " + counted(static_cast<std::uint64_t>(transport.bounces), "bounce") +
+                                        (transport.sky ? ", sky " + text_of(*transport.sky) : "");
+}
+
+const char* name_of(TransportKind kind) { return kind == TransportKind::paths ? "paths" : "whitted"; }
+
+void add_options(OptionSet options, TransportOptions& transport) {
+  options.add_choice<TransportKind>(
+      "--transport", transport.kind, {{"whitted", TransportKind::whitted}, {"paths", TransportKind::paths}},
+      "How light gets about: mirrored and let through alone, or scattered from surface to surface, too, with noise that more "
+      "--samples take away");
+  options.add_number("--bounces", transport.bounces, 0, 254, "8",
+                     "By paths: how often light from elsewhere goes on from surface to surface; 0 is what lights show directly");
+  options.add_text(
+      "--sky", "R,G,B|GREY[/R,G,B|GREY] [none]", [&transport](const std::string& text) { transport.sky = parse_sky(text); },
+      "By paths: what no ray meets is this bright, and lights the scene: everywhere alike, or from the horizon to the zenith, "
+      "which is where the view's up points");
+  options.add_text(
+      "--occlusion", "DISTANCE [none]", [&transport](const std::string& text) { transport.occlusion = parse_distance(text); },
+      "By paths: show nothing but which share of its surroundings each place has free so far, white where it is all");
+}
+
+void check(const OptionSet& options, const TransportOptions& transport) {
+  if (transport.is_by_paths()) {
+    return check_paths(options, transport);
+  }
+  refuse_each(options, {"--bounces", "--sky", "--occlusion"}, " goes with --transport=paths");
+}
+
+core::Transport transport_of(const TransportOptions& options, const core::View& view, const core::GridFrame& frame) {
+  core::Transport transport{.kind = options.kind};
+  if (options.sky) {
+    transport.has_sky = true;
+    transport.has_gradient = options.sky->zenith.has_value();
+    transport.zenith = core::Color(options.sky->zenith.value_or(core::Vec3d{}));
+    transport.up = core::Vec3f(turned(frame.axes, normalize(view.up)));
+  }
+  if (options.occlusion) {
+    const double least = double{std::numeric_limits<float>::min()}, most = double{std::numeric_limits<float>::max()};
+    transport.occlusion_distance = static_cast<float>(std::clamp(*options.occlusion * frame.scale, least, most));
+  }
+  return transport;
+}
+
+std::string gain_text(const std::vector<core::Material>& materials, const TransportOptions& options) {
+  double most = 0;
+  std::uint64_t count = 0;
+  for (const core::Material& material : materials) {
+    most = std::max(most, share_sent_on(material));
+    count += share_sent_on(material) > gain_min ? 1 : 0;
+  }
+  return count == 0 || !options.is_by_paths() || options.occlusion
+             ? ""
+             : counted(count, "material") + (count == 1 ? " sends" : " send") + " on more light than comes, up to " +
+                   rounded(most) + " times as much: with many bounces the picture is brighter than it can be";
+}
+
+}  // namespace dmpc::apps

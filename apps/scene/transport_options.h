@@ -1,0 +1,53 @@
+// How light gets about, on the command line.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/edge/line/command_line.h"
+#include "core/picture/transport.h"
+#include "core/record/record.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+/// What --sky says: one colour, or two between which it changes upwards.
+struct SkyChoice {
+  core::Vec3d horizon;
+  std::optional<core::Vec3d> zenith;
+};
+
+struct TransportOptions {
+  core::TransportKind kind = core::TransportKind::whitted;
+  int bounces = 8;                  ///< by paths: 0 to 254
+  std::optional<SkyChoice> sky;     ///< by paths; its horizon is the scene's background, too
+  std::optional<double> occlusion;  ///< by paths: core::Transport::occlusion_distance, in the scene's units; above 0
+
+  bool is_by_paths() const { return kind == core::TransportKind::paths; }
+  /// Hits at this depth are the last: core::ShadeOptions::depth_max. By paths.
+  int depth() const { return occlusion ? 1 : bounces + 1; }
+};
+
+/// Declares --transport, --bounces, --sky and --occlusion.
+void add_options(OptionSet options, TransportOptions& transport);
+/// What else goes with them. Throws core::UsageError that says what to do instead.
+void check(const OptionSet& options, const TransportOptions& transport);
+
+/// "0.5,0.5,0.5" or "1,1,1/0,0,1". Throws core::UsageError for anything else, and for colours below 0.
+SkyChoice parse_sky(const std::string& text);
+/// What parse_sky() reads as these very numbers.
+std::string text_of(const SkyChoice& sky);
+/// "whitted", "paths, 8 bounces, sky 1,1,1" or "paths, occlusion 0.5": as people read it, and as files have it.
+std::string text_of(const TransportOptions& transport);
+/// "whitted" or "paths".
+const char* name_of(core::TransportKind kind);
+
+/// As the nodes have it: up is where the view's up points, at a right angle to nothing.
+core::Transport transport_of(const TransportOptions& options, const core::View& view, const core::GridFrame& frame);
+
+/// A sentence about materials that give more light than they get, of which a picture by paths shows more than there is; empty if
+/// there is none, or nothing scatters.
+std::string gain_text(const std::vector<core::Material>& materials, const TransportOptions& options);
+
+}  // namespace dmpc::apps

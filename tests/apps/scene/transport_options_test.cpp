@@ -1,0 +1,57 @@
+#include "apps/scene/transport_options.h"
+
+#include <doctest/doctest.h>
+
+#include "core/database/database.h"
+#include "tests/support/small_scenes.h"
+#include "tests/support/text.h"
+
+namespace dmpc::apps::transport_options_test {
+
+using tests::contains;
+
+TEST_CASE("a sky is one colour or two, as it is told") {
+  for (const char* const text : {"1,1,1", "0.5,0.25,0/0,0,1.5"}) {
+    CHECK(text_of(parse_sky(text)) == text);
+  }
+  CHECK(text_of(parse_sky("0.5/1")) == "0.5,0.5,0.5/1,1,1");
+}
+
+TEST_CASE("nodes have the zenith where the view's up points, of length 1, and distances in the grid's units") {
+  core::Scene scene = tests::mirrors_and_glass();
+  scene.view.up = {0, 0, 4};
+  const core::Database database = core::build_database(scene, {});
+  const core::GridFrame& frame = database.header().frame;
+  const TransportOptions sky{.kind = core::TransportKind::paths, .sky = SkyChoice{{1, 1, 1}, core::Vec3d{0, 0, 2}}};
+  const core::Transport transport = transport_of(sky, scene.view, frame);
+  CHECK(transport.has_sky);
+  CHECK(transport.has_gradient);
+  CHECK(transport.up == core::Vec3f{0, 0, 1});
+  CHECK(sky_light(transport, {1, 1, 1}, {0, 0, 1}) == core::Color{0, 0, 2});
+  CHECK(sky_light(transport, {1, 1, 1}, {0, 0, -1}) == core::Color{1, 1, 1});
+  CHECK(sky_light(transport, {1, 1, 1}, {1, 0, 0}) == core::Color{1, 1, 1});
+  const TransportOptions occlusion{.kind = core::TransportKind::paths, .occlusion = 2};
+  CHECK(transport_of(occlusion, scene.view, frame).occlusion_distance == static_cast<float>(2 * frame.scale));
+  CHECK(transport_of({.kind = core::TransportKind::paths, .occlusion = 1e-320}, scene.view, frame).occlusion_distance > 0);
+  CHECK_FALSE(transport_of({}, scene.view, frame).is_by_paths());
+}
+
+TEST_CASE("a transport is told in a few words") {
+  CHECK(text_of(TransportOptions{}) == "whitted");
+  TransportOptions transport{.kind = core::TransportKind::paths};
+  CHECK(text_of(transport) == "paths, 8 bounces");
+  transport.sky = SkyChoice{{1, 0.5, 0}, {}};
+  transport.bounces = 1;
+  CHECK(text_of(transport) == "paths, 1 bounce, sky 1,0.5,0");
+  CHECK(text_of(TransportOptions{.kind = core::TransportKind::paths, .occlusion = 0.5}) == "paths, occlusion 0.5");
+}
+
+TEST_CASE("materials that give more light than they get are told of, where something scatters it") {
+  const TransportOptions paths{.kind = core::TransportKind::paths};
+  const std::vector<core::Material> materials{{.color = {1, 1, 1}, .diffuse = 0.75, .specular = 0.5}, {.color = {1, 1, 1}}};
+  CHECK(contains(gain_text(materials, paths), "1 material sends on more light than comes, up to 1.25 times as much"));
+  CHECK(gain_text(materials, {}).empty());
+  CHECK(gain_text({{.color = {1, 1, 1}}, {.color = {0.5, 0.5, 0.5}, .specular = 0.5}}, paths).empty());
+}
+
+}  // namespace dmpc::apps::transport_options_test
