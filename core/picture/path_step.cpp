@@ -10,19 +10,11 @@
 namespace dmpc::core {
 namespace {
 
-/// Hits before this one always go on.
-constexpr int roulette_from = 3;
 constexpr double quarter_of_pi = 0.785398163397448310;
 
-/// What a hit's chances are for, each with a pair of its own. Behind them come one for the choice of a light, and one for the
-/// place on it.
-enum class Purpose : std::uint32_t { choice, direction };
-/// Pair 0 is the place in the pixel.
 constexpr std::uint32_t pairs_a_hit = 4;
 
-SamplePair pair_of(const Ray& ray, Purpose purpose) {
-  return sample_pair(ray.pixel, ray.sample, pairs_a_hit * (ray.depth - 1U) + 1 + static_cast<std::uint32_t>(purpose));
-}
+SamplePair pair_of(const Ray& ray, Purpose purpose) { return pair_of(ray.pixel, ray.sample, ray.depth, purpose); }
 
 /// Of the surface's three ways, in the brightest channel of each.
 struct Shares {
@@ -77,6 +69,11 @@ bool survives(const Ray& ray, double chance, PathStep& step) {
 }
 
 }  // namespace
+
+SamplePair pair_of(std::uint32_t pixel, std::uint32_t sample, int depth, Purpose purpose) {
+  const std::uint32_t hits_before = static_cast<std::uint32_t>(depth) - 1;
+  return sample_pair(pixel, sample, pairs_a_hit * hits_before + 1 + static_cast<std::uint32_t>(purpose));
+}
 
 Vec3d cosine_direction(const SamplePair& pair, const Vec3d& normal) {
   const double a = 2.0 * pair.x - 1.0, b = 2.0 * pair.y - 1.0;

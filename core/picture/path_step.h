@@ -16,6 +16,14 @@ struct PathStep {
   RayKind kind = RayKind::scattered;  ///< of the ray
 };
 
+/// What a hit's chances are for, each with a pair of numbers of its own. Behind them come one for the choice of a light, and one
+/// for the place on it.
+enum class Purpose : std::uint32_t { choice, direction };
+/// The pair of a hit at `depth`, 1 or more; pair 0 of a sample is its place in the pixel.
+SamplePair pair_of(std::uint32_t pixel, std::uint32_t sample, int depth, Purpose purpose);
+/// Hits before this one always go on.
+inline constexpr int roulette_from = 3;
+
 /// A direction of unit length about the unit vector `normal`, as likely as its cosine with that, for a pair that is as likely
 /// anywhere: the place on the unit disc below it, by P. Shirley, K. Chiu, "A Low Distortion Map Between Disk and Square",
 /// Journal of Graphics Tools 2 (3), 1997; axes by T. Duff and others, "Building an Orthonormal Basis, Revisited", Journal of

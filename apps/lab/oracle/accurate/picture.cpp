@@ -23,7 +23,10 @@ core::Vec3d pixel_radiance(AccurateTracer& tracer, const AccurateCamera& camera,
   core::Vec3d sum;
   for (std::uint32_t sample = 0; sample < pattern.count(); ++sample) {
     const SamplePosition offset = pattern.position(pixel, sample);
-    sum = sum + tracer.radiance(camera.ray_through(column + offset.column, row + offset.row));
+    AccurateRay ray = camera.ray_through(column + offset.column, row + offset.row);
+    ray.pixel = pixel;
+    ray.sample = sample;
+    sum = sum + tracer.radiance(ray);
   }
   return sum * (1.0 / pattern.count());
 }

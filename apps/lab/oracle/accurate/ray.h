@@ -24,6 +24,7 @@ struct AccurateRay {
   double cone = 0;
   /// By how much the directions of its pixel's primary rays change from column to column and from row to row.
   std::array<core::Vec3d, 2> apart{};
+  std::uint32_t pixel = 0, sample = 0;  ///< by which a path has its chances
 };
 
 /// The narrower of the two angles, in radians, in which the pixel of a ray is seen from the eye.

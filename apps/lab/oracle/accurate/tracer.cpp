@@ -29,6 +29,8 @@ double start_gap(const AccurateBody& body) {
   return gap * (coordinate + radius);
 }
 
+double brightest(const Vec3d& color) { return std::max({color.x, color.y, color.z}); }
+
 /// In single precision, as the product judges it.
 bool brings_nothing(const AccurateRay& shadow) { return core::Color(shadow.weight) == core::Color{}; }
 
@@ -55,12 +57,16 @@ struct AccurateTracer::Touch {
     return 1 - index * index * (1 - cosine * cosine);
   }
   bool transmits() const { return transmittance > 0 && refracted_cosine_squared() >= 0; }
+  Vec3d bent_direction() const {
+    const double cosine = -dot(ray.direction, normal), behind = std::sqrt(refracted_cosine_squared());
+    return ray.direction * index + normal * (index * cosine - behind);
+  }
 };
 
 Vec3d AccurateTracer::radiance(AccurateRay ray) {
   const AccurateHit hit = trace(ray);
   if (!hit.found()) {
-    return ray.weight * scene_.background;
+    return ray.weight * light_beyond(ray);
   }
   const Touch met = touch(ray, hit);
   Vec3d sum = glow(met);
@@ -87,7 +93,14 @@ std::vector<AccurateRay> AccurateTracer::spawned(const AccurateRay& ray, const A
 std::vector<AccurateRay> AccurateTracer::spawned(const Touch& met) const {
   std::vector<AccurateRay> rays;
   rays.reserve(scene_.lights.size() + 2);
+  if (options_.transport.is_by_paths() && met.ray.depth > options_.depth_max) {
+    return rays;  // it has looked for what shines by itself
+  }
   add_shadow_rays(met, rays);
+  if (options_.transport.is_by_paths()) {
+    add_path_ray(met, rays);
+    return rays;
+  }
   if (met.ray.depth < options_.depth_max) {
     add_children(met, rays);
   }
@@ -193,6 +206,8 @@ AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayK
   ray.kind = kind;
   ray.cone = kind == RayKind::shadow ? 0 : touch.cone;
   ray.apart = touch.ray.apart;
+  ray.pixel = touch.ray.pixel;
+  ray.sample = touch.ray.sample;
   return ray;
 }
 
@@ -233,11 +248,87 @@ void AccurateTracer::add_children(const Touch& touch, std::vector<AccurateRay>& 
     rays.push_back(reflected);
   }
   if (touch.transmits()) {
-    const double cosine = -dot(touch.ray.direction, touch.normal), behind = std::sqrt(touch.refracted_cosine_squared());
-    const Vec3d through = touch.ray.direction * touch.index + touch.normal * (touch.index * cosine - behind);
-    AccurateRay refracted = child(touch, through, RayKind::refracted);
+    AccurateRay refracted = child(touch, touch.bent_direction(), RayKind::refracted);
     refracted.weight = refracted.weight * touch.transmittance;
     rays.push_back(refracted);
+  }
+}
+
+Vec3d AccurateTracer::sky(const Vec3d& direction) const {
+  const core::Transport& transport = options_.transport;
+  const double height = transport.has_gradient ? std::max(0.0, dot(direction, Vec3d(transport.up))) : 0.0;
+  return scene_.background * (1 - height) + Vec3d(transport.zenith) * height;
+}
+
+/// A backdrop is not met by what a surface has scattered.
+Vec3d AccurateTracer::light_beyond(const AccurateRay& ray) const {
+  return options_.transport.has_sky ? sky(ray.direction) : ray.kind == RayKind::scattered ? Vec3d{} : scene_.background;
+}
+
+/// What a surface does with light, in each channel.
+struct AccurateTracer::Ways {
+  Vec3d scattered, mirrored, through;
+
+  double all() const { return brightest(scattered) + brightest(mirrored) + brightest(through); }
+};
+
+AccurateTracer::Ways AccurateTracer::ways_of(const Touch& touch) {
+  const double total = touch.transmits() ? 0 : touch.transmittance, through = touch.transmits() ? touch.transmittance : 0;
+  return {touch.color * touch.diffuse,
+          touch.specular * touch.material.mirror + Vec3d{total, total, total},
+          {through, through, through}};
+}
+
+/// Nothing if that leads into the surface.
+std::optional<Vec3d> AccurateTracer::scattered_direction(const Touch& touch) {
+  const AccurateRay& ray = touch.ray;
+  const Vec3d towards =
+      core::cosine_direction(core::pair_of(ray.pixel, ray.sample, ray.depth, core::Purpose::direction), touch.normal);
+  const bool is_outside = dot(towards, touch.surface.normal) * dot(ray.direction, touch.surface.normal) < 0;
+  return is_outside ? std::optional(towards) : std::nullopt;
+}
+
+/// One way of the three, as often as its brightest channel says, counts for all.
+std::optional<AccurateRay> AccurateTracer::continued(const Touch& touch, const core::SamplePair& choice) const {
+  const Ways ways = ways_of(touch);
+  const double all = ways.all(), place = choice.x * all;
+  const auto go = [&](const Vec3d& towards, const Vec3d& share, RayKind kind) {
+    AccurateRay ray = child(touch, towards, touch.ray.kind == RayKind::scattered ? RayKind::scattered : kind);
+    ray.weight = ray.weight * share * (all / brightest(share));
+    return std::optional(ray);
+  };
+  if (!(all > 0)) {
+    return std::nullopt;
+  }
+  if (place < brightest(ways.scattered)) {
+    const std::optional<Vec3d> towards = scattered_direction(touch);
+    return towards ? go(*towards, ways.scattered, RayKind::scattered) : std::nullopt;
+  }
+  return place < brightest(ways.scattered) + brightest(ways.mirrored)
+             ? go(mirrored(touch.ray.direction, touch.normal), ways.mirrored, RayKind::reflected)
+             : go(touch.bent_direction(), ways.through, RayKind::refracted);
+}
+
+/// After roulette. The last ray looks at the sky alone, or, where something shines, for that, too.
+void AccurateTracer::add_path_ray(const Touch& touch, std::vector<AccurateRay>& rays) const {
+  const core::SamplePair choice = core::pair_of(touch.ray.pixel, touch.ray.sample, touch.ray.depth, core::Purpose::choice);
+  std::optional<AccurateRay> ray = continued(touch, choice);
+  const double survival = ray && touch.ray.depth >= core::roulette_from ? std::min(1.0, brightest(ray->weight)) : 1;
+  if (!ray || (survival < 1 && !(choice.y < survival))) {
+    return;
+  }
+  ray->weight = ray->weight * (1 / survival);
+  if (touch.ray.depth < options_.depth_max) {
+    rays.push_back(*ray);
+  } else if (scene_.has_emission) {
+    ray->kind = RayKind::scattered;
+    rays.push_back(*ray);
+  } else if (options_.transport.has_sky) {
+    AccurateRay look = child(touch, ray->direction, RayKind::shadow);
+    look.weight = ray->weight * sky(ray->direction);
+    if (!brings_nothing(look)) {
+      rays.push_back(look);
+    }
   }
 }
 

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "apps/lab/oracle/accurate/finder.h"
 #include "apps/lab/oracle/accurate/scene.h"
+#include "core/picture/path_step.h"
+#include "core/picture/sample_pair.h"
 #include "core/picture/shade.h"
 
 namespace dmpc::apps {
@@ -32,7 +35,8 @@ class AccurateTracer {
  public:
   /// All outlive the tracer; `watcher` may be null. Secondary rays start 1e-13 of their body's coordinates and radius off it.
   /// Rays look at textures as the product's first samples do, by what the ray's own camera says that a pixel covers; where the
-  /// options give them no share of it, at points.
+  /// options give them no share of it, at points. By paths rays have the chances of the product's, if its grid has the world's
+  /// axes; of transports that show occlusion, nothing is known here.
   AccurateTracer(const AccurateScene& scene, const AccurateFinder& finder, const core::ShadeOptions& options,
                  RayWatcher* watcher = nullptr)
       : scene_(scene), finder_(finder), options_(options), watcher_(watcher) {}
@@ -49,6 +53,7 @@ class AccurateTracer {
 
  private:
   struct Touch;
+  struct Ways;
 
   AccurateHit trace(AccurateRay& ray);
   std::vector<AccurateRay> spawned(const Touch& met) const;
@@ -59,6 +64,12 @@ class AccurateTracer {
   AccurateRay child(const Touch& touch, const core::Vec3d& towards, core::RayKind kind) const;
   void add_shadow_rays(const Touch& touch, std::vector<AccurateRay>& rays) const;
   void add_children(const Touch& touch, std::vector<AccurateRay>& rays) const;
+  static Ways ways_of(const Touch& touch);
+  static std::optional<core::Vec3d> scattered_direction(const Touch& touch);
+  std::optional<AccurateRay> continued(const Touch& touch, const core::SamplePair& choice) const;
+  void add_path_ray(const Touch& touch, std::vector<AccurateRay>& rays) const;
+  core::Vec3d light_beyond(const AccurateRay& ray) const;
+  core::Vec3d sky(const core::Vec3d& direction) const;
 
   const AccurateScene& scene_;
   const AccurateFinder& finder_;

@@ -1,0 +1,80 @@
+// Paths in double precision, with the chances of the product's: the same light but for rounding.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "apps/lab/oracle/accurate/picture.h"
+#include "core/database/database.h"
+#include "core/picture/render.h"
+#include "core/record/records.h"
+#include "tests/support/mesh_surfaces.h"
+#include "tests/support/small_scenes.h"
+
+namespace dmpc::tests::accurate_paths_test {
+namespace {
+
+using core::Vec3d;
+
+constexpr int side = 40;
+
+/// Of a square picture with one sample a pixel by both.
+struct Comparison {
+  Comparison(const core::Scene& scene, const core::Transport& transport, int bounces, double tolerance) {
+    const core::ShadeOptions shade{.depth_max = bounces + 1, .pixel_share = 1, .transport = transport};
+    const apps::AccurateScene doubled = apps::accurate_scene(scene);
+    const apps::AccurateFinder finder(doubled, scene.view.from);
+    const apps::AccuratePicture accurate = render_accurately(doubled, finder, apps::AccurateCamera(scene.view, side, side),
+                                                             apps::SamplePattern::of_product(1), shade);
+    const core::Database database = core::build_database(scene, {});
+    const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, 1),
+                                        shade};
+    core::LocalRecords records(database.bytes());
+    core::GridTracer tracer(records, settings.header, core::Skips{});
+    core::Operations operations;
+    const core::Film film = core::render(tracer, settings, operations);
+    for (std::uint32_t pixel = 0; pixel < accurate.radiance.size(); ++pixel) {
+      note(film.radiance(pixel), accurate.radiance[pixel], tolerance);
+    }
+    paths_scattered = operations.rays[static_cast<std::size_t>(core::RayKind::scattered)];
+  }
+  double count() const { return side * side; }
+  double mean_difference() const { return sum / count(); }
+  double standard_error() const { return std::sqrt(squares / count() / count()); }
+
+  int differing = 0;            ///< pixels with a channel that is off by more than the tolerance, or that share of it
+  double sum = 0, squares = 0;  ///< of what pixels differ by, in all channels
+  std::uint64_t paths_scattered = 0;
+
+ private:
+  void note(const Vec3d& product, const Vec3d& accurate, double tolerance) {
+    const Vec3d off = product - accurate;
+    differing += largest_component(off) > tolerance * std::max(1.0, largest_component(accurate)) ? 1 : 0;
+    sum += off.x + off.y + off.z;
+    squares += (off.x + off.y + off.z) * (off.x + off.y + off.z);
+  }
+};
+
+constexpr core::Transport sky{
+    .kind = core::TransportKind::paths, .has_sky = true, .has_gradient = true, .zenith = {0.1F, 0.3F, 2}, .up = {0, 0, 1}};
+
+}  // namespace
+
+TEST_CASE(
+    "of paths of three bounces in double precision 99 of 100 bring the product's light, to 1e-5, the others no other mean") {
+  core::Scene textured = mirrors_and_glass();
+  add_textured_walls(textured);
+  for (const core::Scene& scene : {built_in("tetra-5"), built_in("balls-2"), textured, mesh_surfaces()}) {
+    for (const int bounces : {0, 1, 3}) {
+      CAPTURE(scene.name);
+      CAPTURE(bounces);
+      const bool has_alpha = scene.name == "mesh surfaces";  // which is looked up in single precision, and decides of ways
+      const Comparison comparison(scene, sky, bounces, has_alpha ? 1e-4 : 1e-5);
+      CHECK((bounces == 0 || comparison.paths_scattered > 200));
+      CHECK(comparison.differing <= side * side / (has_alpha ? 50 : 100));
+      CHECK(std::fabs(comparison.mean_difference()) <= 4 * comparison.standard_error() + 1e-6);
+    }
+  }
+}
+
+}  // namespace dmpc::tests::accurate_paths_test
