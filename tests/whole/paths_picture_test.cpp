@@ -32,6 +32,16 @@ Subject::Size size_of(const core::Transport& transport, int bounces) {
           .depth_max = bounces + 1};
 }
 
+core::Scene ball_in_the_air() {
+  core::Scene scene;
+  scene.background = {0.4, 0.5, 0.6};
+  scene.view = {.from = {0, -6, 1}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 60};
+  core::SceneBuilder builder(scene);
+  builder.material({.color = {0.9, 0.8, 0.7}, .diffuse = 0.8, .specular = 0.2, .shine = 20});
+  builder.sphere({0, 0, 0}, 1);
+  return scene;
+}
+
 /// By svm with room for much and for one page, by dataflow with much and with the least, by all.
 void check_strategies(const Subject& subject, const std::optional<nodes::Chaos>& chaos = {}) {
   for (const std::uint32_t nodes : {1U, 3U, 16U}) {
@@ -63,6 +73,19 @@ TEST_CASE("paths under a sky, with mirrors, glass, textures and what shines, giv
     for (const std::uint32_t nodes : {1U, 3U, 16U}) {
       CHECK(outcome_of(run_forest(extents, {.computer = {.node_count = nodes}})) == subject.outcome());
     }
+  }
+}
+
+TEST_CASE("a sky that changes is what each pixel where nothing is shows of it, though no ray is traced there") {
+  for (const int samples : {1, 3}) {
+    CAPTURE(samples);
+    Subject::Size size = size_of(under_sky(), 1);
+    size.samples = samples;
+    const Subject subject(ball_in_the_air(), size);
+    REQUIRE(subject.settings().background.count() > 0);
+    check_strategies(subject);
+    const Subject extents(ball_in_the_air(), size, {.page_size_bytes = 512, .structure = core::Structure::extents});
+    CHECK(outcome_of(run_forest(extents, {.computer = {.node_count = 3}})) == subject.outcome());
   }
 }
 
