@@ -1,6 +1,8 @@
 #include "apps/scene/transport_options.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <initializer_list>
 #include <limits>
 
 #include "apps/edge/line/number_text.h"

@@ -129,7 +129,8 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
   const double background =
       std::max({brightest(scene.background), double{brightest(transport.zenith)}, transport.shows_occlusion() ? 1.0 : 0.0});
   double bound = std::max(background, direct);
-  for (int depth = depth_max; depth > 2; --depth) {
+  const int looks = transport.is_by_paths() ? 1 : 0;  // of the last hit, at the sky or what shines
+  for (int depth = depth_max + looks; depth > 2; --depth) {
     bound = std::max(background, direct + passed_on * bound);
   }
   return bound;

@@ -2,10 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/base/elementary.h"
 #include "core/base/sampling.h"
 
 namespace path_step_test {

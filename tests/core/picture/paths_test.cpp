@@ -1,11 +1,12 @@
 // Light along paths, held against what can be said on paper.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
-#include "core/base/elementary.h"
 #include "core/picture/render.h"
 #include "core/picture/transport.h"
 #include "core/scene/frame.h"
@@ -281,6 +282,21 @@ TEST_CASE("a backdrop is seen, in mirrors too, and lights nothing; a sky does") 
   CHECK(studio.mean(1, 16, white_sky, 4) == doctest::Approx(1).epsilon(1e-6));
   const Studio mirror(seen_at_origin(floor_of({.diffuse = 0, .specular = 1}), {0, -1, 1}));
   CHECK(mirror.mean(1, 16, paths, 4) == 1);
+}
+
+TEST_CASE("no sample finds more light than the bound says, by which films are scaled and checkpoints judged") {
+  Scene lit = floor_of(grey(1));
+  lit.lights = {{{0, 0, 9}, {1, 1, 1}, true}};
+  for (Scene scene : {seen_at_origin(lit, {0, -1, 1}), mirrors_and_glass(), room(grey(0.9, 1), true), built_in("balls-2")}) {
+    for (const int bounces : {0, 1, 5}) {
+      CAPTURE(bounces);
+      const double bound = radiance_bound(scene, bounces + 2, white_sky);
+      const Film film = Studio(scene).film(8, 1, white_sky, bounces);
+      for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
+        CHECK(largest_component(film.radiance(pixel)) <= bound * (1 + 1e-6));
+      }
+    }
+  }
 }
 
 TEST_CASE("occlusion knows no colour, no light and no mirror") {
