@@ -193,6 +193,9 @@ std::vector<Group> BrickBuilder::add_by_kind(const Bounds& cell, std::span<const
     first = last;
   };
   for (const PrimitiveKind kind : {PrimitiveKind::triangle, PrimitiveKind::sphere, PrimitiveKind::cone}) {
+    if (first == ids.size()) {
+      break;  // mostly all are of one kind
+    }
     add(kind, false);
     if (is_any_left && kind == PrimitiveKind::triangle) {
       add(kind, true);

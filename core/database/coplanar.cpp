@@ -44,8 +44,11 @@ struct CoveringPairs {
     coplanar.insert(coplanar.end(), finder.coplanar().begin(), finder.coplanar().end());
     add_close(finder);
   }
-  /// What leans on something else.
+  /// What leans on something else: low faces alone are looked at for that, which most of a scene has none of.
   void look_at_meeting(std::span<const Face> faces) {
+    if (std::none_of(faces.begin(), faces.end(), [](const Face& face) { return face.altitude < low_altitude; })) {
+      return;
+    }
     CoverFinder finder(faces);
     finder.look_at_meeting();
     add_close(finder);

@@ -77,6 +77,19 @@ class CoverFinder::Raster {
   double scale_ = 1;
 };
 
+CoverFinder::CoverFinder(std::span<const Face> faces) : faces_(faces), coplanar_(faces), close_(faces), reached_(faces) {
+  extents_.reserve(faces.size());
+  for (const Face& face : faces) {
+    const auto& corner = face.corner;
+    Extent extent{.low = {}, .high = {}, .object = face.object};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      extent.low[axis] = std::min({corner[0][axis], corner[1][axis], corner[2][axis]});
+      extent.high[axis] = std::max({corner[0][axis], corner[1][axis], corner[2][axis]});
+    }
+    extents_.push_back(extent);
+  }
+}
+
 void CoverFinder::look_at(std::span<const std::uint32_t> some, std::size_t axis) {
   see(some, axis);
   if (!look_at_pairs(axis)) {
@@ -98,16 +111,11 @@ void CoverFinder::look_at_meeting() {
 }
 
 void CoverFinder::see(std::span<const std::uint32_t> some, std::size_t axis) {
+  const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
   seen_.clear();
   for (const std::uint32_t face : some) {
-    const auto& corner = faces_[face].corner;
-    Seen seen{.face = face, .low = {}, .high = {}};
-    for (std::size_t i = 0; i < 2; ++i) {
-      const std::size_t along = (axis + 1 + i) % 3;
-      seen.low[i] = std::min({corner[0][along], corner[1][along], corner[2][along]});
-      seen.high[i] = std::max({corner[0][along], corner[1][along], corner[2][along]});
-    }
-    seen_.push_back(seen);
+    const Extent& all = extents_[face];
+    seen_.push_back({{all.low[next], all.low[last]}, {all.high[next], all.high[last]}, face, all.object});
   }
 }
 
@@ -151,7 +159,7 @@ bool CoverFinder::list_squares(const Raster& raster) {
     }
     for (std::size_t y = bottom; y <= top; ++y) {
       for (std::size_t x = left; x <= right; ++x) {
-        entries_.push_back({static_cast<std::uint32_t>(y * raster.side() + x), place, faces_[face.face].object});
+        entries_.push_back({static_cast<std::uint32_t>(y * raster.side() + x), place, face.object});
       }
     }
   }

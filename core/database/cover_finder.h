@@ -30,7 +30,7 @@ class MergedSets {
 class CoverFinder {
  public:
   /// The faces, of ascending ids, outlive the finder.
-  explicit CoverFinder(std::span<const Face> faces) : faces_(faces), coplanar_(faces), close_(faces), reached_(faces) {}
+  explicit CoverFinder(std::span<const Face> faces);
 
   /// Looks at some of the faces, ascending, which can be looked at along `axis`.
   void look_at(std::span<const std::uint32_t> some, std::size_t axis);
@@ -46,10 +46,15 @@ class CoverFinder {
   const std::vector<std::uint32_t>& unseen() const { return unseen_; }
 
  private:
+  /// Of a face what is looked at first, on one line of the processor's cache; the face itself takes three.
+  struct alignas(64) Extent {
+    std::array<double, 3> low, high;
+    std::uint32_t object;
+  };
   /// A face as seen along the axis.
   struct Seen {
-    std::uint32_t face;
     std::array<double, 2> low, high;
+    std::uint32_t face, object;
   };
   /// A place in `seen_` that a square holds, and whose face that is.
   struct Entry {
@@ -80,6 +85,7 @@ class CoverFinder {
   void merge_in(Found& found, std::uint32_t a, std::uint32_t b);
 
   std::span<const Face> faces_;
+  std::vector<Extent> extents_;  ///< of the faces
   Found coplanar_, close_, reached_;
   std::vector<std::uint32_t> unseen_;
   std::vector<Seen> seen_;

@@ -43,11 +43,14 @@ double segment_distance(double x, double y, double px, double py, double qx, dou
 Box bounds_of(const PrimitiveValues& primitive) {
   Box box;
   switch (primitive.kind) {
-    case PrimitiveKind::triangle:
-      for (const std::size_t row : {std::size_t{0}, std::size_t{3}, std::size_t{6}}) {
-        box.include(primitive.vector(row));
+    case PrimitiveKind::triangle: {
+      const Bounds bounds = rounded_bounds_of(primitive);  // of which nothing had to be rounded
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.low[axis] = double{bounds.low[axis]};
+        box.high[axis] = double{bounds.high[axis]};
       }
       break;
+    }
     case PrimitiveKind::sphere: {
       const double radius = std::fabs(double{primitive.value[3]});
       box.include(primitive.vector(0));
@@ -69,9 +72,10 @@ Bounds rounded_bounds_of(const PrimitiveValues& primitive) {
     return Bounds::around(bounds_of(primitive));
   }
   Bounds bounds;
-  for (std::size_t row = 0; row < 9; ++row) {
-    bounds.low[row % 3] = std::min(bounds.low[row % 3], primitive.value[row]);
-    bounds.high[row % 3] = std::max(bounds.high[row % 3], primitive.value[row]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float a = primitive.value[axis], b = primitive.value[3 + axis], c = primitive.value[6 + axis];
+    bounds.low[axis] = std::min({a, b, c});
+    bounds.high[axis] = std::max({a, b, c});
   }
   return bounds;
 }
