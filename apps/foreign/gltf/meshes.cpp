@@ -1,6 +1,8 @@
 #include "apps/foreign/gltf/meshes.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <limits>
 #include <memory>
 
@@ -41,24 +43,33 @@ std::size_t face_count(Mode mode, std::size_t corners) {
   return 0;
 }
 
+/// Places of a face's corners among the indices.
+struct FacePlaces {
+  std::array<std::size_t, 3> place{};
+  std::size_t count = 3;
+
+  auto begin() const { return place.begin(); }
+  auto end() const { return place.begin() + static_cast<std::ptrdiff_t>(count); }
+};
+
 /// Which indices face `i` takes, of `corners`; every second triangle of a strip is turned, so that all look to one side.
-std::vector<std::size_t> places_of(Mode mode, std::size_t i, std::size_t corners) {
+FacePlaces places_of(Mode mode, std::size_t i, std::size_t corners) {
   switch (mode) {
     case Mode::points:
-      return {i};
+      return {{i}, 1};
     case Mode::lines:
-      return {2 * i, 2 * i + 1};
+      return {{2 * i, 2 * i + 1}, 2};
     case Mode::line_loop:
     case Mode::line_strip:
-      return {i, (i + 1) % corners};
+      return {{i, (i + 1) % corners}, 2};
     case Mode::triangles:
-      return {3 * i, 3 * i + 1, 3 * i + 2};
+      return {{3 * i, 3 * i + 1, 3 * i + 2}};
     case Mode::triangle_strip:
-      return i % 2 == 0 ? std::vector{i, i + 1, i + 2} : std::vector{i + 1, i, i + 2};
+      return i % 2 == 0 ? FacePlaces{{i, i + 1, i + 2}} : FacePlaces{{i + 1, i, i + 2}};
     case Mode::triangle_fan:
-      return {0, i + 1, i + 2};
+      return {{0, i + 1, i + 2}};
   }
-  return {};
+  return {{}, 0};
 }
 
 void add_faces(Mode mode, const std::vector<std::uint32_t>& indices, aiMesh& mesh) {
@@ -66,10 +77,10 @@ void add_faces(Mode mode, const std::vector<std::uint32_t>& indices, aiMesh& mes
   mesh.mFaces = count > 0 ? new aiFace[count] : nullptr;
   mesh.mNumFaces = static_cast<unsigned>(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::vector<std::size_t> places = places_of(mode, i, indices.size());
+    const FacePlaces places = places_of(mode, i, indices.size());
     aiFace& face = mesh.mFaces[i];
-    face.mIndices = new unsigned[places.size()];
-    face.mNumIndices = static_cast<unsigned>(places.size());
+    face.mIndices = new unsigned[places.count];
+    face.mNumIndices = static_cast<unsigned>(places.count);
     std::transform(places.begin(), places.end(), face.mIndices, [&](std::size_t place) { return indices[place]; });
   }
 }

@@ -11,6 +11,9 @@ namespace {
 
 void read_faces(const aiMesh& mesh, bool is_mirrored, PolygonMesh& result) {
   FaceList& faces = result.faces;
+  const GeometrySize size = size_of(mesh);
+  faces.ends.reserve(size.faces);
+  faces.corners.reserve(size.corners);
   for (std::size_t i = 0; i < mesh.mNumFaces; ++i) {
     const aiFace& face = mesh.mFaces[i];
     if (face.mNumIndices < 3) {

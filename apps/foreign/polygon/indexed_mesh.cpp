@@ -50,6 +50,11 @@ class Part {
  public:
   explicit Part(const IndexedMesh& mesh) : mesh_(mesh) {}
 
+  /// Whether corners have anything but their vertices.
+  bool has_corners() const {
+    return !(mesh_.normals.empty() && mesh_.places.empty() && mesh_.corner_places.empty() && mesh_.colors.empty() &&
+             mesh_.face_colors.empty());
+  }
   /// What corners of the face have, but for their vertices.
   void add_corners(std::size_t face, PolygonMesh& part) const;
   /// The corners, among the part's own vertices.
@@ -113,7 +118,7 @@ PolygonMesh whole_of(IndexedMesh mesh, std::size_t material) {
   PolygonMesh whole{.name = mesh.name, .material = material};
   reserve_corners(mesh, whole);
   const Part part(mesh);
-  for (std::size_t face = 0; face < mesh.faces.ends.size(); ++face) {
+  for (std::size_t face = 0; part.has_corners() && face < mesh.faces.ends.size(); ++face) {
     part.add_corners(face, whole);
   }
   whole.vertices = std::move(mesh.vertices);

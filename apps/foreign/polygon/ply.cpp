@@ -1,7 +1,6 @@
 #include "apps/foreign/polygon/ply.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -79,7 +78,8 @@ class PlyReader {
   void take_strip(const PlyRow& row, std::uint64_t number);
   void read_materials(const PlyElement& element);
   void skip(const PlyElement& element);
-  std::uint32_t vertex_of(double index, const std::string& what) const;
+  /// Of number `number` of what is called `what`, for errors.
+  std::uint32_t vertex_of(double index, const char* what, std::uint64_t number) const;
   void finish_faces();
   void finish_colors();
   bool is_textured() const;
@@ -182,10 +182,11 @@ void PlyReader::read_vertices(const PlyElement& element) {
   });
 }
 
-std::uint32_t PlyReader::vertex_of(double index, const std::string& what) const {
-  if (!(index >= 0 && index < static_cast<double>(vertex_count_) && std::floor(index) >= index)) {
-    fail(what + " has a vertex that does not exist, " + rounded(index) + ": there are " + std::to_string(vertex_count_) +
-         "; correct the file");
+std::uint32_t PlyReader::vertex_of(double index, const char* what, std::uint64_t number) const {
+  const bool is_within = index >= 0 && index < static_cast<double>(vertex_count_);
+  if (!is_within || static_cast<double>(static_cast<std::uint64_t>(index)) < index) {
+    fail(what + (" " + std::to_string(number)) + " has a vertex that does not exist, " + rounded(index) + ": there are " +
+         std::to_string(vertex_count_) + "; correct the file");
   }
   return static_cast<std::uint32_t>(index);
 }
@@ -235,7 +236,7 @@ void PlyReader::take_face(const PlyRow& row, std::uint64_t number) {
   }
   corners_.clear();
   for (const double index : row.corners()) {
-    corners_.push_back(vertex_of(index, "face " + std::to_string(number)));
+    corners_.push_back(vertex_of(index, "face", number));
   }
   mesh_.add_face(corners_);
   mesh_.face_materials.push_back(surface_of(row, number));
@@ -266,7 +267,6 @@ void PlyReader::read_faces(const PlyElement& element) {
 /// Stanford's: a vertex more is a triangle more, every second one turned; -1 begins anew. Triangles without area only join
 /// strips.
 void PlyReader::take_strip(const PlyRow& row, std::uint64_t number) {
-  const std::string what = "strip " + std::to_string(number);
   const bool has_texture = surfaces_.texture_count() > 0 && !mesh_.places.empty();
   const std::uint32_t surface = surfaces_.find(0, has_texture ? std::optional(0U) : std::nullopt);
   corners_.clear();
@@ -275,7 +275,7 @@ void PlyReader::take_strip(const PlyRow& row, std::uint64_t number) {
       corners_.clear();
       continue;
     }
-    corners_.push_back(vertex_of(index, what));
+    corners_.push_back(vertex_of(index, "strip", number));
     const std::size_t count = corners_.size();
     if (count < 3) {
       continue;

@@ -90,17 +90,12 @@ bool PlyRow::has_all(std::initializer_list<PlyRole> roles) const {
 }
 
 void PlyRow::read_list(const Column& column) {
-  const PlyType type = column.property.type;
-  const std::uint64_t length = values_.next_length(*column.property.count_type, type);
+  const PlyType type = column.property.type, count_type = *column.property.count_type;
   if (!column.role) {
-    values_.skip(type, length);
+    values_.skip(type, values_.next_length(count_type, type));
     return;
   }
-  std::vector<double>& list = *column.role == PlyRole::corners ? corners_ : corner_places_;
-  list.clear();
-  for (std::uint64_t i = 0; i < length; ++i) {
-    list.push_back(values_.next(type));
-  }
+  values_.next_list(count_type, type, *column.role == PlyRole::corners ? corners_ : corner_places_);
 }
 
 void PlyRow::read() {

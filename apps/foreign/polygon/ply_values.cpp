@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 #include "apps/edge/line/number_text.h"
@@ -15,8 +14,9 @@
 namespace dmpc::apps {
 namespace {
 
+/// `least` and `most` are no larger than 64 bits hold.
 bool is_whole_number(double value, double least, double most) {
-  return value >= least && value <= most && std::floor(value) >= value;
+  return value >= least && value <= most && static_cast<double>(static_cast<std::int64_t>(value)) == value;
 }
 
 class TextValues final : public PlyValues {
@@ -26,6 +26,7 @@ class TextValues final : public PlyValues {
   void begin_element() override;
   double next(PlyType type) override;
   std::uint64_t next_length(PlyType count_type, PlyType type) override;
+  void next_list(PlyType count_type, PlyType type, std::vector<double>& values) override;
   void skip(PlyType type, std::uint64_t count) override;
   std::uint64_t room_for(const PlyElement& element) const override {
     return left() / std::max<std::size_t>(2 * element.properties.size(), 1) + 1;
@@ -94,6 +95,13 @@ std::uint64_t TextValues::next_length(PlyType /*count_type*/, PlyType /*type*/) 
   return static_cast<std::uint64_t>(*length);
 }
 
+void TextValues::next_list(PlyType count_type, PlyType type, std::vector<double>& values) {
+  values.clear();
+  for (std::uint64_t left = next_length(count_type, type); left > 0; --left) {
+    values.push_back(next(type));
+  }
+}
+
 void TextValues::skip(PlyType /*type*/, std::uint64_t count) {
   for (std::uint64_t i = 0; i < count; ++i) {
     if (word().empty()) {
@@ -118,6 +126,7 @@ class BinaryValues final : public PlyValues {
   void begin_element() override {}
   double next(PlyType type) override;
   std::uint64_t next_length(PlyType count_type, PlyType type) override;
+  void next_list(PlyType count_type, PlyType type, std::vector<double>& values) override;
   void skip(PlyType type, std::uint64_t count) override;
   std::uint64_t room_for(const PlyElement& element) const override;
   std::uint64_t count_rest() override { return left(); }
@@ -128,6 +137,8 @@ class BinaryValues final : public PlyValues {
   std::uint64_t left() const { return file_.size() - at_; }
   template <class T>
   T take();
+  template <class T>
+  void take_all(std::vector<double>& values);
 
   std::string_view file_;
   std::size_t begin_, at_;
@@ -148,27 +159,46 @@ T BinaryValues::take() {
   return std::bit_cast<T>(bytes);
 }
 
-double BinaryValues::next(PlyType type) {
+template <class T>
+void BinaryValues::take_all(std::vector<double>& values) {
+  for (double& value : values) {
+    value = static_cast<double>(take<T>());
+  }
+}
+
+/// Calls act with a value of the C++ type that is `type`.
+template <class Act>
+auto with_type(PlyType type, const Act& act) {
   switch (type) {
     case PlyType::int8:
-      return take<std::int8_t>();
+      return act(std::int8_t{});
     case PlyType::uint8:
-      return take<std::uint8_t>();
+      return act(std::uint8_t{});
     case PlyType::int16:
-      return take<std::int16_t>();
+      return act(std::int16_t{});
     case PlyType::uint16:
-      return take<std::uint16_t>();
+      return act(std::uint16_t{});
     case PlyType::int32:
-      return take<std::int32_t>();
+      return act(std::int32_t{});
     case PlyType::uint32:
-      return take<std::uint32_t>();
+      return act(std::uint32_t{});
     case PlyType::float32:
-      return double{take<float>()};
+      return act(float{});
     case PlyType::float64:
-      return take<double>();
+      return act(double{});
   }
   core::expect(false, "a value has one of PLY's types");
-  return 0;
+  return act(double{});
+}
+
+double BinaryValues::next(PlyType type) {
+  return with_type(type, [this](auto of_type) { return static_cast<double>(take<decltype(of_type)>()); });
+}
+
+/// The type is looked at once for all.
+void BinaryValues::next_list(PlyType count_type, PlyType type, std::vector<double>& values) {
+  values.resize(next_length(count_type, type));
+  with_type(type, [&](auto of_type) { take_all<decltype(of_type)>(values); });
 }
 
 std::uint64_t BinaryValues::next_length(PlyType count_type, PlyType type) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "apps/foreign/polygon/ply_header.h"
 
@@ -24,6 +25,8 @@ class PlyValues {
   virtual double next(PlyType type) = 0;
   /// Of a list whose values are of `type`: no more than there are bytes for. Throws as next() does.
   virtual std::uint64_t next_length(PlyType count_type, PlyType type) = 0;
+  /// A list's values, in place of what is in `values`. Throws as the others do.
+  virtual void next_list(PlyType count_type, PlyType type, std::vector<double>& values) = 0;
   /// Passes over so many.
   virtual void skip(PlyType type, std::uint64_t count) = 0;
 
