@@ -160,6 +160,9 @@ bool MeshSession::answer(const Message& message) {
     case Saying::expected:
       expect(fields);
       return false;
+    case Saying::lies_here:
+      take_over(fields);
+      return false;
     case Saying::bytes:
       add_bytes(message.bytes);
       return false;
@@ -281,6 +284,17 @@ core::Texture MeshSession::texture_of_texels(Unpacker fields) {
   core::add_levels(texture);
   core::keep_coverage(texture, edges.cutoff);
   return texture;
+}
+
+/// Where that cannot be, the same comes in messages.
+void MeshSession::take_over(Unpacker fields) {
+  const Saying list = fields.take_choice(Saying::corners);
+  auto address = fields.take<std::uint64_t>();
+  const auto bytes = fields.take<std::uint64_t>();
+  fields.finish();
+  const bool is_here = receiver_.take_from(
+      list, bytes, [&](std::span<std::byte> room) { return process_.copy(std::exchange(address, address + room.size()), room); });
+  process_.send(is_here ? Saying::yes : Saying::no);
 }
 
 void MeshSession::add_bytes(const std::string& bytes) {

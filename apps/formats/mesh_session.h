@@ -35,6 +35,7 @@ class MeshSession {
   core::Texture texture_of_file(Unpacker fields);
   core::Texture texture_of_bytes(Unpacker fields);
   core::Texture texture_of_texels(Unpacker fields);
+  void take_over(Unpacker fields);
   void add_bytes(const std::string& bytes);
   void add_note(Unpacker fields);
   void note_alpha();

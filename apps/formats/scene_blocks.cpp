@@ -25,22 +25,59 @@ constexpr std::size_t lights_a_message = 1000;
 constexpr std::size_t lights_max = std::size_t{1} << 20U, textures_max = std::size_t{1} << 16U;
 constexpr std::uint64_t materials_max = std::uint64_t{1} << 24U;
 
-/// dmpc gets what this process gives back, so that a scene is there but once.
-template <class T>
-bool send_block(std::vector<T>& pool, Saying saying, Line& line) {
-  constexpr std::size_t most = message_bytes_max / sizeof(T) * sizeof(T), page = 4096;
-  const auto all = std::as_bytes(std::span(pool));
-  for (std::size_t first = 0; first < all.size(); first += most) {
-    const auto part = all.subspan(first, std::min(most, all.size() - first));
-    if (!line.send(saying, {reinterpret_cast<const char*>(part.data()), part.size()})) {
+/// So much of a list is handed over at a time, which dmpc has while it is not yet given back here.
+constexpr std::size_t handed_bytes_max = std::size_t{8} << 20U;
+/// Room is made in pieces that are still in the processor's cache when they are filled.
+constexpr std::size_t piece_bytes = std::size_t{256} << 10U;
+
+/// Sends lists. dmpc gets what this process gives back, so that a scene is there but once.
+class BlockSender {
+ public:
+  BlockSender(Line& line, Handing handing) : line_(line), handing_(handing) {}
+
+  template <class T>
+  bool send(std::vector<T>& pool, Saying saying) {
+    constexpr std::size_t most = handed_bytes_max / sizeof(T) * sizeof(T), page = 4096;
+    const auto all = std::as_bytes(std::span(pool));
+    for (std::size_t first = 0; first < all.size(); first += most) {
+      const auto part = all.subspan(first, std::min(most, all.size() - first));
+      if (!hand_over(part, saying) && !send_messages(part, sizeof(T), saying)) {
+        return false;
+      }
+      const std::size_t before = std::min(first, page);  // of the page that the last part ended in
+      core::give_back(all.subspan(first - before, before + part.size()));
+    }
+    core::forget(pool);
+    return true;
+  }
+
+ private:
+  /// Returns whether it has been taken from here; once it has not, nothing will be.
+  bool hand_over(std::span<const std::byte> part, Saying saying) {
+    if (handing_ == Handing::in_messages || part.size() <= message_bytes_max) {
       return false;
     }
-    const std::size_t before = std::min(first, page);  // of the page that the last part ended in
-    core::give_back(all.subspan(first - before, before + part.size()));
+    const Packer fields =
+        Packer().add(saying).add(std::uint64_t{reinterpret_cast<std::uintptr_t>(part.data())}).add(std::uint64_t{part.size()});
+    const auto answer = line_.send(Saying::lies_here, fields) ? line_.receive(false) : std::nullopt;
+    handing_ = answer && answer->saying == Saying::yes ? Handing::from_memory : Handing::in_messages;
+    return handing_ == Handing::from_memory;
   }
-  core::forget(pool);
-  return true;
-}
+
+  bool send_messages(std::span<const std::byte> part, std::size_t entry_bytes, Saying saying) {
+    const std::size_t most = message_bytes_max / entry_bytes * entry_bytes;
+    for (std::size_t first = 0; first < part.size(); first += most) {
+      const auto message = part.subspan(first, std::min(most, part.size() - first));
+      if (!line_.send(saying, {reinterpret_cast<const char*>(message.data()), message.size()})) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  Line& line_;
+  Handing handing_;
+};
 
 bool send_lights(const std::vector<core::PointLight>& lights, Line& line) {
   for (std::size_t first = 0; first < lights.size(); first += lights_a_message) {
@@ -67,7 +104,7 @@ bool is_weight(double value) { return value >= 0 && value < coordinate_max; }
 
 }  // namespace
 
-bool send_scene(core::Scene& scene, Line& line) {
+bool send_scene(core::Scene& scene, Line& line, Handing handing) {
   const Packer head = Packer()
                           .add(scene.view)
                           .add(scene.background)
@@ -77,38 +114,44 @@ bool send_scene(core::Scene& scene, Line& line) {
                           .add(count_of(scene.vertices))
                           .add(count_of(scene.normals))
                           .add(count_of(scene.corners));
-  return line.send(Saying::scene, head) && send_lights(scene.lights, line) &&
-         send_block(scene.materials, Saying::materials, line) && send_block(scene.objects, Saying::objects, line) &&
-         send_block(scene.vertices, Saying::vertices, line) && send_block(scene.normals, Saying::normals, line) &&
-         send_block(scene.corners, Saying::corners, line);
+  BlockSender blocks(line, handing);
+  return line.send(Saying::scene, head) && send_lights(scene.lights, line) && blocks.send(scene.materials, Saying::materials) &&
+         blocks.send(scene.objects, Saying::objects) && blocks.send(scene.vertices, Saying::vertices) &&
+         blocks.send(scene.normals, Saying::normals) && blocks.send(scene.corners, Saying::corners);
 }
 
 bool SceneReceiver::take(const Message& message) {
-  Unpacker::require(has_head_ || message.saying < Saying::lights || message.saying > Saying::corners);
-  switch (message.saying) {
-    case Saying::scene:
-      take_head(Unpacker(message.bytes));
+  if (message.saying < Saying::scene || message.saying > Saying::corners) {
+    return false;
+  }
+  if (message.saying == Saying::scene) {
+    take_head(Unpacker(message.bytes));
+  } else if (message.saying == Saying::lights) {
+    Unpacker::require(has_head_);
+    take_lights(Unpacker(message.bytes));
+  } else {
+    std::size_t taken = 0;
+    take_from(message.saying, message.bytes.size(), [&](std::span<std::byte> room) {
+      std::memcpy(room.data(), message.bytes.data() + std::exchange(taken, taken + room.size()), room.size());
       return true;
-    case Saying::lights:
-      take_lights(Unpacker(message.bytes));
-      return true;
+    });
+  }
+  return true;
+}
+
+bool SceneReceiver::take_from(Saying saying, std::uint64_t bytes, const Fill& fill) {
+  Unpacker::require(has_head_ && saying >= Saying::materials && saying <= Saying::corners);
+  switch (saying) {
     case Saying::materials:
-      append(scene_.materials, announced_.materials, message.bytes);
-      return true;
+      return append(scene_.materials, announced_.materials, bytes, fill);
     case Saying::objects:
-      append(scene_.objects, announced_.objects, message.bytes);
-      return true;
+      return append(scene_.objects, announced_.objects, bytes, fill);
     case Saying::vertices:
-      append(scene_.vertices, announced_.vertices, message.bytes);
-      return true;
+      return append(scene_.vertices, announced_.vertices, bytes, fill);
     case Saying::normals:
-      append(scene_.normals, announced_.normals, message.bytes);
-      return true;
-    case Saying::corners:
-      append(scene_.corners, announced_.corners, message.bytes);
-      return true;
+      return append(scene_.normals, announced_.normals, bytes, fill);
     default:
-      return false;
+      return append(scene_.corners, announced_.corners, bytes, fill);
   }
 }
 
@@ -123,10 +166,10 @@ void SceneReceiver::take_head(Unpacker fields) {
   scene_.background = fields.take<Vec3d>();
   scene_.coordinate_rounding = fields.take<double>();
   Unpacker::require(scene_.coordinate_rounding >= 0 && scene_.coordinate_rounding < 1);
-  const auto reserve = [&fields](auto& pool) {
+  const auto reserve = [this, &fields](auto& pool) {
     const auto count = fields.take<std::uint64_t>();
     Unpacker::require(count < std::numeric_limits<std::uint32_t>::max());
-    pool.reserve(std::min(count, believed_bytes_max / sizeof(pool[0])));
+    pool.reserve(std::min(count, believed_bytes_ / sizeof(pool[0])));
     return count;
   };
   announced_.materials = reserve(scene_.materials);
@@ -150,11 +193,19 @@ void SceneReceiver::take_lights(Unpacker fields) {
 
 /// Within what was announced.
 template <class T>
-void SceneReceiver::append(std::vector<T>& pool, std::uint64_t announced, const std::string& bytes) {
-  const std::size_t count = bytes.size() / sizeof(T), before = pool.size();
-  Unpacker::require(count > 0 && bytes.size() % sizeof(T) == 0 && count <= announced - before);
-  pool.resize(before + count);
-  std::memcpy(static_cast<void*>(pool.data() + before), bytes.data(), bytes.size());
+bool SceneReceiver::append(std::vector<T>& pool, std::uint64_t announced, std::uint64_t bytes, const Fill& fill) {
+  const std::size_t before = pool.size();
+  const std::uint64_t end = before + bytes / sizeof(T);
+  Unpacker::require(end > before && bytes % sizeof(T) == 0 && end <= announced);
+  while (pool.size() < end) {
+    const std::size_t piece = std::min<std::size_t>(piece_bytes / sizeof(T), end - pool.size());
+    pool.resize(pool.size() + piece);
+    if (!fill(std::as_writable_bytes(std::span(pool).last(piece)))) {
+      pool.resize(before);
+      return false;
+    }
+  }
+  return true;
 }
 
 void SceneReceiver::check_object(const core::Object& object) const {

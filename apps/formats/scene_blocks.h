@@ -1,7 +1,10 @@
 // A scene of polygons and patches as messages, and back: whoever receives it believes nothing.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,15 +17,27 @@ namespace dmpc::apps {
 /// that are copied into longer ones, which takes twice the room.
 inline constexpr std::uint64_t believed_bytes_max = std::uint64_t{1} << 30U;
 
+/// How long lists come: in messages, or, where the other end is dmpc and the system lets it, straight from the memory of the
+/// reader that it has started, which spares three copies of four.
+enum class Handing : std::uint8_t { in_messages, from_memory };
+
 /// Sends all but the textures and the name; what is sent is freed on the way. Returns whether the other end took it.
-bool send_scene(core::Scene& scene, Line& line);
+bool send_scene(core::Scene& scene, Line& line, Handing handing);
 
 /// Puts it together. Throws Nonsense for what no scene may hold: more than was announced; an index, a count, a kind or a number
 /// out of its range; a view that shows nothing; std::bad_alloc if memory ends.
 class SceneReceiver {
  public:
+  /// `believed_bytes`: believed_bytes_max, or less for who tries many scenes that announce much and send nothing.
+  explicit SceneReceiver(std::uint64_t believed_bytes = believed_bytes_max) : believed_bytes_(believed_bytes) {}
+
   /// Whether the message is one of a scene's, and was taken.
   bool take(const Message& message);
+  /// Fills some room, and returns whether it could.
+  using Fill = std::function<bool(std::span<std::byte>)>;
+  /// Takes so many bytes of a list's entries, as from a message of `saying`, from `fill`, piece by piece. Returns false, and has
+  /// none of them, if that does.
+  bool take_from(Saying saying, std::uint64_t bytes, const Fill& fill);
   /// Throws Nonsense if there are too many.
   void add(core::Texture texture);
 
@@ -38,11 +53,12 @@ class SceneReceiver {
   };
 
   template <class T>
-  static void append(std::vector<T>& pool, std::uint64_t announced, const std::string& bytes);
+  static bool append(std::vector<T>& pool, std::uint64_t announced, std::uint64_t bytes, const Fill& fill);
   void check_object(const core::Object& object) const;
   void check_material(const core::Material& material) const;
   void drop_needless_alpha(core::Material& material) const;
 
+  std::uint64_t believed_bytes_;
   core::Scene scene_;
   Announced announced_;
   bool has_head_ = false;

@@ -7,7 +7,7 @@
 namespace dmpc::apps {
 
 /// The version of the messages and of what they hold; processes of different builds do not understand each other.
-inline constexpr std::uint32_t protocol = 5;
+inline constexpr std::uint32_t protocol = 6;
 
 /// A message is no longer; more is sent in pieces.
 inline constexpr std::size_t message_bytes_max = 64 * 1024;
@@ -50,7 +50,8 @@ enum class Saying : std::uint8_t {
   bad_input,  ///< a text
   no_room,    ///< a text
   out_of_memory,
-  expected,  ///< the last of all: what the scene's file says that it has, MeshCounts: before it is read, or never
+  lies_here,  ///< objects, or another list of a scene's, address and bytes: answered by yes, when dmpc has them from there, or no
+  expected,   ///< the last of all: what the scene's file says that it has, MeshCounts: before it is read, or never
 };
 
 }  // namespace dmpc::apps

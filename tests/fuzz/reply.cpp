@@ -24,10 +24,14 @@ core::Texture small_texture() {
   return texture;
 }
 
+/// So little room is made for what is announced that what comes outgrows it, too; and the sanitizer has a shadow to write of all
+/// room that is made, which for a gigabyte takes longer than all else that is tried here.
+constexpr std::uint64_t believed_bytes = 256;
+
 /// A kind, a length, and so many bytes; again and again.
 std::optional<core::Scene> received(tests::Bytes& bytes) {
   constexpr auto first = static_cast<std::size_t>(Saying::scene), last = static_cast<std::size_t>(Saying::corners);
-  apps::SceneReceiver receiver;
+  apps::SceneReceiver receiver(believed_bytes);
   try {
     receiver.add(small_texture());
     while (!bytes.empty()) {
@@ -40,8 +44,6 @@ std::optional<core::Scene> received(tests::Bytes& bytes) {
     }
     return receiver.finish();
   } catch (const apps::Nonsense&) {
-    return std::nullopt;
-  } catch (const std::bad_alloc&) {  // more was announced than there is room for
     return std::nullopt;
   }
 }

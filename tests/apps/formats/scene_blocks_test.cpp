@@ -2,9 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <cstring>
 #include <functional>
 #include <limits>
+#include <span>
 #include <thread>
+#include <utility>
 
 #include "core/base/expect.h"
 
@@ -32,7 +35,7 @@ core::Scene sent(core::Scene scene) {
   auto [mine, its] = make_ends();
   Line sender(std::move(mine)), receiver(std::move(its));
   std::jthread writer([&] {
-    send_scene(scene, sender);
+    send_scene(scene, sender, Handing::in_messages);
     sender.send(Saying::done);
   });
   SceneReceiver whole;
@@ -43,6 +46,36 @@ core::Scene sent(core::Scene scene) {
       return whole.finish();
     }
   }
+}
+
+/// What a reader hands over is looked for where it says, or not at all.
+core::Scene handed_over(core::Scene scene, bool is_let) {
+  auto [mine, its] = make_ends();
+  Line sender(std::move(mine)), receiver(std::move(its));
+  std::jthread writer([&] {
+    send_scene(scene, sender, Handing::from_memory);
+    sender.send(Saying::done);
+  });
+  SceneReceiver whole;
+  whole.add({.name = "t", .levels = {}});
+  for (std::optional<Message> message = receiver.receive(false); message->saying != Saying::done;
+       message = receiver.receive(false)) {
+    if (message->saying != Saying::lies_here) {
+      whole.take(*message);
+      continue;
+    }
+    Unpacker fields(message->bytes);
+    const Saying list = fields.take_choice(Saying::corners);
+    const auto* from = reinterpret_cast<const std::byte*>(fields.take<std::uint64_t>());
+    std::size_t pieces = 0;
+    const bool is_here = whole.take_from(list, fields.take<std::uint64_t>(), [&](std::span<std::byte> room) {
+      std::memcpy(room.data(), std::exchange(from, from + room.size()), room.size());
+      return is_let || ++pieces < 3;
+    });
+    CHECK(is_here == is_let);
+    receiver.send(is_here ? Saying::yes : Saying::no);
+  }
+  return whole.finish();
 }
 
 bool is_refused(const std::function<void(core::Scene&)>& spoil) {
@@ -75,6 +108,38 @@ TEST_CASE("a scene of many messages comes through, too") {
   scene.vertices.resize(100'000);
   scene.vertices.back() = {7, 8, 9};
   CHECK(sent(scene).vertices.back() == core::Vec3d{7, 8, 9});
+}
+
+TEST_CASE("lists that are handed over come as those in messages do, and so do those that cannot be looked at") {
+  core::Scene scene = three_triangles();
+  scene.vertices.resize(1'000'000);
+  for (std::size_t i = 0; i < scene.vertices.size(); ++i) {
+    scene.vertices[i].y = static_cast<double>(i);
+  }
+  for (const bool is_let : {true, false}) {
+    const core::Scene after = handed_over(scene, is_let);
+    CHECK(after.vertices == scene.vertices);
+    CHECK(after.normals == scene.normals);
+    CHECK(after.objects.size() == 3);
+  }
+}
+
+TEST_CASE("more than was announced is not taken from anywhere") {
+  const auto nothing = [](std::span<std::byte> /*room*/) { return true; };
+  SceneReceiver receiver;
+  CHECK_THROWS_AS(receiver.take_from(Saying::vertices, 24, nothing), Nonsense);
+  const core::Scene scene = three_triangles();
+  Packer head;
+  head.add(scene.view).add(scene.background).add(scene.coordinate_rounding);
+  for (int pool = 0; pool < 5; ++pool) {
+    head.add(std::uint64_t{1});
+  }
+  receiver.take({Saying::scene, head.bytes(), Descriptor()});
+  CHECK_THROWS_AS(receiver.take_from(Saying::lights, 24, nothing), Nonsense);
+  CHECK_THROWS_AS(receiver.take_from(Saying::vertices, 0, nothing), Nonsense);
+  CHECK_THROWS_AS(receiver.take_from(Saying::vertices, 25, nothing), Nonsense);
+  CHECK_THROWS_AS(receiver.take_from(Saying::vertices, std::uint64_t{24} << 40U, nothing), Nonsense);
+  CHECK(receiver.take_from(Saying::vertices, 24, nothing));
 }
 
 TEST_CASE("a scene that cannot be is refused, whatever is wrong with it") {
