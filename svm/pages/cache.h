@@ -56,6 +56,9 @@ class Cache {
   /// Installs the page that lies at `offset_bytes` of `source`.
   PageId install(PageId page, const nodes::ByteSource& source, std::size_t offset_bytes);
 
+  /// The frame that install() has just put a page into.
+  std::uint32_t newest_frame() const { return last_frame_; }
+
   /// Frames that have a page.
   std::uint32_t filled_count() const { return filled_count_; }
   std::uint32_t frame_count() const { return static_cast<std::uint32_t>(stamps_.size()); }

@@ -15,6 +15,7 @@ nodes::MemoryPlan Pager::layout(const PageCapacity& capacity, std::uint32_t inde
 
 Pager::Pager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
     : geometry_(capacity.page_size_bytes()),
+      in_place_(PagesInPlace::of(node.memory(), capacity, database)),
       translations_(own_layout().in(node.memory())),
       homes_(node, capacity, database),
       resident_(node.memory(), capacity.resident_shape(), 0),
@@ -27,24 +28,41 @@ Pager::Pager(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteS
   for (const PageId page : capacity.resident) {
     resident_.install(page, database, index_of(page) * capacity.page_size_bytes());
   }
+  for (std::uint32_t page = 0; in_place_ && page < capacity.page_count; ++page) {
+    if (keeps(PageId{page})) {
+      in_place_->put(PageId{page}, PagesInPlace::for_good);
+    }
+  }
   grant_requests(node, capacity);
 }
 
 const std::byte* Pager::find_other(PageId page, std::size_t offset) {
+  if (in_place_) {
+    const std::uint32_t frame = in_place_->frame_of(page);
+    if (frame == PagesInPlace::absent) {
+      ++counters_.misses;
+      return nullptr;
+    }
+    return refer(page, frame == PagesInPlace::for_good ? Cache::no_frame : frame, in_place_->bytes_of(page)) + offset;
+  }
   Translation& translation = translation_of(page);
   if (translation.page != page && !translate(page, translation)) {
     ++counters_.misses;
     return nullptr;
   }
-  const bool is_kept = translation.frame == Cache::no_frame;
+  return refer(page, translation.frame, translation.bytes) + offset;
+}
+
+/// Counts a reference to a page that is here, and returns where.
+const std::byte* Pager::refer(PageId page, std::uint32_t frame, const std::byte* bytes) {
+  const bool is_kept = frame == Cache::no_frame;
   if (!is_kept) {
-    cache_.touch(translation.frame);
+    cache_.touch(frame);
   }
   last_hits_ = is_kept ? &counters_.home_hits : &counters_.cache_hits;
   ++*last_hits_;
   last_page_ = page;
-  last_bytes_ = translation.bytes;
-  return last_bytes_ + offset;
+  return last_bytes_ = bytes;
 }
 
 /// Returns whether the page is here; if not, `translation` stays as it was.
@@ -121,6 +139,9 @@ std::uint32_t Pager::install(const nodes::Packet& reply) {
     request(*refused);
   }
   forget_page(cache_.install(header.page, reply.behind(sizeof(header))));
+  if (in_place_) {
+    in_place_->put(header.page, cache_.newest_frame());
+  }
   return first;
 }
 
@@ -130,7 +151,9 @@ void Pager::forget_page(PageId evicted) {
     return;
   }
   ++counters_.evictions;
-  if (translation_of(evicted).page == evicted) {
+  if (in_place_) {
+    in_place_->put(evicted, PagesInPlace::absent);
+  } else if (translation_of(evicted).page == evicted) {
     translation_of(evicted) = {};
   }
 }

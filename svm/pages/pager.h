@@ -19,6 +19,7 @@
 #include "svm/pages/page.h"
 #include "svm/pages/page_capacity.h"
 #include "svm/pages/page_server.h"
+#include "svm/pages/pages_in_place.h"
 #include "svm/pages/plain_records.h"
 #include "svm/pages/request_tree.h"
 
@@ -111,6 +112,7 @@ class Pager : public PlainRecords {
   Translation& translation_of(PageId page) { return translations_[index_of(page) % translation_count]; }
   bool translate(PageId page, Translation& translation) const;
   const std::byte* find_other(PageId page, std::size_t offset);
+  const std::byte* refer(PageId page, std::uint32_t frame, const std::byte* bytes);
   std::uint32_t asked_for(PageId page) const;
   const std::byte* served_bytes(PageId page);
   void request(Faults::Fault& fault);
@@ -121,6 +123,7 @@ class Pager : public PlainRecords {
   PageId last_page_ = no_page;
   const std::byte* last_bytes_ = nullptr;
   std::uint64_t* last_hits_ = nullptr;
+  std::optional<PagesInPlace> in_place_;  ///< on a modelled machine: in place of translations
   std::span<Translation> translations_;
   HomePages homes_;
   Cache resident_;  ///< of pages that never leave it

@@ -1,0 +1,56 @@
+// Where pages are on a modelled machine, all of whose nodes share the real computer's caches.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "nodes/byte_source.h"
+#include "nodes/local_memory.h"
+#include "svm/pages/page_capacity.h"
+
+namespace dmpc::svm {
+
+/// There pages lie in the one database, so that two bytes a page say all: whether it is here, for good or in which frame. With
+/// many nodes that is what the real computer's caches can hold, where tables of places and translations, and a search in them,
+/// are more. Outside of the node's memory. Thread safety: none; belongs to one node.
+class PagesInPlace {
+ public:
+  /// Of more pages, or frames, the tables of hundreds of nodes would take the room that they are to spare.
+  static constexpr std::uint32_t pages_max = 32768;
+
+  /// None where the memory has copies of what lasts, or if there are too many.
+  static std::optional<PagesInPlace> of(const nodes::LocalMemory& memory, const PageCapacity& capacity,
+                                        const nodes::ByteSource& database) {
+    return memory.lasting() == nodes::Lasting::is_referred_to &&
+                   std::max(capacity.page_count, capacity.cache.frame_count) <= pages_max
+               ? std::optional(PagesInPlace(capacity, database))
+               : std::nullopt;
+  }
+
+  static constexpr std::uint32_t absent = 0xffff, for_good = 0xfffe;
+
+  /// The frame in which a page is, for_good or absent.
+  std::uint32_t frame_of(PageId page) const { return index_of(page) < count_ ? frames_[index_of(page)] : absent; }
+  void put(PageId page, std::uint32_t frame) { frames_[index_of(page)] = static_cast<std::uint16_t>(frame); }
+  /// The first byte of a page that is here.
+  const std::byte* bytes_of(PageId page) const { return first_ + index_of(page) * page_size_bytes_; }
+
+ private:
+  PagesInPlace(const PageCapacity& capacity, const nodes::ByteSource& database)
+      : count_(capacity.page_count),
+        page_size_bytes_(capacity.page_size_bytes()),
+        first_(database.lasting(0, database.size_bytes()).data()),
+        frames_(std::make_unique<std::uint16_t[]>(count_)) {
+    std::fill_n(frames_.get(), count_, static_cast<std::uint16_t>(absent));
+  }
+
+  std::uint32_t count_;
+  std::size_t page_size_bytes_;
+  const std::byte* first_;
+  std::unique_ptr<std::uint16_t[]> frames_;
+};
+
+}  // namespace dmpc::svm
