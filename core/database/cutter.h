@@ -64,7 +64,7 @@ class Cutter {
   std::uint32_t cut_between_planes(const Group& whole);
   std::uint32_t plane_at(const Group& group, std::uint32_t place) const;
   bool lies_in_one(const Group& group) const;
-  std::uint32_t cut_between_bins(const Group& whole);
+  std::pair<Group, Group> cut_between_bins(const Group& whole);
   std::uint32_t cut_in_the_middle(const Group& whole);
   template <class IsFirst>
   std::uint32_t partition(const Group& whole, const IsFirst& is_first);
