@@ -88,7 +88,7 @@ const std::vector<Foreign> foreign = {
     {"libdeflate.h", {"apps/picture/deflater.cpp"}},
     {"zlib.h", {"apps/lab/study/references/gzip_text.cpp"}},
     {"dlfcn.h", {"apps/edge/system/module.cpp", "tests/failing_allocation/", "tests/foreign_arithmetic/"}},
-    {"assimp/", {"apps/foreign/", "tests/apps/foreign/"}},
+    {"assimp/", {"apps/foreign/", "apps/lab/bench/speed/assimp_rival.cpp", "tests/apps/foreign/"}},
     {"meshoptimizer.h", {"apps/foreign/gltf/meshopt.cpp", "tests/apps/foreign/"}},
     {"draco/", {"apps/foreign/gltf/draco.cpp", "tests/apps/foreign/"}},
     {"seccomp.h", {"apps/foreign/sandbox.cpp", "tests/apps/reader/foreign_files_test.cpp"}},
@@ -107,7 +107,9 @@ const std::vector<Foreign> foreign = {
     {"benchmark/", {"tests/bench/"}},
     {"boost/", {"tests/bench/rivals.h"}},
     {"concurrentqueue/", {"tests/bench/rivals.h"}},
-    {"hwy/", {"core/trace/bundle_steps.cpp", "core/trace/bundle_intersectors.cpp", "core/trace/kernel.cpp"}},
+    {"hwy/",
+     {"core/trace/bundle_steps.cpp", "core/trace/bundle_intersectors.cpp", "core/trace/kernel.cpp",
+      "apps/lab/bench/speed/packet_shading.cpp"}},
     {"doctest/", {"tests/"}},
     // Threads are the computer's; the edge has one that waits for signals, one that sends to a viewer, those on which rays are
     // timed, some to see whether a library can have as many, and runs side by side that share their progress.
@@ -116,7 +118,7 @@ const std::vector<Foreign> foreign = {
       "apps/edge/system/module.cpp"}},
     {"atomic",
      {"nodes/", "tests/", "apps/edge/system/interrupt.", "apps/edge/system/last_words.", "apps/render/preview.",
-      "apps/lab/bench/speed/plain_renderer."}},
+      "apps/lab/bench/speed/plain_renderer.", "apps/lab/bench/speed/packet_renderer."}},
     {"mutex",
      {"nodes/", "tests/", "apps/edge/line/shown_text.h", "apps/render/preview.", "apps/lab/study/sweep/kept_runs.cpp",
       "apps/lab/study/runs.cpp", "apps/lab/study/references/command.cpp", "core/database/parallel.cpp"}},

@@ -52,8 +52,10 @@ constexpr std::array part_rows = {
             "plain: the phase render of each, of the same rays. The plain renderer is recursive, in single precision, over one "
             "Embree tree (robust, high quality) in memory that its threads share; it asks for one ray at a time and emulates "
             "nothing. Ours are as `render` has them by default; nodes share the same cores, and a ray's time is a picture's "
-            "over "
-            "all its rays, whatever the number of threads."},
+            "over all its rays, whatever the number of threads. A command is `dmpc render` as a process of its own that writes "
+            "an "
+            "EXR file, less what it takes for 8x8 pixels, over the plain renderer's phase. Beside busy processes renders the "
+            "plain renderer, too."},
     PartRow{
         .measure = measure_kernel,
         .explanation =
@@ -79,6 +81,11 @@ constexpr std::array part_rows = {
         .explanation =
             "build: our database from the scene to the pages; Embree's robust tree, and its fast one of high quality (spatial "
             "splits, which robust trees have not), from vertices that lie ready; on as many threads, on one in processor time."},
+    PartRow{
+        .measure = measure_load,
+        .explanation =
+            "load: a mesh file read as a scene, by whoever is confined for that, against Assimp's reading it in this process, "
+            "without any step behind; by the wall clock."},
     PartRow{.measure = measure_memory,
             .explanation =
                 "memory: the most anonymous memory of a process that renders on 8 nodes, above that of one which renders a "
@@ -112,7 +119,7 @@ TableFiles files_of(const SpeedOptions& options) {
 }
 
 /// The one of both tables that part plain has its rows in, or all others.
-Table rows_of(const Results& results) {
+Table rows_shown_of(const Results& results) {
   Table others = headline_of(results.comparisons, "");
   return others.rows().empty() ? plain_table(results.comparisons, "") : others;
 }
@@ -120,7 +127,7 @@ Table rows_of(const Results& results) {
 /// Shows rows of what was measured so far, as the table in the end has them.
 void show_rows(const SpeedOptions& options, const Results& results, ShownRows& shown) {
   if (shown.is_shown()) {
-    shown.show(options.is_ablation ? table_of(results.ablations, "") : rows_of(results));
+    shown.show(options.is_ablation ? table_of(results.ablations, "") : rows_shown_of(results));
   }
 }
 
@@ -248,16 +255,16 @@ void add_options(OptionSet set, SpeedOptions& options) {
       "SCENE", [&settings](const std::string& text) { settings.scenes.push_back(text); },
       "NFF or mesh files, or built-in scenes such as teapot-12, rings-3, tetra-6; without any teapot-12, mount-6-t6, rings-4-t1 "
       "and "
-      "tetra-9, with balls-2-t4 for plain, tetra-10 for build and memory, and for pages those of the 1994 article");
+      "tetra-9, with balls-2-t4 for plain, tetra-10 for build, load and memory, and for pages those of the 1994 article");
   set.add_text(
       "--parts", "NAME,NAME,... [all]", [&options](const std::string& text) { options.parts = parse_speed_parts(text); },
       "What is measured: plain (all beside a plain renderer), kernel (rays a second), picture (a whole render), emulation (many "
-      "nodes, small caches), build "
-      "(databases), memory (of the real computer), pages (against the article)");
+      "nodes, small caches), build (databases), load (mesh files), memory (of the real computer), pages (against the article)");
   set.add_flag("--ablation", options.is_ablation,
                "Instead: what each skip (render --no-skip) is worth. Without SCENE balls-4 and tree-8, too");
   set.check_in_the_end([set, &options] { choose_ablation(set, options); });
-  set.add_flag("--quick", settings.is_quick, "Fewer rays, rounds and pixels, and no scene of a million triangles");
+  set.add_flag("--quick", settings.is_quick,
+               "Fewer rays, rounds and pixels, no scene of a million triangles, neither POV-Ray nor ranks");
   set.add_number("--repeat", settings.rounds, 1, 1000, "kernel 7, ablation 5, others 3", "Rounds in which everything is timed");
   set.add_text(
       "--threads", "N,N,... [1 and all cores]",

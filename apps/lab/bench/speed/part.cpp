@@ -14,7 +14,8 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<const char*, 8> names = {"plain", "kernel", "picture", "emulation", "build", "memory", "pages", "ablation"};
+constexpr std::array<const char*, 9> names = {"plain", "kernel", "picture", "emulation", "build",
+                                              "load",  "memory", "pages",   "ablation"};
 /// The others come before it.
 constexpr auto comparing_count = static_cast<std::ptrdiff_t>(SpeedPart::ablation);
 constexpr std::uint32_t thread_count_max = 1024;
@@ -27,7 +28,7 @@ SpeedPart parse_part(const std::string& word) {
     const std::vector<std::string> all(names.begin(), end);
     const std::string meant = core::did_you_mean(word, all);
     throw core::UsageError("--parts=" + word +
-                           ": expected plain, kernel, picture, emulation, build, memory, pages, with commas between" +
+                           ": expected plain, kernel, picture, emulation, build, load, memory, pages, with commas between" +
                            (meant.empty() ? "" : ".") + meant);
   }
   return SpeedPart{static_cast<std::uint8_t>(found - names.begin())};
@@ -45,6 +46,7 @@ std::vector<std::string> default_scenes(SpeedPart part) {
   switch (part) {
     case SpeedPart::pages:
       return article_scenes();
+    case SpeedPart::load:
     case SpeedPart::memory:
       return {"tetra-9", big_scene};
     case SpeedPart::plain:

@@ -17,9 +17,9 @@
 namespace dmpc::apps {
 
 /// plain: all our own beside a plain renderer. kernel: rays a second. picture: a whole render by phases. emulation: many nodes
-/// and small caches. build: databases. memory: of the real computer. pages: databases and pages against the article's. ablation:
-/// what skips are worth.
-enum class SpeedPart : std::uint8_t { plain, kernel, picture, emulation, build, memory, pages, ablation };
+/// and small caches. build: databases. load: mesh files. memory: of the real computer. pages: databases and pages against the
+/// article's. ablation: what skips are worth.
+enum class SpeedPart : std::uint8_t { plain, kernel, picture, emulation, build, load, memory, pages, ablation };
 
 /// As the command line and the table call it.
 const char* name_of(SpeedPart part);

@@ -14,10 +14,11 @@ namespace dmpc::apps {
 /// scene that will not do.
 using MeasurePart = void(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results);
 
-/// Times the phase `render` by PlainRenderer on 1 and 2 threads, by svm on 1, 2, 8 and 64 nodes, by dataflow and replicated, and
-/// by svm on a modelled machine, each held against the plain renderer on 2 threads; compares rays shot, and what building took.
-/// Leaves out scenes with textures, which it says on stderr. Throws core::InternalError, too, if our films are not one or the
-/// plain picture is another.
+/// Times the phase `render` by PlainRenderer on 1 and 2 threads, and of our own by all plain_contenders(), one of them beside
+/// busy processes, too; whole commands of command_contenders(); the writing of the file; and ranks, if there is an mpirun. Each
+/// is held against the plain renderer on 2 threads, some against each other. Compares rays shot, and what building took. Leaves
+/// out scenes with textures, which it says on stderr, as why ranks are left out. Throws core::InputError, too, if the program
+/// cannot be run; core::InternalError if our films are not one or the plain picture is another.
 MeasurePart measure_plain;
 /// Records each scene's rays and lets everybody trace them, class by class, as closest and as any hit, on each number of threads,
 /// all in every round.
@@ -31,6 +32,8 @@ MeasurePart measure_emulation;
 /// Builds each scene's database and two of Embree's trees, the robust one and the fast one of high quality, on each number of
 /// threads. Embree's time is its tree's alone, from vertices that lie ready; ours is from the scene to the pages.
 MeasurePart measure_build;
+/// Writes each scene's triangles as a PLY and as a GLB file, and times reading them as a scene, and by Assimp alone.
+MeasurePart measure_load;
 /// Runs `dmpc render` on 8 nodes as a process of its own, for each scene and for one of a single triangle, and holds the most
 /// anonymous memory that it ever had, above the triangle's, against the sum of the nodes' local memories. Once: nothing is timed.
 /// Throws core::InputError if the program cannot be run, too.

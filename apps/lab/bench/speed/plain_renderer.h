@@ -13,6 +13,8 @@
 
 namespace dmpc::apps {
 
+class PlainStage;
+
 struct PlainPicture {
   core::ZeroedArray<core::Color> pixels;  ///< linear radiance, row by row from the top left
   std::uint64_t rays = 0;                 ///< of all kinds
@@ -37,9 +39,8 @@ class PlainRenderer {
   const Times& build_times() const;
 
  private:
-  struct Stage;
   class Painter;
-  std::unique_ptr<Stage> stage_;
+  std::unique_ptr<PlainStage> stage_;
 };
 
 /// The most, root mean square, that a picture of the plain renderer may lie from ours, in linear radiance.

@@ -43,6 +43,7 @@ TEST_CASE("without scenes each part has its own, in haste none of a million tria
   SpeedSettings settings;
   CHECK(settings.scenes_of(SpeedPart::kernel) == Words{"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9"});
   CHECK(has(settings.scenes_of(SpeedPart::build), "tetra-10"));
+  CHECK(settings.scenes_of(SpeedPart::load) == Words{"tetra-9", "tetra-10"});
   CHECK(settings.scenes_of(SpeedPart::pages).size() == 5);
   CHECK(settings.scenes_of(SpeedPart::plain).back() == "balls-2-t4");
   settings.is_quick = true;

@@ -112,8 +112,43 @@ TEST_CASE("the build's target is that of a million triangles over the robust tre
   Comparison build{.part = SpeedPart::build, .scene = "tetra-10", .subject = "database", .rival = "Embree robust"};
   build.subject_figures = build.rival_figures = {1};
   CHECK(sentence_of(build).starts_with("Database build over Embree's"));
+  CHECK(sentence_of(build).ends_with("1.000; to reach 2.00, goal 1.20: met, goal too."));
   build.rival = "Embree fast of high quality";
   CHECK(sentence_of(build).empty());
+}
+
+TEST_CASE("whole commands and renders have targets of their own, by processor time over the plain renderer") {
+  const auto cost = [](const char* what, const char* subject, const char* clock) {
+    Comparison one{.part = SpeedPart::plain, .what = what, .detail = clock, .subject = subject};
+    one.subject_figures = {1.5}, one.rival_figures = {1};
+    return sentences_of(one);
+  };
+  REQUIRE(cost("command", "svm on 64 nodes, pool", "processor time").size() == 1);
+  CHECK(cost("command", "svm on 64 nodes, pool", "processor time").front() ==
+        "svm on 64 nodes, pool, whole command over plain, processor time (geometric mean of 1): 1.500; to reach 1.60, goal 1.30: "
+        "met.");
+  CHECK(cost("render", "svm on 64 nodes, pool", "processor time").front().ends_with("to reach 1.45, goal 1.30: missed."));
+  CHECK(cost("command", "svm on 64 nodes, pool, beside 8 busy", "processor time").front().ends_with("goal 1.50: met, goal too."));
+  CHECK(cost("command", "svm on 64 nodes, pool", "wall clock").empty());
+  CHECK(cost("render", "svm on 2 nodes", "wall clock").front().starts_with("svm on 2 nodes over plain on 2 threads, render"));
+}
+
+TEST_CASE("two of ours are held against each other by the wall clock, many nodes in the worst scene") {
+  const auto pair = [](const char* subject, const char* rival, double figure) {
+    Comparison one{.part = SpeedPart::plain, .what = "pair", .detail = "wall clock", .subject = subject, .rival = rival};
+    one.subject_figures = {figure}, one.rival_figures = {1};
+    return one;
+  };
+  CHECK(sentence_of(pair("svm on 1 node", "svm on 2 nodes", 1.85)).ends_with("1.850; to reach 1.80, goal 1.90: met."));
+  const std::vector<Comparison> many = {pair("svm on 64 nodes", "svm on 2 nodes", 1),
+                                        pair("svm on 64 nodes", "svm on 2 nodes", 3)};
+  for (const Target& one : apps::speed_targets()) {
+    if (const auto sentence = sentence_on(one, many)) {
+      CHECK(sentence->ends_with("(worst of 2): 3.000; to reach 1.50, goal 1.20: missed."));
+    }
+  }
+  CHECK(sentence_of(pair("dataflow on 64 nodes, pool", "svm on 64 nodes, pool", 1.6)).ends_with("goal 1.20: met."));
+  CHECK(sentence_of(pair("dataflow on 64 nodes, pool", "svm on 64 nodes", 1)).empty());
 }
 
 }  // namespace dmpc::tests::target_test

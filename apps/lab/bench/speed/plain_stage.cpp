@@ -1,0 +1,106 @@
+#include "apps/lab/bench/speed/plain_stage.h"
+
+#include <algorithm>
+
+#include "core/picture/hit_geometry.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+using core::Color;
+using core::Vec3d;
+using core::Vec3f;
+
+template <class Record>
+std::vector<Record> records_at(const core::LocalRecords& records, core::Address first, std::uint32_t count) {
+  std::vector<Record> copies(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    copies[i] = core::read<Record>(records.find(core::advance(first, i * sizeof(Record))));
+  }
+  return copies;
+}
+
+/// Of all records, finishes included, which nobody asks for by their number.
+std::vector<PlainMaterial> materials_in(const core::LocalRecords& records, const core::DatabaseHeader& header) {
+  std::vector<PlainMaterial> materials;
+  for (const auto& record : records_at<core::MaterialRecord>(records, header.materials, header.material_count)) {
+    materials.emplace_back(record);
+  }
+  std::size_t count = materials.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (materials[i].has_finish()) {
+      const std::uint32_t place = materials[i].finish();
+      count = std::min<std::size_t>(count, place);
+      materials[i].add(
+          core::read<core::FinishRecord>(records.find(core::advance(header.materials, place * sizeof(core::FinishRecord)))));
+    }
+  }
+  return materials;
+}
+
+}  // namespace
+
+/// What on_film() makes of the axes is the camera, for it is linear.
+PlainCamera::PlainCamera(const core::Camera& camera) : eye(camera.eye()) {
+  const double middle_x = 0.5 * (camera.width() - 1), middle_y = 0.5 * (camera.height() - 1);
+  Vec3d forward, rightward, downward;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Vec3d unit;
+    unit[axis] = 1;
+    const Vec3d seen = camera.on_film(unit);
+    forward[axis] = seen.z;
+    rightward[axis] = seen.x - middle_x * seen.z;
+    downward[axis] = seen.y - middle_y * seen.z;
+  }
+  rightward = rightward * (1 / dot(rightward, rightward));
+  downward = downward * (1 / dot(downward, downward));
+  right = Vec3f(rightward);
+  down = Vec3f(downward);
+  corner = Vec3f(forward - rightward * middle_x - downward * middle_y);
+}
+
+void PlainMaterial::add(const core::FinishRecord& finish) {
+  highlight = finish.specular + color * specular;
+  mirror = static_cast<float>(finish.mirror) / float{core::FinishRecord::share_max};
+  emission = finish.emission;
+  refraction_index = finish.refraction_index;
+}
+
+PlainStage::PlainStage(const Subject& subject, EmbreeMode mode)
+    : settings_(subject.settings),
+      records_(subject.database.bytes()),
+      tree_(subject.database.primitives(), mode, EmbreeQuality::high, 0),
+      places_(subject.database.find_places()),
+      camera_(settings_.camera),
+      materials_(materials_in(records_, settings_.header)),
+      lights_(records_at<core::LightRecord>(records_, settings_.header.lights, settings_.header.light_count)) {
+  shading_.reserve(tree_.shapes().triangles.size());
+  for (const std::uint32_t id : tree_.shapes().triangles) {
+    core::HitState state;
+    state.hit.lane = places_[id].lane;
+    core::read_geometry(state, records_.find(places_[id].block));
+    shading_.push_back(state.shading);
+  }
+}
+
+std::uint32_t PlainStage::material_of_curved(unsigned curved) const {
+  const core::Database::Place place = places_[tree_.shapes().curved[curved]];
+  const std::byte* const block = records_.find(place.block);
+  const auto header = core::read<core::BlockHeader>(block);
+  const std::size_t number = header.count + place.lane;  // behind the row of ids
+  return core::read<core::ShadingReference>(core::ids_of(header, block) + sizeof(core::ShadingReference) * number).material();
+}
+
+PlainSurface PlainStage::curved_at(unsigned curved, const Vec3f& origin, const Vec3f& direction, float t) const {
+  const core::Database::Place place = places_[tree_.shapes().curved[curved]];
+  core::HitState state;
+  state.ray.origin = origin;
+  state.ray.direction = direction;
+  state.hit.t = t;
+  state.hit.lane = place.lane;
+  core::read_geometry(state, records_.find(place.block));
+  return {Vec3f(state.point), Vec3f(state.geometric_normal), Vec3f(state.normal), state.shading.material(), state.leaving};
+}
+
+}  // namespace dmpc::apps

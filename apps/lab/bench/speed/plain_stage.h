@@ -1,0 +1,87 @@
+// What plain renderers read of a scene: Embree's tree, and the camera, materials and lights in single precision.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "apps/lab/bench/speed/embree_tree.h"
+#include "apps/scene/subject.h"
+#include "core/base/vec.h"
+#include "core/record/record.h"
+
+namespace dmpc::apps {
+
+/// As ours (core/picture/shade.cpp): how far beside a surface rays start, and where on their way to a light they end.
+inline constexpr float plain_offset = 0x1p-21F, plain_light_end = 1 - 1e-6F;
+/// Threads take tiles of so many pixels' sides.
+inline constexpr int plain_tile_side = 16;
+
+/// The camera in single precision.
+struct PlainCamera {
+  core::Vec3f eye, corner, right, down;  ///< from the eye to the first pixel; from a pixel to the next
+
+  explicit PlainCamera(const core::Camera& camera);
+  /// Of unit length.
+  core::Vec3f towards(int x, int y) const {
+    return normalize(corner + right * static_cast<float>(x) + down * static_cast<float>(y));
+  }
+};
+
+/// A surface with what its finish says of it. Where alpha tells, the picture is textured, and is compared with none.
+struct PlainMaterial : core::MaterialRecord {
+  core::Color highlight;  ///< of which `mirror` mirrors
+  float mirror = 1;
+  core::Color emission;
+
+  explicit PlainMaterial(const core::MaterialRecord& record)
+      : core::MaterialRecord(record), highlight{specular, specular, specular} {}
+  void add(const core::FinishRecord& finish);
+  bool is_glossy() const { return !(highlight == core::Color{}); }
+  float inside_index() const { return refraction_index > 0 ? refraction_index : 1; }
+};
+
+/// What shading knows of a hit.
+struct PlainSurface {
+  core::Vec3f point;
+  core::Vec3f geometric_normal, normal;  ///< of unit length; the latter the one to shade with, on the ray's side
+  std::uint32_t material = 0;
+  bool is_leaving = false;
+};
+
+/// Immutable; every call is thread-safe.
+class PlainStage {
+ public:
+  /// Builds the tree, of high quality, on all cores. `subject` outlives it.
+  PlainStage(const Subject& subject, EmbreeMode mode);
+
+  const EmbreeTree& tree() const { return tree_; }
+  const PlainCamera& camera() const { return camera_; }
+  const core::RenderSettings& settings() const { return settings_; }
+  const std::vector<PlainMaterial>& materials() const { return materials_; }
+  const std::vector<core::LightRecord>& lights() const { return lights_; }
+  std::size_t triangle_count() const { return shading_.size(); }
+  bool is_triangle(unsigned geometry) const { return geometry == 0 && !shading_.empty(); }
+  /// Of a triangle, as Embree numbers them: nullptr if it is flat.
+  const core::PatchNormals* normals_of(unsigned triangle) const {
+    const core::ShadingReference shading = shading_[triangle];
+    return shading.is_smooth() ? reinterpret_cast<const core::PatchNormals*>(records_.find(shading.normals())) : nullptr;
+  }
+  /// Of one that is flat; others' stands with their normals.
+  std::uint32_t flat_material_of(unsigned triangle) const { return shading_[triangle].material(); }
+  /// Of a sphere or cone, as Embree numbers them.
+  std::uint32_t material_of_curved(unsigned curved) const;
+  /// Where a ray meets a sphere or cone, as Embree numbers them.
+  PlainSurface curved_at(unsigned curved, const core::Vec3f& origin, const core::Vec3f& direction, float t) const;
+
+ private:
+  const core::RenderSettings& settings_;
+  core::LocalRecords records_;
+  EmbreeTree tree_;
+  std::vector<core::Database::Place> places_;
+  PlainCamera camera_;
+  std::vector<PlainMaterial> materials_;
+  std::vector<core::LightRecord> lights_;
+  std::vector<core::ShadingReference> shading_;  ///< of each triangle
+};
+
+}  // namespace dmpc::apps
