@@ -21,6 +21,8 @@ constexpr auto comparing_count = static_cast<std::ptrdiff_t>(SpeedPart::ablation
 constexpr std::uint32_t thread_count_max = 1024;
 /// A million triangles.
 constexpr const char* big_scene = "tetra-10";
+/// A quarter of that, which part plain sets up some thirty times.
+constexpr const char* large_scene = "tetra-9";
 
 SpeedPart parse_part(const std::string& word) {
   const auto end = names.begin() + comparing_count, found = std::find(names.begin(), end, word);
@@ -94,6 +96,9 @@ std::vector<std::string> SpeedSettings::scenes_of(SpeedPart part) const {
   std::vector<std::string> chosen = scenes.empty() ? default_scenes(part) : scenes;
   if (scenes.empty() && is_quick) {
     std::erase(chosen, big_scene);
+    if (part == SpeedPart::plain) {
+      std::erase(chosen, large_scene);
+    }
   }
   if (part == SpeedPart::pages) {
     const std::vector<std::string> known = article_scenes();

@@ -30,7 +30,7 @@ std::set<SpeedPart> parse_speed_parts(const std::string& text);
 
 struct SpeedSettings {
   std::vector<std::string> scenes;           ///< none: those of each part
-  bool is_quick = false;                     ///< fewer rays, rounds and pixels, no scene of a million triangles
+  bool is_quick = false;                     ///< fewer rays, rounds, pixels and large scenes
   std::optional<std::size_t> rounds;         ///< nothing: what the part takes
   std::vector<std::uint32_t> thread_counts;  ///< of kernel and build, each once, ascending
   std::optional<Resolution> resolution;      ///< nothing: what the part takes

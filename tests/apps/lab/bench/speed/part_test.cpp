@@ -50,6 +50,7 @@ TEST_CASE("without scenes each part has its own, in haste none of a million tria
   for (const SpeedPart part : apps::all_speed_parts()) {
     CHECK_FALSE(has(settings.scenes_of(part), "tetra-10"));
   }
+  CHECK(settings.scenes_of(SpeedPart::plain) == Words{"teapot-12", "mount-6-t6", "rings-4-t1", "balls-2-t4"});
 }
 
 TEST_CASE("scenes that are given are those of all parts but pages, which the article must have") {
