@@ -1,6 +1,9 @@
 #include "apps/lab/bench/speed/plain_commands.h"
 
-#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <sstream>
+#include <string_view>
 
 #include "apps/lab/bench/speed/matches.h"
 #include "core/base/expect.h"
@@ -10,6 +13,7 @@ namespace {
 
 /// What a command takes to start, to load and to build is what it takes for this.
 constexpr Resolution least_size{8, 8};
+constexpr const char* counters_name = "counters.json";
 
 /// mpirun, as root, too, with more ranks than processors, none bound to one of them, and without looks for graphics cards. It has
 /// a folder of its own: where two begin in one, the later may find the earlier's half made, and ends.
@@ -31,21 +35,12 @@ PlainCommands::PlainCommands(const std::filesystem::path& program, const std::st
                              const Interrupt& interrupt)
     : program_(program), scene_(scene), size_(size), interrupt_(interrupt) {}
 
-Times PlainCommands::times_of(const PlainContender& contender, const Resolution& size, bool is_over_ranks) const {
-  PlainContender asked = contender;
-  asked.runner = is_over_ranks ? RunnerKind::mpi : contender.runner;
-  std::vector<std::string> arguments = command_of(asked, scene_, size, picture());
-  if (!is_over_ranks) {
-    return time_process(program_, arguments, interrupt_).times;
-  }
-  std::vector<std::string> words = mpirun_words(folder_ / "");
-  words.push_back(std::filesystem::canonical(program_).string());
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  return time_process("env", words, interrupt_).times;
+Times PlainCommands::times_of(const PlainContender& contender, const Resolution& size) const {
+  return time_process(program_, command_of(contender, scene_, size, picture()), interrupt_).times;
 }
 
-std::vector<double> PlainCommands::figures(const PlainContender& contender, bool is_over_ranks) const {
-  const Times least = times_of(contender, least_size, is_over_ranks), all = times_of(contender, size_, is_over_ranks);
+std::vector<double> PlainCommands::figures_of_command(const PlainContender& contender) const {
+  const Times least = times_of(contender, least_size), all = times_of(contender, size_);
   std::vector<double> figures =
       figures_of({all.wall_seconds - least.wall_seconds, all.processor_seconds - least.processor_seconds});
   const std::vector<double> whole = figures_of(all);
@@ -53,15 +48,42 @@ std::vector<double> PlainCommands::figures(const PlainContender& contender, bool
   return figures;
 }
 
-std::vector<double> PlainCommands::figures_of_command(const PlainContender& contender) const { return figures(contender, false); }
-std::vector<double> PlainCommands::figures_over_ranks(const PlainContender& contender) const { return figures(contender, true); }
+/// Leaves its counters.
+void PlainCommands::run(const PlainContender& contender, const Resolution& size, bool is_over_ranks) const {
+  PlainContender asked = contender;
+  asked.runner = is_over_ranks ? RunnerKind::mpi : contender.runner;
+  std::vector<std::string> words = is_over_ranks ? mpirun_words(folder_ / "") : std::vector<std::string>();
+  words.push_back(std::filesystem::canonical(program_).string());
+  for (const std::string& argument : command_of(asked, scene_, size, picture())) {
+    words.push_back(argument);
+  }
+  words.push_back("--stats=" + (folder_ / counters_name).string());
+  time_process("env", words, interrupt_);
+}
+
+double PlainCommands::render_seconds(const PlainContender& contender, bool is_over_ranks) const {
+  run(contender, size_, is_over_ranks);
+  constexpr std::string_view key = "\"render\": ";  // of which the counters have one
+  std::ostringstream text;
+  text << std::ifstream(folder_ / counters_name).rdbuf();
+  const std::string counters = text.str();
+  const std::size_t at = counters.find(key);
+  double seconds = 0;
+  if (at != std::string::npos) {
+    std::from_chars(counters.data() + at + key.size(), counters.data() + counters.size(), seconds);
+  }
+  if (!(seconds > 0)) {
+    throw core::InputError("the counters of a render of " + scene_ + " were expected to say what its phase render took");
+  }
+  return seconds;
+}
 
 std::string PlainCommands::why_no_ranks() const {
   if (!program_on_path("mpirun")) {
     return "mpirun is not installed";
   }
   try {
-    times_of(contender_named("dataflow on 2 nodes"), least_size, true);
+    run(contender_named("dataflow on 2 nodes"), least_size, true);
     return "";
   } catch (const core::InputError& error) {
     return error.what();

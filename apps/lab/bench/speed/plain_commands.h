@@ -25,16 +25,17 @@ class PlainCommands {
   /// Four figures, each at least 1e-9 s: by the wall clock and by processor time what the command takes beyond one that renders
   /// 8x8 pixels, which starts, loads and builds as it does; then what all of it takes. Throws as time_process().
   std::vector<double> figures_of_command(const PlainContender& contender) const;
-  /// The same of its nodes over ranks that mpirun starts.
-  std::vector<double> figures_over_ranks(const PlainContender& contender) const;
+  /// What the phase render takes by the wall clock, as the command's counters say: in one process, or with its nodes over ranks
+  /// that mpirun starts, which takes too long and too differently for a difference. Throws core::InputError, too, if they do not.
+  double render_seconds(const PlainContender& contender, bool is_over_ranks) const;
   /// Why no mpirun gets such a command to its end; empty if one does.
   std::string why_no_ranks() const;
   /// Where a picture may be written.
   std::filesystem::path picture() const { return folder_ / "picture.exr"; }
 
  private:
-  Times times_of(const PlainContender& contender, const Resolution& size, bool is_over_ranks) const;
-  std::vector<double> figures(const PlainContender& contender, bool is_over_ranks) const;
+  Times times_of(const PlainContender& contender, const Resolution& size) const;
+  void run(const PlainContender& contender, const Resolution& size, bool is_over_ranks) const;
 
   const std::filesystem::path& program_;
   const std::string& scene_;

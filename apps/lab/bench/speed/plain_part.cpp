@@ -128,9 +128,13 @@ class PlainBench {
       return;
     }
     const PlainContender& ranked = contender_named(ranked_name);
-    const std::size_t process = matches.add([&] { return commands_.figures_of_command(ranked); }),
-                      ranks = matches.add([&] { return commands_.figures_over_ranks(ranked); });
-    matches.compare_timed(ranks, process, comparison_of("ranks", std::string(ranked_name) + ", 2 ranks", ranked_name));
+    const auto add = [&](bool is_over_ranks) {
+      return matches.add([&, is_over_ranks] { return std::vector{commands_.render_seconds(ranked, is_over_ranks)}; });
+    };
+    const std::size_t process = add(false), ranks = add(true);
+    Comparison comparison = comparison_of("ranks", std::string(ranked_name) + ", 2 ranks", ranked_name);
+    comparison.detail = clock_names.front();
+    matches.compare(ranks, process, comparison);
   }
 
   /// As the figures of a command have what all of it takes.

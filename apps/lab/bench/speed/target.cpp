@@ -118,7 +118,7 @@ std::vector<Target> pair_targets() {
           pair("dataflow on 2 nodes, pool", "svm on 2 nodes, pool", 1.15, 1.0),
           pair("dataflow on 64 nodes", "svm on 64 nodes", 1.6, 1.2),
           pair("dataflow on 64 nodes, pool", "svm on 64 nodes, pool", 1.6, 1.2),
-          {.name = "dataflow on 2 nodes over 2 ranks over one process, whole command, wall clock",
+          {.name = "dataflow on 2 nodes over 2 ranks over one process, render, wall clock",
            .reach = 1.3,
            .goal = 1.1,
            .counts = [](const C& c) { return is_timed(c, SpeedPart::plain, "ranks", "dataflow on 2 nodes, 2 ranks"); }}};
