@@ -12,18 +12,22 @@ namespace dmpc::svm {
 /// header.
 nodes::Room<std::byte> FilmGather::layout(const FilmCapacity& capacity) {
   return {core::MemoryUse::film_tiles,
-          sizeof(FilmEntry) * (std::size_t{capacity.packet_entries} + capacity.in_flight + header_entries)};
+          film_entry_bytes(capacity.planes) * (std::size_t{capacity.packet_entries} + capacity.in_flight + header_entries)};
 }
 
 FilmGather::FilmGather(nodes::Node& node, const FilmCapacity& capacity)
-    : node_(&node), host_(capacity.host), packet_entries_(capacity.packet_entries), room_(layout(capacity).in(node.memory())) {
+    : node_(&node),
+      host_(capacity.host),
+      packet_entries_(capacity.packet_entries),
+      planes_(capacity.planes),
+      room_(layout(capacity).in(node.memory())) {
   node.grant(host_, bulk_channel, capacity.credits);
 }
 
-void FilmGather::add(std::uint32_t pixel, const core::PixelSums& sums) {
+void FilmGather::add(std::uint32_t pixel, const core::PixelSums& sums, std::uint32_t count) {
   core::expect(has_room_for(1), "the gathered film has room for every pixel that was started");
-  const FilmEntry finished{pixel, 0, sums};
-  std::memcpy(entry(count_), &finished, sizeof(finished));
+  core::expect(planes_ == 2 || sums.plane[1] == core::FixedColor{}, "a pixel with one sample has light on one plane");
+  put_film_entry(room_, count_, planes_, {pixel, count - 1, sums});
   ++count_;
   if (count_ >= packet_entries_) {
     send();
@@ -48,13 +52,13 @@ void FilmGather::acknowledged() {
 bool FilmGather::send() {
   const FilmHeader header{std::min(count_, packet_entries_)};
   std::memcpy(room_.data(), &header, sizeof(header));
-  const std::size_t bytes = sizeof(header) + header.count * sizeof(FilmEntry);
+  const std::size_t bytes = film_packet_bytes(header.count, planes_);
   if (node_->credits(host_, bulk_channel) == 0 ||
       !node_->try_send(host_, bulk_channel, number_of(Kind::film_sums), std::span<const std::byte>(room_.first(bytes)))) {
     return false;
   }
   count_ -= header.count;
-  std::memmove(entry(0), entry(header.count), count_ * sizeof(FilmEntry));
+  std::memmove(entry(0), entry(header.count), count_ * film_entry_bytes(planes_));
   ++under_way_;
   return true;
 }

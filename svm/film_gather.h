@@ -15,13 +15,14 @@ namespace dmpc::svm {
 /// For which pixels there is room.
 struct FilmCapacity {
   nodes::NodeId host{};
-  std::uint32_t packet_entries = 1;  ///< pixels in a full packet
+  std::uint32_t packet_entries = 1;  ///< in a full packet
   std::uint32_t credits = 1;         ///< packets that may be under way to the host
   std::uint32_t in_flight = 1;       ///< pixels that may all finish before a packet can leave
+  std::uint32_t planes = 2;          ///< that a pixel has light on
 };
 
-/// Never refuses a finished pixel: a pixel may start only while has_room_for() the pixels in flight and it. Thread safety:
-/// none.
+/// Never refuses a finished pixel, nor a run of them: a pixel may start only while has_room_for() the pixels in flight and it.
+/// Thread safety: none.
 class FilmGather {
  public:
   /// Takes the credits for film packets.
@@ -29,9 +30,12 @@ class FilmGather {
   /// What the constructor takes.
   static nodes::Room<std::byte> layout(const FilmCapacity& capacity);
 
-  bool has_room_for(std::uint32_t pixels) const { return count_ + pixels <= capacity(); }
-  /// Adds a finished pixel, and sends a packet if one is full and a credit is left.
-  void add(std::uint32_t pixel, const core::PixelSums& sums);
+  bool has_room_for(std::uint32_t entries) const { return entries <= room_left(); }
+  /// Entries that may be added before one has been sent.
+  std::uint32_t room_left() const { return capacity() - count_; }
+  /// Adds a finished pixel, or `count` of the same light that follow each other, and sends a packet if one is full and a credit
+  /// is left. Each call takes the room of one entry.
+  void add(std::uint32_t pixel, const core::PixelSums& sums, std::uint32_t count = 1);
   /// Sends what is there, full or not, as far as the credits go.
   void flush();
   /// The host has taken a packet.
@@ -39,20 +43,21 @@ class FilmGather {
 
   /// Everything that was added has been sent and acknowledged.
   bool settled() const { return count_ == 0 && under_way_ == 0; }
+  /// Entries.
   std::uint32_t gathered() const { return count_; }
   std::uint32_t under_way() const { return under_way_; }
 
  private:
-  std::uint32_t capacity() const { return static_cast<std::uint32_t>(room_.size() / sizeof(FilmEntry)) - header_entries; }
+  std::uint32_t capacity() const { return static_cast<std::uint32_t>(room_.size() / film_entry_bytes(planes_)) - header_entries; }
   bool send();
-  std::byte* entry(std::uint32_t index) { return room_.data() + sizeof(FilmHeader) + index * sizeof(FilmEntry); }
+  std::byte* entry(std::uint32_t index) { return room_.data() + film_entry_offset(index, planes_); }
 
   /// The header and the entries stand in one run of bytes; the header takes the room of one entry.
   static constexpr std::uint32_t header_entries = 1;
 
   nodes::Node* node_;
   nodes::NodeId host_;
-  std::uint32_t packet_entries_;
+  std::uint32_t packet_entries_, planes_;
   std::span<std::byte> room_;
   std::uint32_t count_ = 0;
   std::uint32_t under_way_ = 0;

@@ -31,6 +31,7 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
       worker_count_(shape.worker_count),
       width_(shape.width),
       height_(shape.height),
+      planes_(shape.planes),
       dealt_side_(shape.dealt_side),
       shares_(shape.shares),
       is_masked_(shape.is_masked),
@@ -88,11 +89,14 @@ void HostProgram::take_film(const nodes::Packet& packet) {
   core::expect(packet.payload.size() >= sizeof(FilmHeader), "a film packet has a header");
   FilmHeader header;
   std::memcpy(&header, packet.payload.data(), sizeof(header));
-  core::expect(packet.payload.size() == sizeof(header) + header.count * sizeof(FilmEntry), "a film packet is as long as it says");
+  core::expect(packet.payload.size() == film_packet_bytes(header.count, planes_), "a film packet is as long as it says");
   for (std::uint32_t i = 0; i < header.count; ++i) {
-    FilmEntry entry;
-    std::memcpy(&entry, packet.payload.data() + sizeof(header) + i * sizeof(entry), sizeof(entry));
-    take_pixel(entry);
+    const FilmEntry entry = film_entry_in(packet.payload, i, planes_);
+    core::expect(entry.pixel < film_->pixel_count() && entry.more < film_->pixel_count() - entry.pixel,
+                 "finished pixels are of the picture");
+    for (std::uint32_t pixel = entry.pixel; pixel <= entry.pixel + entry.more; ++pixel) {
+      take_pixel(pixel, entry.sums);
+    }
   }
   node_->grant(packet.source, control_channel);
   node_->send_reserved(packet.source, control_channel, number_of(Kind::film_acknowledgement), FilmAcknowledgement{header.count});
@@ -113,14 +117,14 @@ void HostProgram::keep() const {
   continuation_.keep(*film_, refinement_, done);
 }
 
-void HostProgram::take_pixel(const FilmEntry& entry) {
-  core::expect(entry.pixel < film_->pixel_count() && refinement_.pass().has(entry.pixel), "a finished pixel is of the pass");
-  core::expect(!has_arrived(entry.pixel), "each pixel arrives once");
-  arrived_[entry.pixel / 64] |= std::uint64_t{1} << (entry.pixel % 64);
+void HostProgram::take_pixel(std::uint32_t pixel, const core::PixelSums& sums) {
+  core::expect(refinement_.pass().has(pixel), "a finished pixel is of the pass");
+  core::expect(!has_arrived(pixel), "each pixel arrives once");
+  arrived_[pixel / 64] |= std::uint64_t{1} << (pixel % 64);
   ++pixels_done_;
-  deposits_saturated_ += film_->deposit(entry.pixel, entry.sums) ? 1 : 0;
+  deposits_saturated_ += film_->deposit(pixel, sums) ? 1 : 0;
   if (continuation_.watch) {
-    continuation_.watch(*film_, refinement_, entry.pixel);
+    continuation_.watch(*film_, refinement_, pixel);
   }
 }
 

@@ -26,6 +26,7 @@ struct HostShape {
   std::uint32_t worker_count = 1;  ///< as WorkShape has it
   std::uint32_t width = 1, height = 1;
   std::uint32_t first_samples = 1;  ///< of each pixel in the first pass
+  std::uint32_t planes = 2;         ///< that an entry of film has light on
   std::uint32_t dealt_side = 0;     ///< of the work items that nodes ask the host for, in pixels; 0: they ask each other
   PixelShares shares = PixelShares::submaps;  ///< as WorkShape has it
   bool is_masked = false;                     ///< as WorkShape has it
@@ -79,7 +80,7 @@ class HostProgram final : public nodes::Program {
 
   void serve(const nodes::Packet& packet);
   void take_film(const nodes::Packet& packet);
-  void take_pixel(const FilmEntry& entry);
+  void take_pixel(std::uint32_t pixel, const core::PixelSums& sums);
   void take_done(const Done& done);
   PixelRectangle image() const { return {0, 0, width_, height_}; }
   PixelRectangle share_of(std::uint32_t index) const;
@@ -100,7 +101,7 @@ class HostProgram final : public nodes::Program {
   core::Refinement refinement_;
   std::span<std::uint64_t> arrived_;        ///< a bit a pixel
   std::vector<std::uint32_t> pixels_sent_;  ///< of the mask, to each node; empty unless the picture is refined
-  std::uint32_t node_count_, worker_count_, width_, height_, dealt_side_;
+  std::uint32_t node_count_, worker_count_, width_, height_, planes_, dealt_side_;
   PixelShares shares_;
   bool is_masked_;
   WorkItems items_;  ///< not dealt yet

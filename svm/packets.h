@@ -16,9 +16,12 @@
 // and when all nodes have theirs the pass begins.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <span>
 #include <type_traits>
 
 #include "core/base/expect.h"
@@ -75,13 +78,20 @@ struct MaskedWorkReply {
 };
 static_assert(is_small_packet<MaskedWorkReply>);
 
-/// A pixel, with all samples of the pass. Each is sent once a pass.
+/// Pixels side by side that have the same light, with all samples of the pass: one, as a rule, and many of the background. Each
+/// pixel is sent once a pass.
 struct FilmEntry {
-  std::uint32_t pixel = 0;
-  std::uint32_t padding = 0;
-  core::PixelSums sums;
+  std::uint32_t pixel = 0;  ///< the first
+  std::uint32_t more = 0;   ///< pixels that follow it, by their numbers
+  core::PixelSums sums;     ///< of each of them; on as many planes as travel
 };
 static_assert(sizeof(FilmEntry) == 56 && std::is_trivially_copyable_v<FilmEntry>);
+
+/// What an entry takes on its way: the first bytes of a FilmEntry, up to its last plane.
+constexpr std::size_t film_entry_bytes(std::uint32_t planes) {
+  return offsetof(FilmEntry, sums) + planes * sizeof(core::FixedColor);
+}
+static_assert(film_entry_bytes(1) == 32 && film_entry_bytes(2) == sizeof(FilmEntry));
 
 /// Stands before `count` entries.
 struct FilmHeader {
@@ -89,9 +99,28 @@ struct FilmHeader {
   std::uint32_t padding = 0;
 };
 static_assert(sizeof(FilmHeader) == 8 && std::is_trivially_copyable_v<FilmHeader>);
-static_assert(sizeof(FilmHeader) + sizeof(FilmEntry) > nodes::small_payload_bytes, "every film packet is bulk");
-static_assert(sizeof(FilmHeader) + sizeof(FilmEntry) <= page_size_min_bytes,
-              "a film packet holds an entry, whatever the page size");
+
+/// Where the entry at `place` begins in a packet of film, whose entries have so many planes.
+constexpr std::size_t film_entry_offset(std::size_t place, std::uint32_t planes) {
+  return sizeof(FilmHeader) + place * film_entry_bytes(planes);
+}
+/// What a packet of so many entries takes: never so little that it would be small, since its place is one of bulk.
+constexpr std::size_t film_packet_bytes(std::size_t entries, std::uint32_t planes) {
+  return std::max(film_entry_offset(entries, planes), nodes::small_payload_bytes + 8);
+}
+static_assert(film_packet_bytes(1, 2) == film_entry_offset(1, 2), "with two planes no packet is filled up");
+static_assert(film_packet_bytes(1, 2) <= page_size_min_bytes, "a film packet holds an entry, whatever the page size");
+
+/// The entry at `place` of such a packet.
+inline FilmEntry film_entry_in(std::span<const std::byte> packet, std::size_t place, std::uint32_t planes) {
+  FilmEntry entry;
+  std::memcpy(&entry, packet.data() + film_entry_offset(place, planes), film_entry_bytes(planes));
+  return entry;
+}
+/// Puts it there.
+inline void put_film_entry(std::span<std::byte> packet, std::size_t place, std::uint32_t planes, const FilmEntry& entry) {
+  std::memcpy(packet.data() + film_entry_offset(place, planes), &entry, film_entry_bytes(planes));
+}
 
 struct FilmAcknowledgement {
   std::uint32_t count = 0;  ///< entries received

@@ -65,9 +65,14 @@ std::uint32_t film_credits_of(const PlanRequest& request) {
   return nodes::patient_credits(request.computer.node_count, request.computer.machine.has_value());
 }
 
+/// On a modelled machine all entries have both: what a packet takes there is part of every virtual time.
+std::uint32_t film_planes_of(const PlanRequest& request) {
+  return request.computer.machine ? 2 : core::planes_for(request.first_samples);
+}
+
 std::uint32_t film_entries_of(const PlanRequest& request) {
   const std::size_t packet_bytes = std::min(request.page_size_bytes, film_packet_max_bytes);
-  return static_cast<std::uint32_t>((packet_bytes - sizeof(FilmHeader)) / sizeof(FilmEntry));
+  return static_cast<std::uint32_t>((packet_bytes - sizeof(FilmHeader)) / film_entry_bytes(film_planes_of(request)));
 }
 
 /// What a node's mailbox must be able to hold, whoever sends when; the mailbox itself adds the slot of the packet being
@@ -100,7 +105,7 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
                          + (is_host_home(request) ? request.computer.node_count * plan.request_credits
                                                   : 0),                          // page requests: each node's credits
           .bulk_slots = request.computer.node_count * film_credits_of(request),  // film packets: each node's credits
-          .bulk_payload_bytes = sizeof(FilmHeader) + plan.film_entries * sizeof(FilmEntry)};
+          .bulk_payload_bytes = film_packet_bytes(plan.film_entries, plan.film_planes)};
 }
 
 /// Fewer credits than the mailboxes have room for, and a place for packets held back.
@@ -125,6 +130,7 @@ Plan plan_with(const PlanRequest& request, std::uint32_t frames, std::uint32_t i
   plan.work_item_side = item_side_of(request);
   plan.request_credits = request.strategy->request_credits(plan);
   plan.film_credits = film_credits_of(request);
+  plan.film_planes = film_planes_of(request);
   plan.film_entries = film_entries_of(request);
   plan.node_mailbox = node_mailbox_of(plan);
   plan.host_mailbox = host_mailbox_of(plan);
@@ -328,7 +334,8 @@ FilmCapacity Plan::film() const {
   return {.host = nodes::NodeId{request.computer.node_count},
           .packet_entries = film_entries,
           .credits = film_credits,
-          .in_flight = in_flight};
+          .in_flight = in_flight,
+          .planes = film_planes};
 }
 
 WorkShape Plan::work() const {
@@ -349,6 +356,7 @@ HostShape Plan::host() const {
           .width = request.width,
           .height = request.height,
           .first_samples = request.first_samples,
+          .planes = film_planes,
           .dealt_side = is_dealt(request) ? work_item_side : 0,
           .shares = request.pages.pixel_shares,
           .is_masked = request.is_masked(),

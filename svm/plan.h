@@ -66,7 +66,8 @@ struct Plan {
   std::uint32_t work_item_side = 0;   ///< pixels; 0: no node gives work to another
   std::uint32_t request_credits = 0;  ///< packets that ask for something which one node may have under way to one other
   std::uint32_t film_credits = 0;     ///< film packets that one node may have under way to the host
-  std::uint32_t film_entries = 0;     ///< pixels in a full film packet
+  std::uint32_t film_entries = 0;     ///< in a full film packet
+  std::uint32_t film_planes = 2;      ///< that an entry has light on
   std::size_t held_bytes = 0;         ///< room at each node and the host for packets that chaos holds back
   nodes::MailboxCapacity node_mailbox, host_mailbox;
   std::vector<std::string> notes;  ///< sentences to print, such as what was reduced

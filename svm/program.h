@@ -22,6 +22,7 @@
 #include <utility>
 
 #include "core/base/expect.h"
+#include "core/picture/background_sums.h"
 #include "core/picture/heat_kind.h"
 #include "core/picture/memory_use.h"
 #include "core/picture/pixel_task.h"
@@ -57,6 +58,7 @@ class ControlProgram final : public NodeProgram {
         slots_(node.memory(), plan.task_count(), static_cast<std::uint32_t>(plan.request.waiting_hits_max)),
         work_(node, plan.work(), settings.skips.idle_nodes),
         film_(node, plan.film()),
+        leaves_runs_(!plan.request.computer.machine && !meter && settings.skips.background && settings.background.count() > 0),
         meter_(meter) {
     core::expect(Task::pixels_max == plan.pixels_a_task, "a node's tasks are those of the plan");
     node.grant(host_, control_channel, 1);  // for Done
@@ -89,7 +91,7 @@ class ControlProgram final : public NodeProgram {
 
   bool work() override {
     begin_metering();
-    if (!slots_.has_runnable() && can_start()) {
+    if (!slots_.has_runnable() && can_start() && !leave_background()) {
       start();
     }
     if (slots_.has_runnable()) {
@@ -156,6 +158,23 @@ class ControlProgram final : public NodeProgram {
 
   bool can_start() const {
     return slots_.has_free() && work_.has_pixel() && film_.has_room_for(pixels_in_flight_ + Task::pixels_max);
+  }
+
+  /// Neighbouring pixels that show nothing else go to the host row by row, without a task. On a modelled machine and for heat
+  /// maps each is a pixel like others.
+  bool leave_background() {
+    const PixelRectangle pixels =
+        leaves_runs_ ? work_.take_background(settings_.background, film_.room_left() - pixels_in_flight_) : PixelRectangle{};
+    if (pixels.width == 0) {
+      return false;
+    }
+    const core::PixelSums sums = core::background_sums(pixels.pixel_count(), settings_, operations_);
+    for (std::uint32_t row = 0; row < pixels.height; ++row) {
+      film_.add(pixels.pixel(0, row, work_.image_width()), sums, pixels.width);
+    }
+    rays_ended_ += pixels.pixel_count() * settings_.first_samples().count;
+    pixels_rendered_ += pixels.pixel_count();
+    return true;
   }
 
   /// A task takes pixels of one tile, so who walks together does not depend on who takes which item.
@@ -273,6 +292,7 @@ class ControlProgram final : public NodeProgram {
   std::uint32_t pixels_in_flight_ = 0;
   bool done_ = false;
   bool stopped_ = false;
+  const bool leaves_runs_;  ///< of background
   std::optional<nodes::Meter> meter_;
 };
 

@@ -148,6 +148,24 @@ core::SampleStep WorkSource::next_step() {
   return is_masked() ? steps_[scan_.place()] : core::SampleStep::first();
 }
 
+PixelRectangle WorkSource::take_background(const core::BackgroundTiles& background, std::uint32_t height_max) {
+  PixelRectangle taken;
+  if (!scan_.empty() || is_masked() || share_.step_x != 1 || share_.step_y != 1) {
+    return taken;
+  }
+  while (const std::optional<PixelRectangle> item = items_.front()) {
+    const bool goes_on = taken.width == 0 || (item->y == taken.y && item->x == taken.x + taken.width);
+    if (!goes_on || item->height > height_max || !background.covers(item->x, item->y, item->width, item->height)) {
+      break;
+    }
+    const std::uint32_t width = taken.width + item->width;
+    taken = taken.width == 0 ? *item : taken;
+    taken.width = width;
+    items_.take();
+  }
+  return taken;
+}
+
 void WorkSource::ask() {
   core::expect(!has_pixel(), "only a node without pixels asks for some");
   if (asking_ || no_more_) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "core/picture/background.h"
 #include "core/picture/partial_picture.h"
 #include "nodes/layout.h"
 #include "nodes/node.h"
@@ -57,8 +58,14 @@ class WorkSource {
   std::uint32_t next_pixel();
   /// What this pass brings the next pixel. Requires has_pixel().
   core::SampleStep next_step();
+  /// Of the picture, in pixels.
+  std::uint32_t image_width() const { return image_width_; }
   /// The next pixel lies in the tile of the one before.
   bool stays_in_tile() const { return scan_.stays_in_tile(); }
+  /// Takes items that lie side by side, come next and show nothing but `background`, and returns the rectangle of their pixels:
+  /// one without a pixel if the next pixel is in no such item, or items have more than `height_max` rows. Only where no pass
+  /// leaves pixels out and none are interleaved.
+  PixelRectangle take_background(const core::BackgroundTiles& background, std::uint32_t height_max);
   /// Sends a work request, unless one is under way or would be in vain. Requires !has_pixel().
   void ask();
   /// Gives an item to the asker, or passes the request on or keeps it for a while, or says that there is none.

@@ -25,6 +25,17 @@ class BackgroundTiles {
   bool has(std::uint32_t pixel) const {
     return count_ > 0 && (bits_[down_.tile_of(pixel / width_)] >> across_.tile_of(pixel % width_) & 1U) != 0;
   }
+  /// Whether all pixels of a rectangle of the picture, from (x, y) on, do.
+  bool covers(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height) const {
+    std::uint64_t columns = 0, common = count_ > 0 ? ~std::uint64_t{0} : 0;
+    for (std::uint32_t i = 0; i < width; ++i) {
+      columns |= std::uint64_t{1} << across_.tile_of(x + i);
+    }
+    for (std::uint32_t i = 0; i < height; ++i) {
+      common &= bits_[down_.tile_of(y + i)];
+    }
+    return (columns & ~common) == 0;
+  }
   /// Tiles whose bit is set.
   std::uint32_t count() const { return count_; }
 

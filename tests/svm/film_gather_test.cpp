@@ -16,7 +16,44 @@ using namespace dmpc::tests;
 
 namespace {
 
-/// Node 1 of two, with pages of 512 B: 9 pixels to a packet.
+std::vector<svm::FilmEntry> entries_of(const Parcel& parcel, std::uint32_t planes) {
+  svm::FilmHeader header;
+  std::memcpy(&header, parcel.payload.data(), sizeof(header));
+  CHECK(parcel.payload.size() == svm::film_packet_bytes(header.count, planes));
+  std::vector<svm::FilmEntry> entries;
+  for (std::uint32_t i = 0; i < header.count; ++i) {
+    entries.push_back(svm::film_entry_in(parcel.payload, i, planes));
+  }
+  return entries;
+}
+
+/// Node 1 of two on threads, with pages of 512 B: with one sample a pixel 15 entries to a packet.
+struct ThreadsGather {
+  explicit ThreadsGather(std::uint32_t samples)
+      : plan(svm::make_plan({.page_count = 4,
+                             .page_size_bytes = 512,
+                             .computer = {.node_count = 2},
+                             .pages = {.in_flight = 4},
+                             .width = 100,
+                             .height = 100,
+                             .first_samples = samples})),
+        lone(plan, 1),
+        film(lone.node, plan.film()) {}
+  /// So many runs of 10 pixels each.
+  void add_runs(std::uint32_t runs) {
+    for (std::uint32_t run = 0; run < runs; ++run) {
+      core::PixelSums sums;
+      sums.plane[0].channel[2] = run + 7;
+      film.add(run * 10, sums, 10);
+    }
+  }
+
+  svm::Plan plan;
+  LoneNode lone;
+  svm::FilmGather film;
+};
+
+/// Node 1 of two on a modelled machine, with pages of 512 B: 9 pixels to a packet.
 struct SmallGather {
   explicit SmallGather(std::uint32_t in_flight)
       : plan(svm::make_plan({.page_count = 4,
@@ -41,9 +78,7 @@ struct SmallGather {
       CHECK(parcel.target == nodes::NodeId{2});
       CHECK(parcel.payload.size() <= 512);
       sent.emplace_back();
-      for (std::size_t at = sizeof(svm::FilmHeader); at < parcel.payload.size(); at += sizeof(svm::FilmEntry)) {
-        svm::FilmEntry entry;
-        std::memcpy(&entry, parcel.payload.data() + at, sizeof(entry));
+      for (const svm::FilmEntry& entry : entries_of(parcel, 2)) {
         CHECK(entry.sums.plane[0].channel[0] == entry.pixel * 3);
         sent.back().push_back(entry.pixel);
       }
@@ -101,6 +136,49 @@ TEST_CASE("the room holds a packet and the pixels in flight, and one more is an 
   small.add(0, 18 + 13);
   CHECK_FALSE(small.film.has_room_for(1));
   CHECK_THROWS_AS(small.add(31, 1), core::InternalError);
+}
+
+TEST_CASE("with one sample a pixel an entry has light on one plane, with more on two, on a modelled machine always") {
+  CHECK(ThreadsGather(1).plan.film_planes == 1);
+  CHECK(ThreadsGather(1).plan.film_entries == 15);
+  CHECK(ThreadsGather(2).plan.film_planes == 2);
+  CHECK(ThreadsGather(2).plan.film_entries == 9);
+  CHECK(SmallGather(1).plan.film_planes == 2);
+  ThreadsGather small(1);
+  core::PixelSums sums;
+  sums.plane[1].channel[0] = 1;
+  CHECK_THROWS_AS(small.film.add(0, sums), core::InternalError);
+}
+
+TEST_CASE("a packet of one short entry is filled up, so that it takes the place of bulk that it was given") {
+  ThreadsGather small(1);
+  small.film.add(3, {});
+  small.film.flush();
+  REQUIRE(small.lone.post.parcels.size() == 1);
+  const Parcel& parcel = small.lone.post.parcels.front();
+  CHECK(parcel.payload.size() == nodes::small_payload_bytes + 8);
+  CHECK(entries_of(parcel, 1).front().pixel == 3);
+}
+
+TEST_CASE("pixels of the same light that follow each other are one entry: none, one run, a full packet of them, one more") {
+  for (const std::uint32_t runs : {0U, 1U, 15U, 16U}) {
+    CAPTURE(runs);
+    ThreadsGather small(1);
+    small.add_runs(runs);
+    CHECK(small.lone.post.parcels.size() == runs / 15);
+    small.film.flush();
+    std::uint32_t seen = 0;
+    for (const Parcel& parcel : small.lone.post.parcels) {
+      for (const svm::FilmEntry& entry : entries_of(parcel, 1)) {
+        CHECK(entry.pixel == seen * 10);
+        CHECK(entry.more == 9);
+        CHECK(entry.sums.plane[0].channel[2] == seen + 7);
+        CHECK(entry.sums.plane[1] == core::FixedColor{});
+        ++seen;
+      }
+    }
+    CHECK(seen == runs);
+  }
 }
 
 TEST_CASE("an acknowledgement of nothing is an error") {

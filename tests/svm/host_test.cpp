@@ -19,6 +19,16 @@ using svm::Kind;
 
 namespace {
 
+void receive_film(svm::HostProgram& host, std::uint32_t node, const std::vector<svm::FilmEntry>& entries, std::uint32_t planes) {
+  const svm::FilmHeader header{static_cast<std::uint32_t>(entries.size())};
+  Parcel parcel = parcel_of(node, Kind::film_sums, header);
+  parcel.payload.resize(svm::film_packet_bytes(entries.size(), planes));
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    svm::put_film_entry(parcel.payload, i, planes, entries[i]);
+  }
+  host.receive(parcel.packet());
+}
+
 /// The host of two nodes and a picture of 3x1 pixels.
 struct SmallHost {
   explicit SmallHost(nodes::Progress progress = {})
@@ -27,14 +37,12 @@ struct SmallHost {
         film(3, 1),
         host(lone.node, plan.host(), film, std::move(progress)) {}
   void film_from(std::uint32_t node, const std::vector<std::uint32_t>& pixels) {
-    Parcel parcel = parcel_of(node, Kind::film_sums, svm::FilmHeader{static_cast<std::uint32_t>(pixels.size())});
+    std::vector<svm::FilmEntry> entries;
     for (const std::uint32_t pixel : pixels) {
-      svm::FilmEntry entry{pixel, 0, {}};
-      entry.sums.plane[1].channel[2] = pixel + 10;
-      const Parcel bytes = parcel_of(node, Kind::film_sums, entry);
-      parcel.payload.insert(parcel.payload.end(), bytes.payload.begin(), bytes.payload.end());
+      entries.push_back(svm::FilmEntry{pixel, 0, {}});
+      entries.back().sums.plane[0].channel[2] = pixel + 10;
     }
-    host.receive(parcel.packet());
+    receive_film(host, node, entries, 1);
   }
   void done(std::uint32_t node, std::uint64_t pixels) { host.receive(parcel_of(node, Kind::done, svm::Done{pixels}).packet()); }
   std::size_t sent(Kind kind) const {
@@ -123,12 +131,9 @@ TEST_CASE("where the error is too large each node gets its mask part by part, an
                          [&](const Parcel& parcel) { return parcel.kind == svm::number_of(kind); });
   };
   for (std::uint32_t pixel = 0; pixel < 8000; ++pixel) {
-    Parcel parcel = parcel_of(0, Kind::film_sums, svm::FilmHeader{1});
     svm::FilmEntry entry{pixel, 0, {}};
     entry.sums.plane[1].channel[2] = pixel % 4000 == 10 ? 1 << 20 : 0;
-    const Parcel bytes = parcel_of(0, Kind::film_sums, entry);
-    parcel.payload.insert(parcel.payload.end(), bytes.payload.begin(), bytes.payload.end());
-    host.receive(parcel.packet());
+    receive_film(host, 0, {entry}, 2);
   }
   for (std::uint32_t node = 0; node < 2; ++node) {
     host.receive(parcel_of(node, Kind::done, svm::Done{4000}).packet());
@@ -156,11 +161,28 @@ TEST_CASE("where the error is too large each node gets its mask part by part, an
 TEST_CASE("finished pixels go onto the film and are acknowledged") {
   SmallHost small;
   small.film_from(1, {2, 0});
-  CHECK(small.film.sums(2).plane[1].channel[2] == 12);
-  CHECK(small.film.sums(0).plane[1].channel[2] == 10);
+  CHECK(small.film.sums(2).plane[0].channel[2] == 12);
+  CHECK(small.film.sums(0).plane[0].channel[2] == 10);
   CHECK(small.host.pixels_done() == 2);
   CHECK(small.sent(Kind::film_acknowledgement) == 1);
   CHECK(small.lone.post.parcels.front().target == nodes::NodeId{1});
+}
+
+TEST_CASE("a run of finished pixels puts its light on each of them, and none of them may come again or lie outside the picture") {
+  SmallHost small;
+  svm::FilmEntry run{1, 1, {}};
+  run.sums.plane[0].channel[0] = 5;
+  receive_film(small.host, 0, {run}, 1);
+  CHECK(small.host.pixels_done() == 2);
+  for (const std::uint32_t pixel : {1U, 2U}) {
+    CHECK(small.film.sums(pixel).plane[0].channel[0] == 5);
+  }
+  CHECK(small.film.sums(0) == core::PixelSums{});
+  CHECK_THROWS_AS(small.film_from(1, {2}), core::InternalError);
+  for (const std::uint32_t more : {3U, ~std::uint32_t{0}}) {
+    SmallHost other;
+    CHECK_THROWS_AS(receive_film(other.host, 0, {svm::FilmEntry{0, more, {}}}, 1), core::InternalError);
+  }
 }
 
 TEST_CASE("when all nodes are done and every pixel is there, every node is told to stop") {

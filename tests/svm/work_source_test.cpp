@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "core/picture/background.h"
+#include "core/picture/camera.h"
 #include "svm/packets.h"
 #include "tests/support/small_machine.h"
 
@@ -67,6 +69,26 @@ struct SmallSource {
 };
 
 }  // namespace
+
+TEST_CASE("items of background that lie side by side are taken as one rectangle, and only those that come next") {
+  const core::Camera camera(core::View{}, core::GridFrame{}, 12, 8, 1);
+  core::BackgroundTiles::Bits bits{};
+  // Of a picture of 12x8 pixels all but the last column of the upper half shows nothing else.
+  for (std::uint32_t row = 0; row < 32; ++row) {
+    bits[row] = ~std::uint64_t{0} >> 6U;
+  }
+  const core::BackgroundTiles background(camera, bits);
+  const svm::Plan plan =
+      svm::make_plan({.page_count = 4, .computer = {.node_count = 1}, .pages = {.work_item_side = 4}, .width = 12, .height = 8});
+  LoneNode lone(plan, 0);
+  svm::WorkSource work(lone.node, plan.work());
+  CHECK(work.take_background({}, 4).pixel_count() == 0);
+  CHECK(work.take_background(background, 3).pixel_count() == 0);
+  CHECK(work.take_background(background, 4) == PixelRectangle{0, 0, 8, 4});
+  CHECK(work.take_background(background, 4).pixel_count() == 0);
+  CHECK(work.next_pixel() == 8);
+  CHECK(work.take_background(background, 4).pixel_count() == 0);
+}
 
 TEST_CASE("a node without pixels asks the next one, once") {
   SmallSource small(1, 4, 3);

@@ -180,6 +180,28 @@ TEST_CASE("tiles fit pictures of one pixel, of as many as there are tiles, and o
   CHECK(Looked(Scene(), 3, 200).tiles().count() == 3 * 64);
 }
 
+TEST_CASE("a rectangle is covered if each of its pixels is in an empty tile") {
+  for (const int side : {5, 48, 64, 200}) {
+    CAPTURE(side);
+    const Looked looked(built_in("tetra-3"), side, side + 3);
+    const BackgroundTiles tiles = looked.tiles();
+    const auto width = static_cast<std::uint32_t>(side), height = width + 3;
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+      const auto below = [&](std::uint32_t which, std::uint32_t end) {
+        return static_cast<std::uint32_t>(mix(4 * i + which) % end);
+      };
+      const std::uint32_t x = below(0, width), y = below(1, height);
+      const std::uint32_t wide = 1 + below(2, std::min(width - x, 9U)), high = 1 + below(3, std::min(height - y, 9U));
+      bool all = true;
+      for (std::uint32_t pixel = 0; pixel < wide * high; ++pixel) {
+        all = all && tiles.has((y + pixel / wide) * width + x + pixel % wide);
+      }
+      REQUIRE(tiles.covers(x, y, wide, high) == all);
+    }
+  }
+  CHECK_FALSE(BackgroundTiles().covers(0, 0, 1, 1));
+}
+
 TEST_CASE("no tile is empty by default or where a camera's angle leaves it open") {
   CHECK_FALSE(BackgroundTiles().has(0));
   CHECK_FALSE(BackgroundTiles().has(12345));
