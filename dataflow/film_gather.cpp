@@ -17,7 +17,23 @@ void FilmGather::add(std::uint32_t pixel, std::uint32_t plane, const core::Fixed
     counters_.saturated += core::add(entry->light, light) ? 1 : 0;
     return;
   }
-  room_->entries[count_++] = {pixel, plane, light};
+  append(pixel, plane, light);
+}
+
+void FilmGather::add_only(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {
+  core::expect(count_ < film_packet_entries, "no light is gathered while a film packet waits");
+  ++counters_.deposits;
+  FilmEntry* const last = count_ > 0 ? &room_->entries[count_ - 1] : nullptr;
+  if (last != nullptr && last->plane == plane && last->light == light && pixel == last->pixel + last->more + 1 &&
+      last->more + 1U < film_entry_pixels_max) {
+    ++last->more;
+  } else {
+    append(pixel, plane, light);
+  }
+}
+
+void FilmGather::append(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {
+  room_->entries[count_++] = {pixel, static_cast<std::uint16_t>(plane), 0, light};
   if (waits()) {
     flush();
   }
@@ -26,7 +42,7 @@ void FilmGather::add(std::uint32_t pixel, std::uint32_t plane, const core::Fixed
 FilmEntry* FilmGather::find(std::uint32_t pixel, std::uint32_t plane) {
   for (std::uint32_t i = count_; i > 0; --i) {
     FilmEntry& entry = room_->entries[i - 1];
-    if (entry.pixel == pixel && entry.plane == plane) {
+    if (entry.pixel == pixel && entry.plane == plane && entry.more == 0) {
       return &entry;
     }
   }

@@ -167,17 +167,24 @@ void HostProgram::take_film(const nodes::Packet& packet) {
 }
 
 void HostProgram::take_entry(const FilmEntry& entry) {
-  core::expect(entry.pixel < pixels_total_ && refinement_.pass().has(entry.pixel) && entry.plane < 2,
-               "light falls on a pixel of the pass");
+  core::expect(entry.pixel < pixels_total_ && entry.more < pixels_total_ - entry.pixel && entry.plane < 2,
+               "light falls on the picture");
   core::PixelSums sums;
   sums.plane[entry.plane] = entry.light;
-  counters_.deposits_saturated += film_->deposit(entry.pixel, sums) ? 1 : 0;
-  std::uint64_t& word = has_light_[entry.pixel / 64];
-  const std::uint64_t bit = std::uint64_t{1} << (entry.pixel % 64);
+  for (std::uint32_t pixel = entry.pixel; pixel <= entry.pixel + entry.more; ++pixel) {
+    take_light(pixel, sums);
+  }
+}
+
+void HostProgram::take_light(std::uint32_t pixel, const core::PixelSums& sums) {
+  core::expect(refinement_.pass().has(pixel), "light falls on a pixel of the pass");
+  counters_.deposits_saturated += film_->deposit(pixel, sums) ? 1 : 0;
+  std::uint64_t& word = has_light_[pixel / 64];
+  const std::uint64_t bit = std::uint64_t{1} << (pixel % 64);
   pixels_with_light_ += (word & bit) == 0 ? 1 : 0;
   word |= bit;
   if (continuation_.watch) {
-    continuation_.watch(*film_, refinement_, entry.pixel);
+    continuation_.watch(*film_, refinement_, pixel);
   }
 }
 

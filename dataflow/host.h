@@ -68,6 +68,7 @@ class HostProgram final : public nodes::Program {
  private:
   void take_film(const nodes::Packet& packet);
   void take_entry(const FilmEntry& entry);
+  void take_light(std::uint32_t pixel, const core::PixelSums& sums);
   void take_overflow(const nodes::Packet& packet);
   void take_done(const Done& done);
   bool can_forward(std::uint32_t owner) const;

@@ -206,12 +206,16 @@ struct HoldAcknowledgement {
   std::uint32_t padding = 0;
 };
 
-/// Light for a plane of a pixel: the sum of one or more deposits. A pixel's come from any number of nodes.
+/// Light for a plane of a pixel: the sum of one or more deposits. A pixel's come from any number of nodes. Or for each of several
+/// pixels of the background.
 struct FilmEntry {
-  std::uint32_t pixel = 0;
-  std::uint32_t plane = 0;
-  core::FixedColor light;
+  std::uint32_t pixel = 0;  ///< the first
+  std::uint16_t plane = 0;
+  std::uint16_t more = 0;  ///< pixels that follow it, by their numbers
+  core::FixedColor light;  ///< of each
 };
+/// As many pixels an entry has at most.
+inline constexpr std::uint32_t film_entry_pixels_max = 0x10000;
 static_assert(sizeof(FilmEntry) == 32 && std::is_trivially_copyable_v<FilmEntry>);
 
 /// Stands before `count` entries.

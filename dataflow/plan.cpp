@@ -87,8 +87,9 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
   const TerminationTree tree{plan.node_count()};
   return {.small_slots = plan.node_count() * plan.host_credits                 // credits back for forwarded rays
                          + tree.packets_max(nodes::NodeId{plan.node_count()})  // tokens, or Done, of its children
-                         + plan.node_count() * plan.dealing_credits(),         // credits back for primary rays
-          .bulk_slots = plan.node_count() * plan.host_credits                  // overflow: each node's credits for the host
+                         + plan.node_count() * plan.dealing_credits()          // credits back for primary rays
+                         + plan.node_count(),  // film of one entry, which is small: each node's last packet, and no other
+          .bulk_slots = plan.node_count() * plan.host_credits  // overflow: each node's credits for the host
                         + plan.node_count() * plan.film_credits,
           .bulk_payload_bytes = std::max(plan.packet_bytes(), film_packet_bytes(film_packet_entries))};
 }

@@ -105,6 +105,7 @@ RayProgram<RaysTask, Units>::RayProgram(nodes::Node& node, const Plan& plan, con
       backlog_(node.memory(), backlog_capacity(plan)),
       places_(node.memory(), places_of(plan)),
       tested_objects_(plan.tested_objects()),
+      leaves_runs_(!plan.request.computer.machine && plan.request.first_samples == 1),
       task_(make_task<RaysTask>(node, plan)),
       gather_(node, gather_capacity(plan)),
       film_(node, plan.node_count(), plan.film_credits, deposits_at_once<RaysTask>(deal.header)),
@@ -369,12 +370,22 @@ void RayProgram<RaysTask, Units>::start_primary() {
   shoot(constants_->settings.camera.primary_ray(pixel, sample));
 }
 
-/// What a primary ray that needs not be traced comes to.
+/// What a primary ray that needs not be traced comes to. With one sample a pixel nothing else falls on it. On a modelled machine
+/// it is sent like other light: what packets take is part of every virtual time.
 template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::leave_background(std::uint32_t pixel, std::uint32_t sample) {
   ++operations_.rays[static_cast<std::size_t>(core::RayKind::primary)];
   ++operations_.skipped.background;
-  end_miss(constants_->settings.missing_ray(pixel, sample));
+  const core::RenderSettings& settings = constants_->settings;
+  const core::Ray ray = settings.missing_ray(pixel, sample);
+  if (!leaves_runs_) {
+    return end_miss(ray);
+  }
+  ++counters_.ended;
+  const core::FixedColor light = fixed(ray.weight * settings.light_beyond(ray));
+  if (light != core::FixedColor{}) {
+    film_.add_only(pixel, core::plane_of(sample), light);
+  }
 }
 
 /// Traces the rays under way, or the next children of the hits under way.
@@ -507,8 +518,13 @@ void RayProgram<RaysTask, Units>::end_miss(const core::Ray& ray) {
 }
 
 template <class RaysTask, class Units>
+core::FixedColor RayProgram<RaysTask, Units>::fixed(const core::Color& found) const {
+  return core::to_fixed(found, constants_->settings.shade.film_scale);
+}
+
+template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::leave_light(const core::Ray& ray, const core::Color& found) {
-  const core::FixedColor light = core::to_fixed(found, constants_->settings.shade.film_scale);
+  const core::FixedColor light = fixed(found);
   if (light != core::FixedColor{}) {
     film_.add(ray.pixel, core::plane_of(ray.sample), light);
   }

@@ -129,6 +129,7 @@ class RayProgram final : public NodeProgram {
   void start_primaries();
   void start_primary();
   void leave_background(std::uint32_t pixel, std::uint32_t sample);
+  core::FixedColor fixed(const core::Color& found) const;
   void leave_light(const core::Ray& ray, const core::Color& found);
   void go_on();
   void trace();
@@ -162,6 +163,7 @@ class RayProgram final : public NodeProgram {
   RayQueue backlog_;
   Places places_;
   std::uint32_t tested_objects_;
+  bool leaves_runs_;  ///< of background
   RaysTask task_;
   Gather gather_;
   FilmGather film_;

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -69,6 +70,43 @@ TEST_CASE("a full film packet leaves at once, a third waits until the host ackno
   CHECK_FALSE(sender.film.waits());
   CHECK(sender.single.post.parcels.size() == 3);
   CHECK(entry_in(sender.single.post.parcels.back(), 0).pixel == 200);
+}
+
+TEST_CASE("pixels that follow each other and have one light share an entry: none, one, all that it can have, one more") {
+  for (const std::uint32_t pixels : {0U, 1U, dataflow::film_entry_pixels_max, dataflow::film_entry_pixels_max + 1}) {
+    CAPTURE(pixels);
+    FilmSender sender(1);
+    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
+      sender.film.add_only(pixel + 10, 0, {{1, 2, 3}});
+    }
+    sender.film.flush();
+    CHECK(sender.film.counters().deposits == pixels);
+    CHECK(sender.film.counters().entries == (pixels + dataflow::film_entry_pixels_max - 1) / dataflow::film_entry_pixels_max);
+    if (pixels > 0) {
+      const tests::Parcel parcel = sender.single.take();
+      CHECK(entry_in(parcel, 0).pixel == 10);
+      CHECK(entry_in(parcel, 0).more + 1U == std::min(pixels, dataflow::film_entry_pixels_max));
+      CHECK(entry_in(parcel, 0).light == core::FixedColor{{1, 2, 3}});
+    }
+  }
+}
+
+TEST_CASE("pixels of other light, of another plane or apart do not share an entry, and a packet of them leaves when it is full") {
+  FilmSender sender(2);
+  sender.film.add_only(1, 0, {{1, 2, 3}});
+  sender.film.add_only(2, 0, {{1, 2, 4}});
+  sender.film.add_only(3, 1, {{1, 2, 4}});
+  sender.film.add_only(5, 1, {{1, 2, 4}});
+  sender.film.add_only(6, 1, {{1, 2, 4}});
+  sender.film.add(5, 1, {{1, 0, 0}});  // which is of pixel 5 alone
+  CHECK(sender.film.gathered() == 5);
+  for (std::uint32_t i = 5; i < dataflow::film_packet_entries; ++i) {
+    sender.film.add_only(10 * i, 0, {{1, 2, 3}});
+  }
+  CHECK(sender.film.gathered() == 0);
+  CHECK(sender.single.take().payload.size() == dataflow::film_packet_bytes(dataflow::film_packet_entries));
+  sender.film.add_only(10 * dataflow::film_packet_entries, 0, {{1, 2, 3}});
+  CHECK(sender.film.gathered() == 1);
 }
 
 TEST_CASE("a packet waits for as long as it has no room for what may come at once") {

@@ -167,18 +167,28 @@ TEST_CASE("while the host keeps a ray it keeps the token") {
 
 TEST_CASE("light from several nodes is added to the film and acknowledged") {
   LoneHost host;
-  host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {5, 0, {{1, 2, 3}}}});
-  host.receive(1, Kind::film, LoneHost::FilmPacket{.entry = {5, 0, {{10, 20, 30}}}});
-  host.receive(1, Kind::film, LoneHost::FilmPacket{.entry = {5, 1, {{7, 7, 7}}}});
+  host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {5, 0, 0, {{1, 2, 3}}}});
+  host.receive(1, Kind::film, LoneHost::FilmPacket{.entry = {5, 0, 0, {{10, 20, 30}}}});
+  host.receive(1, Kind::film, LoneHost::FilmPacket{.entry = {5, 1, 0, {{7, 7, 7}}}});
   CHECK(host.film.sums(5).plane[0] == core::FixedColor{{11, 22, 33}});
   CHECK(host.film.sums(5).plane[1] == core::FixedColor{{7, 7, 7}});
   CHECK(Kind{host.single.take().kind} == Kind::film_acknowledgement);
 }
 
+TEST_CASE("light of a run falls on each of its pixels, and none of them may lie outside the picture") {
+  LoneHost host;
+  host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {3, 1, 4, {{1, 2, 3}}}});
+  for (std::uint32_t pixel = 0; pixel < 8; ++pixel) {
+    CHECK(host.film.sums(pixel).plane[1] == (pixel >= 3 ? core::FixedColor{{1, 2, 3}} : core::FixedColor{}));
+  }
+  CHECK(host.program.report().film_entries == 1);
+  CHECK_THROWS_AS(host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {3, 0, 5, {}}}), core::InternalError);
+}
+
 TEST_CASE("light outside the picture is an error") {
   LoneHost host;
-  CHECK_THROWS_AS(host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {8, 0, {}}}), core::InternalError);
-  CHECK_THROWS_AS(host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {0, 2, {}}}), core::InternalError);
+  CHECK_THROWS_AS(host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {8, 0, 0, {}}}), core::InternalError);
+  CHECK_THROWS_AS(host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {0, 2, 0, {}}}), core::InternalError);
   CHECK_THROWS_AS(host.receive(0, Kind::film, LoneHost::FilmPacket{.header = {2}, .entry = {}}), core::InternalError);
 }
 
@@ -191,7 +201,7 @@ TEST_CASE("the host ends the run when a round of the token proves the end and ev
     CHECK(Kind{finish.kind} == Kind::finish);
     CHECK(finish.target == NodeId{node});
   }
-  host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {5, 0, {{1, 2, 3}}}});
+  host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {5, 0, 0, {{1, 2, 3}}}});
   host.single.take();
   host.receive(1, Kind::done, dataflow::Done{0});
   CHECK_FALSE(host.program.finished());
