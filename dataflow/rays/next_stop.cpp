@@ -45,7 +45,8 @@ float first_meeting(const core::Ray& ray, const core::Walk& walk, const core::Pa
 NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Surroundings& surroundings,
                    std::optional<nodes::NodeId> here, core::Operations& operations) {
   const Regions& regions = surroundings.regions;
-  NextStop stop{.passage = passage, .region = regions.region_index_of(passage.cell)};
+  FoundRegion found = regions.find(passage.cell);
+  NextStop stop{.passage = passage, .region = found.index};
   if (regions.owner_at(stop.region) == here || (!surroundings.has_outline() && !regions.is_empty(stop.region))) {
     return stop;
   }
@@ -56,7 +57,7 @@ NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Sur
     return stop;
   }
   while (stop.traced == core::Traced::left && regions.owner_at(stop.region) != here) {
-    walk.move_to(regions.region_at(stop.region));
+    walk.move_to(found.box);
     if (!regions.is_empty(stop.region) && static_cast<float>(walk.region_exit().t) >= first) {
       ++operations.cell_steps;
       break;
@@ -66,7 +67,8 @@ NextStop next_stop(const core::Ray& ray, const core::Passage& passage, const Sur
     if (!regions.is_empty(stop.region) && traced != core::Traced::left) {
       break;
     }
-    stop = {.traced = traced, .passage = next, .region = regions.region_index_of(next.cell)};
+    found = regions.find(next.cell);
+    stop = {.traced = traced, .passage = next, .region = found.index};
     ++operations.skipped.empty_regions;
   }
   return stop;

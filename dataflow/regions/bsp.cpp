@@ -75,6 +75,19 @@ std::uint32_t Bsp::region_index_of(const core::Corner& cell) const {
   return first;
 }
 
+FoundRegion Bsp::find(const core::Corner& cell) const {
+  FoundRegion found{0, {{}, grid_size_}};
+  for (std::uint32_t count = region_count_; count > 1;) {
+    const std::uint32_t low_count = low_count_of(count);
+    const Cut cut = cuts_[found.index + low_count - 1];
+    const bool is_low = cell[cut.axis()] < cut.at();
+    (is_low ? found.box.high : found.box.low)[cut.axis()] = cut.at();
+    found.index += is_low ? 0 : low_count;
+    count = is_low ? low_count : count - low_count;
+  }
+  return found;
+}
+
 core::Region Bsp::region_at(std::uint32_t index) const {
   core::Region region{{}, grid_size_};
   for_each_cut(index, [&](Cut cut, bool is_high) { (is_high ? region.low : region.high)[cut.axis()] = cut.at(); });

@@ -12,6 +12,7 @@
 
 #include "core/base/region.h"
 #include "dataflow/regions/columns.h"
+#include "dataflow/regions/found_region.h"
 #include "nodes/node_id.h"
 
 namespace dmpc::dataflow {
@@ -56,6 +57,8 @@ class Bsp {
   const core::Corner& grid_size() const { return grid_size_; }
   /// Which region holds a finest cell of the grid: at most ceil(log2(region_count())) comparisons.
   std::uint32_t region_index_of(const core::Corner& cell) const;
+  /// The same with its box, by one way down the tree.
+  FoundRegion find(const core::Corner& cell) const;
   /// The box of region `index`, in finest cells; empty only if there are more regions than finest columns to share.
   core::Region region_at(std::uint32_t index) const;
 
@@ -117,6 +120,9 @@ class Bsp {
 
   /// How many of a box's `count` regions are on the low side of its cut.
   std::uint32_t low_count_of(std::uint32_t count) const {
+    if (units_each_ == 1) {
+      return count / 2;  // the same, without a division
+    }
     return count > units_each_ ? count / units_each_ / 2 * units_each_ : count / 2;
   }
 

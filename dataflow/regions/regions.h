@@ -39,6 +39,10 @@ class Regions {
   std::uint32_t region_index_of(const core::Corner& cell) const {
     return ask([&](const auto& how) { return how.region_index_of(cell); });
   }
+  /// The same with its box.
+  FoundRegion find(const core::Corner& cell) const {
+    return ask([&](const auto& how) { return how.find(cell); });
+  }
   /// The box of region `index`, in finest cells.
   core::Region region_at(std::uint32_t index) const {
     return ask([&](const auto& how) { return how.region_at(index); });

@@ -14,6 +14,7 @@
 #include "core/base/expect.h"
 #include "core/base/region.h"
 #include "dataflow/regions/columns.h"
+#include "dataflow/regions/found_region.h"
 #include "nodes/node_id.h"
 
 namespace dmpc::dataflow {
@@ -58,6 +59,11 @@ class Scattered {
   /// Which region holds a finest cell of the grid.
   std::uint32_t region_index_of(const core::Corner& cell) const {
     return column_at(1, cell) * shape_.count[0] + column_at(0, cell);
+  }
+  /// The same with its box.
+  FoundRegion find(const core::Corner& cell) const {
+    const std::uint32_t index = region_index_of(cell);
+    return {index, region_at(index)};
   }
   /// The box of region `index`, in finest cells.
   core::Region region_at(std::uint32_t index) const;

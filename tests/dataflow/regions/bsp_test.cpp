@@ -59,6 +59,8 @@ bool tiles(const Bsp& bsp) {
   for (std::int32_t x = 0; x < size[0]; ++x) {
     for (std::int32_t z = 0; z < size[2]; ++z) {
       is_right = is_right && bsp.region_at(bsp.region_index_of(bsp.owner_of({x, 3, z}))).contains(Corner{x, 3, z});
+      const dataflow::FoundRegion found = bsp.find({x, 3, z});
+      is_right = is_right && found.index == bsp.region_index_of(Corner{x, 3, z}) && found.box == bsp.region_at(found.index);
     }
   }
   return is_right;
