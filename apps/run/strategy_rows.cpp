@@ -204,8 +204,9 @@ std::vector<BalanceRow> make_balance_rows() {
 std::vector<RayRow> rows_of_packets() {
   return {
       {.name = "--ray-batch",
-       .takes = number<&RayOptions::ray_batch>(1, dataflow::ray_batch_max,
-                                               "what fills 4 KiB; 2 KiB if rays walk alone, modelled machines 1 KiB"),
+       .takes = number<&RayOptions::ray_batch>(
+           1, dataflow::ray_batch_max,
+           "what fills 4 KiB; 2 KiB if rays walk alone or with --ray-places, modelled machines 1 KiB"),
        .help = "Rays in a packet, at most",
        .why = rays_stay,
        .key = "ray_batch",

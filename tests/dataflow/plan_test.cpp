@@ -62,6 +62,17 @@ TEST_CASE("without a memory bound a packet of rays fills 2 KiB, on a modelled ma
   CHECK(plan.notes.empty());
 }
 
+TEST_CASE("where places are shared packets of bundles are no longer than those of rays that walk alone") {
+  PlanRequest request = request_with(129, 100_KiB);
+  request.bundles = true;
+  CHECK(make_plan(request).ray_batch == 17);
+  CHECK(make_plan(request).rays_a_task == 16);
+  request.rays.ray_credits = 4;
+  CHECK(make_plan(request).ray_batch == 34);
+  request.rays.ray_batch = 40;
+  CHECK(make_plan(request).ray_batch == 40);
+}
+
 TEST_CASE("bundles have packets of 4 KiB, few nodes more credits, and each node room for 16 rays and their hits") {
   for (const std::uint32_t nodes : {1U, 2U, 8U, 16U, 64U}) {
     CAPTURE(nodes);

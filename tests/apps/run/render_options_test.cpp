@@ -534,7 +534,7 @@ TEST_CASE("the help of render names every option and its default") {
                                  "--subsample",
                                  "--balance-grid",
                                  "--ray-batch",
-                                 "1..546 [what fills 4 KiB; 2 KiB if rays walk alone, modelled machines 1 KiB]",
+                                 "1..546 [what fills 4 KiB; 2 KiB if rays walk alone or with --ray-places, modelled machines 1 KiB]",
                                  "--ray-credits",
                                  "0..64 [4; up to 64 of few nodes whose rays walk together]",
                                  "--ray-places",
