@@ -58,7 +58,8 @@ class ControlProgram final : public NodeProgram {
         slots_(node.memory(), plan.task_count(), static_cast<std::uint32_t>(plan.request.waiting_hits_max)),
         work_(node, plan.work(), settings.skips.idle_nodes),
         film_(node, plan.film()),
-        leaves_runs_(!plan.request.computer.machine && !meter && settings.skips.background && settings.background.count() > 0),
+        leaves_runs_(!plan.request.computer.machine && !meter && settings.skips.background && settings.background.count() > 0 &&
+                     !settings.shade.transport.has_gradient),
         meter_(meter) {
     core::expect(Task::pixels_max == plan.pixels_a_task, "a node's tasks are those of the plan");
     node.grant(host_, control_channel, 1);  // for Done

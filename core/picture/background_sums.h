@@ -10,14 +10,15 @@
 namespace dmpc::core {
 
 /// What each of `pixels` pixels of settings.background has, with the samples of the first pass; counted as if a task had rendered
-/// every one. Requires that settings.shows_background() them. Thread safety: pure but for the counts.
+/// every one. Requires that settings.shows_background() them, and that they are alike: no sky that changes. Thread safety: pure
+/// but for the counts.
 inline PixelSums background_sums(std::uint64_t pixels, const RenderSettings& settings, Operations& operations) {
   const SampleRange samples = settings.first_samples();
   PixelSums sums;
   Operations of_one;
   for (std::uint32_t i = 0; i < samples.count; ++i) {
     const Ray ray{.sample = samples.first + i};
-    deposit(sums, ray, ray.weight * settings.header.background, settings, of_one);
+    deposit(sums, ray, ray.weight * settings.light_beyond(ray), settings, of_one);
   }
   operations.rays[static_cast<std::size_t>(RayKind::primary)] += pixels * samples.count;
   operations.skipped.background += pixels * samples.count;
