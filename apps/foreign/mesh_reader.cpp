@@ -251,9 +251,9 @@ void add_surroundings(core::Scene& scene, const aiScene* file, const MeshOptions
   const auto camera = has_camera ? camera_of(*file, options.size, scale, notes) : std::nullopt;
   scene.view = camera ? *camera : plain_view(bounds, file, options, notes);
   if (file != nullptr) {
-    scene.lights = lights_of(*file, bounds, scale, options.is_lit_otherwise ? unsaid : notes);
+    scene.lights = lights_of(*file, bounds, scale, options.is_below_sky, options.is_lit_otherwise ? unsaid : notes);
   }
-  if (scene.lights.empty()) {
+  if (scene.lights.empty() && !options.is_below_sky) {
     scene.lights = plain_lights(bounds, scene.view);
   }
 }

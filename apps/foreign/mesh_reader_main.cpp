@@ -41,6 +41,7 @@ MeshOptions take_options(Unpacker& fields) {
   options.allows_missing = fields.take_flag();
   options.is_seen_otherwise = fields.take_flag();
   options.is_lit_otherwise = fields.take_flag();
+  options.is_below_sky = fields.take_flag();
   return options;
 }
 

@@ -18,7 +18,7 @@ struct MeshOptions {
   bool allows_missing = false;           ///< what files that are missing would cover is shown in its plain colour
   Sandbox sandbox = Sandbox::available;  ///< what the readers of the file and of its textures have to be confined by
   /// Another view is taken, or other lights, so that nothing is said of the file's.
-  bool is_seen_otherwise = false, is_lit_otherwise = false;
+  bool is_seen_otherwise = false, is_lit_otherwise = false, is_below_sky = false;
 };
 
 }  // namespace dmpc::apps

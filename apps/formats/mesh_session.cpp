@@ -12,7 +12,6 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/edge/system/input_memory.h"
-#include "apps/edge/system/stopwatch.h"
 #include "apps/formats/named_file.h"
 #include "apps/picture/texture_size.h"
 #include "core/base/expect.h"
@@ -115,7 +114,7 @@ void MeshSession::note_alpha() {
                                    [](const core::Material& material) { return material.alpha != core::AlphaUse::none; });
   if (count > 0) {
     result_.notes.push_back(
-        "materials that alpha cuts out or blends, whose faces cast whole shadows, and each take one of --depth: " +
+        "materials that alpha cuts out or blends, whose faces cast whole shadows, and each take one of --depth or a bounce: " +
         grouped(static_cast<std::uint64_t>(count)));
   }
   if (pictures_.hidden_alphas() > 0) {
@@ -137,7 +136,8 @@ void MeshSession::ask() {
   const Resolution size = options_.size.value_or(Resolution{});
   add(fields, options_.size, static_cast<double>(size.width));
   fields.add(static_cast<double>(size.height));
-  for (const bool flag : {options_.allows_missing, options_.is_seen_otherwise, options_.is_lit_otherwise}) {
+  for (const bool flag :
+       {options_.allows_missing, options_.is_seen_otherwise, options_.is_lit_otherwise, options_.is_below_sky}) {
     fields.add(static_cast<std::uint8_t>(flag));
   }
   process_.send(Saying::read_mesh, fields);
@@ -196,7 +196,7 @@ void MeshSession::answer_question(const Message& message) {
   } else {
     answer_meant(fields);
   }
-  budget_.spend(std::chrono::duration_cast<ReadingBudget::Time>(std::chrono::duration<double>(stopwatch.lap())));
+  spend(stopwatch);
 }
 
 void MeshSession::answer_open(const std::string& path) {
@@ -286,15 +286,22 @@ core::Texture MeshSession::texture_of_texels(Unpacker fields) {
   return texture;
 }
 
-/// Where that cannot be, the same comes in messages.
+/// Where that cannot be, the same comes in messages from then on. Copying takes time of dmpc's own, too.
 void MeshSession::take_over(Unpacker fields) {
+  Unpacker::require(can_copy_);
+  ProcessorStopwatch stopwatch(CLOCK_THREAD_CPUTIME_ID);
   const Saying list = fields.take_choice(Saying::corners);
   auto address = fields.take<std::uint64_t>();
   const auto bytes = fields.take<std::uint64_t>();
   fields.finish();
-  const bool is_here = receiver_.take_from(
+  can_copy_ = receiver_.take_from(
       list, bytes, [&](std::span<std::byte> room) { return process_.copy(std::exchange(address, address + room.size()), room); });
-  process_.send(is_here ? Saying::yes : Saying::no);
+  process_.send(can_copy_ ? Saying::yes : Saying::no);
+  spend(stopwatch);
+}
+
+void MeshSession::spend(ProcessorStopwatch& stopwatch) {
+  budget_.spend(std::chrono::duration_cast<ReadingBudget::Time>(std::chrono::duration<double>(stopwatch.lap())));
 }
 
 void MeshSession::add_bytes(const std::string& bytes) {

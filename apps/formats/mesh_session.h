@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/edge/system/progress.h"
+#include "apps/edge/system/stopwatch.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/scene_blocks.h"
 #include "apps/picture/picture_reader.h"
@@ -36,6 +37,7 @@ class MeshSession {
   core::Texture texture_of_bytes(Unpacker fields);
   core::Texture texture_of_texels(Unpacker fields);
   void take_over(Unpacker fields);
+  void spend(ProcessorStopwatch& stopwatch);
   void add_bytes(const std::string& bytes);
   void add_note(Unpacker fields);
   void note_alpha();
@@ -52,7 +54,8 @@ class MeshSession {
   ReadingBudget budget_;  ///< of the scene's own files, and of all questions about others
   ReaderProcess process_;
   SceneReceiver receiver_;
-  std::string bytes_;  ///< of the texture that is sent
+  std::string bytes_;     ///< of the texture that is sent
+  bool can_copy_ = true;  ///< lists from where they lie in its reader
   std::uint64_t note_bytes_ = 0;
   MeshFile result_;
   std::string current_;  ///< the file opened last

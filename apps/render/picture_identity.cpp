@@ -126,8 +126,12 @@ void add_transport(std::vector<PictureFact>& facts, const TransportOptions& tran
     return;
   }
   facts.push_back({"transport", name_of(transport.kind)});
-  facts.push_back({"sky", transport.sky ? text_of(*transport.sky) : "none"});
-  facts.push_back({"occlusion", transport.occlusion ? text_of(*transport.occlusion) : "none"});
+  if (transport.sky) {
+    facts.push_back({"sky", text_of(*transport.sky)});
+  }
+  if (transport.occlusion) {
+    facts.push_back({"occlusion", text_of(*transport.occlusion)});
+  }
 }
 
 }  // namespace
@@ -144,7 +148,8 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
            {"textures", textures_text(scene)},
            {"lights or background", lights_text(scene)},
            {"view", view_text(scene.view)},
-           {"depth", std::to_string(picture.depth)},
+           picture.transport.is_by_paths() ? PictureFact{"bounces", std::to_string(picture.depth - 1)}
+                                           : PictureFact{"depth", std::to_string(picture.depth)},
            {"cutoff", text_of(picture.cutoff)},
            {"convention", picture.convention == core::Convention::haines ? "haines" : "paper"},
            {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},

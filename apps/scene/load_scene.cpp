@@ -29,12 +29,20 @@ void say_once(const std::vector<std::string>& notes) {
   }
 }
 
+/// By paths a sky lights, and what shines by itself.
+bool is_lit(const core::Scene& scene, const TransportOptions& transport) {
+  const auto shines = [](const core::Material& material) { return material.emission != core::Vec3d{}; };
+  return !scene.lights.empty() || scene.ambient != core::Vec3d{} || transport.sky || transport.occlusion ||
+         (transport.is_by_paths() && std::any_of(scene.materials.begin(), scene.materials.end(), shines));
+}
+
 /// Warns of pictures that are black, or nothing but background, because the scene is.
-void say_what_is_missing(const core::Scene& scene) {
+void say_what_is_missing(const core::Scene& scene, const TransportOptions& transport) {
   if (scene.objects.empty()) {
     say_once({scene.name + ": there is nothing in it: the picture shows the background alone"});
-  } else if (scene.lights.empty() && scene.ambient == core::Vec3d{}) {
-    say_once({scene.name + ": no light is in it: what reflects none is black; --light=X,Y,Z adds one"});
+  } else if (!is_lit(scene, transport)) {
+    say_once({scene.name + ": no light is in it: what reflects none is black; --light=X,Y,Z adds one" +
+              (transport.is_by_paths() ? ", --sky=1 a sky" : "")});
   }
 }
 
@@ -47,6 +55,8 @@ core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadN
   }
   return std::move(file.scene);
 }
+
+constexpr const char* one_path_note = "one path a pixel shows mostly noise, which falls with more, such as --samples=256";
 
 /// What is to be done about a file that no reader reads.
 std::string advice_on(const std::string& path, const std::string& ending) {
@@ -135,6 +145,7 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   mesh.size = picture.resolution;
   mesh.is_seen_otherwise = picture.staging.camera.has_value();
   mesh.is_lit_otherwise = !picture.staging.lights.empty();
+  mesh.is_below_sky = picture.transport.sky.has_value();
   OpenedFiles read;
   core::Scene scene = load_any(picture.scene, mesh,
                                picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max, notes, read);
@@ -145,8 +156,8 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   const std::string note = apply(picture.staging, scene, kind);
   if (notes == LoadNotes::said) {
     const bool may_be_black = kind == SceneKind::mesh && !picture.transport.is_by_paths();
-    say_once({note, may_be_black ? shadow_note(picture.staging) : ""});
-    say_what_is_missing(scene);
+    say_once({note, may_be_black ? shadow_note(picture.staging) : "", picture.is_one_path_unasked ? one_path_note : ""});
+    say_what_is_missing(scene, picture.transport);
   }
   return scene;
 }

@@ -72,6 +72,7 @@ void settle_transport(const OptionSet& options, PictureOptions& picture) {
         "pixel gets, such as --samples=64");
   }
   picture.depth = picture.transport.depth();
+  picture.is_one_path_unasked = !options.is_given("--samples");
   if (picture.transport.sky) {
     picture.staging.background = picture.transport.sky->horizon;
   }
@@ -108,7 +109,7 @@ void add_options(OptionSet options, PictureOptions& picture) {
   add_options(options, picture.staging);
   add_view_options(options, picture);
   options.add_text(
-      "--samples", picture.refines_meshes ? "1..32768|auto [1, of a mesh file auto]" : "1..32768|auto [1]",
+      "--samples", picture.refines_meshes ? "1..32768|auto [1, of a mesh file but by paths auto]" : "1..32768|auto [1]",
       [&picture](const std::string& text) { take_samples(picture, text); },
       "Rays through each pixel; auto: as many as it needs for --error");
   options.add_text(
@@ -121,7 +122,7 @@ void add_options(OptionSet options, PictureOptions& picture) {
       "Shoot no ray that can bring but less than C of light to its sample; 0 is exact");
   options.add_choice<Quality>(
       "--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}},
-      picture.refines_meshes ? "one ray a pixel, of a mesh file an error of 1/255" : "one ray a pixel",
+      picture.refines_meshes ? "one ray a pixel, of a mesh file but by paths an error of 1/255" : "one ray a pixel",
       "As --samples=auto with an error and a cutoff for a quick look, or for a good one; what other options say counts more");
   add_skip_option(options, picture.skips);
   options.check_in_the_end([options, &picture] {

@@ -42,6 +42,7 @@ struct PictureOptions {
   bool is_refined = false;               ///< --samples=auto
   bool refines_meshes = false;           ///< mesh files are refined, too, if neither samples nor a quality is asked for
   bool is_refined_unasked = false;       ///< for that reason, to the default error
+  bool is_one_path_unasked = false;      ///< by paths, and nobody has said how many samples
   core::RefinementOptions refinement;    ///< its error is 0 unless the picture is refined
   int depth = 5;                         ///< hits of this depth cast shadow rays only; 1 to 255; by paths the transport's
   core::Convention convention = core::Convention::haines;

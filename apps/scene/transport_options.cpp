@@ -38,6 +38,10 @@ void refuse_each(const OptionSet& options, std::initializer_list<const char*> na
 }
 
 void check_paths(const OptionSet& options, const TransportOptions& transport) {
+  if (transport.occlusion) {
+    refuse_each(options, {"--bounces", "--sky", "--light", "--fill", "--ambient"},
+                " does not go with --occlusion, which shows what is near and nothing else");
+  }
   const std::string by_paths = " does not go with --transport=paths: ";
   refuse_each(options, {"--depth"}, by_paths + "say --bounces");
   refuse_each(options, {"--cutoff"}, by_paths + "a path that counts for little goes on by chance, which costs no light");
@@ -46,10 +50,6 @@ void check_paths(const OptionSet& options, const TransportOptions& transport) {
               by_paths + "say how many rays a pixel gets, such as --samples=64");
   if (transport.sky) {
     refuse_each(options, {"--background"}, " does not go with --sky, which is what no ray meets");
-  }
-  if (transport.occlusion) {
-    refuse_each(options, {"--bounces", "--sky", "--light", "--fill"},
-                " does not go with --occlusion, which shows what is near and nothing else");
   }
 }
 
@@ -64,14 +64,19 @@ double share_sent_on(const core::Material& material) {
 
 SkyChoice parse_sky(const std::string& text) {
   const std::vector<std::string> parts = words_between(text, '/');
-  if (parts.size() > 2) {
-    throw UsageError("--sky=" + text + ": expected a colour such as 1,1,1, or HORIZON/ZENITH such as 1,1,1/0.2,0.4,1");
+  try {
+    SkyChoice sky{.horizon = parse_color("--sky", parts.at(0)), .zenith = {}};
+    if (parts.size() > 1) {
+      sky.zenith = parse_color("--sky", parts[1]);
+    }
+    if (parts.size() <= 2) {
+      return sky;
+    }
+  } catch (const UsageError&) {  // it names a part alone
   }
-  SkyChoice sky{.horizon = parse_color("--sky", parts[0]), .zenith = {}};
-  if (parts.size() == 2) {
-    sky.zenith = parse_color("--sky", parts[1]);
-  }
-  return sky;
+  throw UsageError(
+      "--sky=" + text +
+      ": expected a colour such as 1,1,1 or 0.5, of numbers from 0 to 1e30, or HORIZON/ZENITH such as 1,1,1/0.2,0.4,1");
 }
 
 std::string text_of(const SkyChoice& sky) { return text_of(sky.horizon) + (sky.zenith ? "/" + text_of(*sky.zenith) : ""); }

@@ -21,8 +21,8 @@ concept BundleTracer = requires(T& tracer, RayBundle& bundle, Operations& operat
   { tracer.find(address) } -> std::same_as<const std::byte*>;
 };
 
-/// The hits of a bundle's rays, being shaded side by side: all read what they are, then each light sends its bundle of shadow
-/// rays, then the mirrored rays are a bundle, then the refracted ones; by paths the rays that go on are one.
+/// The hits of a bundle's rays, all of one depth, being shaded side by side: all read what they are, then each light sends its
+/// bundle of shadow rays, then the mirrored rays are a bundle, then the refracted ones; by paths the rays that go on are one.
 struct BundleHit {
   enum class Phase : std::uint8_t { surface, light, reflected, refracted, continued, finished };
 

@@ -58,7 +58,7 @@ std::optional<PathStep> step_at(const HitState& state, const Shares& shares, dou
 /// Whether the path survives, and counts for those that do not. `chance`: from 0 to less than 1.
 bool survives(const Ray& ray, double chance, PathStep& step) {
   const double share = double{brightest(ray.weight * step.weight)};
-  if (ray.depth < roulette_from || share >= 1.0) {
+  if (share > 0.0 && (ray.depth < roulette_from || share >= 1.0)) {
     return true;
   }
   if (!(chance < share)) {

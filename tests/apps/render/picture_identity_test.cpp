@@ -78,18 +78,17 @@ TEST_CASE("a picture that is refined has an error and a bound more") {
 
 TEST_CASE("a picture by paths is told from Whitted's, which has the facts that it had before there were paths") {
   const auto by_paths = [](auto& options) { options.picture.transport.kind = core::TransportKind::paths; };
-  CHECK(difference_by_options(by_paths) ==
-        "transport is paths, here there is none; sky is none, here there is none; occlusion is none, here there is none");
+  CHECK(difference_by_options(by_paths) == "bounces is 4, here there is none; transport is paths, here there is none; no depth");
   CHECK(contains(difference_by_options([&](auto& options) {
                    by_paths(options);
                    options.picture.transport.sky = {.horizon = {1, 1, 1}, .zenith = core::Vec3d{0, 0, 2}};
                  }),
-                 "sky is 1,1,1/0,0,2, here"));
+                 "sky is 1,1,1/0,0,2, here there is none"));
   CHECK(contains(difference_by_options([&](auto& options) {
                    by_paths(options);
                    options.picture.transport.occlusion = 0.5;
                  }),
-                 "occlusion is 0.5, here"));
+                 "occlusion is 0.5, here there is none"));
 }
 
 TEST_CASE("the computer, the strategy and what is left out are no part of the picture") {

@@ -616,6 +616,8 @@ TEST_CASE("what does not go with paths, or without, is refused, and what to do i
   CHECK(contains(by_paths({"--sky=1", "--background=0.5"}), "--background does not go with --sky"));
   CHECK(contains(by_paths({"--occlusion=1", "--sky=1"}), "--sky does not go with --occlusion"));
   CHECK(contains(by_paths({"--occlusion=1", "--light=1,2,3"}), "--light does not go with --occlusion"));
+  CHECK(contains(by_paths({"--occlusion=1", "--ambient=1"}), "--ambient does not go with --occlusion"));
+  CHECK(contains(by_paths({"--sky=1/"}), "--sky=1/: expected a colour such as 1,1,1 or 0.5"));
   CHECK(contains(by_paths({"--occlusion=0"}), "--occlusion=0: expected a distance"));
   CHECK(contains(by_paths({"--bounces=255"}), "from 0 to 254"));
   for (const char* const sky : {"--sky=", "--sky=-1", "--sky=nan", "--sky=1,inf,0", "--sky=1,2", "--sky=1/-1", "--sky=1/1/1"}) {

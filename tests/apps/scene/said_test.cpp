@@ -17,12 +17,14 @@ namespace {
 
 const std::string nff_view = "v\nfrom 0 0 9\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0\nresolution 8 8\n";
 
-/// On stderr, when a scene file of this text is loaded with these lights of the command line.
-std::string said_of(const std::string& text, const std::vector<core::PointLight>& lights = {}) {
+/// On stderr, when a scene file of this text is loaded with these lights of the command line, or by this transport.
+std::string said_of(const std::string& text, const std::vector<core::PointLight>& lights = {},
+                    const TransportOptions& transport = {}) {
   const tests::TemporaryFolder folder;
   tests::write_text(folder / "a.nff", text);
   PictureOptions picture{.scene = folder / "a.nff"};
   picture.staging.lights = lights;
+  picture.transport = transport;
   std::ostringstream said;
   std::streambuf* const usual = std::cerr.rdbuf(said.rdbuf());
   load_scene(picture);
@@ -37,6 +39,16 @@ TEST_CASE("a scene without a light is said, unless a light is given") {
   CHECK(tests::contains(said_of(sphere), "a.nff: no light is in it"));
   CHECK(said_of(sphere, {parse_light("1,2,3")}).empty());
   CHECK(said_of(nff_view + "l 1 2 3\nf 1 1 1 1 0 0 0 0\ns 0 0 0 1\n").empty());
+}
+
+TEST_CASE("by paths a sky lights a scene, and occlusion needs no light") {
+  const std::string sphere = nff_view + "f 1 1 1 1 0 0 0 0\ns 0 0 0.5 1\n";
+  TransportOptions paths{.kind = core::TransportKind::paths};
+  CHECK(tests::contains(said_of(sphere, {}, paths), "--light=X,Y,Z adds one, --sky=1 a sky"));
+  paths.sky = SkyChoice{{1, 1, 1}, {}};
+  CHECK(said_of(sphere, {}, paths).empty());
+  paths = {.kind = core::TransportKind::paths, .occlusion = 1};
+  CHECK(said_of(sphere, {}, paths).empty());
 }
 
 TEST_CASE("a scene with nothing in it is said") {

@@ -88,6 +88,14 @@ TEST_CASE("a light that is dark does not count, and that is said") {
   CHECK_FALSE(says(file, "fall-off"));
 }
 
+TEST_CASE("below a sky a file's own lights shine, and no plain ones") {
+  const std::string place = R"("translation":[0,0,7])";
+  const MeshFile file = lit(R"([{"type":"point","intensity":0}])", place, {.is_below_sky = true});
+  CHECK(file.scene.lights.empty());
+  CHECK(says(file, "lights without any brightness left out: 1"));
+  CHECK(lit(R"([{"type":"point"}])", place, {.is_below_sky = true}).scene.lights.size() == 1);
+}
+
 TEST_CASE("a light that several nodes have stands at each of them") {
   const MeshFile file =
       lit(R"([{"type":"point"}])", R"("translation":[0,0,7],"children":[2]},)"
