@@ -39,19 +39,19 @@ constexpr std::array<PlainContender, 5> commands = {{{"svm on 1 node", 1, S::svm
                                                      {"svm on 64 nodes, pool", 64, S::svm, Kind::pool},
                                                      {"dataflow on 64 nodes, pool", 64, S::dataflow, Kind::pool}}};
 
-constexpr std::array<PlainPair, 7> pairs = {{{"svm on 1 node", "svm on 2 nodes"},
-                                             {"svm on 64 nodes", "svm on 2 nodes"},
-                                             {"svm on 64 nodes, pool", "svm on 2 nodes, pool"},
-                                             {"dataflow on 2 nodes", "svm on 2 nodes"},
-                                             {"dataflow on 2 nodes, pool", "svm on 2 nodes, pool"},
-                                             {"dataflow on 64 nodes", "svm on 64 nodes"},
-                                             {"dataflow on 64 nodes, pool", "svm on 64 nodes, pool"}}};
+constexpr std::array<PlainPair, 7> all_pairs = {{{"svm on 1 node", "svm on 2 nodes"},
+                                                 {"svm on 64 nodes", "svm on 2 nodes"},
+                                                 {"svm on 64 nodes, pool", "svm on 2 nodes, pool"},
+                                                 {"dataflow on 2 nodes", "svm on 2 nodes"},
+                                                 {"dataflow on 2 nodes, pool", "svm on 2 nodes, pool"},
+                                                 {"dataflow on 64 nodes", "svm on 64 nodes"},
+                                                 {"dataflow on 64 nodes, pool", "svm on 64 nodes, pool"}}};
 
 }  // namespace
 
 std::span<const PlainContender> plain_contenders() { return contenders; }
 std::span<const PlainContender> command_contenders() { return commands; }
-std::span<const PlainPair> plain_pairs() { return pairs; }
+std::span<const PlainPair> plain_pairs() { return all_pairs; }
 
 const PlainContender& contender_named(const std::string& name) {
   const auto found = std::find_if(contenders.begin(), contenders.end(), [&](const auto& one) { return one.name == name; });
