@@ -17,6 +17,8 @@ constexpr double cells_min = 1.0;
 constexpr double far_share = 0x1p-36;
 /// The extent given to a scene that is one point.
 constexpr double point_extent = 1e-6;
+/// What is smaller than this is given it: its scale, and the edges of its cells, would be no normal numbers.
+constexpr double extent_min = 0x1p-1000;
 
 double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
 
@@ -60,7 +62,7 @@ GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells
   }
   Vec3d extent = bounds.high - bounds.low;
   const double least = far_share * std::max(largest(bounds.high), largest(-bounds.low));
-  const double spread = std::max(largest(extent), least), size = spread > 0 ? spread : point_extent;
+  const double spread = std::max(largest(extent), least), size = spread > 0 ? std::max(spread, extent_min) : point_extent;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     extent[axis] = std::max({extent[axis], flat_share * size, least});
   }

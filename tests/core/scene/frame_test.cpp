@@ -104,6 +104,18 @@ TEST_CASE("a scene that is tiny for its distance gets as much room as rounding t
   }
 }
 
+TEST_CASE("a scene smaller than any normal number is a point in a grid of normal ones") {
+  for (const double size : {0x1p-1074, 1e-315, 1e-309, 0x1p-1001}) {
+    CAPTURE(size);
+    const Box box = box_of({0, -size, 0}, {size, size, size});
+    const GridFrame frame = fit_frame(box, 8, 2.0);
+    CHECK(std::isnormal(frame.scale));
+    CHECK(std::isnormal(frame.finest_cell));
+    CHECK(cells(frame) <= 64);
+    check_covers(frame, box);
+  }
+}
+
 TEST_CASE("no bounds give a frame of one cell") {
   const GridFrame frame = fit_frame({}, 0, 0.125);
   CHECK(cells(frame) == 1);
