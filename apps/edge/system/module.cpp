@@ -27,8 +27,9 @@ std::string loader_complaint() {
   return complaint == nullptr ? "the dynamic loader does not say why" : complaint;
 }
 
-/// Its libraries may start threads as they are loaded, and change the arithmetic.
-void* load(const std::string& path) {
+}  // namespace
+
+void* open_library(const std::string& path) {
   const LoadsLibrary loads_library;
 #if defined(__SANITIZE_ADDRESS__)
   is_any_opened = true;
@@ -38,19 +39,19 @@ void* load(const std::string& path) {
   return library;
 }
 
-}  // namespace
+void* exported_by(void* library, const char* name) { return ::dlsym(library, name); }
 
 const void* open_module(const std::string& name, const std::string& purpose, CompanionOf whose) {
   const std::string file = "dmpc_" + name + ".so", what = "the module " + file + ", with which dmpc " + purpose + ",";
   const std::string path = companion_path(file, "../lib/dmpc", what, whose).string();
-  void* const opened = load(path);
+  void* const opened = open_library(path);
   if (opened == nullptr) {
     const std::string complaint = loader_complaint();
     throw_if_short(complaint, what + " cannot be opened");
     throw InstallationError(what + " cannot be opened: " + complaint +
                             ": install the libraries that it needs, or build or install dmpc as a whole");
   }
-  const auto* const module = static_cast<const Module*>(::dlsym(opened, "dmpc_module"));
+  const auto* const module = static_cast<const Module*>(exported_by(opened, "dmpc_module"));
   if (module == nullptr || std::string_view(module->build) != DMPC_MODULES_BUILD) {
     throw InstallationError(what + " is of another build than this program (" + path + " is of \"" +
                             (module == nullptr ? "none" : module->build) +

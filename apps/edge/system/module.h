@@ -14,6 +14,12 @@ struct Module {
   const void* interface;  ///< what its header says it is
 };
 
+/// Opens a shared library, which is never closed again; nullptr if it cannot be opened. Its libraries may start threads as they
+/// are loaded, and change the arithmetic, which then is as usual again. Thread-safe.
+void* open_library(const std::string& path);
+/// What an opened library exports by this name; nullptr if it has none of it. Thread-safe.
+void* exported_by(void* library, const char* name);
+
 /// The interface of apps/modules/NAME.cpp, whose file, found as companion_path() says, is never closed again. `purpose` goes on
 /// "the module dmpc_NAME.so, with which dmpc ...". Throws InstallationError if it is missing, cannot be opened or is of another
 /// build, ComputerRoomError if this computer has no room for it. Thread-safe.

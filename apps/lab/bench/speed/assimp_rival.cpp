@@ -2,12 +2,11 @@
 
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
-#include <dlfcn.h>
 
 #include <memory>
 
+#include "apps/edge/system/module.h"
 #include "core/base/expect.h"
-#include "core/base/usual_arithmetic.h"
 
 namespace dmpc::apps {
 
@@ -16,15 +15,14 @@ namespace {
 /// Its library, opened when it is first wanted, as it takes long to load: all else that this program does goes without.
 class Assimp {
  public:
-  Assimp() : library_(::dlopen(DMPC_ASSIMP_LIBRARY, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
-    core::use_usual_arithmetic();
+  Assimp() : library_(open_library(DMPC_ASSIMP_LIBRARY)) {
     if (library_ == nullptr) {
       throw core::InputError("--parts=load: " DMPC_ASSIMP_LIBRARY " cannot be opened: install Assimp");
     }
   }
   template <class Function>
   Function* find(const char* name) const {
-    void* const found = ::dlsym(library_, name);
+    void* const found = exported_by(library_, name);
     core::expect(found != nullptr, "Assimp has its functions");
     return reinterpret_cast<Function*>(found);
   }
