@@ -53,9 +53,10 @@ constexpr std::array part_rows = {
             "Embree tree (robust, high quality) in memory that its threads share; it asks for one ray at a time and emulates "
             "nothing. Ours are as `render` has them by default; nodes share the same cores, and a ray's time is a picture's "
             "over all its rays, whatever the number of threads. A command is `dmpc render` as a process of its own that writes "
-            "an "
-            "EXR file, less what it takes for 8x8 pixels, over the plain renderer's phase. Beside busy processes renders the "
-            "plain renderer, too."},
+            "an EXR file, less the least that three of 8x8 pixels take, over the plain renderer's phase; where it takes no "
+            "longer "
+            "than that the round has no figure, and a scene without any is not among those that a mean is of. Beside busy "
+            "processes renders the plain renderer, too."},
     PartRow{
         .measure = measure_kernel,
         .explanation =

@@ -1,6 +1,7 @@
 #include "apps/lab/bench/speed/matches.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "apps/edge/table/rounds.h"
@@ -25,14 +26,16 @@ void Matches::compare_timed(std::size_t subject, std::size_t rival, Comparison c
 }
 
 void Matches::measure(std::size_t rounds, Progress& progress) {
+  std::vector<std::vector<double>> figures(contenders_.size());  // of the round
   round_by_round(rounds, contenders_.size(), progress, [&](std::size_t contender) {
-    const std::vector<double> figures = contenders_[contender]();
+    figures[contender] = contenders_[contender]();
     for (const Pair& pair : pairs_) {
-      if (pair.subject == contender) {
-        results_[pair.comparison].subject_figures.push_back(figures[pair.figure]);
-      }
-      if (pair.rival == contender) {
-        results_[pair.comparison].rival_figures.push_back(figures[pair.figure]);
+      if (pair.later() == contender) {
+        const double subject = figures[pair.subject][pair.figure], rival = figures[pair.rival][pair.figure];
+        if (!std::isnan(subject) && !std::isnan(rival)) {
+          results_[pair.comparison].subject_figures.push_back(subject);
+          results_[pair.comparison].rival_figures.push_back(rival);
+        }
       }
     }
   });

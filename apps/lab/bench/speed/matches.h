@@ -1,9 +1,11 @@
 // Contenders that are measured in turn, and which of them are held against which others.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "apps/edge/system/progress.h"
@@ -12,10 +14,13 @@
 
 namespace dmpc::apps {
 
+/// What stands in place of a figure: a round without it is none of the comparisons that ask for it.
+inline constexpr double no_figure = std::numeric_limits<double>::quiet_NaN();
+
 /// Not thread-safe.
 class Matches {
  public:
-  /// The figures of one contender in one round.
+  /// The figures of one contender in one round; no_figure is one that could not be told.
   using Measure = std::function<std::vector<double>()>;
 
   /// `results` outlives it, and has what was measured so far at any time.
@@ -35,6 +40,8 @@ class Matches {
   struct Pair {
     std::size_t subject, rival, figure;
     std::size_t comparison;  ///< its place among the results
+
+    std::size_t later() const { return std::max(subject, rival); }
   };
 
   std::vector<Comparison>& results_;

@@ -22,8 +22,9 @@ class PlainCommands {
   PlainCommands(const std::filesystem::path& program, const std::string& scene, const Resolution& size,
                 const Interrupt& interrupt);
 
-  /// Four figures, each at least 1e-9 s: by the wall clock and by processor time what the command takes beyond one that renders
-  /// 8x8 pixels, which starts, loads and builds as it does; then what all of it takes. Throws as time_process().
+  /// Four figures in seconds: by the wall clock and by processor time what the command takes beyond the fastest of some that
+  /// render 8x8 pixels, which start, load and build as it does, or no_figure where it took no longer than that; then what all of
+  /// it takes. Throws as time_process().
   std::vector<double> figures_of_command(const PlainContender& contender) const;
   /// What the phase render takes by the wall clock, as the command's counters say: in one process, or with its nodes over ranks
   /// that mpirun starts, which takes too long and too differently for a difference. Throws core::InputError, too, if they do not.
@@ -35,6 +36,7 @@ class PlainCommands {
 
  private:
   Times times_of(const PlainContender& contender, const Resolution& size) const;
+  Times least_times_of(const PlainContender& contender) const;
   void run(const PlainContender& contender, const Resolution& size, bool is_over_ranks) const;
 
   const std::filesystem::path& program_;

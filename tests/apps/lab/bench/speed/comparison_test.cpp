@@ -68,4 +68,21 @@ TEST_CASE("contenders take turns round by round, and each has one figure of a ro
   CHECK(results[1].rival_figures == Figures{1, 3});
 }
 
+TEST_CASE("a round in which a figure could not be told is none of the comparisons that ask for it, and the others keep theirs") {
+  std::vector<Comparison> results;
+  apps::Matches matches(results);
+  double round = 0;
+  const auto rival = matches.add([&] { return std::vector{++round, 10.0}; });
+  const auto subject = matches.add([&] { return std::vector{round == 2 ? apps::no_figure : 2 * round, 5 * round}; });
+  matches.compare(subject, rival, {});
+  matches.compare(subject, rival, {}, 1);
+  std::ostringstream silent;
+  apps::Progress progress(silent, false, "");
+  matches.measure(3, progress);
+  using Figures = std::vector<double>;
+  CHECK(results[0].subject_figures == Figures{2, 6});
+  CHECK(results[0].rival_figures == Figures{1, 3});
+  CHECK(results[1].subject_figures == Figures{5, 10, 15});
+}
+
 }  // namespace dmpc::tests::comparison_test
