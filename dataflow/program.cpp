@@ -382,7 +382,7 @@ void RayProgram<RaysTask, Units>::leave_background(std::uint32_t pixel, std::uin
     return end_miss(ray);
   }
   ++counters_.ended;
-  const core::FixedColor light = fixed(ray.weight * settings.light_beyond(ray));
+  const core::FixedColor light = fixed(settings.light_of_miss(ray));
   if (light != core::FixedColor{}) {
     film_.add_only(pixel, core::plane_of(sample), light);
   }
@@ -509,12 +509,10 @@ void RayProgram<RaysTask, Units>::count_claim(core::RayKind kind) {
   ++(kind == core::RayKind::primary ? operations_.primary_hits : operations_.secondary_hits);
 }
 
-/// A shadow ray brings its light, any other what lies behind everything.
 template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::end_miss(const core::Ray& ray) {
   ++counters_.ended;
-  const core::RenderSettings& settings = constants_->settings;
-  leave_light(ray, ray.kind == core::RayKind::shadow ? ray.weight : ray.weight * settings.light_beyond(ray));
+  leave_light(ray, constants_->settings.light_of_miss(ray));
 }
 
 template <class RaysTask, class Units>

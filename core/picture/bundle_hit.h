@@ -36,6 +36,8 @@ struct BundleHit {
   bool has_unread_surface() const {
     return std::any_of(hit.begin(), hit.begin() + count, [](const HitState& state) { return !state.has_surface(); });
   }
+  /// No hit sends anything more.
+  bool is_finished() const { return phase == Phase::finished; }
   /// No hit is there.
   void clear() {
     count = next = light = 0;

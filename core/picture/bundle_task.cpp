@@ -46,7 +46,7 @@ void BundleTask::shoot_primary(std::uint32_t place, std::uint32_t sample, const 
   ++operations.skipped.background;
   ++ended_;
   const Ray ray = settings.missing_ray(pixels_[place], sample);
-  deposit(sums_[place], ray, ray.weight * settings.light_beyond(ray), settings, operations);
+  deposit(sums_[place], ray, settings.light_of_miss(ray), settings, operations);
 }
 
 void BundleTask::add_ray(const Ray& ray, std::uint32_t place, Operations& operations) {
@@ -64,9 +64,7 @@ bool BundleTask::begin_tracing() {
 
 /// The place of the next ones, which is that of those that wait for nothing more.
 BundleHit& BundleTask::fresh_hits() {
-  while (stack_size_ > 0 && stack_[stack_size_ - 1].phase == BundleHit::Phase::finished) {
-    --stack_size_;
-  }
+  stack_size_ = static_cast<std::uint8_t>(waiting_count(stack_, stack_size_));
   expect(stack_size_ < stack_.size(), "the ray stack holds the hits that wait");
   stack_[stack_size_].clear();
   return stack_[stack_size_];

@@ -92,12 +92,8 @@ TaskState BundleTask::run(T& tracer, const RenderSettings& settings, Operations&
 /// record is needed, or no hit and no sample is left.
 template <BundleTracer T>
 TaskState BundleTask::shade(T& tracer, const RenderSettings& settings, Operations& operations) {
-  while (stack_size_ > 0) {
+  while ((stack_size_ = static_cast<std::uint8_t>(waiting_count(stack_, stack_size_))) > 0) {
     BundleHit& hits = stack_[stack_size_ - 1];
-    if (hits.phase == BundleHit::Phase::finished) {
-      --stack_size_;
-      continue;
-    }
     const auto shoot = [&](const Ray& child, std::uint32_t i) { add_ray(child, hits.place[i], operations); };
     const auto shine = [&](const Color& light, std::uint32_t i) {
       deposit(sums_[hits.place[i]], hits.hit[i].ray, light, settings, operations);

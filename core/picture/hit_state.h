@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <type_traits>
 
 #include "core/base/vec.h"
@@ -96,6 +97,8 @@ struct HitState {
 
   /// Its material has been read.
   bool has_surface() const { return stage >= Stage::light; }
+  /// It sends nothing more.
+  bool is_finished() const { return stage == Stage::finished; }
 };
 static_assert(sizeof(HitState) == 256 && std::is_trivially_copyable_v<HitState>);
 
@@ -108,6 +111,16 @@ inline double relative_index(const HitState& state) {
 
 /// The state of a fresh hit.
 HitState begin_shading(const Ray& ray, const Hit& hit);
+
+/// How many of the first `count` hits of a stack, each a HitState or a bundle of them, stay: the newest leave it as far as they
+/// wait for nothing more, so that what they sent last may have their place.
+template <class Hits>
+constexpr std::uint32_t waiting_count(std::span<Hits> stack, std::uint32_t count) {
+  while (count > 0 && stack[count - 1].is_finished()) {
+    --count;
+  }
+  return count;
+}
 
 /// What the next step reads, if that is neither material nor light nor a table of tiles.
 ShadingRecord shading_record_of(const HitState& state);

@@ -33,9 +33,7 @@ void PixelTask::shoot(const Ray& ray, Operations& operations) {
 
 /// In the place of those that wait for nothing more.
 void PixelTask::push(const HitState& hit) {
-  while (stack_size_ > 0 && stack_[stack_size_ - 1].stage == HitState::Stage::finished) {
-    --stack_size_;
-  }
+  stack_size_ = waiting_count(stack_, stack_size_);
   expect(stack_size_ < stack_.size(), "the ray stack holds the hits that wait");
   stack_[stack_size_++] = hit;
 }

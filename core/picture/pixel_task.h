@@ -82,6 +82,8 @@ struct RenderSettings {
     }
     return ray.kind == RayKind::scattered ? Color{} : header.background;
   }
+  /// What a ray that meets nothing brings to its pixel: a shadow ray its light, any other what lies behind everything.
+  Color light_of_miss(const Ray& ray) const { return ray.kind == RayKind::shadow ? ray.weight : ray.weight * light_beyond(ray); }
   /// A primary ray that is known to miss: its direction is there where light_beyond() asks for it.
   Ray missing_ray(std::uint32_t pixel, std::uint32_t sample) const {
     return shade.transport.has_gradient ? camera.primary_ray(pixel, sample) : Ray{.pixel = pixel, .sample = sample};
@@ -100,14 +102,13 @@ inline void deposit(PixelSums& sums, const Ray& ray, const Color& light, const R
 /// What a ray that has been traced brings to its pixel. None if it brings nothing: then a shadow ray was blocked, and the hit of
 /// any other is to be shaded.
 inline std::optional<Color> light_of_ended(const Ray& ray, bool hit, const RenderSettings& settings, Operations& operations) {
-  const bool is_shadow = ray.kind == RayKind::shadow;
   if (hit) {
-    ++(is_shadow                      ? operations.shadow_blocked
+    ++(ray.kind == RayKind::shadow    ? operations.shadow_blocked
        : ray.kind == RayKind::primary ? operations.primary_hits
                                       : operations.secondary_hits);
     return std::nullopt;
   }
-  return is_shadow ? ray.weight : ray.weight * settings.light_beyond(ray);
+  return settings.light_of_miss(ray);
 }
 
 /// Renders samples of one pixel, depth first, last in first out: a hit is shaded one child at a time, and each child is
@@ -194,12 +195,8 @@ TaskState PixelTask::run(T& tracer, const RenderSettings& settings, Operations& 
 /// Shades the newest hit until it yields a ray to be traced (`more`), needs an absent record, or no hit and no sample is left.
 template <Tracer T>
 TaskState PixelTask::shade(T& tracer, const RenderSettings& settings, Operations& operations) {
-  while (stack_size_ > 0) {
+  while ((stack_size_ = waiting_count(stack_, stack_size_)) > 0) {
     HitState& state = stack_[stack_size_ - 1];
-    if (state.stage == HitState::Stage::finished) {
-      --stack_size_;
-      continue;
-    }
     const Address address = record_needed(state, settings.header);
     const std::byte* record = address == no_address ? nullptr : tracer.find(address);
     if (address != no_address && record == nullptr) {

@@ -108,8 +108,8 @@ void BundleTask::shade_hit() {
 
 /// In the place of those that wait for nothing more.
 void BundleTask::push(const core::Ray& ray, const core::Hit& hit) {
-  while (fresh_hits_ == 0 && depth_ > 0 && stack_[depth_ - 1].phase == core::BundleHit::Phase::finished) {
-    --depth_;
+  if (fresh_hits_ == 0) {
+    depth_ = core::waiting_count(stack_, depth_);
   }
   core::expect(depth_ < stack_.size() && fresh_hits_ < rays_max, "the ray stack holds the bundles of hits that wait");
   core::BundleHit& hits = stack_[depth_];

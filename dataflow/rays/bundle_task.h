@@ -98,12 +98,8 @@ bool BundleTask::next_children(PartTracer& tracer, const core::RenderSettings& s
                                const Shoot& shoot, const Shine& shine) {
   core::expect(!has_rays() && !has_ended(), "children are made when their parents' bundle has ended");
   close_hits();
-  while (depth_ > 0) {
+  while ((depth_ = core::waiting_count(stack_, depth_)) > 0) {
     core::BundleHit& hits = stack_[depth_ - 1];
-    if (hits.phase == core::BundleHit::Phase::finished) {
-      --depth_;
-      continue;
-    }
     core::Address absent = core::no_address;
     core::BundleShader<PartTracer> shader(hits, tracer, settings, operations);
     const bool is_here = shader.step(

@@ -93,9 +93,7 @@ void RayTask::shade_hit() {
 
 /// In the place of those that wait for nothing more.
 void RayTask::push(const core::Ray& ray, const core::Hit& hit) {
-  while (depth_ > 0 && stack_[depth_ - 1].stage == core::HitState::Stage::finished) {
-    --depth_;
-  }
+  depth_ = core::waiting_count(stack_, depth_);
   core::expect(depth_ < stack_.size(), "the ray stack holds the hits that wait");
   stack_[depth_++] = core::begin_shading(ray, hit);
 }

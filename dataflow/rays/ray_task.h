@@ -117,12 +117,8 @@ bool RayTask::next_child(PartTracer& tracer, const core::RenderSettings& setting
                          const Shine& shine) {
   core::expect(stage_ == Stage::none, "a child is made when its parent's ray has ended");
   const core::Shader shader(settings.header, settings.shade, settings.skips, operations, &settings.camera);
-  while (depth_ > 0) {
+  while ((depth_ = core::waiting_count(stack_, depth_)) > 0) {
     core::HitState& hit = stack_[depth_ - 1];
-    if (hit.stage == core::HitState::Stage::finished) {
-      --depth_;
-      continue;
-    }
     const core::Address address = core::record_needed(hit, settings.header);
     const std::byte* const record = address == core::no_address ? nullptr : tracer.find(address);
     const bool was_known = hit.has_surface(), has_child = shader.step(hit, record, child);
