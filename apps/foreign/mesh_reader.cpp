@@ -132,10 +132,11 @@ void judge_missing(const std::vector<std::string>& missing, const MeshOptions& o
 }
 
 /// What all placements become; says what instancing costs.
-GeometrySize measure(const aiScene& file, const Placements& placements, std::vector<std::string>& notes) {
-  std::vector<GeometrySize> sizes(file.mNumMeshes);
+GeometrySize measure(ImportedFile& file, const Placements& placements, std::vector<std::string>& notes) {
+  std::vector<GeometrySize> sizes(file.scene->mNumMeshes);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    sizes[i] = size_of(*file.mMeshes[i]);
+    sizes[i] = size_of(*file.scene->mMeshes[i]);
+    sizes[i] += size_of(file.triangles_of(i));
   }
   std::set<std::size_t> placed;
   GeometrySize once, all;
@@ -149,11 +150,6 @@ GeometrySize measure(const aiScene& file, const Placements& placements, std::vec
                     grouped(all.triangles));
   }
   return all;
-}
-
-void reserve(core::Scene& scene, const GeometrySize& size) {
-  scene.objects.reserve(size.faces);
-  scene.vertices.reserve(size.corners);
 }
 
 /// In how many places each mesh stands.
@@ -190,31 +186,34 @@ const MeshMaterial& material_for(const aiMesh& mesh, std::size_t index, const st
 }
 
 /// Each mesh is freed after its last place.
-void add_geometry(core::Scene& scene, aiScene& file, const Placements& placements, const std::vector<MeshMaterial>& materials,
-                  const MeshOptions& options, std::vector<std::string>& notes) {
-  core::SceneBuilder builder(scene);
-  GeometryWriter writer(builder, options.smooth_degrees);
+void add_geometry(MeshScene& result, ImportedFile& imported, const Placements& placements,
+                  const std::vector<MeshMaterial>& materials, const MeshOptions& options) {
+  aiScene& file = *imported.scene;
+  core::SceneBuilder builder(result.scene);
+  GeometryWriter writer(builder, result.vertices, options.smooth_degrees);
   std::vector<std::size_t> uses = count_uses(file, placements);
   for (const Placement& placement : placements) {
     const aiMesh& mesh = *file.mMeshes[placement.mesh];
     const MeshMaterial& material = material_for(mesh, placement.mesh, materials);
+    const bool is_last = --uses[placement.mesh] == 0;
     if (material.is_cut_away) {
       writer.leave_out();
     } else {
-      writer.add(placed_mesh(mesh, placement.mesh, placement.world, material), material.material);
+      FaceList triangles = is_last ? std::move(imported.triangles_of(placement.mesh)) : imported.triangles_of(placement.mesh);
+      writer.add(placed_mesh(mesh, placement.mesh, std::move(triangles), placement.world, material), material.material);
     }
-    if (--uses[placement.mesh] == 0) {
+    if (is_last) {
       forget(file, placement.mesh);
     }
   }
-  judge(writer, notes);
+  judge(writer, result.notes);
 }
 
 /// Takes the meshes of a file that a reader of our own has read, and frees each at once.
-void add_geometry(core::Scene& scene, std::vector<PolygonMesh> meshes, const std::vector<core::Material>& materials,
-                  const MeshOptions& options, std::vector<std::string>& notes) {
-  core::SceneBuilder builder(scene);
-  GeometryWriter writer(builder, options.smooth_degrees);
+void add_geometry(MeshScene& result, std::vector<PolygonMesh> meshes, const std::vector<core::Material>& materials,
+                  const MeshOptions& options) {
+  core::SceneBuilder builder(result.scene);
+  GeometryWriter writer(builder, result.vertices, options.smooth_degrees);
   const double scale = options.scale.value_or(1);
   for (PolygonMesh& mesh : meshes) {
     for (core::Vec3d& vertex : mesh.vertices) {
@@ -223,7 +222,7 @@ void add_geometry(core::Scene& scene, std::vector<PolygonMesh> meshes, const std
     const core::Material& material = materials[mesh.material];
     writer.add(std::exchange(mesh, {}), material);
   }
-  judge(writer, notes);
+  judge(writer, result.notes);
 }
 
 std::string text_of(const core::Vec3d& point) { return shortest(point.x) + "," + shortest(point.y) + "," + shortest(point.z); }
@@ -241,9 +240,11 @@ core::View plain_view(const BoundingSphere& bounds, const aiScene* file, const M
 }
 
 /// `file` may have cameras and lights, if it is there.
-void add_surroundings(core::Scene& scene, const aiScene* file, const MeshOptions& options, std::vector<std::string>& notes) {
+void add_surroundings(MeshScene& result, const aiScene* file, const MeshOptions& options) {
+  core::Scene& scene = result.scene;
+  std::vector<std::string>& notes = result.notes;
   const double scale = options.scale.value_or(1);
-  const BoundingSphere bounds = sphere_around_vertices(scene);
+  const BoundingSphere bounds = sphere_around(result.vertices);
   scene.background = plain_background;
   // What is said of a view or of lights that others are put in place of would be untrue.
   std::vector<std::string> unsaid;
@@ -259,20 +260,20 @@ void add_surroundings(core::Scene& scene, const aiScene* file, const MeshOptions
 }
 
 /// What Assimp's types hold: nodes place meshes.
-MeshScene scene_of(const ImportedFile& file, const std::string& path, const MeshOptions& options, SceneFiles& files) {
+MeshScene scene_of(ImportedFile file, const std::string& path, const MeshOptions& options, SceneFiles& files) {
   MeshScene result{.scene = {.name = path, .coordinate_rounding = float_rounding}, .notes = {}};
-  pose_skins(*file.scene, result.notes);
+  pose_skins(file, result.notes);
   std::vector<std::string> missing = file.missing;
   const Placements placements = find_placements(*file.scene, options.scale.value_or(1));
-  const GeometrySize size = measure(*file.scene, placements, result.notes);
+  const GeometrySize size = measure(file, placements, result.notes);
   check_size(size);
-  reserve(result.scene, size);
+  result.scene.objects.reserve(size.faces);
   note_features(*file.scene, placements, result.notes);
   result.notes.insert(result.notes.end(), file.notes.begin(), file.notes.end());
   const std::vector<MeshMaterial> materials = materials_of(file, placements, files, result, missing);
   judge_missing(missing, options, result.notes);
-  add_geometry(result.scene, *file.scene, placements, materials, options, result.notes);
-  add_surroundings(result.scene, file.scene.get(), options, result.notes);
+  add_geometry(result, file, placements, materials, options);
+  add_surroundings(result, file.scene.get(), options);
   if (!options.scale) {
     note_unit(*file.scene, result.notes);
   }
@@ -288,11 +289,11 @@ MeshScene scene_of(PolygonFile file, const std::string& path, const MeshOptions&
     size += size_of(mesh.faces);
   }
   check_size(size);
-  reserve(result.scene, size);
+  result.scene.objects.reserve(size.faces);
   const std::vector<core::Material> materials = materials_of(file, files, result, missing);
   judge_missing(missing, options, result.notes);
-  add_geometry(result.scene, std::move(file.meshes), materials, options, result.notes);
-  add_surroundings(result.scene, nullptr, options, result.notes);
+  add_geometry(result, std::move(file.meshes), materials, options);
+  add_surroundings(result, nullptr, options);
   return result;
 }
 

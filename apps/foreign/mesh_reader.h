@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "apps/foreign/mesh/scene_files.h"
+#include "apps/formats/indexed_vertices.h"
 #include "apps/formats/mesh_options.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
 
 struct MeshScene {
-  core::Scene scene;               ///< its textures are names alone: who has the files has the texels
+  core::Scene scene;               ///< without vertices; its textures are names alone: who has the files has the texels
+  IndexedVertices vertices;        ///< of the scene
   std::vector<std::string> notes;  ///< what of the file is not shown as it is, a sentence each
 };
 

@@ -79,12 +79,14 @@ ReadingForecast forecast_of(const MeshCounts& told, bool smooth) {
   MeshCounts counts = told;
   counts.has_normals = counts.has_normals || smooth;
   const std::uint64_t mesh = mesh_bytes(counts), shading = shading_bytes(counts);
-  const std::uint64_t scene = sizeof(core::Object) * counts.faces + sizeof(Vec3d) * counts.corners + shading;
-  const std::uint64_t growing = shading;  // a list that is full is copied into a longer one
-  const std::uint64_t placing = counts.kept_bytes + mesh + scene + growing + (smooth ? smoothing_bytes(counts) : 0);
+  const std::uint64_t objects = sizeof(core::Object) * counts.faces, points = sizeof(Vec3d) * counts.vertices;
+  const std::uint64_t scene = objects + sizeof(Vec3d) * counts.corners + shading;
+  // A list that is full is copied into a longer one; a reader has points and indices in place of a scene's vertices.
+  const std::uint64_t growing = shading + points + index_bytes * counts.corners;
+  const std::uint64_t placing = counts.kept_bytes + mesh + objects + shading + growing + (smooth ? smoothing_bytes(counts) : 0);
   const std::uint64_t triangles = counts.corners - std::min(counts.corners, 2 * counts.faces);
   return {.reader_bytes = std::max(counts.read_bytes + mesh, placing),
-          .transfer_bytes = scene + longest_copy(counts, shading),
+          .transfer_bytes = scene + points + longest_copy(counts, shading),
           .building_bytes = scene + building_bytes_a_triangle * triangles};
 }
 

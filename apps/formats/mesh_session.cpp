@@ -290,12 +290,14 @@ core::Texture MeshSession::texture_of_texels(Unpacker fields) {
 void MeshSession::take_over(Unpacker fields) {
   Unpacker::require(can_copy_);
   ProcessorStopwatch stopwatch(CLOCK_THREAD_CPUTIME_ID);
-  const Saying list = fields.take_choice(Saying::corners);
+  const Saying list = fields.take_choice(Saying::vertices);
   auto address = fields.take<std::uint64_t>();
   const auto bytes = fields.take<std::uint64_t>();
   fields.finish();
-  can_copy_ = receiver_.take_from(
-      list, bytes, [&](std::span<std::byte> room) { return process_.copy(std::exchange(address, address + room.size()), room); });
+  constexpr std::uint64_t growth_of_index = sizeof(core::Vec3d) / sizeof(std::uint32_t);
+  can_copy_ = receiver_.take_from(list, bytes, [&](std::span<std::byte> room) {
+    return process_.copy(std::exchange(address, address + room.size()), room, list == Saying::vertices ? growth_of_index : 1);
+  });
   process_.send(can_copy_ ? Saying::yes : Saying::no);
   spend(stopwatch);
 }

@@ -28,7 +28,7 @@ constexpr std::uint64_t materials_max = std::uint64_t{1} << 24U;
 /// So much of a list is handed over at a time, which dmpc has while it is not yet given back here.
 constexpr std::size_t handed_bytes_max = std::size_t{8} << 20U;
 /// Room is made in pieces that are still in the processor's cache when they are filled.
-constexpr std::size_t piece_bytes = std::size_t{256} << 10U;
+constexpr std::size_t piece_bytes = std::size_t{256} << 10U, index_piece_bytes = std::size_t{32} << 10U;
 
 /// Sends lists. dmpc gets what this process gives back, so that a scene is there but once.
 class BlockSender {
@@ -104,24 +104,26 @@ bool is_weight(double value) { return value >= 0 && value < coordinate_max; }
 
 }  // namespace
 
-bool send_scene(core::Scene& scene, Line& line, Handing handing) {
+bool send_scene(core::Scene& scene, IndexedVertices& vertices, Line& line, Handing handing) {
   const Packer head = Packer()
                           .add(scene.view)
                           .add(scene.background)
                           .add(scene.coordinate_rounding)
                           .add(count_of(scene.materials))
                           .add(count_of(scene.objects))
-                          .add(count_of(scene.vertices))
+                          .add(count_of(vertices.points))
+                          .add(count_of(vertices.indices))
                           .add(count_of(scene.normals))
                           .add(count_of(scene.corners));
   BlockSender blocks(line, handing);
   return line.send(Saying::scene, head) && send_lights(scene.lights, line) && blocks.send(scene.materials, Saying::materials) &&
-         blocks.send(scene.objects, Saying::objects) && blocks.send(scene.vertices, Saying::vertices) &&
-         blocks.send(scene.normals, Saying::normals) && blocks.send(scene.corners, Saying::corners);
+         blocks.send(scene.objects, Saying::objects) && blocks.send(vertices.points, Saying::points) &&
+         blocks.send(vertices.indices, Saying::vertices) && blocks.send(scene.normals, Saying::normals) &&
+         blocks.send(scene.corners, Saying::corners);
 }
 
 bool SceneReceiver::take(const Message& message) {
-  if (message.saying < Saying::scene || message.saying > Saying::corners) {
+  if (message.saying < Saying::scene || message.saying > Saying::vertices) {
     return false;
   }
   if (message.saying == Saying::scene) {
@@ -140,18 +142,20 @@ bool SceneReceiver::take(const Message& message) {
 }
 
 bool SceneReceiver::take_from(Saying saying, std::uint64_t bytes, const Fill& fill) {
-  Unpacker::require(has_head_ && saying >= Saying::materials && saying <= Saying::corners);
+  Unpacker::require(has_head_ && saying >= Saying::materials && saying <= Saying::vertices);
   switch (saying) {
     case Saying::materials:
       return append(scene_.materials, announced_.materials, bytes, fill);
     case Saying::objects:
       return append(scene_.objects, announced_.objects, bytes, fill);
-    case Saying::vertices:
-      return append(scene_.vertices, announced_.vertices, bytes, fill);
+    case Saying::points:
+      return append(points_, announced_.points, bytes, fill);
     case Saying::normals:
       return append(scene_.normals, announced_.normals, bytes, fill);
-    default:
+    case Saying::corners:
       return append(scene_.corners, announced_.corners, bytes, fill);
+    default:
+      return append_vertices(bytes, fill);
   }
 }
 
@@ -175,6 +179,7 @@ void SceneReceiver::take_head(Unpacker fields) {
   announced_.materials = reserve(scene_.materials);
   Unpacker::require(announced_.materials <= materials_max);
   announced_.objects = reserve(scene_.objects);
+  announced_.points = reserve(points_);
   announced_.vertices = reserve(scene_.vertices);
   announced_.normals = reserve(scene_.normals);
   announced_.corners = reserve(scene_.corners);
@@ -203,6 +208,27 @@ bool SceneReceiver::append(std::vector<T>& pool, std::uint64_t announced, std::u
     if (!fill(std::as_writable_bytes(std::span(pool).last(piece)))) {
       pool.resize(before);
       return false;
+    }
+  }
+  return true;
+}
+
+/// As indices of points that are there, which are looked at in a copy.
+bool SceneReceiver::append_vertices(std::uint64_t bytes, const Fill& fill) {
+  std::vector<Vec3d>& vertices = scene_.vertices;
+  const std::size_t before = vertices.size();
+  const std::uint64_t end = before + bytes / sizeof(std::uint32_t);
+  Unpacker::require(end > before && bytes % sizeof(std::uint32_t) == 0 && end <= announced_.vertices);
+  std::vector<std::uint32_t> piece;
+  while (vertices.size() < end) {
+    piece.resize(std::min<std::size_t>(index_piece_bytes / sizeof(std::uint32_t), end - vertices.size()));
+    if (!fill(std::as_writable_bytes(std::span(piece)))) {
+      vertices.resize(before);
+      return false;
+    }
+    Unpacker::require(*std::max_element(piece.begin(), piece.end()) < points_.size());
+    for (const std::uint32_t index : piece) {
+      vertices.push_back(points_[index]);
     }
   }
   return true;
@@ -255,7 +281,8 @@ core::Scene SceneReceiver::finish() {
   for (const core::Object& object : scene_.objects) {
     check_object(object);
   }
-  Unpacker::require(std::all_of(scene_.vertices.begin(), scene_.vertices.end(), is_point));
+  Unpacker::require(std::all_of(points_.begin(), points_.end(), is_point));
+  core::forget(points_);
   return std::exchange(scene_, {});
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/formats/indexed_vertices.h"
 #include "apps/reader/line.h"
 #include "core/scene/scene.h"
 
@@ -21,8 +22,9 @@ inline constexpr std::uint64_t believed_bytes_max = std::uint64_t{1} << 30U;
 /// reader that it has started, which spares three copies of four.
 enum class Handing : std::uint8_t { in_messages, from_memory };
 
-/// Sends all but the textures and the name; what is sent is freed on the way. Returns whether the other end took it.
-bool send_scene(core::Scene& scene, Line& line, Handing handing);
+/// Sends all but the textures, the name and the scene's own vertices, in place of which it sends `vertices`; what is sent is
+/// freed on the way. Returns whether the other end took it.
+bool send_scene(core::Scene& scene, IndexedVertices& vertices, Line& line, Handing handing);
 
 /// Puts it together. Throws Nonsense for what no scene may hold: more than was announced; an index, a count, a kind or a number
 /// out of its range; a view that shows nothing; std::bad_alloc if memory ends.
@@ -49,17 +51,19 @@ class SceneReceiver {
   void take_lights(Unpacker fields);
   /// How many entries there will be of each pool.
   struct Announced {
-    std::uint64_t materials = 0, objects = 0, vertices = 0, normals = 0, corners = 0;
+    std::uint64_t materials = 0, objects = 0, points = 0, vertices = 0, normals = 0, corners = 0;
   };
 
   template <class T>
   static bool append(std::vector<T>& pool, std::uint64_t announced, std::uint64_t bytes, const Fill& fill);
+  bool append_vertices(std::uint64_t bytes, const Fill& fill);
   void check_object(const core::Object& object) const;
   void check_material(const core::Material& material) const;
   void drop_needless_alpha(core::Material& material) const;
 
   std::uint64_t believed_bytes_;
   core::Scene scene_;
+  std::vector<core::Vec3d> points_;  ///< of the scene's vertices
   Announced announced_;
   bool has_head_ = false;
 };

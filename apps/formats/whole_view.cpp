@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "core/base/box.h"
 #include "core/base/elementary.h"
@@ -12,18 +13,18 @@ namespace dmpc::apps {
 
 using core::Vec3d;
 
-BoundingSphere sphere_around_vertices(const core::Scene& scene) {
+BoundingSphere sphere_around(const IndexedVertices& vertices) {
   core::Box box;
-  for (const Vec3d& vertex : scene.vertices) {
-    box.include(vertex);
+  for (const std::uint32_t index : vertices.indices) {
+    box.include(vertices.points[index]);
   }
   if (box.empty()) {
     return {{}, 1};
   }
   BoundingSphere bounds{box.center(), 0};
   double square = 0;
-  for (const Vec3d& vertex : scene.vertices) {
-    const Vec3d offset = vertex - bounds.center;
+  for (const std::uint32_t index : vertices.indices) {
+    const Vec3d offset = vertices.points[index] - bounds.center;
     square = std::max(square, dot(offset, offset));
   }
   bounds.radius = std::sqrt(square);

@@ -3,19 +3,20 @@
 
 #include <vector>
 
+#include "apps/formats/indexed_vertices.h"
 #include "apps/formats/up_axis.h"
 #include "core/base/vec.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
 
-/// A sphere around all vertices of a scene.
+/// A sphere around vertices.
 struct BoundingSphere {
   core::Vec3d center;
   double radius = 0;
 };
 /// About the middle of their box; without any, of radius 1 about 0.
-BoundingSphere sphere_around_vertices(const core::Scene& scene);
+BoundingSphere sphere_around(const IndexedVertices& vertices);
 
 /// Light grey-blue, linear: dark and bright surfaces stand out from it.
 inline constexpr core::Vec3d plain_background{0.45, 0.55, 0.7};

@@ -214,11 +214,11 @@ Message ReaderProcess::receive() {
 
 /// It is not waited for yet, so its number is no other process's. What it names again and again costs it nothing, so there is a
 /// bound.
-bool ReaderProcess::copy(std::uint64_t address, std::span<std::byte> room) {
-  copied_bytes_ += room.size();
+bool ReaderProcess::copy(std::uint64_t address, std::span<std::byte> room, std::uint64_t growth) {
+  grown_bytes_ += growth * room.size();
   const iovec here{room.data(), room.size()},
       there{reinterpret_cast<void*>(address), room.size()};  // NOLINT(performance-no-int-to-ptr)
-  return copied_bytes_ <= memory_bytes_ && ::process_vm_readv(id_, &here, 1, &there, 1, 0) == static_cast<ssize_t>(room.size());
+  return grown_bytes_ <= memory_bytes_ && ::process_vm_readv(id_, &here, 1, &there, 1, 0) == static_cast<ssize_t>(room.size());
 }
 
 void ReaderProcess::end(const char* unless_by_signal) {

@@ -37,9 +37,9 @@ class ReaderProcess {
   /// The next message. Throws ReaderDeath if it has ended or takes too long, core::RoomError if its memory ended.
   Message receive();
   /// Fills `room` with what lies at `address` of its memory, once and for all: what the reader does to it meanwhile may show,
-  /// what it does later does not. Returns false if there is not so much, if it has handed over more than its memory may hold, or
-  /// if this computer does not let dmpc look there.
-  bool copy(std::uint64_t address, std::span<std::byte> room);
+  /// what it does later does not. Returns false if there is not so much, if what all becomes of which a byte becomes `growth` is
+  /// more than its memory may hold, or if this computer does not let dmpc look there.
+  bool copy(std::uint64_t address, std::span<std::byte> room, std::uint64_t growth = 1);
 
  private:
   void start(const std::string& program, const Descriptor& its_end, int errors);
@@ -55,7 +55,7 @@ class ReaderProcess {
 
   ReadingBudget starting_{ReaderLimits{}};  ///< to get ready takes as long as the computer is busy, whatever the files may take
   ReadingBudget* budget_ = &starting_;
-  std::uint64_t memory_bytes_, copied_bytes_ = 0;
+  std::uint64_t memory_bytes_, grown_bytes_ = 0;
   pid_t id_ = -1;
   Line line_;
   ReadingBudget::Time taken_to_start_{};

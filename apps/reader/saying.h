@@ -7,7 +7,7 @@
 namespace dmpc::apps {
 
 /// The version of the messages and of what they hold; processes of different builds do not understand each other.
-inline constexpr std::uint32_t protocol = 6;
+inline constexpr std::uint32_t protocol = 7;
 
 /// A message is no longer; more is sent in pieces.
 inline constexpr std::size_t message_bytes_max = 64 * 1024;
@@ -38,13 +38,14 @@ enum class Saying : std::uint8_t {
   texture_bytes,   ///< of the bytes sent: name, format hint, edges; answered likewise
   texture_texels,  ///< of the bytes sent, four a texel: name, width, height, edges; answered likewise
   picture,         ///< width, height, format; its bytes follow, then done
-  scene,           ///< view, background, counts of materials, objects, vertices, normals and corners
+  scene,           ///< view, background, counts of materials, objects, points, vertices, normals and corners
   lights,
   materials,
   objects,
-  vertices,
+  points,  ///< where vertices lie
   normals,
   corners,
+  vertices,   ///< indices of the points that have come
   note,       ///< a text
   done,       ///< the last message about what was asked for
   bad_input,  ///< a text

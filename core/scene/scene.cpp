@@ -86,7 +86,7 @@ std::size_t SceneBuilder::MaterialHash::operator()(const Material& material) con
   return hash;
 }
 
-SceneBuilder::SceneBuilder(Scene& scene) : scene_(scene) {
+SceneBuilder::SceneBuilder(Scene& scene) : scene_(scene), vertices_(scene.vertices.size()) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     materials_.try_emplace(scene.materials[i], pool_index(i));
   }
@@ -106,25 +106,37 @@ void SceneBuilder::material(const Material& material) {
 }
 
 void SceneBuilder::polygon(const std::vector<Vec3d>& vertices) {
-  expect(vertices.size() >= 3, "a polygon has at least 3 vertices");
-  add(ObjectKind::polygon, scene_.vertices.size(), vertices.size(), 0);
+  polygon(vertices.size());
   scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
 }
 
+void SceneBuilder::polygon(std::size_t vertex_count) {
+  expect(vertex_count >= 3, "a polygon has at least 3 vertices");
+  add_face(ObjectKind::polygon, vertex_count, 0);
+}
+
 void SceneBuilder::patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals) {
-  expect(vertices.size() >= 3, "a patch has at least 3 vertices");
-  expect(vertices.size() == normals.size(), "a patch has a normal for each vertex");
-  add(ObjectKind::patch, scene_.vertices.size(), vertices.size(), scene_.normals.size());
+  patch(vertices.size(), normals);
   scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
+}
+
+void SceneBuilder::patch(std::size_t vertex_count, const std::vector<Vec3d>& normals) {
+  expect(vertex_count >= 3, "a patch has at least 3 vertices");
+  expect(vertex_count == normals.size(), "a patch has a normal for each vertex");
+  add_face(ObjectKind::patch, vertex_count, scene_.normals.size());
   scene_.normals.insert(scene_.normals.end(), normals.begin(), normals.end());
 }
 
 void SceneBuilder::textured(const std::vector<Vec3d>& vertices, const std::vector<TexturedCorner>& corners) {
-  expect(vertices.size() >= 3 && vertices.size() == corners.size(), "a textured patch has a corner for each of its vertices");
-  add(ObjectKind::textured, scene_.vertices.size(), vertices.size(), scene_.corners.size());
+  textured(vertices.size(), corners);
+  scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
+}
+
+void SceneBuilder::textured(std::size_t vertex_count, const std::vector<TexturedCorner>& corners) {
+  expect(vertex_count >= 3 && vertex_count == corners.size(), "a textured patch has a corner for each of its vertices");
+  add_face(ObjectKind::textured, vertex_count, scene_.corners.size());
   const std::uint32_t texture = scene_.materials[material_].texture;
   expect(texture == Material::no_texture || texture < scene_.textures.size(), "a textured patch has a texture of the scene's");
-  scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
   scene_.corners.insert(scene_.corners.end(), corners.begin(), corners.end());
 }
 
@@ -136,6 +148,11 @@ void SceneBuilder::sphere(const Vec3d& center, double radius) {
 void SceneBuilder::cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) {
   add(ObjectKind::cone, scene_.cones.size(), 0, 0);
   scene_.cones.push_back({base, base_radius, apex, apex_radius});
+}
+
+void SceneBuilder::add_face(ObjectKind kind, std::size_t vertex_count, std::size_t first_normal) {
+  add(kind, vertices_, vertex_count, first_normal);
+  vertices_ += vertex_count;
 }
 
 void SceneBuilder::add(ObjectKind kind, std::size_t first, std::size_t vertex_count, std::size_t first_normal) {

@@ -157,14 +157,21 @@ class SceneBuilder final : public SceneSink {
   /// each.
   void textured(const std::vector<Vec3d>& vertices, const std::vector<TexturedCorner>& corners);
 
+  /// The same of so many vertices as the caller gives the scene later, those of all objects in their order.
+  void polygon(std::size_t vertex_count);
+  void patch(std::size_t vertex_count, const std::vector<Vec3d>& normals);
+  void textured(std::size_t vertex_count, const std::vector<TexturedCorner>& corners);
+
  private:
   struct MaterialHash {
     std::size_t operator()(const Material& material) const;
   };
 
+  void add_face(ObjectKind kind, std::size_t vertex_count, std::size_t first_normal);
   void add(ObjectKind kind, std::size_t first, std::size_t vertex_count, std::size_t first_normal);
 
   Scene& scene_;
+  std::size_t vertices_;  ///< of all objects so far
   std::unordered_map<Material, std::uint32_t, MaterialHash> materials_;
   std::uint32_t material_ = 0;
   bool has_material_ = false;

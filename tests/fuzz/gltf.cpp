@@ -42,7 +42,9 @@ bool is_of_interest(Bytes input) {
 std::optional<core::Scene> read(Bytes input) {
   InputFiles files(name, input);
   try {
-    return apps::read_mesh(name, {.allows_missing = true}, files).scene;
+    apps::MeshScene mesh = apps::read_mesh(name, {.allows_missing = true}, files);
+    mesh.scene.vertices = apps::expanded(mesh.vertices);
+    return std::move(mesh.scene);
   } catch (const core::InputError& error) {
     core::expect(!std::string_view(error.what()).empty(), "who refuses says why");
   }

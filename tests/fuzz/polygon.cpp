@@ -22,7 +22,9 @@ namespace {
 std::optional<core::Scene> read_polygons(const std::string& name, std::span<const std::byte> input) {
   InputFiles files(name, input);
   try {
-    return apps::read_mesh(name, {.allows_missing = true}, files).scene;
+    apps::MeshScene mesh = apps::read_mesh(name, {.allows_missing = true}, files);
+    mesh.scene.vertices = apps::expanded(mesh.vertices);
+    return std::move(mesh.scene);
   } catch (const core::InputError& error) {
     core::expect(!std::string_view(error.what()).empty(), "who refuses says why");
   }

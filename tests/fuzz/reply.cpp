@@ -30,7 +30,7 @@ constexpr std::uint64_t believed_bytes = 256;
 
 /// A kind, a length, and so many bytes; again and again.
 std::optional<core::Scene> received(tests::Bytes& bytes) {
-  constexpr auto first = static_cast<std::size_t>(Saying::scene), last = static_cast<std::size_t>(Saying::corners);
+  constexpr auto first = static_cast<std::size_t>(Saying::scene), last = static_cast<std::size_t>(Saying::vertices);
   apps::SceneReceiver receiver(believed_bytes);
   try {
     receiver.add(small_texture());

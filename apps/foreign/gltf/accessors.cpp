@@ -159,8 +159,12 @@ Values Accessors::values(const Part& where, std::size_t width, std::size_t other
       values.numbers[i * numbers + k] = float_at(bytes + k * bytes_of(type), type, is_normalized);
     }
   };
-  for (std::size_t i = 0; i < count && row.stride > 0; ++i) {
-    take(i, row[i]);
+  if (type == Number::float32 && row.stride == element_bytes && count > 0) {  // most files' vertices
+    std::memcpy(values.numbers.data(), row[0], count * element_bytes);
+  } else {
+    for (std::size_t i = 0; i < count && row.stride > 0; ++i) {
+      take(i, row[i]);
+    }
   }
   for_each_replaced(buffers_, part, element_bytes, take);
   return values;
@@ -177,8 +181,12 @@ std::vector<std::uint32_t> Accessors::indices(const Part& where) {
   check_count(part, count);
   const Row row = part.find("bufferView") ? row_of(buffers_, part, count, bytes_of(type)) : Row{};
   std::vector<std::uint32_t> indices(count);
-  for (std::size_t i = 0; i < count && row.stride > 0; ++i) {
-    indices[i] = index_at(row[i], type);
+  if (type == Number::uint32 && row.stride == sizeof(std::uint32_t) && count > 0) {  // most large files'
+    std::memcpy(indices.data(), row[0], count * sizeof(std::uint32_t));
+  } else {
+    for (std::size_t i = 0; i < count && row.stride > 0; ++i) {
+      indices[i] = index_at(row[i], type);
+    }
   }
   for_each_replaced(buffers_, part, bytes_of(type),
                     [&](std::size_t i, const std::byte* bytes) { indices[i] = index_at(bytes, type); });

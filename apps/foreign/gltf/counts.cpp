@@ -67,8 +67,8 @@ std::uint64_t buffer_bytes(const Document& document, std::uint64_t file_bytes) {
 }  // namespace
 
 MeshCounts counts_of(const Document& document, std::uint64_t file_bytes) {
-  // Assimp's: four floats at most each; a face with its indices, each piece of the heap of its own.
-  constexpr std::uint64_t vector_bytes = 12, color_bytes = 16, face_bytes = 48;
+  // Assimp's: four floats at most each; a triangle is three indices and where they end.
+  constexpr std::uint64_t vector_bytes = 12, color_bytes = 16, face_bytes = 16;
   const Counter counter(document);
   const std::vector<Part> meshes = document.root().list("meshes");
   const std::vector<std::uint64_t> uses = counter.uses(meshes.size());

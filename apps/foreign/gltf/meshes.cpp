@@ -72,7 +72,30 @@ FacePlaces places_of(Mode mode, std::size_t i, std::size_t corners) {
   return {{}, 0};
 }
 
-void add_faces(Mode mode, const std::vector<std::uint32_t>& indices, aiMesh& mesh) {
+/// Beside Assimp's faces, each of which takes a piece of memory of its own. A list of triangles stays as it is.
+FaceList triangles_of(Mode mode, std::vector<std::uint32_t> indices) {
+  FaceList triangles;
+  const std::size_t count = face_count(mode, indices.size());
+  triangles.ends.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    triangles.ends[i] = static_cast<std::uint32_t>(3 * (i + 1));
+  }
+  if (mode == Mode::triangles) {
+    triangles.corners = std::move(indices);
+    triangles.corners.resize(3 * count);
+    return triangles;
+  }
+  triangles.corners.reserve(3 * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const std::size_t place : places_of(mode, i, indices.size())) {
+      triangles.corners.push_back(indices[place]);
+    }
+  }
+  return triangles;
+}
+
+/// Points and lines.
+void add_thin_faces(Mode mode, const std::vector<std::uint32_t>& indices, aiMesh& mesh) {
   const std::size_t count = face_count(mode, indices.size());
   mesh.mFaces = count > 0 ? new aiFace[count] : nullptr;
   mesh.mNumFaces = static_cast<unsigned>(count);
@@ -154,7 +177,7 @@ void mark_features(const Part& primitive, aiMesh& mesh) {
 }
 
 void check_size(const Part& primitive, const Primitive& source) {
-  constexpr std::size_t most = std::numeric_limits<unsigned>::max();
+  constexpr std::size_t most = std::numeric_limits<unsigned>::max() / 3;  // each index of a strip may be in three triangles
   if (source.indices.size() > most || (!source.attributes.empty() && source.attributes.at("POSITION").count() > most)) {
     throw core::RoomError(primitive.where() + ": has more than " + grouped(most) + " vertices or corners: divide it");
   }
@@ -165,7 +188,7 @@ class Reader {
   Reader(const Document& document, Buffers& buffers, std::size_t material_count)
       : buffers_(buffers), accessors_(document, buffers), material_count_(material_count) {}
 
-  std::unique_ptr<aiMesh> mesh(const Part& primitive, const std::string& name, Meshes& result) {
+  std::unique_ptr<aiMesh> mesh(const Part& primitive, const std::string& name, FaceList& triangles, Meshes& result) {
     const Mode mode = mode_of(primitive);
     Primitive source = read_primitive(primitive, accessors_, buffers_);
     check_size(primitive, source);
@@ -176,8 +199,12 @@ class Reader {
         static_cast<unsigned>(primitive.index("material", material_count_ - 1, "materials").value_or(material_count_ - 1));
     if (!source.attributes.empty()) {
       add_vertices(source, *mesh);
-      add_faces(mode, source.indices, *mesh);
       result.corners_left_over += mode == Mode::triangles ? source.indices.size() % 3 : 0;
+      if (mode < Mode::triangles) {
+        add_thin_faces(mode, source.indices, *mesh);
+      } else {
+        triangles = triangles_of(mode, std::move(source.indices));
+      }
     }
     result.influences.push_back(source.attributes.empty() ? Influences{} : influences_of(primitive, source));
     mark_features(primitive, *mesh);
@@ -192,14 +219,16 @@ class Reader {
 
 }  // namespace
 
-Meshes add_meshes(const Document& document, Buffers& buffers, aiScene& scene) {
+Meshes add_meshes(const Document& document, Buffers& buffers, ImportedFile& file) {
+  aiScene& scene = *file.scene;
   Reader reader(document, buffers, scene.mNumMaterials);
   std::vector<std::unique_ptr<aiMesh>> all;
   Meshes result;
   for (const Part& source : document.root().list("meshes")) {
     const auto first = static_cast<unsigned>(all.size());
     for (const Part& primitive : source.list("primitives")) {
-      all.push_back(reader.mesh(primitive, source.text("name", source.where()), result));
+      FaceList& triangles = file.triangles.emplace_back();
+      all.push_back(reader.mesh(primitive, source.text("name", source.where()), triangles, result));
     }
     result.ranges.emplace_back(first, static_cast<unsigned>(all.size()));
   }

@@ -1,13 +1,12 @@
 // The meshes of a glTF document as Assimp's, one for each primitive.
 #pragma once
 
-#include <assimp/scene.h>
-
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "apps/foreign/gltf/primitive.h"
+#include "apps/foreign/mesh/imported_file.h"
 
 namespace dmpc::apps::gltf {
 
@@ -22,7 +21,8 @@ struct Meshes {
   std::uint64_t corners_left_over = 0;                ///< of lists whose length is no multiple of three
 };
 
-/// Gives the scene its meshes, which refer to materials that it has. Throws core::InputError, by its place in the document.
-Meshes add_meshes(const Document& document, Buffers& buffers, aiScene& scene);
+/// Gives the file's scene its meshes, which refer to materials that it has. Throws core::InputError, by its place in the
+/// document.
+Meshes add_meshes(const Document& document, Buffers& buffers, ImportedFile& file);
 
 }  // namespace dmpc::apps::gltf

@@ -249,8 +249,8 @@ aiNode* root_of(Nodes& roots) {
 
 }  // namespace
 
-void add_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, aiScene& scene,
-               std::vector<std::string>& notes) {
+void add_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, ImportedFile& file) {
+  aiScene& scene = *file.scene;
   const Part root = document.root();
   const std::vector<Part> scenes = root.list("scenes");
   if (scenes.empty()) {
@@ -264,7 +264,7 @@ void add_nodes(const Document& document, Accessors& accessors, const Meshes& mes
     roots.push_back(tree.node(where, 0, false));
   }
   scene.mRootNode = root_of(roots);
-  give_meshes(document, accessors, meshes, tree.uses, tree.names, scene, notes);
+  give_meshes(document, accessors, meshes, tree.uses, tree.names, file);
   const auto punctual = root.extension("KHR_lights_punctual");
   add_named(tree.cameras, root.list("cameras"), root, scene.mCameras, scene.mNumCameras, "cameras");
   add_named(tree.lights, punctual ? punctual->list("lights") : std::vector<Part>(), root, scene.mLights, scene.mNumLights,

@@ -1,5 +1,6 @@
 #include "apps/foreign/gltf/primitive.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "apps/foreign/gltf/draco.h"
@@ -54,6 +55,10 @@ void check_counts(const Primitive& result, const Part& attributes) {
 
 void check_indices(const Primitive& result, const Part& primitive) {
   const std::size_t count = result.attributes.at("POSITION").count();
+  const auto most = std::max_element(result.indices.begin(), result.indices.end());
+  if (most == result.indices.end() || *most < count) {
+    return;
+  }
   for (std::size_t i = 0; i < result.indices.size(); ++i) {
     if (result.indices[i] >= count) {
       primitive.fail("index " + std::to_string(i) + " is of vertex " + std::to_string(result.indices[i]) +

@@ -31,8 +31,8 @@ ImportedFile read_gltf(const Document& document, const OpenNamed& open) {
   Accessors accessors(document, buffers);
   Images images(document, buffers);
   file.texture_places = add_materials(document, images, *file.scene, file.notes);
-  const Meshes meshes = add_meshes(document, buffers, *file.scene);
-  add_nodes(document, accessors, meshes, *file.scene, file.notes);
+  const Meshes meshes = add_meshes(document, buffers, file);
+  add_nodes(document, accessors, meshes, file);
   images.give_to(*file.scene);
   add_animations(document, *file.scene);
   note_extensions(document, file.notes);

@@ -99,13 +99,14 @@ void append(aiMesh* mesh, aiScene& scene) {
 class Skins {
  public:
   Skins(const Document& document, Accessors& accessors, const Meshes& meshes, const std::map<std::size_t, std::string>& names,
-        aiScene& scene)
+        ImportedFile& file)
       : skins_(document.root().list("skins")),
         node_count_(document.root().list("nodes").size()),
         accessors_(accessors),
         meshes_(meshes),
         names_(names),
-        scene_(scene) {}
+        file_(file),
+        scene_(*file.scene) {}
 
   bool holds(const MeshUse& use, unsigned mesh) const { return use.skin && !meshes_.influences[mesh].joints.empty(); }
   /// The scene's mesh for a use of `mesh`, of which `left` follow.
@@ -119,6 +120,7 @@ class Skins {
       Assimp::SceneCombiner::Copy(&copy, scene_.mMeshes[mesh]);
       own = scene_.mNumMeshes;
       append(copy, scene_);
+      file_.triangles.push_back(FaceList(file_.triangles[mesh]));
     }
     give_bones(*scene_.mMeshes[own], joints, weights);
     return own;
@@ -130,14 +132,15 @@ class Skins {
   Accessors& accessors_;
   const Meshes& meshes_;
   const std::map<std::size_t, std::string>& names_;
+  ImportedFile& file_;
   aiScene& scene_;
 };
 
 }  // namespace
 
 void give_meshes(const Document& document, Accessors& accessors, const Meshes& meshes, const std::vector<MeshUse>& uses,
-                 const std::map<std::size_t, std::string>& names, aiScene& scene, std::vector<std::string>& notes) {
-  Skins skins(document, accessors, meshes, names, scene);
+                 const std::map<std::size_t, std::string>& names, ImportedFile& file) {
+  Skins skins(document, accessors, meshes, names, file);
   constexpr std::size_t plain = std::size_t{1} << 32U;  // never the last
   std::map<unsigned, std::size_t> left;
   const auto for_each = [&](const auto& take) {
@@ -152,7 +155,7 @@ void give_meshes(const Document& document, Accessors& accessors, const Meshes& m
     left[mesh] += skins.holds(use, mesh) ? 1 : plain;
     loose += use.skin && !skins.holds(use, mesh) ? 1 : 0;
   });
-  note_count(notes, "meshes with a skin and without joints and weights, shown where their node stands", loose);
+  note_count(file.notes, "meshes with a skin and without joints and weights, shown where their node stands", loose);
   for (const MeshUse& use : uses) {
     use.node->mMeshes = new unsigned[meshes.ranges[use.mesh].second - meshes.ranges[use.mesh].first + 1];
   }

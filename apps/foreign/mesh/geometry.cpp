@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -132,6 +133,24 @@ void GeometryWriter::add(PolygonMesh mesh, core::Material material) {
     first = end;
   }
   meshes_without_colors_ += hides_colors_ ? 1 : 0;
+  keep_vertices(std::move(mesh.vertices), std::move(mesh.faces.corners));
+}
+
+/// Of a mesh that has but a few of the vertices that it names each corner gets its own, for others may name them, too.
+void GeometryWriter::keep_vertices(std::vector<Vec3d> points, std::vector<std::uint32_t> indices) {
+  if (points.size() > indices.size()) {
+    points = expanded({std::move(points), indices});
+    std::iota(indices.begin(), indices.end(), 0U);
+  }
+  if (vertices_.indices.empty()) {
+    vertices_ = {std::move(points), std::move(indices)};
+    return;
+  }
+  const auto first = static_cast<std::uint32_t>(vertices_.points.size());
+  vertices_.points.insert(vertices_.points.end(), points.begin(), points.end());
+  for (const std::uint32_t index : indices) {
+    vertices_.indices.push_back(first + index);
+  }
 }
 
 /// Gives a face the material of its colour, if that is one, and so few have others that each may have its own; else the mesh's.
@@ -158,7 +177,7 @@ bool GeometryWriter::set_one_color(const PolygonMesh& mesh, const core::Material
 
 void GeometryWriter::add_face(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end) {
   face_vertices_.clear();
-  for (std::size_t i = first; i < end; ++i) {
+  for (std::size_t i = first; i < end && !(has_area_ && mesh.normals.empty()); ++i) {  // else nobody looks at them
     face_vertices_.push_back(mesh.vertices[mesh.faces.corners[i]]);
   }
   has_area_ = has_area_ || spans_an_area(face_vertices_);
@@ -175,15 +194,15 @@ void GeometryWriter::add_face(const PolygonMesh& mesh, const core::Material& mat
   if (!mesh.places.empty() || has_colors) {
     add_corners(mesh, material, first, end);
   } else {
-    add_flat_or_smooth();
+    add_flat_or_smooth(end - first);
   }
 }
 
-void GeometryWriter::add_flat_or_smooth() {
+void GeometryWriter::add_flat_or_smooth(std::size_t corners) {
   if (face_normals_.empty()) {
-    builder_.polygon(face_vertices_);
+    builder_.polygon(corners);
   } else {
-    builder_.patch(face_vertices_, face_normals_);
+    builder_.patch(corners, face_normals_);
   }
 }
 
@@ -196,7 +215,7 @@ void GeometryWriter::add_corners(const PolygonMesh& mesh, const core::Material& 
     face_corners_.push_back(mesh.places.empty() ? core::colored_corner(normal, mesh.colors[i], alpha)
                                                 : core::TexturedCorner{normal, mesh.places[i]});
   }
-  builder_.textured(face_vertices_, face_corners_);
+  builder_.textured(face_corners_.size(), face_corners_);
 }
 
 }  // namespace dmpc::apps

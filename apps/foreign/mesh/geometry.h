@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/foreign/mesh/polygon_mesh.h"
+#include "apps/formats/indexed_vertices.h"
 #include "core/base/counts.h"
 #include "core/scene/scene.h"
 
@@ -33,9 +34,10 @@ void check_size(const GeometrySize& size);
 /// of one colour have a material of that colour, as long as there are few such.
 class GeometryWriter {
  public:
-  /// `smooth_degrees`: vertex normals are reckoned anew (apps/foreign/mesh/smooth.h), whatever the mesh has.
-  GeometryWriter(core::SceneBuilder& builder, std::optional<double> smooth_degrees)
-      : builder_(builder), smooth_degrees_(smooth_degrees) {}
+  /// The builder's scene has no vertices, which go to `vertices`. `smooth_degrees`: vertex normals are reckoned anew
+  /// (apps/foreign/mesh/smooth.h), whatever the mesh has.
+  GeometryWriter(core::SceneBuilder& builder, IndexedVertices& vertices, std::optional<double> smooth_degrees)
+      : builder_(builder), vertices_(vertices), smooth_degrees_(smooth_degrees) {}
 
   /// A mesh without places loses the material's texture. Throws core::InputError with the mesh's name for a coordinate that is
   /// not finite or beyond 1e30, an index of a vertex that does not exist, or a polygon with too many corners.
@@ -57,10 +59,12 @@ class GeometryWriter {
   /// The face of these corners.
   void add_face(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end);
   void add_corners(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end);
-  void add_flat_or_smooth();
+  void add_flat_or_smooth(std::size_t corners);
+  void keep_vertices(std::vector<core::Vec3d> points, std::vector<std::uint32_t> indices);
   bool set_one_color(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end);
 
   core::SceneBuilder& builder_;
+  IndexedVertices& vertices_;
   std::optional<double> smooth_degrees_;
   bool has_area_ = false, hides_colors_ = false;
   std::uint64_t unplaced_ = 0, unseen_ = 0, meshes_without_colors_ = 0;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/foreign/mesh/polygon_mesh.h"
 #include "apps/foreign/mesh/texture_place.h"
 
 namespace dmpc::apps {
@@ -16,9 +17,15 @@ inline constexpr const char* gltf_source_format = "glTF 2.0";
 
 struct ImportedFile {
   std::unique_ptr<aiScene> scene;
+  std::vector<FaceList> triangles;           ///< of each mesh, of vertices that exist, beside its own faces; or none at all
   std::vector<TexturePlace> texture_places;  ///< of each material's colour texture; none where all are plain
   std::vector<std::string> notes;            ///< what of the file is not shown as it is, a sentence each
   std::vector<std::string> missing;          ///< sentences: which files it refers to cannot be had, in order, each once
+
+  FaceList& triangles_of(std::size_t mesh) {
+    triangles.resize(scene->mNumMeshes);
+    return triangles[mesh];
+  }
 };
 
 }  // namespace dmpc::apps

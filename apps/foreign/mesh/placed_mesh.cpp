@@ -3,17 +3,27 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
 
+/// So that all look to the other side.
+void turn_round(FaceList& faces) {
+  std::uint32_t first = 0;
+  for (const std::uint32_t end : faces.ends) {
+    std::reverse(faces.corners.begin() + first, faces.corners.begin() + end);
+    first = end;
+  }
+}
+
 void read_faces(const aiMesh& mesh, bool is_mirrored, PolygonMesh& result) {
   FaceList& faces = result.faces;
   const GeometrySize size = size_of(mesh);
-  faces.ends.reserve(size.faces);
-  faces.corners.reserve(size.corners);
+  faces.ends.reserve(faces.ends.size() + size.faces);
+  faces.corners.reserve(faces.corners.size() + size.corners);
   for (std::size_t i = 0; i < mesh.mNumFaces; ++i) {
     const aiFace& face = mesh.mFaces[i];
     if (face.mNumIndices < 3) {
@@ -25,10 +35,10 @@ void read_faces(const aiMesh& mesh, bool is_mirrored, PolygonMesh& result) {
                              std::to_string(mesh.mNumVertices) + "; correct the file");
     }
     faces.corners.insert(faces.corners.end(), face.mIndices, face.mIndices + face.mNumIndices);
-    if (is_mirrored) {
-      std::reverse(faces.corners.end() - face.mNumIndices, faces.corners.end());
-    }
     faces.ends.push_back(static_cast<std::uint32_t>(faces.corners.size()));
+  }
+  if (is_mirrored) {
+    turn_round(faces);
   }
 }
 
@@ -85,8 +95,9 @@ GeometrySize size_of(const aiMesh& mesh) {
   return size;
 }
 
-PolygonMesh placed_mesh(const aiMesh& mesh, std::size_t index, const Transform& world, const MeshMaterial& material) {
-  PolygonMesh result{.name = name_of(mesh, index), .material = mesh.mMaterialIndex};
+PolygonMesh placed_mesh(const aiMesh& mesh, std::size_t index, FaceList triangles, const Transform& world,
+                        const MeshMaterial& material) {
+  PolygonMesh result{.name = name_of(mesh, index), .material = mesh.mMaterialIndex, .faces = std::move(triangles)};
   read_faces(mesh, world.determinant() < 0, result);
   if (result.faces.ends.empty()) {
     return result;  // points and lines alone

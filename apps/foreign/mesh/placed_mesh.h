@@ -25,12 +25,13 @@ struct MeshMaterial {
 /// "mesh 3 'wheel'", for messages.
 std::string name_of(const aiMesh& mesh, std::size_t index);
 
-/// What its faces of three or more corners become.
+/// What its own faces of three or more corners become.
 GeometrySize size_of(const aiMesh& mesh);
 
-/// Its faces of three or more corners, in the world: points and lines are left out, a mirroring transform keeps the side to which
-/// a face looks. Places are read if `material` has a texture and the mesh the coordinates for it. Throws core::InputError with
-/// the mesh's name for an index of a vertex that does not exist.
-PolygonMesh placed_mesh(const aiMesh& mesh, std::size_t index, const Transform& world, const MeshMaterial& material);
+/// `triangles`, of vertices that exist, and its own faces of three or more corners, in the world: points and lines are left out,
+/// a mirroring transform keeps the side to which a face looks. Places are read if `material` has a texture and the mesh the
+/// coordinates for it. Throws core::InputError with the mesh's name for an index of a vertex that does not exist.
+PolygonMesh placed_mesh(const aiMesh& mesh, std::size_t index, FaceList triangles, const Transform& world,
+                        const MeshMaterial& material);
 
 }  // namespace dmpc::apps

@@ -80,7 +80,13 @@ std::vector<Transform> transforms_of(const aiMesh& mesh, std::size_t index, cons
 aiVector3D to_ai(const Vec3d& v) { return {static_cast<ai_real>(v.x), static_cast<ai_real>(v.y), static_cast<ai_real>(v.z)}; }
 
 /// A face that is mirrored looks to its old side again when its corners are turned round.
-void turn_mirrored(aiMesh& mesh, const std::vector<Transform>& transforms) {
+void turn_mirrored(aiMesh& mesh, FaceList& triangles, const std::vector<Transform>& transforms) {
+  for (std::size_t first = 0; first < triangles.corners.size(); first += 3) {
+    const auto corner = triangles.corners.begin() + static_cast<std::ptrdiff_t>(first);
+    if (transforms[*corner].determinant() < 0) {
+      std::reverse(corner, corner + 3);
+    }
+  }
   for (aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) {
     if (face.mNumIndices > 0 && face.mIndices[0] < transforms.size() && transforms[face.mIndices[0]].determinant() < 0) {
       std::reverse(face.mIndices, face.mIndices + face.mNumIndices);
@@ -88,7 +94,7 @@ void turn_mirrored(aiMesh& mesh, const std::vector<Transform>& transforms) {
   }
 }
 
-void pose(aiMesh& mesh, std::size_t index, const Stands& stands) {
+void pose(aiMesh& mesh, std::size_t index, FaceList& triangles, const Stands& stands) {
   const std::vector<Transform> transforms = transforms_of(mesh, index, stands);
   for (std::size_t i = 0; i < transforms.size(); ++i) {
     mesh.mVertices[i] = to_ai(transforms[i].point(to_vec(mesh.mVertices[i])));
@@ -98,7 +104,7 @@ void pose(aiMesh& mesh, std::size_t index, const Stands& stands) {
       mesh.mNormals[i] = to_ai(size > 0 ? normal * (1 / size) : normal);
     }
   }
-  turn_mirrored(mesh, transforms);
+  turn_mirrored(mesh, triangles, transforms);
 }
 
 void forget_bones(aiMesh& mesh) {
@@ -112,7 +118,8 @@ void forget_bones(aiMesh& mesh) {
 
 }  // namespace
 
-void pose_skins(aiScene& scene, std::vector<std::string>& notes) {
+void pose_skins(ImportedFile& file, std::vector<std::string>& notes) {
+  aiScene& scene = *file.scene;
   const std::span<aiMesh*> meshes(scene.mMeshes, scene.mNumMeshes);
   if (std::none_of(meshes.begin(), meshes.end(), [](const aiMesh* mesh) { return mesh->HasBones(); })) {
     return;
@@ -128,7 +135,7 @@ void pose_skins(aiScene& scene, std::vector<std::string>& notes) {
       continue;
     }
     if (is_known) {
-      pose(mesh, i, stands);
+      pose(mesh, i, file.triangles_of(i), stands);
     } else {
       forget_bones(mesh);
       ++loose;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <thread>
 #include <utility>
@@ -30,12 +31,19 @@ core::Scene three_triangles() {
   return scene;
 }
 
+/// Each vertex at a point of its own.
+IndexedVertices vertices_of(const core::Scene& scene) {
+  IndexedVertices vertices{scene.vertices, std::vector<std::uint32_t>(scene.vertices.size())};
+  std::iota(vertices.indices.begin(), vertices.indices.end(), 0U);
+  return vertices;
+}
+
 /// Through a line and back.
-core::Scene sent(core::Scene scene) {
+core::Scene sent(core::Scene scene, IndexedVertices vertices) {
   auto [mine, its] = make_ends();
   Line sender(std::move(mine)), receiver(std::move(its));
   std::jthread writer([&] {
-    send_scene(scene, sender, Handing::in_messages);
+    send_scene(scene, vertices, sender, Handing::in_messages);
     sender.send(Saying::done);
   });
   SceneReceiver whole;
@@ -50,10 +58,11 @@ core::Scene sent(core::Scene scene) {
 
 /// What a reader hands over is looked for where it says, or not at all.
 core::Scene handed_over(core::Scene scene, bool is_let) {
+  IndexedVertices vertices = vertices_of(scene);
   auto [mine, its] = make_ends();
   Line sender(std::move(mine)), receiver(std::move(its));
   std::jthread writer([&] {
-    send_scene(scene, sender, Handing::from_memory);
+    send_scene(scene, vertices, sender, Handing::from_memory);
     sender.send(Saying::done);
   });
   SceneReceiver whole;
@@ -65,7 +74,7 @@ core::Scene handed_over(core::Scene scene, bool is_let) {
       continue;
     }
     Unpacker fields(message->bytes);
-    const Saying list = fields.take_choice(Saying::corners);
+    const Saying list = fields.take_choice(Saying::vertices);
     const auto* from = reinterpret_cast<const std::byte*>(fields.take<std::uint64_t>());
     std::size_t pieces = 0;
     const bool is_here = whole.take_from(list, fields.take<std::uint64_t>(), [&](std::span<std::byte> room) {
@@ -77,6 +86,8 @@ core::Scene handed_over(core::Scene scene, bool is_let) {
   }
   return whole.finish();
 }
+
+core::Scene sent(const core::Scene& scene) { return sent(scene, vertices_of(scene)); }
 
 bool is_refused(const std::function<void(core::Scene&)>& spoil) {
   core::Scene scene = three_triangles();
@@ -110,6 +121,22 @@ TEST_CASE("a scene of many messages comes through, too") {
   CHECK(sent(scene).vertices.back() == core::Vec3d{7, 8, 9});
 }
 
+TEST_CASE("vertices that share a point come through a line as it, and each gets its own place") {
+  core::Scene scene = three_triangles();
+  const IndexedVertices vertices{{{1, 2, 3}, {4, 5, 6}}, {1, 0, 1, 1}};
+  CHECK(sent(scene, vertices).vertices == expanded(vertices));
+}
+
+TEST_CASE("a vertex at a point that has not come is refused, and so is a point that nothing has, if it is none") {
+  const core::Scene scene = three_triangles();
+  IndexedVertices vertices = vertices_of(scene);
+  vertices.points.push_back({1e30, 0, 0});
+  CHECK_THROWS_AS(sent(scene, vertices), Nonsense);
+  vertices.points.pop_back();
+  vertices.indices[1] = 3;
+  CHECK_THROWS_AS(sent(scene, vertices), Nonsense);
+}
+
 TEST_CASE("lists that are handed over come as those in messages do, and so do those that cannot be looked at") {
   core::Scene scene = three_triangles();
   scene.vertices.resize(1'000'000);
@@ -127,19 +154,22 @@ TEST_CASE("lists that are handed over come as those in messages do, and so do th
 TEST_CASE("more than was announced is not taken from anywhere") {
   const auto nothing = [](std::span<std::byte> /*room*/) { return true; };
   SceneReceiver receiver;
-  CHECK_THROWS_AS(receiver.take_from(Saying::vertices, 24, nothing), Nonsense);
+  CHECK_THROWS_AS(receiver.take_from(Saying::points, 24, nothing), Nonsense);
   const core::Scene scene = three_triangles();
   Packer head;
   head.add(scene.view).add(scene.background).add(scene.coordinate_rounding);
-  for (int pool = 0; pool < 5; ++pool) {
+  for (int pool = 0; pool < 6; ++pool) {
     head.add(std::uint64_t{1});
   }
   receiver.take({Saying::scene, head.bytes(), Descriptor()});
   CHECK_THROWS_AS(receiver.take_from(Saying::lights, 24, nothing), Nonsense);
-  CHECK_THROWS_AS(receiver.take_from(Saying::vertices, 0, nothing), Nonsense);
-  CHECK_THROWS_AS(receiver.take_from(Saying::vertices, 25, nothing), Nonsense);
-  CHECK_THROWS_AS(receiver.take_from(Saying::vertices, std::uint64_t{24} << 40U, nothing), Nonsense);
-  CHECK(receiver.take_from(Saying::vertices, 24, nothing));
+  for (const auto& [list, entry_bytes] : {std::pair{Saying::points, std::uint64_t{24}}, {Saying::vertices, 4}}) {
+    CHECK_THROWS_AS(receiver.take_from(list, 0, nothing), Nonsense);
+    CHECK_THROWS_AS(receiver.take_from(list, entry_bytes + 1, nothing), Nonsense);
+    CHECK_THROWS_AS(receiver.take_from(list, entry_bytes << 40U, nothing), Nonsense);
+    CHECK(receiver.take_from(list, entry_bytes, nothing));
+    CHECK_THROWS_AS(receiver.take_from(list, entry_bytes, nothing), Nonsense);
+  }
 }
 
 TEST_CASE("a scene that cannot be is refused, whatever is wrong with it") {
@@ -171,15 +201,15 @@ TEST_CASE("a scene that cannot be is refused, whatever is wrong with it") {
 TEST_CASE("more than was announced, and parts of an entry, are refused") {
   SceneReceiver receiver;
   core::Scene scene = three_triangles();
-  CHECK_THROWS_AS(receiver.take({Saying::vertices, std::string(24, '\0'), Descriptor()}), Nonsense);
+  CHECK_THROWS_AS(receiver.take({Saying::points, std::string(24, '\0'), Descriptor()}), Nonsense);
   Packer head;
   head.add(scene.view).add(scene.background).add(scene.coordinate_rounding);
-  for (int pool = 0; pool < 5; ++pool) {
+  for (int pool = 0; pool < 6; ++pool) {
     head.add(std::uint64_t{1});
   }
   CHECK(receiver.take({Saying::scene, head.bytes(), Descriptor()}));
-  CHECK_THROWS_AS(receiver.take({Saying::vertices, std::string(25, '\0'), Descriptor()}), Nonsense);
-  CHECK_THROWS_AS(receiver.take({Saying::vertices, std::string(48, '\0'), Descriptor()}), Nonsense);
+  CHECK_THROWS_AS(receiver.take({Saying::points, std::string(25, '\0'), Descriptor()}), Nonsense);
+  CHECK_THROWS_AS(receiver.take({Saying::points, std::string(48, '\0'), Descriptor()}), Nonsense);
   CHECK_THROWS_AS(receiver.take({Saying::scene, head.bytes(), Descriptor()}), Nonsense);
 }
 
@@ -188,7 +218,7 @@ TEST_CASE("more lights, textures and materials than any scene has are refused be
   const core::Scene scene;
   Packer head;
   head.add(scene.view).add(scene.background).add(scene.coordinate_rounding).add(std::uint64_t{1} << 30U);
-  for (int pool = 0; pool < 4; ++pool) {
+  for (int pool = 0; pool < 5; ++pool) {
     head.add(std::uint64_t{1});
   }
   CHECK_THROWS_AS(receiver.take({Saying::scene, head.bytes(), Descriptor()}), Nonsense);

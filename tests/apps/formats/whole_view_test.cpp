@@ -8,16 +8,13 @@ namespace dmpc::apps::whole_view_test {
 
 using core::Vec3d;
 
-TEST_CASE("the bounds are a sphere about the middle of the box") {
-  const core::Scene scene{.vertices = {{-1, 0, 0}, {3, 0, 0}, {1, 1, 0}}};
-  const BoundingSphere bounds = sphere_around_vertices(scene);
+TEST_CASE("the bounds are a sphere about the middle of the box of the vertices that there are") {
+  const BoundingSphere bounds = sphere_around({{{-1, 0, 0}, {3, 0, 0}, {9, 9, 9}, {1, 1, 0}}, {0, 1, 0, 3}});
   CHECK(bounds.center == Vec3d{1, 0.5, 0});
   CHECK(bounds.radius == doctest::Approx(2.0615528));
 }
 
-TEST_CASE("one vertex has bounds without a radius") {
-  CHECK(sphere_around_vertices(core::Scene{.vertices = {{5, 6, 7}}}).radius == 0);
-}
+TEST_CASE("one vertex has bounds without a radius") { CHECK(sphere_around({{{5, 6, 7}}, {0}}).radius == 0); }
 
 TEST_CASE("the sphere touches the picture's edge, for every axis that may be up") {
   for (const std::size_t axis : {0U, 1U, 2U}) {

@@ -16,7 +16,8 @@ core::Scene square_with(const core::Vec3d& normal, bool has_places = false) {
   mesh.places.assign(has_places ? 4 : 0, {});
   core::Scene scene{.textures = {{.name = "leaf", .levels = {}}}};
   core::SceneBuilder builder(scene);
-  GeometryWriter(builder, std::nullopt).add(mesh, {.texture = has_places ? 0 : core::Material::no_texture});
+  IndexedVertices vertices;
+  GeometryWriter(builder, vertices, std::nullopt).add(mesh, {.texture = has_places ? 0 : core::Material::no_texture});
   return scene;
 }
 
@@ -52,17 +53,37 @@ TEST_CASE(
     mesh.places.assign(mesh.colors.size(), {});
     core::Scene scene{.textures = {{.name = "leaf", .levels = {}}}};
     core::SceneBuilder builder(scene);
-    GeometryWriter writer(builder, std::nullopt);
+    IndexedVertices vertices;
+    GeometryWriter writer(builder, vertices, std::nullopt);
     writer.add(mesh, {.texture = 0});
     CHECK(writer.meshes_without_colors() == (count > face_colors_max ? 1 : 0));
   }
+}
+
+TEST_CASE("meshes give their vertices once, however many faces share them, and of many those alone that a face has") {
+  core::Scene scene;
+  core::SceneBuilder builder(scene);
+  IndexedVertices vertices;
+  GeometryWriter writer(builder, vertices, std::nullopt);
+  const PolygonMesh square{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, .faces = {{0, 1, 2, 0, 2, 3}, {3, 6}}};
+  writer.add(square, {});
+  CHECK(vertices.points == square.vertices);
+  writer.add({.vertices = {{8, 8, 8}, {2, 0, 0}, {8, 8, 8}, {3, 0, 0}, {3, 1, 0}}, .faces = {{4, 1, 3}, {3}}}, {});
+  CHECK(vertices.points.size() == 4 + 3);
+  writer.add(square, {});
+  CHECK(vertices.indices == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 4, 5, 6, 7, 8, 9, 7, 9, 10});
+  CHECK(expanded(vertices)[6] == core::Vec3d{3, 1, 0});
+  CHECK(expanded(vertices)[14] == core::Vec3d{0, 1, 0});
+  CHECK(scene.objects[2].first == 6);
+  CHECK(scene.objects[4].first == 12);
 }
 
 TEST_CASE("a face with more corners than an object has room for is refused by its number") {
   PolygonMesh mesh{.name = "mesh 3", .vertices = {{0, 0, 0}}, .faces = {std::vector<std::uint32_t>(65'539), {3, 65'539}}};
   core::Scene scene;
   core::SceneBuilder builder(scene);
-  CHECK_THROWS_WITH_AS(GeometryWriter(builder, std::nullopt).add(mesh, {}),
+  IndexedVertices vertices;
+  CHECK_THROWS_WITH_AS(GeometryWriter(builder, vertices, std::nullopt).add(mesh, {}),
                        doctest::Contains("mesh 3: face 1 has too many corners"), core::InputError);
 }
 
