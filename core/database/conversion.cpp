@@ -198,6 +198,9 @@ class Converter {
       ++result_.dropped;
       return;
     }
+    if (vertices.size() == 3 && has_area(vertices)) {  // as most are, which need no list
+      return add_triangle(index, object, vertices, {0, 1, 2});
+    }
     const auto triangles = triangulate(vertices);
     result_.dropped += triangles.empty() ? 1 : 0;
     for (const auto& corners : triangles) {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "core/base/box.h"
@@ -118,10 +119,13 @@ class BucketFiller {
   /// What a table of a few slots for each bucket finds beside others, and a little more; what has one key comes together.
   std::vector<Filing> sifted() {
     look_for_company();
-    const auto is_in_company = [&](const Filing& filing) { return objects_[slot_of(filing)] == several; };
+    std::erase_if(filings_, [&](const Filing& filing) { return objects_[slot_of(filing)] != several; });
+    if (filings_.empty()) {
+      return {};
+    }
     std::vector<std::uint32_t> next(objects_.size());  // by slot: how many of it there are, then where the next of it goes
     for (const Filing& filing : filings_) {
-      next[slot_of(filing)] += is_in_company(filing) ? 1 : 0;
+      ++next[slot_of(filing)];
     }
     std::uint32_t end = 0;
     for (std::uint32_t& of_slot : next) {
@@ -129,9 +133,7 @@ class BucketFiller {
     }
     std::vector<Filing> result(end);
     for (const Filing& filing : filings_) {
-      if (is_in_company(filing)) {
-        result[next[slot_of(filing)]++] = filing;
-      }
+      result[next[slot_of(filing)]++] = filing;
     }
     std::size_t first = 0;
     for (const std::uint32_t last : next) {
@@ -158,22 +160,36 @@ class BucketFiller {
   void sort_if_mixed(std::span<Filing> filings) {
     keys_.clear();
     for (const Filing& filing : filings) {
-      if (std::find(keys_.begin(), keys_.end(), filing.key) == keys_.end()) {
+      auto place = place_of(filing.key);
+      if (place == keys_.end()) {
         if (keys_.size() == keys_counted) {
           return std::sort(filings.begin(), filings.end());
         }
-        keys_.push_back(filing.key);
+        place = keys_.insert(place, {filing.key, 0});
       }
+      ++place->next;
     }
     if (keys_.size() < 2) {
       return;
     }
-    std::sort(keys_.begin(), keys_.end());
-    mixed_.assign(filings.begin(), filings.end());
-    auto to = filings.begin();
-    for (const std::uint64_t key : keys_) {
-      to = std::copy_if(mixed_.begin(), mixed_.end(), to, [key](const Filing& filing) { return filing.key == key; });
+    std::sort(keys_.begin(), keys_.end(), [](const KeyPlace& a, const KeyPlace& b) { return a.key < b.key; });
+    std::size_t end = 0;
+    for (KeyPlace& place : keys_) {
+      end += std::exchange(place.next, end);
     }
+    mixed_.assign(filings.begin(), filings.end());
+    for (const Filing& filing : mixed_) {
+      filings[place_of(filing.key)->next++] = filing;
+    }
+  }
+
+  /// A key of a slot: how many of it there are, then where the next of it goes.
+  struct KeyPlace {
+    std::uint64_t key;
+    std::size_t next;
+  };
+  std::vector<KeyPlace>::iterator place_of(std::uint64_t key) {
+    return std::find_if(keys_.begin(), keys_.end(), [key](const KeyPlace& place) { return place.key == key; });
   }
 
   std::span<const Face> faces_;
@@ -181,26 +197,54 @@ class BucketFiller {
   double per_unit_;  ///< buckets
   Surroundings around_;
   std::vector<Filing> filings_, mixed_;
-  std::vector<std::uint64_t> keys_;
+  std::vector<KeyPlace> keys_;
   std::vector<std::uint32_t> objects_;  ///< by slot
+};
+
+/// Tells which buckets have the faces of one before them: planes at a bucket's border, and those that lean alike along two axes,
+/// are in several. What covers what can be seen along any of these.
+class SameFaces {
+ public:
+  explicit SameFaces(const PlaneBuckets& all) : all_(all) {}
+
+  /// Whether some bucket has these; else the one that is added next does.
+  bool are_known(std::span<const Filing> faces) {
+    std::uint64_t hash = 0;
+    for (const Filing& filing : faces) {
+      hash = (hash ^ filing.face) * 0x9e3779b97f4a7c15U;
+    }
+    const auto [found, is_new] = by_hash_.try_emplace(hash, all_.buckets.size());
+    if (is_new) {
+      return false;
+    }
+    const auto known = all_.faces_of(all_.buckets[found->second]);
+    return std::equal(known.begin(), known.end(), faces.begin(), faces.end(),
+                      [](std::uint32_t face, const Filing& filing) { return face == filing.face; });
+  }
+
+ private:
+  const PlaneBuckets& all_;
+  std::unordered_map<std::uint64_t, std::size_t> by_hash_;
 };
 
 }  // namespace
 
 PlaneBuckets fill_plane_buckets(std::span<const Face> faces, const BucketSize& size) {
   PlaneBuckets result;
+  SameFaces same(result);
   const std::vector<Filing> filings = BucketFiller(faces, size).fill();
   for (std::size_t first = 0, last = 0; first < filings.size(); first = last) {
     bool has_several = false;
     for (last = first; last < filings.size() && filings[last].key == filings[first].key; ++last) {
       has_several = has_several || faces[filings[last].face].object != faces[filings[first].face].object;
     }
-    if (has_several) {
+    const auto bucket = std::span(filings).subspan(first, last - first);
+    if (has_several && !same.are_known(bucket)) {
       const std::size_t begin = result.faces.size();
-      for (std::size_t filing = first; filing < last; ++filing) {
-        result.faces.push_back(filings[filing].face);
+      for (const Filing& filing : bucket) {
+        result.faces.push_back(filing.face);
       }
-      result.buckets.push_back({filings[first].key & 3U, begin, result.faces.size()});
+      result.buckets.push_back({bucket.front().key & 3U, begin, result.faces.size()});
     }
   }
   return result;

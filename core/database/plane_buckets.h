@@ -35,7 +35,7 @@ inline constexpr BucketSize fine_buckets{0x1p-9, 0x1p-13};
 /// Where triangles are so small that rounding moves one plane far from another one: for those whose doubles are known.
 inline constexpr BucketSize coarse_buckets{0x1p-5, 0x1p-7};
 
-/// Buckets of faces of more than one object.
+/// Buckets of faces of more than one object; of several with the same faces the first.
 PlaneBuckets fill_plane_buckets(std::span<const Face> faces, const BucketSize& size = fine_buckets);
 
 }  // namespace dmpc::core

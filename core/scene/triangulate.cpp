@@ -12,7 +12,7 @@ namespace {
 Vec3d area_vector(std::span<const Vec3d> vertices) {
   Vec3d sum;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    sum = sum + cross(vertices[i] - vertices[0], vertices[(i + 1) % vertices.size()] - vertices[0]);
+    sum = sum + cross(vertices[i] - vertices[0], vertices[i + 1 < vertices.size() ? i + 1 : 0] - vertices[0]);
   }
   return sum;
 }
@@ -46,19 +46,32 @@ double size_of(std::span<const Vec3d> vertices) {
   return size;
 }
 
-std::vector<CornerTriangle> triangulate_enlarged(std::span<const Vec3d> vertices) {
+bool is_tiny(std::span<const Vec3d> vertices) {
+  const double size = size_of(vertices);
+  return size > 0 && size < size_min;
+}
+
+std::vector<Vec3d> enlarged_copy(std::span<const Vec3d> vertices) {
   std::vector<Vec3d> enlarged;
   for (const Vec3d& vertex : vertices) {
     enlarged.push_back((vertex - vertices[0]) * enlargement);
   }
-  return triangulate(enlarged);
+  return enlarged;
 }
 
 }  // namespace
 
+bool has_area(std::span<const Vec3d> vertices) {
+  if (is_tiny(vertices)) {
+    return has_area(enlarged_copy(vertices));
+  }
+  const Vec3d normal = area_vector(vertices);
+  return dot(normal, normal) > 0;
+}
+
 std::vector<CornerTriangle> triangulate(std::span<const Vec3d> vertices) {
-  if (const double size = size_of(vertices); size > 0 && size < size_min) {
-    return triangulate_enlarged(vertices);
+  if (is_tiny(vertices)) {
+    return triangulate(enlarged_copy(vertices));
   }
   const auto count = static_cast<std::uint32_t>(vertices.size());
   const Vec3d normal = area_vector(vertices);

@@ -15,4 +15,7 @@ namespace dmpc::core {
 /// (core/scene/ear_clipper.h). A polygon without area gives nothing; one that crosses itself gives what it may, as quickly.
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3d> vertices);
 
+/// Whether triangulate() gives something.
+bool has_area(std::span<const Vec3d> vertices);
+
 }  // namespace dmpc::core

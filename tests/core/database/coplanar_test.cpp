@@ -10,6 +10,7 @@
 #include "apps/lab/bench/stability/random.h"
 #include "apps/lab/bench/stability/rays.h"
 #include "core/database/database.h"
+#include "core/database/plane_buckets.h"
 #include "tests/support/covering_faces.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
@@ -204,4 +205,17 @@ TEST_CASE("the threads that build do not change what is shared") {
 }
 
 }  // namespace
+TEST_CASE("faces that are together in several buckets are looked at in one of them") {
+  const auto face = [](const Vec3d& shift, std::uint32_t id) {
+    return core::Face({Vec3d{1, 0, 0} + shift, Vec3d{0, 1, 0} + shift, Vec3d{0, 0, 1} + shift}, {}, core::corner_rounding, id,
+                      id);
+  };
+  const std::vector<core::Face> alike{face({}, 0), face({0.25, -0.25, 0}, 1)};  // they face three axes alike
+  const core::PlaneBuckets buckets = core::fill_plane_buckets(alike);
+  REQUIRE(buckets.buckets.size() == 1);
+  CHECK(buckets.faces == std::vector<std::uint32_t>{0, 1});
+  const std::vector<core::Face> apart{face({}, 0), face({0.25, 0.25, 0}, 1)};
+  CHECK(core::fill_plane_buckets(apart).buckets.empty());
+}
+
 }  // namespace dmpc::tests::coplanar_test
