@@ -55,10 +55,10 @@ std::optional<PathStep> step_at(const HitState& state, const Shares& shares, dou
                   kind_after(state, RayKind::refracted)};
 }
 
-/// Whether the path survives, and counts for those that do not. `chance`: from 0 to less than 1.
-bool survives(const Ray& ray, double chance, PathStep& step) {
+/// Whether the path survives, and counts for those that do not. `chance`: from 0 to less than 1; `first`: of the hits that ask.
+bool survives(const Ray& ray, double chance, int first, PathStep& step) {
   const double share = double{brightest(ray.weight * step.weight)};
-  if (share > 0.0 && (ray.depth < roulette_from || share >= 1.0)) {
+  if (share > 0.0 && (ray.depth < first || share >= 1.0)) {
     return true;
   }
   if (!(chance < share)) {
@@ -94,14 +94,14 @@ std::optional<Vec3d> scattered_direction(const HitState& state) {
   return side * dot(towards, state.geometric_normal) > 0.0 ? std::optional(towards) : std::nullopt;
 }
 
-std::optional<PathStep> path_step(const HitState& state) {
+std::optional<PathStep> path_step(const HitState& state, int roulette_from) {
   const Shares shares = shares_of(state);
   if (!(shares.all() > 0.0)) {
     return std::nullopt;
   }
   const SamplePair choice = pair_of(state.ray, Purpose::choice);
   std::optional<PathStep> step = step_at(state, shares, choice.x * shares.all());
-  return step && survives(state.ray, choice.y, *step) ? step : std::nullopt;
+  return step && survives(state.ray, choice.y, roulette_from, *step) ? step : std::nullopt;
 }
 
 }  // namespace dmpc::core

@@ -7,6 +7,7 @@
 #include "core/base/vec.h"
 #include "core/picture/hit_state.h"
 #include "core/picture/sample_pair.h"
+#include "core/picture/transport.h"
 
 namespace dmpc::core {
 
@@ -21,8 +22,8 @@ struct PathStep {
 enum class Purpose : std::uint32_t { choice, direction };
 /// The pair of a hit at `depth`, 1 or more; pair 0 of a sample is its place in the pixel.
 SamplePair pair_of(std::uint32_t pixel, std::uint32_t sample, int depth, Purpose purpose);
-/// Hits before this one always go on.
-inline constexpr int roulette_from = 3;
+/// Hits before this one always go on, unless a transport says otherwise.
+inline constexpr int roulette_from = Transport().roulette_from;
 
 /// A direction of unit length about the unit vector `normal`, as likely as its cosine with that, for a pair that is as likely
 /// anywhere: the place on the unit disc below it, by P. Shirley, K. Chiu, "A Low Distortion Map Between Disk and Square",
@@ -35,10 +36,10 @@ Vec3d cosine_direction(const SamplePair& pair, const Vec3d& normal);
 std::optional<Vec3d> scattered_direction(const HitState& state);
 
 /// One of the surface's diffuse part, its mirror and what it lets through is chosen, in proportion to the brightest channel of
-/// each, and counts for all. Nothing if all are black, or by roulette: from the third hit on the path goes on as often as the
-/// brightest channel of its weight says, if that is below 1, and counts for those that do not (J. Arvo, D. Kirk, "Particle
+/// each, and counts for all. Nothing if all are black, or by roulette: from the hit of this number on the path goes on as often
+/// as the brightest channel of its weight says, if that is below 1, and counts for those that do not (J. Arvo, D. Kirk, "Particle
 /// Transport and Image Synthesis", SIGGRAPH 1990). Whatever is chosen is a function of the ray's pixel, sample and depth.
 /// Requires a hit of which all is known.
-std::optional<PathStep> path_step(const HitState& state);
+std::optional<PathStep> path_step(const HitState& state, int roulette_from = core::roulette_from);
 
 }  // namespace dmpc::core

@@ -136,6 +136,12 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
   return bound;
 }
 
+bool may_find_light(const DatabaseHeader& header, const Transport& transport, RayKind kind) {
+  const bool is_beyond_black = header.background == Color{} && (!transport.has_gradient || transport.zenith == Color{});
+  const bool sees_beyond = transport.has_sky || kind != RayKind::scattered;
+  return header.light_count > 0 || hits_glow(header) || (sees_beyond && !is_beyond_black);
+}
+
 double sample_spacing(std::uint32_t sample, std::uint32_t first_samples) {
   std::uint64_t count = first_samples;
   while (sample >= count) {
@@ -432,7 +438,7 @@ bool Shader::send_on(HitState& state, Ray& child) const {
   if (options_.transport.shows_occlusion()) {
     return look_around(state, child);
   }
-  const std::optional<PathStep> step = path_step(state);
+  const std::optional<PathStep> step = path_step(state, options_.transport.roulette_from);
   if (!step) {
     return false;
   }
@@ -440,9 +446,19 @@ bool Shader::send_on(HitState& state, Ray& child) const {
     return look_at_sky(state, *step, child);
   }
   const RayKind kind = state.ray.depth < options_.depth_max ? step->kind : RayKind::scattered;  // no backdrop for the last one
+  if (is_for_nothing(kind)) {
+    return false;
+  }
   child = continued_ray(state, step->towards, kind, state.ray.weight * step->weight);
   widen(state, child);
   return true;
+}
+
+/// Its light would be 0, however long it goes on.
+bool Shader::is_for_nothing(RayKind kind) const {
+  const bool leaves = skips_.zero_terms && !may_find_light(header_, options_.transport, kind);
+  operations_.skipped.zero_terms += leaves ? 1 : 0;
+  return leaves;
 }
 
 /// What it can bring to its sample at most, in any channel, is not below the cutoff.

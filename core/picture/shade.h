@@ -66,6 +66,11 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
 /// Whether hits send light by themselves, without a ray: what they reflect of an ambient light, or their own.
 inline bool hits_glow(const DatabaseHeader& header) { return header.has_emission != 0 || !(header.ambient == Color{}); }
 
+/// Whether a ray that a path goes on with can find any light: of what lights show, of what hits send by themselves, or of what
+/// lies beyond the scene, which a scattered ray sees if that is a sky. Where it cannot, its children cannot either, since they
+/// are scattered if it is.
+bool may_find_light(const DatabaseHeader& header, const Transport& transport, RayKind kind);
+
 /// Shades hits, one record a step. What it is made from outlives it.
 class Shader {
  public:
@@ -104,6 +109,7 @@ class Shader {
   /// Whether `child` was set.
   bool read_light(HitState& state, const std::byte* record, Ray& child) const;
   bool send_alone(HitState& state, Ray& child) const;
+  bool is_for_nothing(RayKind kind) const;
   bool look_around(const HitState& state, Ray& child) const;
   bool look_at_sky(const HitState& state, const PathStep& step, Ray& child) const;
   Ray continued_ray(const HitState& state, const Vec3d& towards, RayKind kind, const Color& weight) const;

@@ -20,6 +20,8 @@ struct Transport {
   /// glass before it: NFF's background.
   bool has_sky = false;
   bool has_gradient = false;  ///< the sky changes from the header's background at the horizon, and below, to `zenith`
+  /// From the hit of this number on, the eye's being the first, paths may end by roulette.
+  std::uint8_t roulette_from = 3;
   /// Where above 0: of what the eye meets the picture shows which share of its surroundings is free so far, grid-local, and
   /// nothing else: ambient occlusion (S. Zhukov, A. Iones, G. Kronin, "An Ambient Light Illumination Model", 1998).
   float occlusion_distance = 0;

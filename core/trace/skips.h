@@ -54,7 +54,8 @@ inline constexpr std::array all_skips{
     // What those rays would have spawned is not counted.
     Skip{"zero-terms",
          "no ray whose light would count for nothing: off a surface that does not mirror, through one that lets "
-         "nothing pass, to a light that is black or shows nothing (the paper's convention shoots the last)",
+         "nothing pass, to a light that is black or shows nothing (the paper's convention shoots the last), by paths where no "
+         "light is",
          "rays", &Skips::zero_terms, &SkippedWork::zero_terms},
     // Those behind the last thing that a ray may meet are not counted.
     Skip{"empty-regions", "rays pass by the owners of regions where they meet nothing (dataflow)", "regions passed by",

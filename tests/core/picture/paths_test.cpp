@@ -28,12 +28,15 @@ class Studio {
  public:
   explicit Studio(const Scene& scene) : scene_(scene), database_(database_of(scene)) {}
 
-  Film film(int side, int samples, const Transport& transport, int bounces) const {
+  Film film(int side, int samples, const Transport& transport, int bounces, const Skips& skips = {}) const {
     LocalRecords records(database_.bytes());
-    GridTracer<LocalRecords> tracer(records, database_.header(), {});
+    GridTracer<LocalRecords> tracer(records, database_.header(), skips);
     const ShadeOptions shade{
         .depth_max = bounces + 1, .first_samples = static_cast<std::uint32_t>(samples), .transport = transport};
-    const RenderSettings settings{database_.header(), Camera(scene_.view, frame(), side, side, samples), shade};
+    const RenderSettings settings{.header = database_.header(),
+                                  .camera = Camera(scene_.view, frame(), side, side, samples),
+                                  .shade = shade,
+                                  .skips = skips};
     operations = {};
     return render(tracer, settings, operations);
   }
@@ -226,6 +229,31 @@ TEST_CASE("a closed room without any light is black, and its paths end") {
   const Studio studio(room(grey(0.5), false));
   CHECK(studio.mean(8, 4, white_sky, 254) == 0);
   CHECK(studio.operations.ray_count() < 8 * 8 * 4 * 10);
+}
+
+TEST_CASE("where no light can be no path goes on, which is counted, and the film has the bits of one whose paths do") {
+  // Of albedo 1, so that no roulette ends a path.
+  const Studio studio(room(grey(1), false));
+  constexpr Transport black_sky{.kind = TransportKind::paths, .has_sky = true, .has_gradient = true};
+  for (const Transport& transport : {paths, black_sky}) {
+    const Film film = studio.film(8, 4, transport, 254);
+    CHECK(studio.operations.ray_count() == 8 * 8 * 4);
+    CHECK(studio.operations.skipped.zero_terms == 8 * 8 * 4);
+    const Film walked = studio.film(8, 4, transport, 254, no_skips());
+    CHECK(studio.operations.ray_count() > 8 * 8 * 4 * 254);
+    CHECK(studio.operations.skipped.zero_terms == 0);
+    CHECK(film.hash() == walked.hash());
+  }
+}
+
+TEST_CASE("a mirror before a backdrop shows it though nothing lights the scene, and what scatters there goes nowhere") {
+  Scene scene = seen_at_origin(floor_of({.color = {1, 1, 1}, .diffuse = 0.5, .specular = 0.5}), {0, -1, 1});
+  scene.background = {0.5, 0.5, 0.5};
+  const Studio studio(scene);
+  const Film film = studio.film(8, 16, paths, 8), walked = studio.film(8, 16, paths, 8, no_skips());
+  CHECK(film.hash() == walked.hash());
+  CHECK(Studio::mean_of(film) == doctest::Approx(0.25).epsilon(0.1));
+  CHECK(Studio(floor_of(grey(0.5))).mean(8, 4, paths, 8) == 0);
 }
 
 TEST_CASE("a floor under a sky that changes upwards shows its horizon and two thirds of what the zenith has more") {
