@@ -164,7 +164,7 @@ bool counts_pages(const RenderOptions& render) {
 }
 
 void add_options(OptionSet options, RenderOptions& render) {
-  render.picture.refines_meshes = true;
+  render.picture.presents_meshes = true;
   add_options(options, render.picture);
   add_transport_options(options, render.picture);
   options.add_required(
@@ -198,7 +198,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render rings-4-t1 --work-item=0 --in-flight=1 --references=rings.csv -o rings.png\n"
       "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"
       "  dmpc render teapot-12 --nodes=64 --runner=pool -o teapot.png\n"
-      "  dmpc render balls-4 --transport=paths --sky=0.4/0.1,0.2,0.8 --samples=64 -o balls.png\n"
+      "  dmpc render balls-4 --transport=paths --sky=0.4/0.1,0.2,0.8 --samples=auto -o balls.png\n"
       "  dmpc render teapot-12 --nodes=64 --runner=virtual --machine=ipsc860 --stats=teapot.json -o teapot.png\n"
       "  mpirun -n 4 dmpc render tetra-10 --runner=mpi --nodes=28 -o tetra.exr\n"
       "  dmpc render balls-6 --samples=256 --checkpoint=balls.checkpoint --resume -o balls.exr\n"

@@ -1,5 +1,7 @@
 #include "apps/scene/picture_options.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <string>
 #include <vector>
@@ -52,11 +54,40 @@ void apply_quality(const OptionSet& options, PictureOptions& picture) {
   }
 }
 
-void refine_mesh(const OptionSet& options, PictureOptions& picture) {
-  if (picture.refines_meshes && !picture.transport.is_by_paths() && !options.is_given("--samples") && !picture.quality &&
-      is_mesh(picture.scene)) {
+/// What says how a picture is lit or how well it is rendered, in words that are not those of paths alone. Who says any of it
+/// gets that, and nothing else that was not asked for.
+constexpr std::array said_otherwise{"--transport", "--samples", "--quality", "--light",  "--background",
+                                    "--fill",      "--ambient", "--depth",   "--cutoff", "--convention"};
+
+void present_mesh(const OptionSet& options, PictureOptions& picture) {
+  if (!picture.presents_meshes || !is_mesh(picture.scene)) {
+    return;
+  }
+  const bool is_said =
+      std::any_of(said_otherwise.begin(), said_otherwise.end(), [&](const char* name) { return options.is_given(name); });
+  if (!is_said) {
+    picture.is_by_paths_unasked = true;
+    picture.transport.kind = core::TransportKind::paths;
+    picture.transport.sky = picture.transport.sky || picture.transport.occlusion ? picture.transport.sky : mesh_sky();
+  }
+  const bool are_paths_asked_for = is_said && picture.transport.is_by_paths();
+  if (!are_paths_asked_for && !options.is_given("--samples") && !picture.quality) {
     take_samples(picture, "auto");
     picture.is_refined_unasked = !options.is_given("--error");
+  }
+}
+
+/// What a quality says of cutoffs is for rays that are not chosen by chance.
+void refine_paths(PictureOptions& picture) {
+  picture.cutoff = 0;
+  if (picture.is_refined) {
+    constexpr std::uint32_t least = core::least_refined_samples(core::ErrorKind::noise);
+    picture.refinement.kind = core::ErrorKind::noise;
+    picture.samples = core::first_refined_samples(core::ErrorKind::noise);
+    if (picture.refinement.samples_max < least) {
+      throw core::UsageError("--samples-max=" + std::to_string(picture.refinement.samples_max) + ": by paths expected at least " +
+                             std::to_string(least) + ", from which an error of noise is told");
+    }
   }
 }
 
@@ -66,13 +97,9 @@ void settle_transport(const OptionSet& options, PictureOptions& picture) {
   if (!picture.transport.is_by_paths()) {
     return;
   }
-  if (picture.is_refined) {
-    throw core::UsageError(
-        "--samples=auto does not go with --transport=paths: its estimate is made for edges, not for noise; say how many rays a "
-        "pixel gets, such as --samples=64");
-  }
+  refine_paths(picture);
   picture.depth = picture.transport.depth();
-  picture.is_one_path_unasked = !options.is_given("--samples");
+  picture.is_one_path_unasked = picture.samples == 1 && !options.is_given("--samples");
   if (picture.transport.sky) {
     picture.staging.background = picture.transport.sky->horizon;
   }
@@ -109,7 +136,7 @@ void add_options(OptionSet options, PictureOptions& picture) {
   add_options(options, picture.staging);
   add_view_options(options, picture);
   options.add_text(
-      "--samples", picture.refines_meshes ? "1..32768|auto [1, of a mesh file but by paths auto]" : "1..32768|auto [1]",
+      "--samples", picture.presents_meshes ? "1..32768|auto [1, of a mesh file auto]" : "1..32768|auto [1]",
       [&picture](const std::string& text) { take_samples(picture, text); },
       "Rays through each pixel; auto: as many as it needs for --error");
   options.add_text(
@@ -120,14 +147,14 @@ void add_options(OptionSet options, PictureOptions& picture) {
   options.add_text(
       "--cutoff", "C [0]", [&picture](const std::string& text) { picture.cutoff = parse_share(text, "--cutoff", true); },
       "Shoot no ray that can bring but less than C of light to its sample; 0 is exact");
-  options.add_choice<Quality>(
-      "--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}},
-      picture.refines_meshes ? "one ray a pixel, of a mesh file but by paths an error of 1/255" : "one ray a pixel",
-      "As --samples=auto with an error and a cutoff for a quick look, or for a good one; what other options say counts more");
+  options.add_choice<Quality>("--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}},
+                              picture.presents_meshes ? "one ray a pixel, of a mesh file an error of 1/255" : "one ray a pixel",
+                              "As --samples=auto with an error and, but by paths, a cutoff for a quick look, or for a good one; "
+                              "what other options say counts more");
   add_skip_option(options, picture.skips);
   options.check_in_the_end([options, &picture] {
     apply_quality(options, picture);
-    refine_mesh(options, picture);
+    present_mesh(options, picture);
     check_refinement(options, picture);
   });
 }

@@ -18,12 +18,11 @@
 
 namespace dmpc::apps {
 
-/// In the first pass of a refined picture: one would tell nothing of a pixel's error, the second tells it by what it changes, and
-/// two are what most pixels of most pictures need.
-inline constexpr int refined_samples = 2;
+/// In the first pass of a refined picture, where no path takes chances.
+inline constexpr int refined_samples = core::first_refined_samples(core::ErrorKind::edges);
 
-/// Names for choices of samples and cutoff, to be had without knowing them: draft shows within 5 of 255 steps, on average, what
-/// the converged picture would, standard within 2.
+/// Names for choices of samples and, but by paths, cutoff, to be had without knowing them: draft shows within 5 of 255 steps, on
+/// average, what the converged picture would, standard within 2.
 enum class Quality : std::uint8_t { draft, standard };
 
 struct QualityChoice {
@@ -40,8 +39,9 @@ struct PictureOptions {
   std::optional<Resolution> resolution;  ///< the view's own if not given
   int samples = 1;                       ///< per pixel, 1 to 32768 (core/picture/film.h says why); if refined, in the first pass
   bool is_refined = false;               ///< --samples=auto
-  bool refines_meshes = false;           ///< mesh files are refined, too, if neither samples nor a quality is asked for
+  bool presents_meshes = false;          ///< what a mesh file shows unless asked for follows below in add_options()
   bool is_refined_unasked = false;       ///< for that reason, to the default error
+  bool is_by_paths_unasked = false;      ///< for that reason
   bool is_one_path_unasked = false;      ///< by paths, and nobody has said how many samples
   core::RefinementOptions refinement;    ///< its error is 0 unless the picture is refined
   int depth = 5;                         ///< hits of this depth cast shadow rays only; 1 to 255; by paths the transport's
@@ -53,7 +53,9 @@ struct PictureOptions {
   TransportOptions transport;
 };
 
-/// Declares them. What refines_meshes is now decides of what it says.
+/// Declares them. What presents_meshes is now decides of what they say, and of what a mesh file shows by default. Where no option
+/// says how it is lit, by what transport, or how well: paths under mesh_sky(), or the sky that is asked for, to an error. Else
+/// Whitted's transport, to an error unless samples or a quality are asked for.
 void add_options(OptionSet options, PictureOptions& picture);
 /// Declares those of how light gets about, for commands that know of it. Behind the others.
 void add_transport_options(OptionSet options, PictureOptions& picture);

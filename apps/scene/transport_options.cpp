@@ -46,8 +46,6 @@ void check_paths(const OptionSet& options, const TransportOptions& transport) {
   refuse_each(options, {"--depth"}, by_paths + "say --bounces");
   refuse_each(options, {"--cutoff"}, by_paths + "a path that counts for little goes on by chance, which costs no light");
   refuse_each(options, {"--ambient"}, by_paths + "light from everywhere is a sky, say --sky");
-  refuse_each(options, {"--quality", "--error", "--samples-max"},
-              by_paths + "say how many rays a pixel gets, such as --samples=64");
   if (transport.sky) {
     refuse_each(options, {"--background"}, " does not go with --sky, which is what no ray meets");
   }
@@ -61,6 +59,8 @@ double share_sent_on(const core::Material& material) {
 }
 
 }  // namespace
+
+SkyChoice mesh_sky() { return {.horizon = {0.25, 0.27, 0.3}, .zenith = core::Vec3d{1.6, 1.5, 1.4}}; }
 
 SkyChoice parse_sky(const std::string& text) {
   const std::vector<std::string> parts = words_between(text, '/');

@@ -18,6 +18,10 @@ struct SkyChoice {
   std::optional<core::Vec3d> zenith;
 };
 
+/// Below which a mesh file is shown that nobody has lit: a studio, warm and bright above, dim and a little blue around and below,
+/// so that what is round looks round.
+SkyChoice mesh_sky();
+
 struct TransportOptions {
   core::TransportKind kind = core::TransportKind::whitted;
   int bounces = 8;                  ///< by paths: 0 to 254

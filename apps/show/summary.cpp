@@ -123,8 +123,10 @@ std::string sampling_line(const RenderOptions& options, const Account& account) 
 /// Behind the picture's name: how light got about, if not as by default, and samples that nobody asked for.
 std::string picture_text(const PictureOptions& picture) {
   const std::string transport = picture.transport.is_by_paths() ? ", " + text_of(picture.transport) : "";
-  return transport +
-         (picture.is_refined_unasked ? ", refined to the default error of 1/255 (--samples=1 for one ray a pixel)" : "");
+  return transport + (picture.is_refined_unasked ? ", refined to the default error of 1/255" : "") +
+         (picture.is_by_paths_unasked  ? " (--transport=whitted for hard light, --samples=1 for one ray of it a pixel)"
+          : picture.is_refined_unasked ? " (--samples=1 for one ray a pixel)"
+                                       : "");
 }
 
 StrategyLines lines_of(const RenderOptions& options, const svm::Report& report) {

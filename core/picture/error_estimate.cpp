@@ -20,7 +20,14 @@ constexpr double picture_weight = 8;
 constexpr float remembered_share = 0.5F;
 /// What a fall is taken for where nothing is known of it, which counts as that of so many pixels. Samples that meet this and that
 /// at random make it 1, edges spread(2) - 1, in the long run; from few samples to some more it is larger, and does not stay so.
-constexpr double usual_fall = 1.5, unknown_pixels = 64, fall_min = 1, fall_max = 1.8284271247461903;
+constexpr double unknown_pixels = 64;
+struct Falls {
+  double usual, least, most;
+};
+/// Of noise at most that of errors that fall as samples^(-4/5).
+constexpr Falls edge_falls{1.5, 1, 1.8284271247461903}, noise_falls{1.4, 1, 2.0314331330207964};
+
+const Falls& falls_of(ErrorKind kind) { return kind == ErrorKind::noise ? noise_falls : edge_falls; }
 
 /// What one pixel is of all that is told of a fall, at most: more than any is in pictures without a highlight. It is lowered so
 /// often at most, each time to down to this share.
@@ -61,15 +68,19 @@ void visit_around(std::uint32_t pixel, std::uint32_t width, std::uint32_t height
 
 }  // namespace
 
-double spread(std::uint32_t samples) { return samples * std::sqrt(double{1} * samples); }
+double spread(std::uint32_t samples, ErrorKind kind) {
+  const double root = std::sqrt(double{1} * samples);
+  return samples * (kind == ErrorKind::noise ? std::sqrt(root) : root);
+}
 
-ErrorEstimate::ErrorEstimate(int width, int height, const FineDetail* detail, double even)
+ErrorEstimate::ErrorEstimate(int width, int height, const FineDetail* detail, double even, ErrorKind kind)
     : width_(static_cast<std::uint32_t>(width)),
       height_(static_cast<std::uint32_t>(height)),
       tile_columns_(ceil_divide(width_, nearby_side)),
       tile_rows_(ceil_divide(height_, nearby_side)),
       detail_(detail),
       even_(even),
+      kind_(kind),
       seen_(std::size_t{width_} * height_),
       past_(seen_.size()),
       unseen_(std::size_t{tile_columns_} * tile_rows_) {}
@@ -77,6 +88,12 @@ ErrorEstimate::ErrorEstimate(int width, int height, const FineDetail* detail, do
 void ErrorEstimate::resume(std::span<const PixelPast> past) {
   expect(past.size() == past_.size(), "a pass under way has the past of all pixels");
   std::copy(past.begin(), past.end(), past_.begin());
+}
+
+void ErrorEstimate::take_means(const Film& film) {
+  for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
+    past_[pixel].mean = rounded(film.scaled_mean(pixel));
+  }
 }
 
 void ErrorEstimate::end_pass(const Film& film, const Pass& pass) {
@@ -136,6 +153,7 @@ void ErrorEstimate::note_changes(const Film& film, const Pass& pass, std::uint32
 /// outshines the others counts for a share at most. What they told stays as it was: who gets more samples is chosen by its
 /// change, so those that are left have a smaller one by choice.
 void ErrorEstimate::find_falls() {
+  const Falls& falls = falls_of(kind_);
   for (const bool detail : {false, true}) {
     const double limit = told_limit(detail);
     double change = 0, quarter_change = 0, count = 0;
@@ -148,9 +166,9 @@ void ErrorEstimate::find_falls() {
         count += past_[pixel].told_quarter_change > 0 ? 1 : 0;
       }
     }
-    const double found = change > 0 ? quarter_change / change - 2 : usual_fall;
+    const double found = change > 0 ? quarter_change / change - 2 : falls.usual;
     fall_[detail ? 1 : 0] =
-        std::clamp((count * found + unknown_pixels * usual_fall) / (count + unknown_pixels), fall_min, fall_max);
+        std::clamp((count * found + unknown_pixels * falls.usual) / (count + unknown_pixels), falls.least, falls.most);
   }
 }
 

@@ -12,6 +12,10 @@
 
 namespace dmpc::core {
 
+/// What the error of a pixel's mean comes from: edges of things and shadows, on both sides of which a pixel's samples fall as
+/// evenly as they lie, or chance, too, which paths take at every hit.
+enum class ErrorKind : std::uint8_t { edges, noise };
+
 /// What an estimate remembers of a pixel that a film does not tell.
 struct PixelPast {
   /// Of light as the film scales it, when the pass under way was chosen: to 2^-24 of itself, so what a pixel whose samples double
@@ -28,9 +32,10 @@ struct PixelPast {
   bool operator==(const PixelPast&) const = default;
 };
 
-/// samples^(3/2): what the variance of evenly spread samples is divided by where edges make it (D. P. Mitchell, "Consequences of
-/// Stratified Sampling in Graphics", SIGGRAPH 1996).
-double spread(std::uint32_t samples);
+/// What the variance of a mean of evenly spread samples is divided by. Edges: samples^(3/2) (D. P. Mitchell, "Consequences of
+/// Stratified Sampling in Graphics", SIGGRAPH 1996). Noise: samples^(5/4), between those of errors that fall as samples^(-1/2),
+/// where paths are long, and as samples^(-4/5), where one number decides.
+double spread(std::uint32_t samples, ErrorKind kind = ErrorKind::edges);
 
 /// Square errors of the means of pixels, of light as the film scales it; not thread-safe.
 ///
@@ -52,10 +57,12 @@ double spread(std::uint32_t samples);
 class ErrorEstimate {
  public:
   /// `detail` outlives it, if there is any. Pixels below `even` look even: a square error.
-  ErrorEstimate(int width, int height, const FineDetail* detail, double even);
+  ErrorEstimate(int width, int height, const FineDetail* detail, double even, ErrorKind kind = ErrorKind::edges);
 
   /// Goes on with the past of a pass under way, one for each pixel.
   void resume(std::span<const PixelPast> past);
+  /// Takes down the means of a first pass of which nothing else is asked: all pixels get as many samples again.
+  void take_means(const Film& film);
   /// The samples of the pass are counted on the film, whose light is all there.
   void end_pass(const Film& film, const Pass& pass);
   /// Remembers what is expected now, before the next pass.
@@ -63,6 +70,8 @@ class ErrorEstimate {
 
   /// The square of the error of a pixel's mean, as it is on the film.
   double square_error(const Film& film, std::uint32_t pixel) const;
+  /// By what its square error falls when its samples double.
+  double doubling(std::uint32_t pixel) const { return 1 / (1 + fall(pixel)); }
   /// Nothing is known of why it should be uneven.
   bool looks_even(std::uint32_t pixel) const { return double{seen_[pixel]} < even_ && !has_detail(pixel); }
   std::span<const PixelPast> past() const { return past_; }
@@ -78,6 +87,7 @@ class ErrorEstimate {
   void find_falls();
   double told_limit(bool detail) const;
   double fall(std::uint32_t pixel) const { return fall_[has_detail(pixel) ? 1 : 0]; }
+  double spread(std::uint32_t samples) const { return core::spread(samples, kind_); }
   void find_contrast(const Film& film);
   double detail_variance(std::uint32_t pixel, std::uint32_t samples) const;
   double unmet_detail(std::uint32_t pixel, std::uint32_t samples) const;
@@ -89,6 +99,7 @@ class ErrorEstimate {
   std::uint32_t width_, height_, tile_columns_, tile_rows_;
   const FineDetail* detail_;
   double even_;
+  ErrorKind kind_;
   double contrast_ = 0;  ///< the square of that of details
   /// (V(n) - V(2n)) / V(2n) where n is half of a pixel's samples: of pixels without fine detail, and of those with it.
   std::array<double, 2> fall_{1, 1};

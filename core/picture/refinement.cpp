@@ -11,8 +11,8 @@
 namespace dmpc::core {
 namespace {
 
-/// By what a square error falls when samples double: 1 / spread(2).
-constexpr double doubling = 0.35355339059327373;
+/// By what a square error of edges falls when samples double: 1 / spread(2).
+constexpr double edge_doubling = 0.35355339059327373;
 /// The share of the square error asked for that a pass aims at: a little lower, or small passes come at the end.
 constexpr double aim = 0.82;
 /// Shares of the square error asked for: pixels below the first look even, those below the second are good enough, whatever
@@ -66,13 +66,15 @@ Refinement::Refinement(const RefinementOptions& options, std::uint32_t samples, 
                        FilmScale scale)
     : scale_(scale.factor()),
       error_(options.error * scale_),
+      kind_(options.kind),
       level_max_(core::level_max(options, samples)),
       pass_(static_cast<std::uint32_t>(width * height), samples),
       pixel_count_(static_cast<std::uint32_t>(width * height)) {
   expect(samples > 0, "a picture has samples");
   if (options.is_wanted()) {
-    expect(samples == 2 && samples <= options.samples_max, "a picture that is refined starts with a sample on each plane");
-    estimate_.emplace(width, height, detail, even_share * error_ * error_);
+    expect(samples == first_refined_samples(kind_) && least_refined_samples(kind_) <= options.samples_max,
+           "a picture that is refined starts with as many samples as tell of an error");
+    estimate_.emplace(width, height, detail, even_share * error_ * error_, kind_);
     square_errors_.resize(pixel_count_);
   }
 }
@@ -96,9 +98,27 @@ bool Refinement::next_pass(Film& film) {
   if (!estimate_) {
     return false;
   }
+  if (begins_by_doubling()) {
+    double_all(film);
+    return true;
+  }
   estimate_->end_pass(film, pass_);
   find_errors(film);
   return result_.error > error_ && result_.passes < passes_max && choose(film);
+}
+
+/// All pixels get as many samples as they have, on the other plane.
+void Refinement::double_all(Film& film) {
+  estimate_->take_means(film);
+  for (std::uint32_t pixel = 0; pixel < pass_.steps().size(); ++pixel) {
+    pass_.steps()[pixel] = {1, 2};
+    gatherings_saturated_ += film.gather_planes(pixel) ? 1 : 0;
+  }
+  ++result_.passes;
+}
+
+double Refinement::doubling(std::uint32_t pixel) const {
+  return kind_ == ErrorKind::noise ? estimate_->doubling(pixel) : edge_doubling;
 }
 
 void Refinement::find_errors(const Film& film) {
@@ -151,8 +171,8 @@ Refinement::Promises Refinement::promises() const {
     double square_error = square_errors_[pixel];
     const std::uint32_t from = pass_.steps()[pixel].from(), end = std::min(level_max_, from + doublings_max);
     for (std::uint32_t level = from; level < end && square_error > negligible; ++level) {
-      promises.add(worth(pixel, square_error, level), square_error * (1 - doubling));
-      square_error *= doubling;
+      promises.add(worth(pixel, square_error, level), square_error * (1 - doubling(pixel)));
+      square_error *= doubling(pixel);
     }
   }
   return promises;
@@ -167,7 +187,7 @@ std::uint64_t Refinement::take_best(std::size_t threshold) {
     const std::uint32_t from = pass_.steps()[pixel].from(), end = std::min(level_max_, from + doublings_max);
     std::uint32_t to = from;
     while (to < end && square_error > negligible && Promises::bin_of(worth(pixel, square_error, to)) >= threshold) {
-      square_error *= doubling;
+      square_error *= doubling(pixel);
       ++to;
     }
     pass_.steps()[pixel] = {from, to};

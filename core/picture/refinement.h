@@ -22,9 +22,20 @@ struct RefinementOptions {
   double error = 0;
   /// A pixel has at most so many. Pixels stop below it: their samples double.
   std::uint32_t samples_max = 4096;
+  ErrorKind kind = ErrorKind::edges;
 
   constexpr bool is_wanted() const { return error > 0; }
 };
+
+/// Of every pixel in the first pass of a picture that is refined. Of edges two: one would tell nothing of a pixel's error, the
+/// second tells it by what it changes, and two are what most pixels of most pictures need. Of noise eight, and as many again for
+/// all pixels in a second pass, before anything is told from them: of so rare things as one sample in a hundred finds, fewer
+/// tell nothing in most neighbourhoods.
+constexpr std::uint32_t first_refined_samples(ErrorKind kind) { return kind == ErrorKind::noise ? 8 : 2; }
+/// A pixel of a picture that is refined has no fewer when it is done.
+constexpr std::uint32_t least_refined_samples(ErrorKind kind) {
+  return first_refined_samples(kind) * (kind == ErrorKind::noise ? 2 : 1);
+}
 
 /// The last pass ends a picture, whatever its error: with samples enough for any it comes sooner.
 inline constexpr std::uint32_t passes_max = 12;
@@ -49,7 +60,7 @@ struct RefinementResult {
 class Refinement {
  public:
   /// `samples`: of every pixel in the first pass, which is under way from the start. Requires two, and a film of this size and
-  /// scale, if there is an error to come down to; else any number. `detail`, if there is any, outlives it.
+  /// scale, if there is an error to come down to, or of noise eight; else any number. `detail`, if there is any, outlives it.
   Refinement(const RefinementOptions& options, std::uint32_t samples, int width, int height, const FineDetail* detail = nullptr,
              FilmScale scale = {});
 
@@ -72,6 +83,9 @@ class Refinement {
  private:
   class Promises;
 
+  bool begins_by_doubling() const { return kind_ == ErrorKind::noise && result_.passes == 1; }
+  void double_all(Film& film);
+  double doubling(std::uint32_t pixel) const;
   void find_errors(const Film& film);
   bool choose(Film& film);
   Promises promises() const;
@@ -84,6 +98,7 @@ class Refinement {
 
   double scale_;  ///< the film's: errors of light are multiplied by it
   double error_;  ///< the one asked for, scaled
+  ErrorKind kind_;
   std::uint32_t level_max_ = 1;
   Pass pass_;
   std::uint32_t pixel_count_;

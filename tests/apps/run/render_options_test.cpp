@@ -150,10 +150,57 @@ TEST_CASE("a quality chooses what no other option has said") {
   CHECK(contains(render_complaint({"--quality=best"}), "--quality"));
 }
 
-TEST_CASE("a mesh file is refined to the default error, without a cutoff, unless samples or a quality are asked for") {
+namespace {
+
+PictureOptions mesh(std::vector<std::string> more) {
+  more.insert(more.begin(), {"render", "a.glb", "-o", "a.png"});
+  return parse_command_line(more).options<RenderOptions>().picture;
+}
+
+}  // namespace
+
+TEST_CASE("a mesh file that nobody has lit is shown by paths under a sky, refined to the default error without a cutoff") {
+  const PictureOptions usual = mesh({});
+  CHECK(usual.transport.is_by_paths());
+  CHECK(usual.is_by_paths_unasked);
+  CHECK(text_of(*usual.transport.sky) == text_of(mesh_sky()));
+  CHECK(usual.staging.background == mesh_sky().horizon);
+  CHECK(usual.is_refined);
+  CHECK(usual.is_refined_unasked);
+  CHECK(usual.refinement.kind == core::ErrorKind::noise);
+  CHECK(usual.refinement.error == doctest::Approx(1.0 / 255));
+  CHECK(usual.cutoff == 0);
+  CHECK(usual.depth == 9);
+  CHECK(mesh({"--sky=0.5"}).staging.background == Vec3d{0.5, 0.5, 0.5});
+  CHECK(mesh({"--bounces=2"}).depth == 3);
+  CHECK(mesh({"--error=0.5"}).refinement.error == 0.5);
+  CHECK_FALSE(mesh({"--error=0.5"}).is_refined_unasked);
+  CHECK_FALSE(mesh({"--occlusion=2"}).transport.sky);
+  CHECK(mesh({"--occlusion=2"}).is_refined);
+  for (const char* const scene : {"teapot-12", "a.nff", "./a"}) {
+    CHECK_FALSE(parse_command_line(std::vector<std::string>{"render", scene, "-o", "a.png"})
+                    .options<RenderOptions>()
+                    .picture.transport.is_by_paths());
+  }
+}
+
+TEST_CASE("who says how a mesh file is lit, or how well it is rendered, gets what was asked for") {
+  for (const char* const said :
+       {"--transport=whitted", "--samples=1", "--samples=auto", "--quality=draft", "--light=1,2,3", "--background=0.5",
+        "--fill=0.3", "--ambient=0.1", "--depth=3", "--cutoff=0.01", "--convention=paper"}) {
+    CAPTURE(said);
+    CHECK_FALSE(mesh({said}).transport.is_by_paths());
+    CHECK_FALSE(mesh({said}).is_by_paths_unasked);
+  }
+  CHECK(mesh({"--transport=paths"}).samples == 1);
+  CHECK_FALSE(mesh({"--transport=paths"}).transport.sky);
+  CHECK_FALSE(mesh({"--transport=paths"}).is_by_paths_unasked);
+}
+
+TEST_CASE("a mesh file by Whitted's transport is refined to the default error unless samples or a quality are asked for") {
   const auto mesh = [](std::vector<std::string> more) {
-    more.insert(more.begin(), {"render", "a.glb", "-o", "a.png"});
-    return parse_command_line(more).options<RenderOptions>().picture;
+    more.insert(more.begin(), "--transport=whitted");
+    return render_options_test::mesh(more);
   };
   CHECK(mesh({}).is_refined);
   CHECK(mesh({}).is_refined_unasked);
@@ -495,64 +542,65 @@ TEST_CASE("options that do not go together are refused with the reason") {
 
 TEST_CASE("the help of render names every option and its default") {
   const std::string text = parse_command_line(std::vector<std::string>{"render", "--help"}).options<HelpText>().text;
-  for (const std::string word : {"Examples:",
-                                 "SCENE",
-                                 "--nodes",
-                                 "--strategy",
-                                 "svm|replicated|dataflow|forest [svm]",
-                                 "--node-memory",
-                                 "--page-size",
-                                 "SIZE [1KiB, forest 4KiB]",
-                                 "grid|extents|voxels [grid]",
-                                 "RULE [usual]",
-                                 "--cache-pages",
-                                 "--replacement",
-                                 "--in-flight",
-                                 "--work-item",
-                                 "--work-giver",
-                                 "ring|host [ring]",
-                                 "--system",
-                                 "--homes",
-                                 "spread|host|tree [spread]",
-                                 "--pixels",
-                                 "submaps|interleaved [submaps]",
-                                 "--workers",
-                                 "--resolution",
-                                 "--samples",
-                                 "--depth",
-                                 "--convention",
-                                 "--tracer",
-                                 "--no-skip",
-                                 "--stats",
-                                 "--quiet",
-                                 "-o",
-                                 "--grid-axes",
-                                 "world|screen [world]",
-                                 "--balance",
-                                 "subsampled|equal-size|scattered|moving [subsampled]",
-                                 "longer-side|alternating [longer-side]",
-                                 "--subsample",
-                                 "--balance-grid",
-                                 "--ray-batch",
-                                 "1..546 [what fills 4 KiB; 2 KiB if rays walk alone or with --ray-places, modelled machines 1 KiB]",
-                                 "--ray-credits",
-                                 "0..64 [4; up to 64 of few nodes whose rays walk together]",
-                                 "--ray-places",
-                                 "1..4096 [64 of more than 128 nodes; else credits]",
-                                 "--ray-queue",
-                                 "0..16384 [256; 512 if rays walk alone; 128 with --ray-places]",
-                                 "--tested-objects",
-                                 "--no-backpressure",
-                                 "--topology",
-                                 "--runner",
-                                 "threads|pool|virtual|mpi [threads]",
-                                 "MACHINE|FILE.json [ipsc2]",
-                                 "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
-                                 "--no-contention",
-                                 "--memory-port",
-                                 "64, replicated 16, forest 16 to 256, runner virtual 1, mpi up to 256",
-                                 "4, or 3 if rays walk alone",
-                                 "hypercube|mesh|torus|fat-tree|crossbar [hypercube]"}) {
+  for (const std::string word :
+       {"Examples:",
+        "SCENE",
+        "--nodes",
+        "--strategy",
+        "svm|replicated|dataflow|forest [svm]",
+        "--node-memory",
+        "--page-size",
+        "SIZE [1KiB, forest 4KiB]",
+        "grid|extents|voxels [grid]",
+        "RULE [usual]",
+        "--cache-pages",
+        "--replacement",
+        "--in-flight",
+        "--work-item",
+        "--work-giver",
+        "ring|host [ring]",
+        "--system",
+        "--homes",
+        "spread|host|tree [spread]",
+        "--pixels",
+        "submaps|interleaved [submaps]",
+        "--workers",
+        "--resolution",
+        "--samples",
+        "--depth",
+        "--convention",
+        "--tracer",
+        "--no-skip",
+        "--stats",
+        "--quiet",
+        "-o",
+        "--grid-axes",
+        "world|screen [world]",
+        "--balance",
+        "subsampled|equal-size|scattered|moving [subsampled]",
+        "longer-side|alternating [longer-side]",
+        "--subsample",
+        "--balance-grid",
+        "--ray-batch",
+        "1..546 [what fills 4 KiB; 2 KiB if rays walk alone or with --ray-places, modelled machines 1 KiB]",
+        "--ray-credits",
+        "0..64 [4; up to 64 of few nodes whose rays walk together]",
+        "--ray-places",
+        "1..4096 [64 of more than 128 nodes; else credits]",
+        "--ray-queue",
+        "0..16384 [256; 512 if rays walk alone; 128 with --ray-places]",
+        "--tested-objects",
+        "--no-backpressure",
+        "--topology",
+        "--runner",
+        "threads|pool|virtual|mpi [threads]",
+        "MACHINE|FILE.json [ipsc2]",
+        "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
+        "--no-contention",
+        "--memory-port",
+        "64, replicated 16, forest 16 to 256, runner virtual 1, mpi up to 256",
+        "4, or 3 if rays walk alone",
+        "hypercube|mesh|torus|fat-tree|crossbar [hypercube]"}) {
     CHECK_MESSAGE(contains(text, word), word);
   }
 }
@@ -599,6 +647,18 @@ TEST_CASE("paths have bounces in place of a depth, and a sky in place of a backg
   CHECK(sky.transport.sky->zenith == Vec3d{0.5, 0.5, 0.5});
 }
 
+TEST_CASE("by paths samples are refined from 16 on, in two passes, and a quality has no cutoff") {
+  const PictureOptions refined = render({"--transport=paths", "--samples=auto", "--samples-max=16"}).picture;
+  CHECK(refined.samples == 8);
+  CHECK(refined.refinement.kind == core::ErrorKind::noise);
+  CHECK_FALSE(refined.is_one_path_unasked);
+  const PictureOptions draft = render({"--quality=draft", "--transport=paths"}).picture;
+  CHECK(draft.is_refined);
+  CHECK(draft.cutoff == 0);
+  CHECK(draft.refinement.error == render({"--quality=draft"}).picture.refinement.error);
+  CHECK(render({"--samples=auto"}).picture.refinement.kind == core::ErrorKind::edges);
+}
+
 TEST_CASE("what does not go with paths, or without, is refused, and what to do is said") {
   CHECK(contains(render_complaint({"--bounces=3"}), "--bounces goes with --transport=paths"));
   CHECK(contains(render_complaint({"--sky=1"}), "--sky goes with --transport=paths"));
@@ -611,8 +671,7 @@ TEST_CASE("what does not go with paths, or without, is refused, and what to do i
   CHECK(contains(by_paths({"--depth=3"}), "--depth does not go with --transport=paths: say --bounces"));
   CHECK(contains(by_paths({"--cutoff=0.1"}), "--cutoff does not go with --transport=paths: a path that counts for little"));
   CHECK(contains(by_paths({"--ambient=0.1"}), "--ambient does not go with --transport=paths: light from everywhere is a sky"));
-  CHECK(contains(by_paths({"--quality=draft"}), "--quality does not go with --transport=paths: say how many rays"));
-  CHECK(contains(by_paths({"--samples=auto"}), "--samples=auto does not go with --transport=paths"));
+  CHECK(contains(by_paths({"--samples=auto", "--samples-max=15"}), "--samples-max=15: by paths expected at least 16"));
   CHECK(contains(by_paths({"--sky=1", "--background=0.5"}), "--background does not go with --sky"));
   CHECK(contains(by_paths({"--occlusion=1", "--sky=1"}), "--sky does not go with --occlusion"));
   CHECK(contains(by_paths({"--occlusion=1", "--light=1,2,3"}), "--light does not go with --occlusion"));

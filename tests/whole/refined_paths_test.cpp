@@ -1,0 +1,116 @@
+// The error that is asked for is kept by light along paths, whose samples are noise.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+
+#include "core/database/database.h"
+#include "core/picture/pixel_task.h"
+#include "core/scene/scene.h"
+#include "svm/run.h"
+#include "tests/support/film_error.h"
+#include "tests/support/small_scenes.h"
+
+namespace dmpc::refined_paths_test {
+
+namespace {
+
+using namespace core;
+
+constexpr int side = 32;
+constexpr Transport under_sky{.kind = TransportKind::paths, .has_sky = true};
+
+struct PathScene {
+  Scene scene;
+  Transport transport = under_sky;
+  int bounces = 3;
+};
+
+/// A picture by so many samples of each pixel, or by as many as the error asks for.
+svm::Report rendered(const PathScene& subject, int samples, double error) {
+  const Database database = build_database(subject.scene, {});
+  const ShadeOptions shade{.depth_max = subject.bounces + 1,
+                           .first_samples = static_cast<std::uint32_t>(samples),
+                           .film_scale = {},
+                           .transport = subject.transport};
+  const RenderSettings settings{.header = database.header(),
+                                .camera = Camera(subject.scene.view, database.header().frame, side, side, samples),
+                                .shade = shade,
+                                .refinement = {.error = error, .kind = ErrorKind::noise}};
+  return svm::run_replicated(database, settings, {.computer = {.node_count = 1}}, {});
+}
+
+svm::Report refined(const PathScene& subject, double error) {
+  return rendered(subject, static_cast<int>(first_refined_samples(ErrorKind::noise)), error);
+}
+
+double mean_of(const Film& film) {
+  double sum = 0;
+  for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
+    sum += film.radiance(pixel).x;
+  }
+  return sum / static_cast<double>(film.pixel_count());
+}
+
+void check_error(const PathScene& subject, double asked) {
+  const Film truth = rendered(subject, 2048, 0).film;
+  const svm::Report report = refined(subject, asked);
+  const double error = tests::root_mean_square(report.film, truth);
+  CAPTURE(error);
+  CAPTURE(report.refinement.error);
+  CAPTURE(report.refinement.passes);
+  CHECK(report.refinement.error > 0.8 * error);
+  CHECK(report.refinement.error < 1.25 * error);
+  CHECK(report.refinement.passes < passes_max);
+}
+
+Scene white_background(Scene scene) {
+  scene.background = {1, 1, 1};
+  return scene;
+}
+
+/// A ball that shines in a closed room, both of albedo 1/2.
+Scene furnace() {
+  Scene scene;
+  SceneBuilder builder(scene);
+  builder.material({.color = {0.5, 0.5, 0.5}, .diffuse = 1});
+  builder.sphere({0, 0, 0}, 4);
+  builder.material({.color = {0.5, 0.5, 0.5}, .diffuse = 1, .emission = {8, 8, 8}});
+  builder.sphere({1, 1, 2}, 0.6);
+  scene.view = {.from = {0.2, 0.1, 0}, .at = {1, 2, 3}, .up = {0, 1, 0}, .angle_degrees = 80};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: balls under a white sky") {
+  check_error({white_background(tests::built_in("balls-2"))}, 4.0 / 255);
+}
+TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: rings under a sky that changes upwards") {
+  Transport transport = under_sky;
+  transport.has_gradient = true;
+  transport.zenith = {0.1F, 0.3F, 2.0F};
+  check_error({white_background(tests::built_in("rings-2")), transport}, 4.0 / 255);
+}
+TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: mountains, one bounce") {
+  check_error({white_background(tests::built_in("mount-4")), under_sky, 1}, 4.0 / 255);
+}
+TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: a small ball lights a room") {
+  check_error({furnace(), {.kind = TransportKind::paths}, 4}, 8.0 / 255);
+}
+
+TEST_CASE("a closed room that shines with 1 has its exact mean, as far as 1.5 %, when it is refined") {
+  Scene scene = furnace();
+  scene.materials[0].emission = scene.materials[1].emission = {1, 1, 1};
+  for (const double asked : {16.0 / 255, 4.0 / 255}) {
+    const svm::Report report = refined({scene, {.kind = TransportKind::paths}, 4}, asked);
+    CHECK(mean_of(report.film) == doctest::Approx(2 * (1 - 0x1p-6)).epsilon(0.015));
+  }
+}
+
+TEST_CASE("a room that a small ball lights stays as bright as it is, as far as 1.5 %, when it is refined") {
+  const PathScene subject{furnace(), {.kind = TransportKind::paths}, 4};
+  const double mean = mean_of(rendered(subject, 2048, 0).film);
+  CHECK(mean_of(refined(subject, 8.0 / 255).film) == doctest::Approx(mean).epsilon(0.015));
+}
+
+}  // namespace dmpc::refined_paths_test
