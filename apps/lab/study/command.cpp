@@ -66,6 +66,11 @@ std::string samples_text(const PictureOptions& picture) {
   return picture.cutoff > 0 ? text + ", cutoff " + fixed(255 * picture.cutoff, 3) + "/255" : text;
 }
 
+/// "depth 5", or by paths how light gets about.
+std::string light_text(const PictureOptions& picture) {
+  return picture.transport.is_by_paths() ? text_of(picture.transport) : "depth " + std::to_string(picture.depth);
+}
+
 /// "structure extents, " or "structure voxels (article), ", nothing of the grid.
 std::string structure_text(const core::BuildOptions& build) {
   using core::Structure;
@@ -77,10 +82,10 @@ std::string title_of(const std::string& study, const StudyOptions& options, cons
   const PictureOptions& picture = options.picture;
   const core::Camera& camera = subject.settings.camera;
   return "Study " + study + " of " + picture.scene + ": " + std::to_string(camera.width()) + "x" +
-         std::to_string(camera.height()) + " pixels, " + samples_text(picture) + ", depth " + std::to_string(picture.depth) +
-         ", convention " + (picture.convention == core::Convention::haines ? "haines" : "paper") + ", grid axes " +
-         name_of(options.database.axes) + ", record order " + name_of(options.database.build.record_order) + ", " +
-         structure_text(options.database.build) + counted(subject.database.header().primitive_count, "primitive");
+         std::to_string(camera.height()) + " pixels, " + samples_text(picture) + ", " + light_text(picture) + ", convention " +
+         (picture.convention == core::Convention::haines ? "haines" : "paper") + ", grid axes " + name_of(options.database.axes) +
+         ", record order " + name_of(options.database.build.record_order) + ", " + structure_text(options.database.build) +
+         counted(subject.database.header().primitive_count, "primitive");
 }
 
 std::string film_note(const StudyRuns& runs) {

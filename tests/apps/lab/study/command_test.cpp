@@ -87,6 +87,17 @@ TEST_CASE("a study says what it studied, its rows, and the film of all runs") {
   CHECK_FALSE(contains(text, "Interrupted"));
 }
 
+TEST_CASE("a study by paths says how light got about, and gives the one film of paths") {
+  StudyOptions options = small_study("balls-1");
+  const std::string whitted = output_of(options);
+  options.picture.transport = {.kind = core::TransportKind::paths, .bounces = 1};
+  options.picture.depth = options.picture.transport.depth();
+  const std::string paths = output_of(options);
+  CHECK(contains(paths, "1 sample a pixel, paths, 1 bounce, convention haines"));
+  CHECK(contains(paths, "Film of every run, 6 in all: "));
+  CHECK(whitted.substr(whitted.find("Film of")) != paths.substr(paths.find("Film of")));
+}
+
 TEST_CASE("a study along the screen's axes says so and gives another film") {
   StudyOptions options = small_study();
   const std::string world = output_of(options);

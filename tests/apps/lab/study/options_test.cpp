@@ -64,6 +64,20 @@ TEST_CASE("options of a study are taken") {
   CHECK(taken.per_node);
 }
 
+TEST_CASE("every study goes along paths, too, with the options that render has") {
+  for (const std::string name : {"balance", "traffic", "cache", "speedup", "systems"}) {
+    CAPTURE(name);
+    const PictureOptions picture = study(name, {"--transport=paths", "--bounces=3", "--sky=1/0,0,1", "--samples=4"}).picture;
+    CHECK(text_of(picture.transport) == "paths, 3 bounces, sky 1,1,1/0,0,1");
+    CHECK(picture.depth == 4);
+    CHECK(picture.staging.background == core::Vec3d{1, 1, 1});
+    CHECK(usage_complaint({"study", name, "teapot-12", "--bounces=3"}).find("goes with --transport=paths") != std::string::npos);
+  }
+  CHECK_FALSE(study("traffic").picture.transport.is_by_paths());
+  CHECK_FALSE(parse_command_line({"study", "traffic", "a.glb"}).options<StudyOptions>().picture.transport.is_by_paths());
+  CHECK(parse_command_line({"study", "traffic", "a.glb"}).options<StudyOptions>().picture.samples == 1);
+}
+
 TEST_CASE("node counts are taken in the order given, equal ones too") {
   CHECK(balance({"--nodes=64,1,64,1024"}).node_counts == Counts{64, 1, 64, 1024});
 }

@@ -56,6 +56,18 @@ TEST_CASE("a run is a line of render: its scene, what all have, what varies, and
   CHECK(runs[1].options.computer.node_count == 2);
 }
 
+TEST_CASE("a mesh file that is swept has one ray a pixel, unless something is said of that") {
+  SweepSettings mesh = varying({"nodes:2"});
+  mesh.scene = "a.glb";
+  CHECK(apps::sweep_runs(mesh)[0].words == std::vector<std::string>{"render", "a.glb", "--samples=1", "--nodes=2"});
+  CHECK_FALSE(apps::sweep_runs(mesh)[0].options.picture.transport.is_by_paths());
+  mesh.fixed = {"--transport=paths"};
+  CHECK(apps::sweep_runs(mesh)[0].words == std::vector<std::string>{"render", "a.glb", "--transport=paths", "--nodes=2"});
+  mesh.fixed = {};
+  mesh.variations.push_back(apps::parse_variation("samples:1,4"));
+  CHECK(apps::sweep_runs(mesh)[1].options.picture.samples == 4);
+}
+
 TEST_CASE("how something is rendered can vary, and what is written where cannot") {
   for (const char* const name : {"--nodes", "--machine", "--samples", "--no-skip", "--count-pages", "--light", "--chaos"}) {
     CHECK_MESSAGE(is_sweepable(name), name);
