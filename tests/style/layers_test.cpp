@@ -118,7 +118,7 @@ const std::vector<Foreign> foreign = {
       "apps/edge/system/module.cpp"}},
     {"atomic",
      {"nodes/", "tests/", "apps/edge/system/interrupt.", "apps/edge/system/last_words.", "apps/render/preview.",
-      "apps/lab/bench/speed/plain_renderer.", "apps/lab/bench/speed/packet_renderer."}},
+      "apps/lab/bench/speed/plain_tiles.h", "apps/lab/bench/speed/packet_renderer."}},
     {"mutex",
      {"nodes/", "tests/", "apps/edge/line/shown_text.h", "apps/render/preview.", "apps/lab/study/sweep/kept_runs.cpp",
       "apps/lab/study/runs.cpp", "apps/lab/study/references/command.cpp", "core/database/parallel.cpp"}},

@@ -58,6 +58,13 @@ constexpr std::array part_rows = {
             "than that the round has no figure, and a scene without any is not among those that a mean is of. Beside busy "
             "processes renders the plain renderer, too."},
     PartRow{
+        .measure = measure_paths,
+        .explanation =
+            "paths: the phase render in processor time, 16 samples a pixel, three bounces, a white sky. The plain path tracer "
+            "has "
+            "the same places in pixels, chances, ways on and roulette, asks Embree (robust, high quality) for one ray at a time, "
+            "and emulates nothing; so its picture has our error, and lies from ours as far as rounding leads paths elsewhere."},
+    PartRow{
         .measure = measure_kernel,
         .explanation =
             "kernel: rays of one render, up to so many a class, and bounces at random from what the eye sees; all contenders "
@@ -260,7 +267,8 @@ void add_options(OptionSet set, SpeedOptions& options) {
       "tetra-9, with balls-2-t4 for plain, tetra-10 for build, load and memory, and for pages those of the 1994 article");
   set.add_text(
       "--parts", "NAME,NAME,... [all]", [&options](const std::string& text) { options.parts = parse_speed_parts(text); },
-      "What is measured: plain (all beside a plain renderer), kernel (rays a second), picture (a whole render), emulation (many "
+      "What is measured: plain (all beside a plain renderer), paths (beside a plain path tracer), kernel (rays a second), "
+      "picture (a whole render), emulation (many "
       "nodes, small caches), build (databases), load (mesh files), memory (of the real computer), pages (against the article)");
   set.add_flag("--ablation", options.is_ablation,
                "Instead: what each skip (render --no-skip) is worth. Without SCENE balls-4 and tree-8, too");
@@ -272,7 +280,7 @@ void add_options(OptionSet set, SpeedOptions& options) {
       [&settings](const std::string& text) { settings.thread_counts = parse_thread_counts(text); },
       "Threads that trace in kernel, and that build in build");
   set.add_text(
-      "--resolution", "WxH [512x512, plain and emulation 1024x1024]",
+      "--resolution", "WxH [512x512, plain and emulation 1024x1024, paths 256x256]",
       [&settings](const std::string& text) { settings.resolution = parse_resolution(text); }, "Pixels of the pictures");
   set.add_flag("--details", options.has_details, "Print every comparison, too, not the means of them alone");
   add_options(set, options.table, TableExtras::plots);

@@ -23,7 +23,7 @@ std::size_t peak_of(const std::string& scene, const SpeedSettings& settings, con
                     const Interrupt& interrupt) {
   const PictureOptions picture = settings.picture_of(SpeedPart::memory, scene);
   return peak_anonymous_bytes(settings.program,
-                              {"render", scene, "--nodes=" + std::to_string(memory_node_count), "--quiet",
+                              {"render", scene, "--nodes=" + std::to_string(memory_node_count), "--quiet", "--samples=1",
                                "--resolution=" + text_of(*picture.resolution), "-o", (folder / "picture.exr").string()},
                               interrupt);
 }

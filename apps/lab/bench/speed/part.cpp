@@ -14,13 +14,14 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<const char*, 9> names = {"plain", "kernel", "picture", "emulation", "build",
-                                              "load",  "memory", "pages",   "ablation"};
+constexpr std::array<const char*, 10> names = {"plain", "paths", "kernel", "picture", "emulation",
+                                               "build", "load",  "memory", "pages",   "ablation"};
 /// The others come before it.
 constexpr auto comparing_count = static_cast<std::ptrdiff_t>(SpeedPart::ablation);
 constexpr std::uint32_t thread_count_max = 1024;
 /// A million triangles.
 constexpr const char* big_scene = "tetra-10";
+constexpr int paths_side = 256, path_samples = 16, path_bounces = 3;
 /// A quarter of that, which part plain sets up some thirty times.
 constexpr const char* large_scene = "tetra-9";
 
@@ -29,9 +30,10 @@ SpeedPart parse_part(const std::string& word) {
   if (found == end) {
     const std::vector<std::string> all(names.begin(), end);
     const std::string meant = core::did_you_mean(word, all);
-    throw core::UsageError("--parts=" + word +
-                           ": expected plain, kernel, picture, emulation, build, load, memory, pages, with commas between" +
-                           (meant.empty() ? "" : ".") + meant);
+    throw core::UsageError(
+        "--parts=" + word +
+        ": expected plain, paths, kernel, picture, emulation, build, load, memory, pages, with commas between" +
+        (meant.empty() ? "" : ".") + meant);
   }
   return SpeedPart{static_cast<std::uint8_t>(found - names.begin())};
 }
@@ -63,6 +65,9 @@ std::vector<std::string> default_scenes(SpeedPart part) {
 }
 
 int default_side(SpeedPart part) {
+  if (part == SpeedPart::paths) {
+    return paths_side;
+  }
   return part == SpeedPart::plain || part == SpeedPart::emulation ? 1024 : static_cast<int>(paper_resolution);
 }
 
@@ -117,6 +122,12 @@ PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scen
   PictureOptions picture;
   picture.scene = scene;
   picture.resolution = resolution.value_or(Resolution{side, side});
+  if (part == SpeedPart::paths) {
+    picture.samples = path_samples;
+    picture.transport = {.kind = core::TransportKind::paths, .bounces = path_bounces, .sky = SkyChoice{{1, 1, 1}, {}}};
+    picture.depth = picture.transport.depth();
+    picture.staging.background = picture.transport.sky->horizon;
+  }
   return picture;
 }
 

@@ -74,6 +74,7 @@ std::vector<std::string> command_of(const PlainContender& contender, const std::
   return {"render",
           scene,
           "--quiet",
+          "--samples=1",
           std::string("--strategy=") + name_of(*contender.strategy),
           std::string("--runner=") + name_of(contender.runner),
           "--nodes=" + std::to_string(contender.count),

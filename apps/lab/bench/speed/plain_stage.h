@@ -22,9 +22,8 @@ struct PlainCamera {
 
   explicit PlainCamera(const core::Camera& camera);
   /// Of unit length.
-  core::Vec3f towards(int x, int y) const {
-    return normalize(corner + right * static_cast<float>(x) + down * static_cast<float>(y));
-  }
+  core::Vec3f towards(float x, float y) const { return normalize(corner + right * x + down * y); }
+  core::Vec3f towards(int x, int y) const { return towards(static_cast<float>(x), static_cast<float>(y)); }
 };
 
 /// A surface with what its finish says of it. Where alpha tells, the picture is textured, and is compared with none.

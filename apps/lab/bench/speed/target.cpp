@@ -124,6 +124,18 @@ std::vector<Target> pair_targets() {
            .counts = [](const C& c) { return is_timed(c, SpeedPart::plain, "ranks", "dataflow on 2 nodes, 2 ranks"); }}};
 }
 
+/// At equal error, which the same samples have.
+Target path_cost(const char* subject, double reach, double goal) {
+  return {.name = std::string(subject) + " over a plain path tracer on as many threads, render, processor time",
+          .reach = reach,
+          .goal = goal,
+          .counts = [subject](const C& c) { return is_of(c, SpeedPart::paths, "render", subject); }};
+}
+
+std::vector<Target> path_targets() {
+  return {path_cost("replicated on 1 node", 1.4, 1.2), path_cost("svm on 2 nodes", 1.6, 1.3)};
+}
+
 std::vector<Target> other_targets() {
   return {
       {.name = "Whole picture on 2 nodes over the same with --tracer=embree",
@@ -171,7 +183,7 @@ std::vector<Target> other_targets() {
 const std::vector<Target>& speed_targets() {
   static const std::vector<Target> targets = [] {
     std::vector<Target> all;
-    for (const std::vector<Target>& some : {cost_targets(), pair_targets(), kernel_targets(), other_targets()}) {
+    for (const std::vector<Target>& some : {cost_targets(), pair_targets(), path_targets(), kernel_targets(), other_targets()}) {
       all.insert(all.end(), some.begin(), some.end());
     }
     return all;

@@ -1,0 +1,107 @@
+// The plain path tracer of `bench speed`, and how ours is held against it.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "apps/lab/bench/speed/parts.h"
+#include "apps/lab/bench/speed/plain_path_renderer.h"
+#include "core/base/expect.h"
+#include "core/picture/render.h"
+#include "tests/support/small_subject.h"
+
+namespace dmpc::tests::plain_paths_test {
+
+using apps::Comparison;
+using apps::PathDistance;
+using apps::PlainPathRenderer;
+using apps::PlainPicture;
+using apps::SpeedPart;
+
+namespace {
+
+apps::Subject subject_by_paths(const std::string& scene, int bounces, bool has_sky) {
+  apps::PictureOptions picture{.scene = scene, .resolution = apps::Resolution{24, 20}, .samples = 16};
+  picture.transport = {.kind = core::TransportKind::paths, .bounces = bounces};
+  if (has_sky) {
+    picture.transport.sky = apps::SkyChoice{{1, 1, 1}, core::Vec3d{0.2, 0.4, 0.8}};
+    picture.staging.background = picture.transport.sky->horizon;
+  }
+  picture.depth = picture.transport.depth();
+  return apps::build_subject(apps::load_scene(picture), picture);
+}
+
+core::Film film_of(const apps::Subject& subject, std::uint64_t& rays) {
+  core::Operations operations;
+  core::LocalRecords records(subject.database.bytes());
+  core::GridTracer<core::LocalRecords> tracer(records, subject.settings.header, subject.settings.skips);
+  core::Film film = core::render(tracer, subject.settings.with_every_ray_traced(), operations);
+  rays = operations.ray_count();
+  return film;
+}
+
+}  // namespace
+
+TEST_CASE("the plain path tracer goes our paths, to rounding: its rays are ours, and its picture lies within our noise") {
+  // Flat and smooth triangles, mirrors, glass, spheres, cones.
+  for (const char* scene : {"tetra-3", "teapot-3", "mount-4", "balls-2", "balls-2-t2", "rings-2", "tree-3"}) {
+    for (const int bounces : {0, 1, 5}) {
+      CAPTURE(std::string(scene));
+      CAPTURE(bounces);
+      const apps::Subject subject = subject_by_paths(scene, bounces, true);
+      std::uint64_t rays = 0;
+      const core::Film film = film_of(subject, rays);
+      const PlainPicture picture = PlainPathRenderer(subject).render(1);
+      CHECK(static_cast<double>(picture.rays) == doctest::Approx(static_cast<double>(rays)).epsilon(0.02));
+      const PathDistance distance = apps::path_distance(picture, film, scene);
+      CHECK(distance.apart < apps::path_distance_max * distance.noise);
+    }
+  }
+}
+
+TEST_CASE("without a sky the plain path tracer's eye and mirrors see the backdrop, and what it scatters does not") {
+  const apps::Subject subject = subject_by_paths("balls-2", 3, false);
+  std::uint64_t rays = 0;
+  const core::Film film = film_of(subject, rays);
+  CHECK_NOTHROW(apps::path_distance(PlainPathRenderer(subject).render(1), film, "balls-2"));
+}
+
+TEST_CASE("the plain path tracer's picture is the same on any number of threads") {
+  const apps::Subject subject = subject_by_paths("teapot-3", 2, true);
+  const PlainPathRenderer renderer(subject);
+  const PlainPicture one = renderer.render(1), three = renderer.render(3);
+  CHECK(std::ranges::equal(one.pixels.span(), three.pixels.span()));
+  CHECK(one.rays == three.rays);
+}
+
+TEST_CASE("a path picture that is brighter than ours, or beyond our noise, is an error") {
+  const apps::Subject subject = subject_by_paths("tetra-2", 2, true);
+  std::uint64_t rays = 0;
+  const core::Film film = film_of(subject, rays);
+  PlainPicture picture = PlainPathRenderer(subject).render(1);
+  CHECK_NOTHROW(apps::path_distance(picture, film, "tetra-2"));
+  picture.pixels[7].y += 10;
+  CHECK_THROWS_WITH_AS(apps::path_distance(picture, film, "tetra-2"),
+                       doctest::Contains("the plain path tracer's picture of tetra-2 lies"), core::InternalError);
+}
+
+TEST_CASE("part paths holds ours against the plain path tracer on as many threads, by processor time") {
+  apps::SpeedSettings settings;
+  settings.scenes = {"tetra-2"};
+  settings.resolution = {16, 16};
+  settings.rounds = 2;
+  apps::Interrupt interrupt;
+  std::vector<Comparison> results;
+  apps::measure_paths(settings, interrupt, results);
+  REQUIRE(results.size() == 4);
+  CHECK(results[0].subject == "replicated on 1 node");
+  CHECK(results[0].rival == "plain paths on 1 thread");
+  CHECK(results[1].subject == "svm on 2 nodes");
+  CHECK(results[1].rival == "plain paths on 2 threads");
+  CHECK(results[0].rounds() == 2);
+  CHECK(results[2].what == "rays");
+  CHECK(results[3].what == "distance");
+}
+
+}  // namespace dmpc::tests::plain_paths_test
