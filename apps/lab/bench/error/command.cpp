@@ -1,6 +1,7 @@
 #include "apps/lab/bench/error/command.h"
 
 #include <algorithm>
+#include <bit>
 #include <iostream>
 #include <set>
 #include <span>
@@ -28,6 +29,9 @@ constexpr std::uint32_t default_reference_side = 32;
 /// A quick bench is to end within half a minute on two cores.
 constexpr std::uint32_t quick_reference_side = 16;
 constexpr Resolution quick_resolution{192, 192};
+
+/// As many as errors of pictures by paths are measured against, and in a quick bench as 192x192 pixels have time for.
+constexpr std::uint32_t path_reference_side = 128, quick_path_reference_side = 32;
 
 /// An even number: the reference has two halves.
 std::uint32_t parse_reference_side(const std::string& text) {
@@ -72,13 +76,28 @@ TableFiles files_of(const ErrorOptions& options) {
   return {options.table, plotted, others};
 }
 
+std::string light_text(const PictureOptions& picture) {
+  return picture.transport.is_by_paths() ? ", " + text_of(picture.transport) : " at depth " + std::to_string(picture.depth);
+}
+
 std::string title_of(const ErrorOptions& options) {
   const MeasureOptions& measure = options.measure;
-  return "Error against time: about " + counted(static_cast<std::uint64_t>(measure.picture.samples), "sample") +
-         " a pixel at depth " + std::to_string(measure.picture.depth) + ", convention " +
+  return "Error against time: about " + counted(static_cast<std::uint64_t>(measure.picture.samples), "sample") + " a pixel" +
+         light_text(measure.picture) + ", convention " +
          (measure.picture.convention == core::Convention::haines ? "haines" : "paper") + ", " +
          name_of(measure.strategy.strategy) + " on " + counted(measure.strategy.computer.node_count, "node") + ", " +
          counted(measure.rounds, "round");
+}
+
+const std::vector<std::string>& explanations_of_paths() {
+  static const std::vector<std::string> sentences = {
+      "Errors are against the converged picture by our own arithmetic, of other samples than those of all rows; a row whose RMSE "
+      "is less than 10 times the reference's own error claims nothing and is on no Pareto front; plots show what is left of it, "
+      "hollow, between what is left if that error were twice as large, a tenth at least, and all of it.",
+      "Seconds are those of processors. Fewer bounces are darker, which is an error that no samples take away; roulette is none.",
+      "Adaptive sampling is asked for no smaller error than the reference's own.",
+      "Ratios at equal RMSE are interpolated in logarithms, after the reference's own error is taken off in squares."};
+  return sentences;
 }
 
 const std::vector<std::string>& explanations() {
@@ -95,7 +114,8 @@ const std::vector<std::string>& explanations() {
 
 Table finished_table(const ErrorOptions& options, std::span<const SceneResult> results, double load, bool is_whole) {
   Table table = table_of(results, title_of(options));
-  for (const std::string& sentence : explanations()) {
+  const bool are_by_paths = options.measure.picture.transport.is_by_paths();
+  for (const std::string& sentence : are_by_paths ? explanations_of_paths() : explanations()) {
     table.add_note(sentence);
   }
   if (options.measure.pictures) {
@@ -161,7 +181,30 @@ void choose_quick(const OptionSet& set, MeasureOptions& measure) {
   }
   measure.rounds = set.is_given("--repeat") ? measure.rounds : 1;
   if (!set.is_given("--reference-samples")) {
-    measure.reference.samples_a_side = quick_reference_side;
+    measure.reference.samples_a_side = measure.picture.transport.is_by_paths() ? quick_path_reference_side : quick_reference_side;
+  }
+}
+
+/// What is turned by default, and what references have, depends on the transport.
+void choose_transport(const OptionSet& set, MeasureOptions& measure) {
+  const bool are_by_paths = measure.picture.transport.is_by_paths();
+  if (measure.picture.transport.occlusion) {
+    throw core::UsageError("--occlusion does not go with bench error, which turns bounces: leave it out");
+  }
+  if (!set.is_given("--knobs")) {
+    measure.knobs = all_knobs(are_by_paths);
+  }
+  check_knobs(measure.knobs, are_by_paths);
+  if (!are_by_paths) {
+    return;
+  }
+  std::uint32_t& side = measure.reference.samples_a_side;
+  side = set.is_given("--reference-samples") ? side : path_reference_side;
+  if (!std::has_single_bit(side)) {
+    throw core::UsageError("--reference-samples=" + std::to_string(side) + ": by paths expected a power of two from 2 to 128");
+  }
+  if (set.is_given("--references")) {
+    throw core::UsageError("--references does not go with --transport=paths, whose references are not kept");
   }
 }
 
@@ -180,7 +223,7 @@ void add_turned_options(OptionSet set, ErrorOptions& options) {
         options.has_tessellation = measure.knobs.contains(Knob::tessellation);
       },
       "What is turned, one at a time: samples, adaptive (sampling), cutoff, depth, tessellation, arithmetic, quality (draft, "
-      "default); adaptive with cutoff or depth together as well");
+      "default); adaptive with cutoff or depth together as well. By paths samples, adaptive, bounces and roulette");
   set.add_flag(
       "--quick", measure.is_quick,
       "Fewer positions of each knob, and, where nothing else is said, 192x192 pixels, one round and 16 x 16 rays through "
@@ -209,8 +252,10 @@ void add_options(OptionSet set, ErrorOptions& options) {
   add_turned_options(set, options);
   add_options(set, measure.picture.staging);
   add_view_options(set, measure.picture);
+  add_transport_options(set, measure.picture);
   set.add_text(
-      "--reference-samples", "N, even, 2..128 [" + std::to_string(default_reference_side) + "]",
+      "--reference-samples",
+      "N, even, 2..128 [" + std::to_string(default_reference_side) + ", by paths " + std::to_string(path_reference_side) + "]",
       [&measure](const std::string& text) { measure.reference.samples_a_side = parse_reference_side(text); },
       "N x N rays through each pixel of the reference");
   set.add_path("--references", "FOLDER [~/.cache/dmpc]", measure.reference.folder, "Where references are kept");
@@ -225,6 +270,7 @@ void add_options(OptionSet set, ErrorOptions& options) {
       "Examples:\n"
       "  dmpc bench error teapot-12 --quick\n"
       "  dmpc bench error rings-3 balls-3 --knobs=samples,adaptive --plots=plots -o error.md\n"
+      "  dmpc bench error balls-3 --transport=paths --bounces=4 --sky=1 --quick\n"
       "  dmpc bench error shells-3 --knobs=depth,cutoff --repeat=1 --pictures=errors --format=csv -o shells.csv\n"
       "With -o on a terminal, plots go to a folder beside the table, here error_plots, unless --plots or --quiet says "
       "otherwise.\n"
@@ -234,6 +280,7 @@ void add_options(OptionSet set, ErrorOptions& options) {
     if (options.table.file && !options.table.plots && !options.quiet && stderr_is_terminal()) {
       options.table.plots = plots_beside(*options.table.file);
     }
+    choose_transport(set, options.measure);
     if (options.measure.is_quick) {
       choose_quick(set, options.measure);
     }

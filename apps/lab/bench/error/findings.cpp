@@ -148,7 +148,9 @@ std::string scientific(double value) {
 
 std::string reference_text(const SceneResult& result) {
   const std::string n = std::to_string(result.reference_samples_a_side);
-  return result.scene + ": the reference has " + n + "x" + n + " samples a pixel, depth " + std::to_string(result.base.depth) +
+  return result.scene + ": the reference has " + n + "x" + n + " samples a pixel, " +
+         (result.base.is_by_paths() ? counted(static_cast<std::uint64_t>(*result.base.bounces), "bounce")
+                                    : "depth " + std::to_string(result.base.depth)) +
          ", " + grouped(result.reference.rays) + " rays in " + seconds_text(result.reference.seconds) +
          (result.reference.from_cache ? " when it was made" : "") + "; its own error is " +
          fixed(255 * result.reference.own_error, 4) + "/255 (relative MSE " +

@@ -11,11 +11,13 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<const char*, 9> names = {"samples",           "adaptive",   "cutoff",  "depth",
-                                              "tessellation",      "arithmetic", "quality", "adaptive and cutoff",
-                                              "adaptive and depth"};
+constexpr std::array<const char*, 11> names = {"samples",           "adaptive", "cutoff",  "depth",    "tessellation",
+                                               "arithmetic",        "quality",  "bounces", "roulette", "adaptive and cutoff",
+                                               "adaptive and depth"};
 /// So many of these the command line knows.
-constexpr std::size_t single_count = 7;
+constexpr std::size_t single_count = 9;
+constexpr const char *whitted_knobs = "samples,adaptive,cutoff,depth,tessellation,arithmetic,quality",
+                     *path_knobs = "samples,adaptive,bounces,roulette";
 
 Knob knob_of(const std::string& word, const std::string& text) {
   const auto* const end = names.begin() + single_count;
@@ -23,10 +25,8 @@ Knob knob_of(const std::string& word, const std::string& text) {
   if (found == end) {
     const std::vector<std::string> all(names.begin(), end);
     const std::string meant = core::did_you_mean(word, all);
-    throw core::UsageError(
-        "--knobs=" + text +
-        ": expected some of samples,adaptive,cutoff,depth,tessellation,arithmetic,quality with commas between them" +
-        (meant.empty() ? "" : ".") + meant);
+    throw core::UsageError("--knobs=" + text + ": expected some of " + whitted_knobs + ", or by paths of " + path_knobs +
+                           ", with commas between them" + (meant.empty() ? "" : ".") + meant);
   }
   return static_cast<Knob>(found - names.begin());
 }
@@ -53,6 +53,16 @@ std::set<Knob> parse_knobs(const std::string& text) {
   return knobs;
 }
 
-std::set<Knob> all_knobs() { return parse_knobs("samples,adaptive,cutoff,depth,tessellation,arithmetic,quality"); }
+std::set<Knob> all_knobs(bool are_by_paths) { return parse_knobs(are_by_paths ? path_knobs : whitted_knobs); }
+
+void check_knobs(const std::set<Knob>& knobs, bool are_by_paths) {
+  const std::set<Knob> all = all_knobs(are_by_paths);
+  for (const Knob knob : knobs) {
+    if (!all.contains(knob)) {
+      throw core::UsageError(std::string("--knobs=") + name_of(knob) + (are_by_paths ? " does not go" : " goes") +
+                             " with --transport=paths: expected some of " + (are_by_paths ? path_knobs : whitted_knobs));
+    }
+  }
+}
 
 }  // namespace dmpc::apps

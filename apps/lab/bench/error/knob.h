@@ -7,7 +7,7 @@
 
 namespace dmpc::apps {
 
-/// The last two turn two knobs together.
+/// The last two turn two knobs together. By paths there are samples, adaptive, bounces and roulette, and else all but the latter.
 enum class Knob : std::uint8_t {
   samples,
   adaptive,
@@ -16,6 +16,8 @@ enum class Knob : std::uint8_t {
   tessellation,
   arithmetic,
   quality,
+  bounces,
+  roulette,
   adaptive_and_cutoff,
   adaptive_and_depth
 };
@@ -27,7 +29,9 @@ const char* name_of(Knob knob);
 /// that is none, listing those that there are.
 std::set<Knob> parse_knobs(const std::string& text);
 
-/// All that the scene and its family allow.
-std::set<Knob> all_knobs();
+/// All that the scene and its family allow, of pictures by paths or of others.
+std::set<Knob> all_knobs(bool are_by_paths = false);
+/// Throws core::UsageError, listing those that there are, for knobs that such pictures do not have.
+void check_knobs(const std::set<Knob>& knobs, bool are_by_paths);
 
 }  // namespace dmpc::apps

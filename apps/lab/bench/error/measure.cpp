@@ -11,6 +11,7 @@
 #include "apps/edge/table/rounds.h"
 #include "apps/effort/effort.h"
 #include "apps/effort/pilot.h"
+#include "apps/lab/bench/error/path_reference.h"
 #include "apps/lab/oracle/accurate/picture.h"
 #include "apps/lab/study/engine/timed_render.h"
 #include "apps/picture/film_image.h"
@@ -28,6 +29,11 @@ PictureOptions picture_of(PictureOptions picture, const Setting& setting) {
   picture.refinement.error = setting.error;
   picture.depth = setting.depth;
   picture.cutoff = setting.cutoff;
+  if (setting.is_by_paths()) {
+    picture.refinement.kind = core::ErrorKind::noise;
+    picture.transport.bounces = *setting.bounces;
+    picture.depth = picture.transport.depth();
+  }
   return picture;
 }
 
@@ -103,6 +109,9 @@ class Bench {
     result_.width = size.width;
     result_.height = size.height;
     result_.base = {.samples = options.picture.samples, .depth = options.picture.depth};
+    if (options.picture.transport.is_by_paths()) {
+      result_.base.bounces = options.picture.transport.bounces;
+    }
     result_.reference_samples_a_side = options.reference.samples_a_side;
   }
 
@@ -128,8 +137,8 @@ class Bench {
     const core::Database& database = built.subject.database;
     const PictureOptions base = picture_of(options_.picture, result_.base);
     const double picture = picture_seconds(database, render_settings(base, built.scene, database));
-    const double side = options_.reference.samples_a_side;
-    const double reference = double_factor * picture * side * side / result_.base.samples;
+    const double side = options_.reference.samples_a_side, factor = result_.base.is_by_paths() ? 1 : double_factor;
+    const double reference = factor * picture * side * side / result_.base.samples;
     const double rounds = static_cast<double>(options_.rounds) * (options_.is_quick ? quick_renders : renders) * picture;
     announce("bench error " + result_.scene, {.seconds = (reference + rounds) / core_count()}, false, std::cerr);
   }
@@ -164,7 +173,13 @@ class Bench {
   void find_reference() {
     Progress progress(std::cerr, stderr_is_terminal(), "reference of " + result_.scene + ":", "rows");
     const PictureOptions picture = picture_of(options_.picture, result_.base);
-    result_.reference = reference_for(scenes_.exact(), picture, options_.reference, attendance(progress));
+    if (result_.base.is_by_paths()) {
+      const std::uint32_t side = options_.reference.samples_a_side;
+      result_.reference =
+          path_reference(scenes_.of(0).subject.database, settings_of(result_.base), side * side, attendance(progress));
+    } else {
+      result_.reference = reference_for(scenes_.exact(), picture, options_.reference, attendance(progress));
+    }
   }
 
   Attendance attendance(Progress& progress) const {
@@ -187,14 +202,19 @@ class Bench {
     accurate_ = accurate_image(render_accurately(scene, finder, camera, pattern, settings.shade, attendance(progress)));
   }
 
-  Rendered render(const Setting& setting) {
+  core::RenderSettings settings_of(const Setting& setting) {
     const Scenes::Built& built = scenes_.of(setting.tessellation);
-    const core::Database& database = built.subject.database;
-    const core::RenderSettings settings = render_settings(picture_of(options_.picture, setting), built.scene, database);
-    const TimedRender one = render_timed(options_.strategy, database, settings, interrupt_);
+    core::RenderSettings settings = render_settings(picture_of(options_.picture, setting), built.scene, built.subject.database);
+    settings.shade.transport.roulette_from = static_cast<std::uint8_t>(setting.roulette_from);
+    return settings;
+  }
+
+  Rendered render(const Setting& setting) {
+    const TimedRender one =
+        render_timed(options_.strategy, scenes_.of(setting.tessellation).subject.database, settings_of(setting), interrupt_);
     const Account account = account_of(one.report);
     return {.picture = image_of(account.film),
-            .seconds = one.times.wall_seconds,
+            .seconds = setting.is_by_paths() ? one.times.processor_seconds : one.times.wall_seconds,
             .rays = account.operations.ray_count(),
             .samples = account.film.samples(),
             .film_hash = account.film.hash()};
@@ -225,7 +245,7 @@ class Bench {
       }
     }
     measurement.error = measure_error(picture, result_.reference.picture);
-    if (base_ && !setting.is_refined() && setting.samples == result_.base.samples) {
+    if (base_ && !setting.is_by_paths() && !setting.is_refined() && setting.samples == result_.base.samples) {
       measurement.deterministic = measure_error(picture, *base_);
     }
     if (options_.pictures) {

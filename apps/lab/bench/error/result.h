@@ -16,12 +16,12 @@ namespace dmpc::apps {
 /// One setting, rendered once in each round.
 struct Measurement {
   Setting setting;
-  std::vector<double> seconds;  ///< of the phase `render`, by round; empty: not measured yet
+  std::vector<double> seconds;  ///< of the phase `render`, by round, by paths of processors; empty: not measured yet
   std::uint64_t rays = 0;       ///< of all kinds
   std::uint64_t samples = 0;    ///< of all pixels
   std::uint64_t film_hash = 0;
   PictureError error;                         ///< against the reference: sampling and all else
-  std::optional<PictureError> deterministic;  ///< against the base point's picture, if that has the same samples
+  std::optional<PictureError> deterministic;  ///< against the base point's picture, if that has the same samples; not by paths
 
   bool is_done() const { return !seconds.empty(); }
 };

@@ -28,6 +28,10 @@ constexpr std::array<Named, 8> errors = {{{"16/255", 16.0 / 255},
                                           {"1/2040", 1.0 / 2040}}};
 constexpr std::array<Named, 6> cutoffs = {
     {{"1/64", 1.0 / 64}, {"1/255", 1.0 / 255}, {"1/512", 1.0 / 512}, {"1/1024", 1.0 / 1024}, {"1/4096", 1.0 / 4096}, {"0", 0}}};
+constexpr std::array bounce_counts = {0, 1, 2, 3, 4, 6, 8, 12, 16, 32, 64, 128};
+/// Hits from which on paths may end by chance. The last is beyond all.
+constexpr std::array<Named, 5> roulettes = {
+    {{"from hit 1", 1}, {"from hit 2", 2}, {"from hit 3", 3}, {"from hit 5", 5}, {"never", 255}}};
 constexpr std::array depths = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 16, 24, 32, 64, 128};
 
 constexpr std::uint64_t tessellated_primitives_max = 1'000'000;
@@ -54,6 +58,10 @@ class Sweep {
       case Knob::quality:
         add(Knob::quality, "draft", with_quality(Quality::draft));
         return add(Knob::quality, "default", with_quality(Quality::standard));
+      case Knob::bounces:
+        return add_bounces();
+      case Knob::roulette:
+        return add_each(roulettes, [&](const Named& first) { add(Knob::roulette, first.text, ended(base_, first)); });
       case Knob::adaptive_and_cutoff:
         return add_pairs(std::array{cutoffs[1], cutoffs[3]}, knob, " cutoff ", cut);
       case Knob::adaptive_and_depth:
@@ -78,7 +86,7 @@ class Sweep {
 
   Setting refined(const Named& error) const {
     Setting setting = base_;
-    setting.samples = refined_samples;
+    setting.samples = base_.is_by_paths() ? core::first_refined_samples(core::ErrorKind::noise) : refined_samples;
     setting.error = error.value;
     return setting;
   }
@@ -91,6 +99,10 @@ class Sweep {
   }
   static Setting cut(Setting setting, const Named& cutoff) {
     setting.cutoff = cutoff.value;
+    return setting;
+  }
+  static Setting ended(Setting setting, const Named& first) {
+    setting.roulette_from = static_cast<int>(first.value);
     return setting;
   }
   static Setting shallow(Setting setting, const Named& depth) {
@@ -112,6 +124,9 @@ class Sweep {
 
   void add_samples() {
     std::set<int> counts = options_.is_quick ? std::set{1, 4, 16, 32, 64} : std::set{1, 4, 16, 32, 64, 256};
+    if (base_.is_by_paths()) {
+      counts.insert(256);
+    }
     counts.insert(base_.samples);
     for (const int count : counts) {
       Setting setting = base_;
@@ -127,6 +142,17 @@ class Sweep {
       Setting setting = base_;
       setting.depth = depth;
       add(Knob::depth, std::to_string(depth), setting);
+    });
+  }
+
+  void add_bounces() {
+    std::vector<int> positions(bounce_counts.begin(),
+                               std::lower_bound(bounce_counts.begin(), bounce_counts.end(), *base_.bounces));
+    positions.push_back(*base_.bounces);
+    add_each(positions, [&](int bounces) {
+      Setting setting = base_;
+      setting.bounces = bounces;
+      add(Knob::bounces, std::to_string(bounces), setting);
     });
   }
 

@@ -1,6 +1,7 @@
 #include "apps/lab/bench/error/table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -132,12 +133,16 @@ void add_rows(Table& table, const SceneResult& result, const FilledColumns<Error
 }
 
 std::size_t color_of(Knob knob) {
-  return knob == Knob::adaptive_and_depth ? 7 : knob == Knob::adaptive_and_cutoff ? 5 : static_cast<std::size_t>(knob);
+  return knob == Knob::adaptive_and_depth    ? 7
+         : knob == Knob::adaptive_and_cutoff ? 5
+         : knob == Knob::bounces             ? color_of(Knob::depth)
+         : knob == Knob::roulette            ? color_of(Knob::cutoff)
+                                             : static_cast<std::size_t>(knob);
 }
 
 /// Two knobs at once are a cloud, and so is what has one point; the others are curves.
 PlotSeries series_of(Knob knob) {
-  const bool is_cloud = knob >= Knob::arithmetic;
+  const bool is_cloud = knob >= Knob::arithmetic && knob != Knob::bounces && knob != Knob::roulette;
   return {name_of(knob), "drawn RMSE", {{"knob", name_of(knob)}}, is_cloud ? PlotMark::points : PlotMark::line, color_of(knob)};
 }
 
@@ -155,8 +160,11 @@ PlotSeries uncertain_series_of(Knob knob) {
 Plot plot_of(const SceneResult& result, const std::string& name, PlotAxis x, const std::string& column,
              const std::string& front) {
   std::vector<PlotSeries> series;
-  for (const Knob knob : {Knob::samples, Knob::adaptive, Knob::cutoff, Knob::depth, Knob::tessellation, Knob::adaptive_and_cutoff,
-                          Knob::adaptive_and_depth}) {
+  constexpr std::array whitted{
+      Knob::samples,           Knob::adaptive, Knob::cutoff, Knob::depth, Knob::tessellation, Knob::adaptive_and_cutoff,
+      Knob::adaptive_and_depth};
+  constexpr std::array paths{Knob::samples, Knob::adaptive, Knob::bounces, Knob::roulette};
+  for (const Knob knob : result.base.is_by_paths() ? std::span<const Knob>(paths) : std::span<const Knob>(whitted)) {
     series.push_back(series_of(knob));
     series.push_back(uncertain_series_of(knob));
   }
@@ -186,7 +194,10 @@ Table plotted_table(const SceneResult& result) {
 }
 
 std::vector<Plot> plots_of(const SceneResult& result, const std::string& name) {
-  return {plot_of(result, name + "_seconds", {.label = "seconds to render (median)"}, "seconds median", "front by seconds"),
+  const bool is_by_paths = result.base.is_by_paths();
+  return {plot_of(result, name + "_seconds",
+                  {.label = is_by_paths ? "processor seconds to render (median)" : "seconds to render (median)"},
+                  "seconds median", "front by seconds"),
           plot_of(result, name + "_rays", {.label = "rays of all kinds"}, "rays", "front by rays")};
 }
 

@@ -15,6 +15,7 @@
 #include "tests/support/painted_square.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
+#include "tests/support/usage.h"
 
 namespace dmpc::tests::error_command_test {
 
@@ -55,6 +56,33 @@ TEST_CASE("bench error prints a row for each point, and what they say") {
     CHECK(contains(table, part));
   }
   CHECK_FALSE(contains(table, "| tessellation "));
+}
+
+TEST_CASE("bench error turns samples, adaptive samples, bounces and roulette of a picture by paths, and no other knob") {
+  const std::string table = output_of(error_options(
+      {"balls-1", "--transport=paths", "--bounces=2", "--sky=1", "--resolution=12x12", "--quick", "--reference-samples=16"}));
+  CHECK(contains(table, "16 samples a pixel, paths, 2 bounces, sky 1,1,1, convention"));
+  for (const char* part : {"| samples ", "| adaptive ", "| bounces ", "| roulette ", "never",
+                           "the reference has 16x16 samples a pixel, 2 bounces", "Seconds are those of processors"}) {
+    CAPTURE(std::string(part));
+    CHECK(contains(table, part));
+  }
+  for (const char* part : {"| cutoff ", "| depth ", "| arithmetic ", "| quality "}) {
+    CAPTURE(std::string(part));
+    CHECK_FALSE(contains(table, part));
+  }
+}
+
+TEST_CASE("of pictures by paths bench error has a reference of 2^14 samples, and refuses knobs that are not theirs") {
+  CHECK(error_options({"balls-1", "--transport=paths"}).measure.reference.samples_a_side == 128);
+  CHECK(error_options({"balls-1", "--transport=paths", "--quick"}).measure.reference.samples_a_side == 32);
+  CHECK(contains(usage_complaint({"bench", "error", "balls-1", "--transport=paths", "--knobs=cutoff"}),
+                 "--knobs=cutoff does not go with --transport=paths"));
+  CHECK(contains(usage_complaint({"bench", "error", "balls-1", "--knobs=roulette"}), "--knobs=roulette goes with"));
+  CHECK(contains(usage_complaint({"bench", "error", "balls-1", "--transport=paths", "--reference-samples=12"}),
+                 "expected a power of two"));
+  CHECK(contains(usage_complaint({"bench", "error", "balls-1", "--transport=paths", "--occlusion=1"}),
+                 "--occlusion does not go with bench error"));
 }
 
 TEST_CASE("the base point of bench error has no deterministic error and float next to none") {

@@ -44,6 +44,20 @@ TEST_CASE("a sweep turns one knob at a time and ends at the base point") {
   CHECK(sweep({}, {}).empty());
 }
 
+TEST_CASE("by paths a sweep turns bounces up to the base point's, and from where roulette ends paths, if it does") {
+  const Setting base{.bounces = 4};
+  CHECK(texts(sweep(base, {.knobs = {Knob::bounces}})) == Texts{"0", "1", "2", "3", "4"});
+  CHECK(texts(sweep({.bounces = 0}, {.knobs = {Knob::bounces}})) == Texts{"0"});
+  CHECK(sweep(base, {.knobs = {Knob::bounces}}).back().setting == base);
+  const auto roulette = sweep(base, {.knobs = {Knob::roulette}});
+  CHECK(texts(roulette) == Texts{"from hit 1", "from hit 2", "from hit 3", "from hit 5", "never"});
+  CHECK(roulette[2].setting == base);
+  for (const Point& point : sweep(base, {.knobs = {Knob::adaptive}})) {
+    CHECK(point.setting.samples == 8);
+    CHECK(point.setting.is_refined());
+  }
+}
+
 TEST_CASE("two knobs together leave out what one of them alone has") {
   const auto pairs = sweep({.depth = 4}, {.knobs = {Knob::adaptive_and_depth, Knob::adaptive_and_cutoff}});
   for (const Point& point : pairs) {
