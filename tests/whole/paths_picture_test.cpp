@@ -32,6 +32,13 @@ Subject::Size size_of(const core::Transport& transport, int bounces) {
           .depth_max = bounces + 1};
 }
 
+Subject::Size refined_size() {
+  Subject::Size size = size_of(under_sky(), 2);
+  size.samples = core::first_refined_samples(core::ErrorKind::noise);
+  size.refinement = {.error = 12.0 / 255, .kind = core::ErrorKind::noise};
+  return size;
+}
+
 core::Scene ball_in_the_air() {
   core::Scene scene;
   scene.background = {0.4, 0.5, 0.6};
@@ -137,6 +144,42 @@ TEST_CASE("a picture by paths that was stopped goes on to the film of one run, b
   const core::Continuation rest{&*kept, [] { return false; }, {}};
   CHECK(run_svm(subject, {.computer = {.node_count = 2}, .continuation = rest}).film.hash() == subject.outcome().film_hash);
   CHECK(run_dataflow(subject, {.computer = {.node_count = 2}, .continuation = rest}).film.hash() == subject.outcome().film_hash);
+}
+
+TEST_CASE("a picture by paths that is refined is one by every strategy, under chaos, too") {
+  const Subject subject(mesh_surfaces(), refined_size());
+  check_strategies(subject);
+  check_strategies(subject, nodes::chaos_of(1));
+  const Subject extents(mesh_surfaces(), refined_size(), {.page_size_bytes = 512, .structure = core::Structure::extents});
+  CHECK(outcome_of(run_forest(extents, {.computer = {.node_count = 3}})) == extents.outcome());
+}
+
+TEST_CASE("a picture by paths that is refined goes on from any of its passes to the film of one run, with one estimate") {
+  const Subject subject(mesh_surfaces(), refined_size());
+  const core::RefinementResult whole = run_svm(subject, {.computer = {.node_count = 2}}).refinement;
+  REQUIRE(whole.passes > 2);
+  for (std::uint32_t passes = 1; passes <= whole.passes; ++passes) {
+    CAPTURE(passes);
+    std::optional<core::PartialPicture> kept;
+    std::stop_source stop;
+    const core::Continuation continuation{nullptr, [] { return true; },
+                                          [&](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
+                                            if (pass.result().passes == passes && !kept) {
+                                              kept.emplace(core::partial_picture(film, pass, done));
+                                              stop.request_stop();
+                                            }
+                                          }};
+    svm::run_svm(subject.database(), subject.settings(), {.computer = {.node_count = 3}, .continuation = continuation},
+                 stop.get_token());
+    REQUIRE(kept);
+    CHECK(core::fault_of(*kept, {.samples = 8, .refinement = subject.settings().refinement}) == nullptr);
+    const core::Continuation rest{&*kept, [] { return false; }, {}};
+    const auto by_pages = run_svm(subject, {.computer = {.node_count = 2}, .continuation = rest});
+    CHECK(by_pages.film.hash() == subject.outcome().film_hash);
+    CHECK(by_pages.refinement.error == whole.error);
+    CHECK(run_dataflow(subject, {.computer = {.node_count = 2}, .continuation = rest}).film.hash() ==
+          subject.outcome().film_hash);
+  }
 }
 
 TEST_CASE("by paths a pixel under way takes the memory of one hit, whatever the bounces") {
