@@ -35,7 +35,7 @@ Subject::Size size_of(const core::Transport& transport, int bounces) {
 Subject::Size refined_size() {
   Subject::Size size = size_of(under_sky(), 2);
   size.samples = core::first_refined_samples(core::ErrorKind::noise);
-  size.refinement = {.error = 12.0 / 255, .kind = core::ErrorKind::noise};
+  size.refinement = {.error = 4.0 / 255, .kind = core::ErrorKind::noise};
   return size;
 }
 
