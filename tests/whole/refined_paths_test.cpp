@@ -16,7 +16,7 @@ namespace {
 
 using namespace core;
 
-constexpr int side = 24;
+constexpr int side = 32;
 constexpr Transport under_sky{.kind = TransportKind::paths, .has_sky = true};
 
 struct PathScene {

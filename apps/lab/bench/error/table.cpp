@@ -97,6 +97,13 @@ const FilledColumns<ErrorRow>& error_columns() {
   return columns;
 }
 
+/// No error of a picture by paths is that of one knob alone.
+FilledColumns<ErrorRow> columns_of(bool are_by_paths) {
+  FilledColumns<ErrorRow> columns = error_columns();
+  std::erase_if(columns, [&](const auto& one) { return are_by_paths && one.column.name.starts_with("deterministic"); });
+  return columns;
+}
+
 /// What is drawn beside: of rows that are claimed their error as it is, of the others what is left of it, and between what.
 FilledColumns<ErrorRow> make_drawn_columns() {
   using Row = ErrorRow;
@@ -180,9 +187,10 @@ Plot plot_of(const SceneResult& result, const std::string& name, PlotAxis x, con
 }  // namespace
 
 Table table_of(std::span<const SceneResult> results, const std::string& title) {
-  Table table(title, heads_of(error_columns()));
+  const FilledColumns<ErrorRow> columns = columns_of(!results.empty() && results.front().base.is_by_paths());
+  Table table(title, heads_of(columns));
   for (const SceneResult& result : results) {
-    add_rows(table, result, error_columns());
+    add_rows(table, result, columns);
   }
   return table;
 }

@@ -31,13 +31,8 @@ std::string rival_name(const PathContender& contender) { return "plain paths on 
 /// The renders of one scene.
 class PathsBench {
  public:
-  PathsBench(const std::string& scene, const SpeedSettings& settings, const Interrupt& interrupt,
-             std::vector<Comparison>& results)
-      : scene_(scene),
-        interrupt_(interrupt),
-        results_(results),
-        subject_(settings.subject_of(SpeedPart::paths, scene)),
-        plain_(subject_) {}
+  PathsBench(const std::string& scene, const Subject& subject, const Interrupt& interrupt, std::vector<Comparison>& results)
+      : scene_(scene), interrupt_(interrupt), results_(results), subject_(subject), plain_(subject_) {}
 
   void measure(std::size_t rounds) {
     Matches matches(results_);
@@ -93,7 +88,7 @@ class PathsBench {
   std::string scene_;
   const Interrupt& interrupt_;
   std::vector<Comparison>& results_;
-  Subject subject_;
+  const Subject& subject_;
   PlainPathRenderer plain_;
   std::optional<PlainPicture> picture_;
   std::optional<core::Film> film_;
@@ -105,10 +100,11 @@ class PathsBench {
 void measure_paths(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
   for (const std::string& scene : settings.scenes_of(SpeedPart::paths)) {
     interrupt.check();
-    if (settings.subject_of(SpeedPart::paths, scene).database.records().textured > 0) {
+    const Subject subject = settings.subject_of(SpeedPart::paths, scene);
+    if (subject.database.records().textured > 0) {
       std::cerr << "dmpc: " << scene << " has textures, of which the plain path tracer knows nothing: left out of part paths\n";
     } else {
-      PathsBench(scene, settings, interrupt, results).measure(settings.rounds_of(SpeedPart::paths));
+      PathsBench(scene, subject, interrupt, results).measure(settings.rounds_of(SpeedPart::paths));
     }
   }
 }

@@ -67,7 +67,7 @@ TEST_CASE("bench error turns samples, adaptive samples, bounces and roulette of 
     CAPTURE(std::string(part));
     CHECK(contains(table, part));
   }
-  for (const char* part : {"| cutoff ", "| depth ", "| arithmetic ", "| quality "}) {
+  for (const char* part : {"| cutoff ", "| depth ", "| arithmetic ", "| quality ", "deterministic"}) {
     CAPTURE(std::string(part));
     CHECK_FALSE(contains(table, part));
   }
@@ -76,6 +76,8 @@ TEST_CASE("bench error turns samples, adaptive samples, bounces and roulette of 
 TEST_CASE("of pictures by paths bench error has a reference of 2^14 samples, and refuses knobs that are not theirs") {
   CHECK(error_options({"balls-1", "--transport=paths"}).measure.reference.samples_a_side == 128);
   CHECK(error_options({"balls-1", "--transport=paths", "--quick"}).measure.reference.samples_a_side == 32);
+  CHECK(error_options({"balls-1", "--transport=paths"}).measure.picture.resolution->width == 128);
+  CHECK(error_options({"balls-1", "--transport=paths", "--quick"}).measure.picture.resolution->width == 96);
   CHECK(contains(usage_complaint({"bench", "error", "balls-1", "--transport=paths", "--knobs=cutoff"}),
                  "--knobs=cutoff does not go with --transport=paths"));
   CHECK(contains(usage_complaint({"bench", "error", "balls-1", "--knobs=roulette"}), "--knobs=roulette goes with"));
