@@ -17,7 +17,7 @@ inline PixelSums background_sums(std::uint64_t pixels, const RenderSettings& set
   PixelSums sums;
   Operations of_one;
   for (std::uint32_t i = 0; i < samples.count; ++i) {
-    const Ray ray{.sample = samples.first + i};
+    const Ray ray{.sample = static_cast<std::uint16_t>(samples.first + i)};
     deposit(sums, ray, settings.light_of_miss(ray), settings, of_one);
   }
   operations.rays[static_cast<std::size_t>(RayKind::primary)] += pixels * samples.count;

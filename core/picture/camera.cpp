@@ -55,7 +55,7 @@ Ray Camera::primary_ray(std::uint32_t pixel, std::uint32_t sample) const {
   ray.cone = cone_bits(start);
   ray.go_along(towards);
   ray.pixel = pixel;
-  ray.sample = sample;
+  ray.sample = static_cast<std::uint16_t>(sample);
   return ray;
 }
 

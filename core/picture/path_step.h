@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "core/base/vec.h"
@@ -15,13 +16,17 @@ struct PathStep {
   Vec3d towards;                      ///< of unit length
   Color weight;                       ///< what the path's own is multiplied by
   RayKind kind = RayKind::scattered;  ///< of the ray
+  /// With which the direction was chosen, per steradian: response_towards() there. Of a mirror and of glass, which leave no
+  /// choice, infinite.
+  double density = std::numeric_limits<double>::infinity();
 };
 
-/// What a hit's chances are for, each with a pair of numbers of its own. Behind them come one for the choice of a light, and one
-/// for the place on it.
-enum class Purpose : std::uint32_t { choice, direction };
+/// What a hit's chances are for, each with a pair of numbers of its own: the way in which its path goes on and roulette, whither,
+/// the choice of an emitter, and the place on that.
+enum class Purpose : std::uint32_t { choice, direction, emitter, place };
 /// The pair of a hit at `depth`, 1 or more; pair 0 of a sample is its place in the pixel.
 SamplePair pair_of(std::uint32_t pixel, std::uint32_t sample, int depth, Purpose purpose);
+inline SamplePair pair_of(const Ray& ray, Purpose purpose) { return pair_of(ray.pixel, ray.sample, ray.depth, purpose); }
 /// Hits before this one always go on, unless a transport says otherwise.
 inline constexpr int roulette_from = Transport().roulette_from;
 

@@ -86,7 +86,8 @@ struct RenderSettings {
   Color light_of_miss(const Ray& ray) const { return ray.kind == RayKind::shadow ? ray.weight : ray.weight * light_beyond(ray); }
   /// A primary ray that is known to miss: its direction is there where light_beyond() asks for it.
   Ray missing_ray(std::uint32_t pixel, std::uint32_t sample) const {
-    return shade.transport.has_gradient ? camera.primary_ray(pixel, sample) : Ray{.pixel = pixel, .sample = sample};
+    return shade.transport.has_gradient ? camera.primary_ray(pixel, sample)
+                                        : Ray{.pixel = pixel, .sample = static_cast<std::uint16_t>(sample)};
   }
   SampleRange first_samples() const { return {0, static_cast<std::uint32_t>(camera.samples())}; }
   Pass first_pass() const { return {camera.pixel_count(), first_samples().count}; }

@@ -1,6 +1,7 @@
 // The self-contained ray: its own continuation, stack entry in svm and message in dataflow.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -32,8 +33,11 @@ struct Ray {
   std::uint32_t ignored_primitive = no_primitive;        ///< the triangle it starts on, which it cannot hit again
   Color weight{1, 1, 1};     ///< factor of the light it finds; for a shadow ray the light that it brings if nothing blocks it
   std::uint32_t pixel = 0;   ///< y * width + x
-  std::uint32_t sample = 0;  ///< below the samples per pixel
-  std::uint8_t depth = 1;    ///< 1 for a primary ray; a shadow ray has the depth of the ray whose hit cast it
+  std::uint16_t sample = 0;  ///< below the samples per pixel
+  /// density_bits() of how likely its direction was when a surface scattered it; 0 where nothing asks for that, or it had no
+  /// choice: of the eye's rays, of those of mirrors and glass.
+  std::uint16_t density = 0;
+  std::uint8_t depth = 1;  ///< 1 for a primary ray; a shadow ray has the depth of the ray whose hit cast it
   RayKind kind = RayKind::primary;
   /// cone_bits() of its cone's width where it starts, 0 where no texture asks for it; of a primary ray, of how far from the eye
   /// that is.
@@ -63,6 +67,19 @@ inline std::uint16_t cone_bits(double width) {
 /// The width of the cone in which a ray stands for all those through its pixel, where it starts (after J. Amanatides, "Ray
 /// Tracing with Cones", SIGGRAPH 1984).
 inline double cone_width(const Ray& ray) { return double{std::bit_cast<float>(std::uint32_t{ray.cone} << 16U)}; }
+
+/// A density of directions, per steradian and above 0, as the upper half of a float, rounded to nearest: to 1 in 256. Who weighs
+/// what a ray meets by its density, and who weighs what another might have met, both take it rounded so, and their weights add up
+/// to 1. Infinity, which is that of a mirror, is 0.
+inline std::uint16_t density_bits(double density) {
+  constexpr std::uint32_t least = 1, infinity = 0x7f80;
+  const std::uint32_t bits = (std::bit_cast<std::uint32_t>(static_cast<float>(density)) + 0x8000U) >> 16U;
+  return static_cast<std::uint16_t>(bits < infinity ? std::max(bits, least) : 0U);
+}
+/// What density_bits() are of, rounded.
+inline double density_of(std::uint16_t bits) {
+  return bits == 0 ? std::numeric_limits<double>::infinity() : double{std::bit_cast<float>(std::uint32_t{bits} << 16U)};
+}
 
 /// A direction's component below this counts as 0, denormals and -0 included.
 inline constexpr float smallest_component = 1e-18F;

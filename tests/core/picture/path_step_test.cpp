@@ -99,7 +99,7 @@ TEST_CASE("each way counts for all as often as it is taken: on average what the 
   Vec3d scattered, mirrored, let_through;
   constexpr std::uint32_t draws = 4096;
   for (std::uint32_t sample = 0; sample < draws; ++sample) {
-    state.ray.sample = sample;
+    state.ray.sample = static_cast<std::uint16_t>(sample);
     const auto step = path_step(state);
     REQUIRE(step);
     Vec3d& sum = step->kind == RayKind::reflected ? mirrored : step->kind == RayKind::refracted ? let_through : scattered;
@@ -119,7 +119,7 @@ TEST_CASE("from the third hit on a path goes on as often as its weight says, and
     int survivors = 0;
     double sum = 0;
     for (std::uint32_t sample = 0; sample < 4096; ++sample) {
-      state.ray.sample = sample;
+      state.ray.sample = static_cast<std::uint16_t>(sample);
       if (const auto step = path_step(state)) {
         ++survivors;
         sum += double{step->weight.y} / 4096;
@@ -143,7 +143,7 @@ TEST_CASE("no path leads into the surface, however the normal leans") {
   state.normal = normalize(Vec3d{1, 0, 0.2});
   int lost = 0;
   for (std::uint32_t sample = 0; sample < 1024; ++sample) {
-    state.ray.sample = sample;
+    state.ray.sample = static_cast<std::uint16_t>(sample);
     const auto step = path_step(state);
     lost += step ? 0 : 1;
     CHECK((!step || step->towards.z > 0));

@@ -1,0 +1,29 @@
+#include "core/picture/surface_response.h"
+
+#include "core/picture/surface_shares.h"
+
+namespace dmpc::core {
+namespace {
+
+constexpr double one_over_pi = 0.318309886183790672;
+
+}  // namespace
+
+Color scattered_color(const HitState& state) { return state.surface.material.color * state.surface.material.diffuse; }
+
+WayShares shares_of(const HitState& state) {
+  return {double{brightest(scattered_color(state))}, double{mirrored_share(state)},
+          state.has_refraction ? double{state.surface.material.transmittance} : 0.0};
+}
+
+SurfaceResponse response_towards(const HitState& state, const Vec3d& towards) {
+  const double cosine = dot(towards, state.normal);
+  if (!(cosine > 0.0) || !leads_outside(state, towards)) {
+    return {};
+  }
+  const WayShares shares = shares_of(state);
+  const double lambert = cosine * one_over_pi;
+  return {Vec3d(scattered_color(state)) * lambert, shares.scattered > 0.0 ? shares.scattered / shares.all() * lambert : 0.0};
+}
+
+}  // namespace dmpc::core
