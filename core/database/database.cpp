@@ -11,6 +11,7 @@
 #include "core/database/brick_builder.h"
 #include "core/database/conversion.h"
 #include "core/database/coplanar.h"
+#include "core/database/emitters.h"
 #include "core/database/empty_space.h"
 #include "core/database/material_records.h"
 #include "core/database/parallel.h"
@@ -83,6 +84,9 @@ class DatabaseBuilder {
       cells = sort_into_voxels();
     }
     header().primitive_count = static_cast<std::uint32_t>(conversion_.primitives.size());
+    if (options_.emitters_max > 0) {
+      emitters_ = choose_emitters(conversion_, scene_, options_.emitters_max);
+    }
     result_.references_ = cells.references();
     options_.structure == Structure::voxels ? write_voxels(cells) : write_records(cells);
     give_back_freed();  // trees are many small pieces
@@ -245,14 +249,17 @@ class DatabaseBuilder {
                     LightRecord{.position = Vec3f(local(light.position)), .intensity = Color(intensity_of(light, scene_))});
     }
     write_materials();
+    write_emitters();
     for (const Texture& texture : scene_.textures) {
       textures_.push_back(reference_to(texture, writer_));
     }
   }
 
-  /// Finishes behind all materials, in their order.
+  /// Those of emitters behind the scene's, finishes behind all, in their order.
   void write_materials() {
-    const MaterialRecords records = material_records(scene_.materials);
+    std::vector<Material> materials = scene_.materials;
+    materials.insert(materials.end(), emitters_.materials.begin(), emitters_.materials.end());
+    const MaterialRecords records = material_records(materials);
     const std::size_t count = records.materials.size() + records.finishes.size();
     expect(count <= 0x7fffffffU, "a database has no room for more materials");
     header().material_count = count & 0x7fffffffU;
@@ -265,6 +272,21 @@ class DatabaseBuilder {
     writer_.write(header().materials, 0, std::as_bytes(std::span(records.materials)));
     writer_.write(header().materials, records.materials.size() * sizeof(MaterialRecord),
                   std::as_bytes(std::span(records.finishes)));
+  }
+
+  void write_emitters() {
+    result_.records_.emitters_met = emitters_.others;
+    if (emitters_.records.empty()) {
+      return;
+    }
+    header().emitter_count = static_cast<std::uint32_t>(emitters_.records.size());
+    header().drawn_materials = static_cast<std::uint32_t>(scene_.materials.size());
+    header().emitter_density = emitters_.density;
+    header().emitters = writer_.allocate_array<EmitterRecord>(emitters_.records.size());
+    const Address choices = writer_.allocate_array<EmitterChoice>(emitters_.choices.size());
+    expect(choices == choice_address(header(), 0), "choices stand behind all emitters");
+    writer_.write(header().emitters, 0, std::as_bytes(std::span(emitters_.records)));
+    writer_.write(choices, 0, std::as_bytes(std::span(emitters_.choices)));
   }
 
   void write_textures() {
@@ -347,6 +369,7 @@ class DatabaseBuilder {
   std::size_t object_count_ = 0;  ///< of the scene, before they are freed
   bool has_looked_for_twins_ = false;
   Conversion conversion_;
+  Emitters emitters_;
   std::vector<TextureReference> textures_;  ///< of the scene's, in order
 };
 

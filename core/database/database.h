@@ -26,7 +26,9 @@ struct BuildOptions {
   Structure structure = Structure::grid;  ///< other boxes around the same floats: the picture keeps its bits
   VoxelRule voxels = usual_voxels;        ///< for Structure::voxels
   GridAxes axes = world_axes;  ///< the grid's directions: another grid, so other bits, but the same picture to rounding
-  std::uint32_t threads = 0;   ///< that build; 0: one for each core. The bytes are the same
+  /// Of what shines by itself at most so many are aimed at by paths (core/database/emitters.h). 0: none, as Whitted's has it.
+  std::uint32_t emitters_max = 0;
+  std::uint32_t threads = 0;  ///< that build; 0: one for each core. The bytes are the same
   /// Called now and then, by one thread at a time, with the references that are sorted into trees and how many there are: the
   /// longest part of a build. May be empty.
   std::function<void(std::uint64_t, std::uint64_t)> progress = {};
@@ -91,7 +93,8 @@ struct RecordCounts {
   std::uint64_t textured = 0;          ///< TexturedNormals
   std::uint64_t texture_tiles = 0;     ///< of all levels
   std::uint64_t voxel_references = 0;  ///< the lengths of all lists
-  std::uint64_t materials = 0;         ///< of the scene, without the finishes that stand behind them
+  std::uint64_t materials = 0;         ///< without the finishes that stand behind them
+  std::uint64_t emitters_met = 0;      ///< primitives that shine by themselves and are not among the header's emitters
 };
 
 class Database {

@@ -16,6 +16,7 @@
 #include "core/database/region_records.h"
 #include "core/database/texture_records.h"
 #include "core/record/directory.h"
+#include "core/record/emitter.h"
 #include "core/record/texture_layout.h"
 #include "core/record/voxel_list.h"
 
@@ -53,6 +54,10 @@ class Extractor {
     }
     header.lights = copy_array<LightRecord>(whole_.lights, whole_.light_count);
     header.materials = copy_array<MaterialRecord>(whole_.materials, whole_.material_count);
+    if (has_emitters(whole_)) {
+      header.emitters = copy_array<EmitterRecord>(whole_.emitters, whole_.emitter_count);
+      copy_array<EmitterChoice>(choice_address(whole_, 0), whole_.emitter_count);
+    }
     whole_.has_voxels() ? copy_voxels() : copy_directory(around);
     copy_textures();
     part_.record_bytes = writer_.page_bytes();

@@ -23,9 +23,9 @@ struct DatabasePart {
 };
 
 /// Copies the directory's entries, bricks, blocks and normals that cells in `regions`, one or more, need, each once; all
-/// materials and lights, and of textures the tiles that the triangles there may show; addresses are made anew, values keep their
-/// bits. A block whose box reaches beyond each of the regions gets a name, the same in every part. Children whose boxes do not
-/// touch any of the regions are left out of their bricks.
+/// materials, lights and emitters, and of textures the tiles that the triangles there may show; addresses are made anew, values
+/// keep their bits. A block whose box reaches beyond each of the regions gets a name, the same in every part. Children whose
+/// boxes do not touch any of the regions are left out of their bricks.
 DatabasePart extract(const Database& database, std::span<const Region> regions);
 inline DatabasePart extract(const Database& database, const Region& region) { return extract(database, std::span(&region, 1)); }
 

@@ -9,6 +9,7 @@
 //   normals     PatchNormals, TexturedNormals         } shading data, read for final hits only
 //   materials   MaterialRecord, then FinishRecord     }
 //   lights      LightRecord                           }
+//   emitters    EmitterRecord, then EmitterChoice     } (core/record/emitter.h) where paths aim at what shines
 //   textures    tables of addresses, and every TextureTile that they name: read where a final hit is textured
 #pragma once
 
@@ -347,6 +348,10 @@ struct DatabaseHeader {
   std::uint32_t light_count = 0;
   Color background;
   Color ambient;  ///< Scene::ambient
+  Address emitters = no_address;
+  std::uint32_t emitter_count = 0;              ///< that hits draw: 0 unless paths were to aim at some, and there are such
+  std::uint32_t drawn_materials = 0xffffffffU;  ///< from this one on materials are those of emitters that are drawn
+  float emitter_density = 0;  ///< one over the sum of all drawn emitters' areas, grid-local, times their strength_of()
 
   /// Whether top cells are voxels with lists.
   constexpr bool has_voxels() const { return references != no_address; }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/record/emitter.h"
+
 namespace dmpc::dataflow {
 
 constexpr std::array<std::byte, core::record_bytes_max + core::overread_bytes> UnitPages::nothing{};
@@ -21,6 +23,10 @@ std::vector<std::uint32_t> pages_of(const core::Database& database, std::span<co
   };
   need_all(header.lights, header.light_count, sizeof(core::LightRecord));
   need_all(header.materials, header.material_count, sizeof(core::MaterialRecord));
+  if (core::has_emitters(header)) {
+    need_all(header.emitters, header.emitter_count, sizeof(core::EmitterRecord));
+    need_all(core::choice_address(header, 0), header.emitter_count, sizeof(core::EmitterChoice));
+  }
   std::vector<std::uint32_t> pages;
   for (std::uint32_t page = 0; page < is_needed.size(); ++page) {
     if (is_needed[page]) {

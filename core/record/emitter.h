@@ -1,0 +1,56 @@
+// What shines by itself and is aimed at: the records by which a hit draws one of it, and a place on that.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "core/base/vec.h"
+#include "core/record/record.h"
+
+namespace dmpc::core {
+
+/// A triangle, seen from both sides, or a sphere, seen from outside. One of a database's DatabaseHeader::emitter_count.
+struct EmitterRecord {
+  /// Grid-local: the corners of a triangle, the very floats of its block; of a sphere the centre, then its radius as x.
+  std::array<Vec3f, 3> corner;
+  Color radiance;
+  float chance = 0;  ///< of being drawn, by any hit
+  PrimitiveKind kind{};
+  std::uint32_t primitive = 0;  ///< its id
+  std::uint32_t padding = 0;
+
+  Vec3d center() const { return Vec3d(corner[0]); }
+  double radius() const { return double{corner[1].x}; }
+};
+static_assert(sizeof(EmitterRecord) == 64 && std::is_trivially_copyable_v<EmitterRecord>);
+
+/// One place of an alias table (A. J. Walker, "An Efficient Method for Generating Discrete Random Variables with General
+/// Distributions", ACM TOMS 3 (3), 1977): as many as there are emitters, each as likely as any other. How far a number is on its
+/// way through the place, from 0 to 1, decides: before `threshold` it means the emitter of this place, behind it the other one.
+struct EmitterChoice {
+  float threshold = 1;
+  std::uint32_t other = 0;
+};
+static_assert(sizeof(EmitterChoice) == record_alignment);
+
+inline bool has_emitters(const DatabaseHeader& header) { return header.emitter_count > 0; }
+
+inline Address emitter_address(const DatabaseHeader& header, std::uint32_t emitter) {
+  return advance(header.emitters, std::uint64_t{emitter} * sizeof(EmitterRecord));
+}
+/// The choices stand behind all emitters.
+inline Address choice_address(const DatabaseHeader& header, std::uint32_t place) {
+  return advance(emitter_address(header, header.emitter_count), std::uint64_t{place} * sizeof(EmitterChoice));
+}
+
+/// What power is in proportion to, beside an area.
+inline double strength_of(const Color& radiance) { return double{radiance.x} + double{radiance.y} + double{radiance.z}; }
+
+/// How likely a place on an emitter that may be drawn is the one, per grid-local area: power says which emitter it is, and area
+/// which place, so that this is in proportion to radiance alone, whoever asks and however large the emitter.
+inline double density_on(const DatabaseHeader& header, const Color& radiance) {
+  return double{header.emitter_density} * strength_of(radiance);
+}
+
+}  // namespace dmpc::core
