@@ -22,14 +22,15 @@ concept BundleTracer = requires(T& tracer, RayBundle& bundle, Operations& operat
 };
 
 /// The hits of a bundle's rays, all of one depth, being shaded side by side: all read what they are, then each light sends its
-/// bundle of shadow rays, then the mirrored rays are a bundle, then the refracted ones; by paths the rays that go on are one.
+/// bundle of shadow rays, then the mirrored rays are a bundle, then the refracted ones; by paths those at what hits aim at are
+/// one, and then the rays that go on.
 struct BundleHit {
-  enum class Phase : std::uint8_t { surface, light, reflected, refracted, continued, finished };
+  enum class Phase : std::uint8_t { surface, light, emitter, reflected, refracted, continued, finished };
 
   std::array<HitState, bundle_rays_max> hit;
   std::array<std::uint8_t, bundle_rays_max> place;  ///< of the hit's pixel
   std::uint32_t count = 0;
-  std::uint32_t next = 0;   ///< the hit that goes on next, while surfaces are read
+  std::uint32_t next = 0;   ///< the hit that goes on next, while surfaces or emitters are read
   std::uint32_t light = 0;  ///< whose shadow rays are next
   Phase phase = Phase::surface;
 
@@ -48,13 +49,18 @@ struct BundleHit {
     place[count] = static_cast<std::uint8_t>(its_place);
     hit[count++] = begin_shading(ray, met);
   }
-  /// To the next phase: while hits wait for a light that is theirs, and then to the first that sends rays on.
+  bool has_any_at(HitState::Stage stage) const {
+    return std::any_of(hit.begin(), hit.begin() + count, [stage](const HitState& state) { return state.stage == stage; });
+  }
+  /// Some hit is to draw an emitter, or has drawn one.
+  bool aims() const { return has_any_at(HitState::Stage::emitter_choice) || has_any_at(HitState::Stage::emitter); }
+  /// To the next phase: while hits wait for a light that is theirs, or for an emitter, and then to the first that sends rays on.
   void end_phase(Phase first_sending) {
     if (phase == Phase::surface || phase == Phase::light) {
       light += phase == Phase::light ? 1 : 0;
-      const bool waits_for_light = std::any_of(hit.begin(), hit.begin() + count,
-                                               [](const HitState& state) { return state.stage == HitState::Stage::light; });
-      phase = waits_for_light ? Phase::light : first_sending;
+      phase = has_any_at(HitState::Stage::light) ? Phase::light : aims() ? Phase::emitter : first_sending;
+    } else if (phase == Phase::emitter) {
+      phase = first_sending;
     } else {
       phase = phase == Phase::reflected ? Phase::refracted : Phase::finished;
     }
@@ -77,7 +83,10 @@ class BundleShader {
   /// `absent`: call it again once that is there. Requires a phase other than finished.
   template <class Shoot, class Shine>
   bool step(Address& absent, const Shoot& shoot, const Shine& shine) {
-    if (hits_.phase == Phase::surface ? !read_surfaces(absent) : hits_.phase == Phase::light && !shoot_at_light(absent, shoot)) {
+    if ((hits_.phase == Phase::surface && !read_surfaces(absent)) ||
+        (hits_.phase == Phase::light && !shoot_at_light(absent, shoot)) ||
+        (hits_.phase == Phase::emitter &&
+         !(read_stage(HitState::Stage::emitter_choice, absent, shoot) && read_stage(HitState::Stage::emitter, absent, shoot)))) {
       return false;
     }
     if (hits_.phase == Phase::surface && shader_.hits_glow()) {
@@ -102,6 +111,8 @@ class BundleShader {
   bool read_surfaces(Address& absent);
   template <class Shoot>
   bool shoot_at_light(Address& absent, const Shoot& shoot);
+  template <class Shoot>
+  bool read_stage(HitState::Stage stage, Address& absent, const Shoot& shoot);
   template <class Shoot>
   void shoot_children(HitState::Stage stage, const Shoot& shoot);
   template <class Shoot>
@@ -165,6 +176,28 @@ bool BundleShader<T>::shoot_at_light(Address& absent, const Shoot& shoot) {
       shoot(child, i);
     }
   }
+  return true;
+}
+
+/// One step of every hit that is at `stage` and reads a record of its own. What was shot before a record was absent stays shot.
+template <BundleTracer T>
+template <class Shoot>
+bool BundleShader<T>::read_stage(HitState::Stage stage, Address& absent, const Shoot& shoot) {
+  for (; hits_.next < hits_.count; ++hits_.next) {
+    HitState& state = hits_.hit[hits_.next];
+    if (state.stage != stage) {
+      continue;
+    }
+    absent = record_needed(state, settings_.header);
+    const std::byte* const record = tracer_.find(absent);
+    if (record == nullptr) {
+      return false;
+    }
+    if (Ray child; shader_.step(state, record, child)) {
+      shoot(child, hits_.next);
+    }
+  }
+  hits_.next = 0;
   return true;
 }
 

@@ -1,6 +1,7 @@
 #include "core/picture/hit_state.h"
 
 #include "core/base/expect.h"
+#include "core/record/emitter.h"
 
 namespace dmpc::core {
 
@@ -22,7 +23,7 @@ ShadingRecord shading_record_of(const HitState& state) {
     default:
       break;
   }
-  expect(false, "tables, materials and lights are never absent by themselves");
+  expect(false, "tables, materials, lights and emitters are never absent by themselves");
   return ShadingRecord::block;
 }
 
@@ -41,6 +42,10 @@ Address record_needed(const HitState& state, const DatabaseHeader& header) {
       return advance(header.materials, state.surface.material.finish() * sizeof(FinishRecord));
     case HitState::Stage::light:
       return advance(header.lights, state.surface.next_light * sizeof(LightRecord));
+    case HitState::Stage::emitter_choice:
+      return choice_address(header, state.surface.next_light);
+    case HitState::Stage::emitter:
+      return emitter_address(header, state.surface.next_light);
     default:
       return no_address;
   }

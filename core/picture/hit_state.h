@@ -37,6 +37,8 @@ struct HitState {
     textured_material,  ///< whose colour is multiplied by what the look-up, or its corners, gave
     finish,             ///< what the material has beyond NFF
     light,
+    emitter_choice,  ///< by paths: which emitter is drawn
+    emitter,
     reflected,
     refracted,
     continued,  ///< by paths: one ray more, or none
@@ -46,7 +48,8 @@ struct HitState {
   /// What lights fall on.
   struct Surface {
     MaterialRecord material;
-    std::uint32_t next_light = 0;
+    std::uint32_t next_light = 0;  ///< behind the lights: the emitter's choice, or the emitter
+    float place = 0;               ///< on that, the first of two numbers: DrawnEmitter::place
   };
 
   /// What makes highlight and mirror of the material's `specular`, which is their brightest channel.

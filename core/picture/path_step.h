@@ -22,7 +22,7 @@ struct PathStep {
 };
 
 /// What a hit's chances are for, each with a pair of numbers of its own: the way in which its path goes on and roulette, whither,
-/// the choice of an emitter, and the place on that.
+/// further digits of the emitter to aim at, and that with the place on it.
 enum class Purpose : std::uint32_t { choice, direction, emitter, place };
 /// The pair of a hit at `depth`, 1 or more; pair 0 of a sample is its place in the pixel.
 SamplePair pair_of(std::uint32_t pixel, std::uint32_t sample, int depth, Purpose purpose);

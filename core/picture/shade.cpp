@@ -10,16 +10,16 @@
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
+#include "core/picture/child_ray.h"
 #include "core/picture/hit_geometry.h"
 #include "core/picture/surface_shares.h"
+#include "core/record/emitter.h"
 
 namespace dmpc::core {
 namespace {
 
 using Stage = HitState::Stage;
 
-/// A shadow ray ends this share of its length before the light.
-constexpr double light_gap = 1e-6;
 /// That a ray's record can hold.
 constexpr int depth_limit = 255;
 
@@ -38,19 +38,6 @@ double chance_of(const Ray& ray) {
   const std::uint64_t place = std::uint64_t{ray.pixel} << 32U | ray.sample;
   const std::uint64_t bits = mix(mix(mix(place) + bits_of(ray.origin) + ray.depth) + bits_of(ray.direction));
   return static_cast<double>(bits >> 11U) * 0x1p-53;
-}
-
-/// A child along the unit direction `towards`.
-Ray child_ray(const HitState& state, const Vec3d& towards, const RayStart& start, RayKind kind) {
-  Ray ray;
-  ray.start_at(state.point + towards * start.along + state.geometric_normal * start.across);
-  ray.go_along(towards);
-  ray.ignored_primitive = state.curved ? no_primitive : state.hit.primitive;
-  ray.pixel = state.ray.pixel;
-  ray.sample = state.ray.sample;
-  ray.depth = static_cast<std::uint8_t>(state.ray.depth + (kind == RayKind::shadow ? 0 : 1));
-  ray.kind = kind;
-  return ray;
 }
 
 /// A shadow ray to a light. One that starts off the way there is aimed anew.
@@ -112,15 +99,20 @@ int ray_depth_max(const ShadeOptions& options, const DatabaseHeader& header) {
 
 double radiance_bound(const Scene& scene, int depth_max, const Transport& transport) {
   const double ambient = brightest(scene.ambient);
-  double light = 0, direct = 0, passed_on = 0;
+  double light = 0, direct = 0, passed_on = 0, emitter = 0;
   for (const PointLight& point_light : scene.lights) {
     light += brightest(intensity_of(point_light, scene));
   }
   for (const Material& material : scene.materials) {
+    emitter = std::max(emitter, transport.is_by_paths() ? brightest(material.emission) : 0.0);
+  }
+  for (const Material& material : scene.materials) {
     const double texture = material.texture == Material::no_texture ? 1 : scene.textures[material.texture].brightest;
     const double diffuse = material.diffuse * brightest(material.color) * texture, specular = material.specular_max(texture);
-    direct = std::max(direct, light * (diffuse + specular) + ambient * diffuse + brightest(material.emission));
     const double scattered = transport.is_by_paths() ? diffuse : 0, share = specular * material.mirror + material.transmittance;
+    // Of an emitter at which it aims no more comes than of one that its path meets, as densities are rounded.
+    const double aimed = emitter * (scattered + share) * (1 + 0x1p-6);
+    direct = std::max(direct, light * (diffuse + specular) + ambient * diffuse + brightest(material.emission) + aimed);
     passed_on = std::max(passed_on, scattered + (material.alpha == AlphaUse::none ? share : std::max(share, 1.0)));
   }
   if (transport.is_by_paths()) {
@@ -324,7 +316,7 @@ void Shader::read_finish(HitState& state, const std::byte* record) const {
   if (share < 1.0F) {
     cover(material, share);
   }
-  come_to_lights(state, finish.emission * share);
+  come_to_lights(state, finish.emission * (share * share_met(state, finish.emission)));
 }
 
 void Shader::come_to_lights(HitState& state, const Color& emission) const {
@@ -336,7 +328,20 @@ void Shader::come_to_lights(HitState& state, const Color& emission) const {
   } else if (state.ray.depth < options_.depth_max) {
     judge_children(state);
   }
-  state.stage = light_count(state) > 0 ? Stage::light : after_lights(state);
+  if (light_count(state) > 0) {
+    state.stage = Stage::light;
+  } else {
+    end_point_lights(state);
+  }
+}
+
+/// To the emitter that is drawn, if one is, else to what comes behind all lights.
+void Shader::end_point_lights(HitState& state) const {
+  if (aims_at_emitter(state)) {
+    begin_emitter(state);
+  } else {
+    state.stage = after_lights(state);
+  }
 }
 
 /// Whether a ray that brings `weight` from a light is left out, and why. The paper's convention shoots all.
@@ -363,7 +368,7 @@ bool Shader::read_light(HitState& state, const std::byte* record, Ray& child) co
 bool Shader::shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const {
   expect(state.stage == Stage::light, "a light shines on a hit that has come to it");
   if (++state.surface.next_light == header_.light_count) {
-    state.stage = after_lights(state);
+    end_point_lights(state);
   }
   const bool is_lit = fall.cosine > 0.0;
   const Color weight = is_lit ? reflected_light(state, light, fall.cosine, highlight) : Color{};
@@ -450,6 +455,7 @@ bool Shader::send_on(HitState& state, Ray& child) const {
     return false;
   }
   child = continued_ray(state, step->towards, kind, state.ray.weight * step->weight);
+  child.density = has_emitters(header_) ? density_bits(step->density) : std::uint16_t{0};
   widen(state, child);
   return true;
 }
@@ -489,6 +495,11 @@ bool Shader::step(HitState& state, const std::byte* record, Ray& child) const {
       return false;
     case Stage::light:
       return read_light(state, record, child);
+    case Stage::emitter_choice:
+      read_choice(state, record);
+      return false;
+    case Stage::emitter:
+      return read_emitter(state, record, child);
     case Stage::reflected:
     case Stage::refracted:
       return send_alone(state, child);

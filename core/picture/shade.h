@@ -108,6 +108,14 @@ class Shader {
   void come_to_lights(HitState& state, const Color& emission) const;
   /// Whether `child` was set.
   bool read_light(HitState& state, const std::byte* record, Ray& child) const;
+  // In shade_emitters.cpp:
+  bool aims_at_emitter(const HitState& state) const;
+  void begin_emitter(HitState& state) const;
+  void read_choice(HitState& state, const std::byte* record) const;
+  bool read_emitter(HitState& state, const std::byte* record, Ray& child) const;
+  /// Of what a surface shines with that the state's ray has met: the rest comes to the hit before by aiming at it.
+  float share_met(const HitState& state, const Color& radiance) const;
+
   bool send_alone(HitState& state, Ray& child) const;
   bool is_for_nothing(RayKind kind) const;
   bool look_around(const HitState& state, Ray& child) const;
@@ -117,6 +125,7 @@ class Shader {
   bool reflects(const HitState& state) const;
   bool refracts(const HitState& state) const;
   bool sends_one(const HitState& state) const;
+  void end_point_lights(HitState& state) const;
   HitState::Stage after_lights(const HitState& state) const;
   HitState::Stage after_reflection(const HitState& state) const;
   HitState::Stage after_lights_of_path(const HitState& state) const;

@@ -19,6 +19,8 @@ struct Transport {
   /// What rays that meet nothing find is a sky, which surfaces show; else a backdrop, which the eye alone sees, and mirrors and
   /// glass before it: NFF's background.
   bool has_sky = false;
+  /// For tests alone: emitters that hits aim at count in full there, and not where paths meet them.
+  bool only_aims = false;
   bool has_gradient = false;  ///< the sky changes from the header's background at the horizon, and below, to `zenith`
   /// From the hit of this number on, the eye's being the first, paths may end by roulette.
   std::uint8_t roulette_from = 3;

@@ -1,6 +1,7 @@
 // Light along paths: one picture by every strategy, on starved computers, under chaos, in virtual time and in several runs.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <stop_token>
@@ -49,6 +50,21 @@ core::Scene ball_in_the_air() {
   return scene;
 }
 
+/// Mirrors, glass and textures, lit by points and by a dozen of what shines, of which paths aim at triangles and spheres.
+core::Scene shining() {
+  core::Scene scene = mirrors_and_glass();
+  add_textured_walls(scene);
+  core::SceneBuilder builder(scene);
+  for (int i = 0; i < 6; ++i) {
+    builder.material({.color = {0.1, 0.1, 0.1}, .emission = {1.0 + i, 2, 3.0 - 0.5 * i}});
+    builder.sphere({-1.5 + 0.6 * i, 1.0 - 0.3 * i, 2.2}, 0.1 + 0.03 * i);
+    builder.polygon({{-2.0 + 0.7 * i, -1, 1.5}, {-1.8 + 0.7 * i, -1, 1.5}, {-1.8 + 0.7 * i, -0.8, 1.7}});
+  }
+  return scene;
+}
+
+constexpr core::Transport indoors{.kind = core::TransportKind::paths};
+
 /// By svm with room for much and for one page, by dataflow with much and with the least, by all.
 void check_strategies(const Subject& subject, const std::optional<nodes::Chaos>& chaos = {}) {
   for (const std::uint32_t nodes : {1U, 3U, 16U}) {
@@ -80,6 +96,30 @@ TEST_CASE("paths under a sky, with mirrors, glass, textures and what shines, giv
     for (const std::uint32_t nodes : {1U, 3U, 16U}) {
       CHECK(outcome_of(run_forest(extents, {.computer = {.node_count = nodes}})) == subject.outcome());
     }
+  }
+}
+
+TEST_CASE("paths that aim at what shines give one picture by every strategy, whatever is left out on the way, under chaos") {
+  for (const std::uint32_t emitters : {1U, 5U, 1024U}) {
+    CAPTURE(emitters);
+    const Subject subject(shining(), size_of(indoors, 3), {.page_size_bytes = 512, .emitters_max = emitters});
+    REQUIRE(subject.settings().header.emitter_count == std::min(emitters, 12U));
+    check_strategies(subject);
+    const Subject extents(shining(), size_of(indoors, 3),
+                          {.page_size_bytes = 512, .structure = core::Structure::extents, .emitters_max = emitters});
+    CHECK(extents.outcome() == subject.outcome());
+    CHECK(outcome_of(run_forest(extents, {.computer = {.node_count = 3}})) == subject.outcome());
+  }
+  const Subject subject(shining(), size_of(under_sky(), 2), {.emitters_max = 1024});
+  CHECK(subject.outcome().film_hash != Subject(shining(), size_of(under_sky(), 2)).outcome().film_hash);
+  for (std::uint64_t seed = 1; seed <= scaled(4); ++seed) {
+    check_strategies(subject, nodes::chaos_of(seed));
+  }
+  for (const core::Skip& skip : core::all_skips) {
+    CAPTURE(skip.name);
+    CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 3}}, without(skip))).film_hash == subject.outcome().film_hash);
+    CHECK(outcome_of(run_dataflow(subject, {.computer = {.node_count = 3}}, without(skip))).film_hash ==
+          subject.outcome().film_hash);
   }
 }
 
@@ -128,7 +168,7 @@ TEST_CASE("paths give one picture whatever is left out on the way") {
 }
 
 TEST_CASE("a picture by paths that was stopped goes on to the film of one run, by another strategy") {
-  const Subject subject(mesh_surfaces(), size_of(under_sky(), 3));
+  const Subject subject(shining(), size_of(under_sky(), 3), {.emitters_max = 1024});
   std::optional<core::PartialPicture> kept;
   std::stop_source stop;
   bool asked = false;  // with the first light: of small pictures little comes

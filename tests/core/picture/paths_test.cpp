@@ -4,14 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
-#include <vector>
 
-#include "core/picture/render.h"
-#include "core/picture/transport.h"
-#include "core/scene/frame.h"
+#include "tests/support/path_studio.h"
 #include "tests/support/scaled.h"
-#include "tests/support/shooting.h"
 #include "tests/support/small_scenes.h"
 
 namespace paths_test {
@@ -21,74 +16,7 @@ using namespace dmpc::tests;
 
 namespace {
 
-constexpr Transport paths{.kind = TransportKind::paths}, white_sky{.kind = TransportKind::paths, .has_sky = true};
-
-/// Pictures of a scene by the reference renderer.
-class Studio {
- public:
-  explicit Studio(const Scene& scene) : scene_(scene), database_(database_of(scene)) {}
-
-  Film film(int side, int samples, const Transport& transport, int bounces, const Skips& skips = {}) const {
-    LocalRecords records(database_.bytes());
-    GridTracer<LocalRecords> tracer(records, database_.header(), skips);
-    const ShadeOptions shade{
-        .depth_max = bounces + 1, .first_samples = static_cast<std::uint32_t>(samples), .transport = transport};
-    const RenderSettings settings{.header = database_.header(),
-                                  .camera = Camera(scene_.view, frame(), side, side, samples),
-                                  .shade = shade,
-                                  .skips = skips};
-    operations = {};
-    return render(tracer, settings, operations);
-  }
-  /// Of the picture's light, its mean; the red channel's.
-  double mean(int side, int samples, const Transport& transport, int bounces) const {
-    return mean_of(film(side, samples, transport, bounces));
-  }
-  static double mean_of(const Film& film) {
-    double sum = 0;
-    for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
-      sum += film.radiance(pixel).x;
-    }
-    return sum / static_cast<double>(film.pixel_count());
-  }
-  /// The red channel of a square of pixels, by paths, in the middle of a picture `times` as high: what they show does not
-  /// depend on that, but their numbers do, and so all chances.
-  std::vector<double> square(int side, int samples, int bounces, int times) const {
-    LocalRecords records(database_.bytes());
-    GridTracer<LocalRecords> tracer(records, database_.header(), {});
-    const ShadeOptions shade{.depth_max = bounces + 1, .first_samples = static_cast<std::uint32_t>(samples), .transport = paths};
-    const RenderSettings settings{database_.header(), Camera(scene_.view, frame(), side, side * times, samples), shade};
-    std::vector<HitState> stack(1);
-    PixelTask task(stack);
-    std::vector<double> light;
-    const auto count = static_cast<std::uint32_t>(side * side), first = count * (static_cast<std::uint32_t>(times) / 2);
-    for (std::uint32_t pixel = first; pixel < first + count; ++pixel) {
-      const PixelSums sums = render_pixel(task, pixel, settings.first_samples(), tracer, settings, operations);
-      light.push_back(static_cast<double>(sums.plane[0].channel[0] + sums.plane[1].channel[0]) * film_resolution / samples);
-    }
-    return light;
-  }
-  const GridFrame& frame() const { return database_.header().frame; }
-  Transport occlusion_within(double distance) const {
-    return {.kind = TransportKind::paths, .occlusion_distance = static_cast<float>(distance * frame().scale)};
-  }
-
-  mutable Operations operations;  ///< of the last film
-
- private:
-  Scene scene_;
-  Database database_;
-};
-
-/// The error of the mean of pixels that are unlike by chance alone.
-double standard_error(const Film& film) {
-  const double mean = Studio::mean_of(film), count = static_cast<double>(film.pixel_count());
-  double squares = 0;
-  for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
-    squares += (film.radiance(pixel).x - mean) * (film.radiance(pixel).x - mean);
-  }
-  return std::sqrt(squares / count / (count - 1));
-}
+constexpr Transport white_sky{.kind = TransportKind::paths, .has_sky = true};
 
 /// All that reflects or lets through rays becomes matt; highlights stay.
 Scene matt(Scene scene) {
@@ -97,65 +25,6 @@ Scene matt(Scene scene) {
     material.transmittance = 0;
   }
   return scene;
-}
-
-Material grey(double albedo, double emission = 0) {
-  return {.color = {albedo, albedo, albedo}, .diffuse = 1, .emission = {emission, emission, emission}};
-}
-
-void add_box(SceneBuilder& builder, const Vec3d& low, const Vec3d& high) {
-  const auto corner = [&](int i) {
-    return Vec3d{(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z};
-  };
-  for (const auto& face : {std::array{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}) {
-    builder.polygon({corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])});
-  }
-}
-
-/// A closed room of this material, seen from inside.
-Scene room(const Material& material, bool is_ball) {
-  Scene scene;
-  SceneBuilder builder(scene);
-  builder.material(material);
-  is_ball ? builder.sphere({0, 0, 0}, 2) : add_box(builder, {-1, -2, -1}, {2, 2, 1.5});
-  scene.view = {.from = {0.2, 0.1, 0}, .at = {1, 2, 3}, .up = {0, 1, 0}, .angle_degrees = 80};
-  return scene;
-}
-
-/// What a view of next to nothing shows: the floor at its origin, whose normal is z.
-Scene seen_at_origin(Scene scene, const Vec3d& from) {
-  scene.view = {.from = from, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 1e-3};
-  return scene;
-}
-
-Scene floor_of(const Material& material, double half_side = 50) {
-  Scene scene;
-  SceneBuilder builder(scene);
-  builder.background({1, 1, 1});
-  builder.material(material);
-  builder.polygon(
-      {{-half_side, -half_side, 0}, {half_side, -half_side, 0}, {half_side, half_side, 0}, {-half_side, half_side, 0}});
-  return scene;
-}
-
-/// A ball in a closed room, both grey, lit by a point.
-Scene lit_room() {
-  Scene scene;
-  SceneBuilder builder(scene);
-  builder.light({.position = {-0.3, -0.2, 0.7}, .color = {1, 1, 1}, .has_color = true});
-  builder.material(grey(0.7));
-  add_box(builder, {-1, -1, -1}, {1, 1, 1});
-  builder.sphere({0.3, 0.3, -0.4}, 0.5);
-  scene.view = {.from = {-0.1, -0.9, 0.1}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 20};
-  return scene;
-}
-
-double rmse(const std::vector<double>& picture, const std::vector<double>& reference) {
-  double squares = 0;
-  for (std::size_t pixel = 0; pixel < picture.size(); ++pixel) {
-    squares += (picture[pixel] - reference[pixel]) * (picture[pixel] - reference[pixel]);
-  }
-  return std::sqrt(squares / static_cast<double>(picture.size()));
 }
 
 }  // namespace
@@ -339,19 +208,6 @@ TEST_CASE("occlusion knows no colour, no light and no mirror") {
   const std::uint64_t expected = studio.film(24, 4, transport, 0).hash();
   CHECK(matt_studio.film(24, 4, transport, 0).hash() == expected);
   CHECK(Studio(black).film(24, 4, transport, 0).hash() == expected);
-}
-
-// Of one sample the error is that of chance, of n by chance one over the root of n of it.
-TEST_CASE(
-    "a thousand samples err by little more than half of what chance would leave: numbers are even, and of each bounce its own") {
-  const Studio studio(lit_room());
-  const int side = scaled_edge(8);
-  for (const auto& [bounces, share] : {std::pair{1, 0.6}, std::pair{3, 0.7}}) {
-    CAPTURE(bounces);
-    const std::vector<double> reference = studio.square(side, 8192, bounces, 3);
-    const double by_chance = rmse(studio.square(side, 1, bounces, 1), reference) / 32;
-    CHECK(rmse(studio.square(side, 1024, bounces, 1), reference) < share * by_chance);
-  }
 }
 
 }  // namespace paths_test
