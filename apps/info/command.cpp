@@ -53,6 +53,7 @@ Forecast forecast_for(const InfoOptions& options, const Subject& subject) {
 
 void add_options(OptionSet options, InfoOptions& info) {
   add_options(options, info.picture);
+  add_transport_options(options, info.picture);
   add_options(options, info.database);
   options.begin_group("The forecast");
   options.add_text(
@@ -67,6 +68,7 @@ void add_options(OptionSet options, InfoOptions& info) {
                                  "Lines and tables to read, or an object with stable keys");
   options.add_quiet(info.quiet);
   options.check_in_the_end([options, &info] {
+    info.picture.is_one_path_unasked = false;  // nothing is rendered
     if (info.system) {
       settle(options, info);
     }
@@ -79,6 +81,7 @@ void add_options(OptionSet options, InfoOptions& info) {
       "  dmpc info rings-4-t1\n"
       "  dmpc info tetra-9 --system=pixel-machine\n"
       "  dmpc info model.glb --nodes=8,64 --page-size=4KiB\n"
+      "  dmpc info balls-4 --transport=paths --light-radius=0.5\n"
       "  dmpc info tetra-9 --nodes=16 --balance=subsampled --format=json > tetra.json\n"
       "Nothing is rendered, unless --balance=subsampled or moving asks for the regions that render would make: that takes as "
       "long "

@@ -4,6 +4,7 @@
 
 #include "core/database/address_map.h"
 #include "core/record/directory.h"
+#include "core/record/emitter.h"
 #include "core/record/records.h"
 #include "core/record/voxel_list.h"
 
@@ -93,6 +94,10 @@ std::vector<RecordFigures> records_of(const core::Database& database, const Scen
   records.push_back(figures_for<core::TextureTile>("texture tiles", counts.texture_tiles));
   records.push_back(figures_for<core::MaterialRecord>("materials", header.material_count));
   records.push_back(figures_for<core::LightRecord>("lights", header.light_count));
+  if (has_emitters(header)) {
+    records.push_back(figures_for<core::EmitterRecord>("emitters", header.emitter_count));
+    records.push_back(figures_for<core::EmitterChoice>("choices of emitters", header.emitter_count));
+  }
   return records;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/render/picture_identity.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <span>
@@ -120,8 +121,13 @@ void add_samples(std::vector<PictureFact>& facts, const PictureOptions& picture)
   }
 }
 
+bool shines(const core::Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const core::Material& material) { return !(material.emission == core::Vec3d{}); });
+}
+
 /// Pictures by Whitted's transport are told by having none of it, as they were before there was another.
-void add_transport(std::vector<PictureFact>& facts, const TransportOptions& transport) {
+void add_transport(std::vector<PictureFact>& facts, const TransportOptions& transport, const core::Scene& scene) {
   if (!transport.is_by_paths()) {
     return;
   }
@@ -131,6 +137,8 @@ void add_transport(std::vector<PictureFact>& facts, const TransportOptions& tran
   }
   if (transport.occlusion) {
     facts.push_back({"occlusion", text_of(*transport.occlusion)});
+  } else if (shines(scene)) {
+    facts.push_back({"emitters", std::to_string(transport.emitters)});
   }
 }
 
@@ -155,7 +163,7 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
            {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
            {"grid-axes", name_of(options.database.axes)}};
   add_samples(facts, picture);
-  add_transport(facts, picture.transport);
+  add_transport(facts, picture.transport, scene);
   identity.terms = {static_cast<std::uint32_t>(picture.samples), picture.refinement, radiance_bound(picture, scene),
                     film_scale_of(picture, scene)};
   facts.push_back({film_scale_fact, apps::text_of(identity.terms.film_scale)});

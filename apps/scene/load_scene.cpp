@@ -8,12 +8,14 @@
 #include <set>
 #include <system_error>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
 #include "apps/formats/hither.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/nff_reader.h"
 #include "core/base/expect.h"
+#include "core/database/light_spheres.h"
 #include "core/families/scenes.h"
 
 namespace dmpc::apps {
@@ -54,6 +56,13 @@ core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadN
     say_once(file.notes);
   }
   return std::move(file.scene);
+}
+
+/// Of lights that --light-radius leaves as they are.
+std::string points_text(std::uint64_t count) {
+  return count == 0 ? ""
+                    : counted(count, "light") + (count == 1 ? " stays a point" : " stay points") +
+                          ", in the eye or so far away that no radius shows";
 }
 
 constexpr const char* one_path_note = "one path a pixel shows mostly noise, which falls with more, such as --samples=256";
@@ -154,9 +163,12 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   }
   const SceneKind kind = is_mesh(picture.scene) ? SceneKind::mesh : SceneKind::own;
   const std::string note = apply(picture.staging, scene, kind);
+  const std::uint64_t points_left =
+      picture.transport.light_radius ? core::make_lights_spheres(scene, *picture.transport.light_radius) : 0;
   if (notes == LoadNotes::said) {
     const bool may_be_black = kind == SceneKind::mesh && !picture.transport.is_by_paths();
-    say_once({note, may_be_black ? shadow_note(picture.staging) : "", picture.is_one_path_unasked ? one_path_note : ""});
+    say_once({note, may_be_black ? shadow_note(picture.staging) : "", picture.is_one_path_unasked ? one_path_note : "",
+              points_text(points_left)});
     say_what_is_missing(scene, picture.transport);
   }
   return scene;

@@ -17,11 +17,13 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
   Progress progress(std::cerr, shows_progress && stderr_is_terminal(), "Building:", "primitives");
   core::BuildOptions build = options.build;
   build.axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
+  build.emitters_max = picture.transport.emitters_max();
   build.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
   core::Database database = core::build_database(std::move(scene), build);
   const core::RenderSettings settings = render_settings(picture, scene, database);
   const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
-  return {std::move(database), settings, loss, gain_text(scene.materials, picture.transport)};
+  const std::string emitters = emitters_text(database.header().emitter_count, database.records().emitters_met, picture.transport);
+  return {std::move(database), settings, loss, gain_text(scene.materials, picture.transport), emitters};
 }
 
 }  // namespace
@@ -30,7 +32,7 @@ Subject build_subject(core::Scene scene, const PictureOptions& picture, const Da
   Subject subject = build(scene, picture, options, shows_progress);
   for (const std::string& text :
        {dropped_text(subject.database.dropped()), loss_text(subject.loss), duplicates_text(subject.database.duplicates()),
-        crowd_text(subject.settings.shade.one_child_from), subject.gain}) {
+        crowd_text(subject.settings.shade.one_child_from), subject.gain, subject.emitters}) {
     if (!text.empty()) {
       std::cerr << "dmpc: " << text << '\n';
     }

@@ -19,6 +19,7 @@ struct Subject {
   core::RenderSettings settings;
   core::RoundingLoss loss;  ///< of the picture, by the rounding of coordinates
   std::string gain;         ///< gain_text() of its materials
+  std::string emitters;     ///< emitters_text()
 };
 
 /// The database of `scene`, whose objects are freed on the way, and its picture. Says on stderr what was left out or is off,

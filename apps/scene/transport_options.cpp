@@ -18,6 +18,7 @@ using core::TransportKind;
 using core::UsageError;
 
 constexpr double distance_max = 1e30;
+constexpr double light_radius_max = 1e15;
 /// Shares of light that are 1 but for rounding.
 constexpr double gain_min = 1 + 1e-6;
 
@@ -27,6 +28,14 @@ double parse_distance(const std::string& text) {
     throw UsageError("--occlusion=" + text + ": expected a distance in the scene's units, above 0 and at most 1e30");
   }
   return distance;
+}
+
+double parse_light_radius(const std::string& text) {
+  const double radius = finite_number(text);
+  if (!(radius > 0 && radius <= light_radius_max)) {
+    throw UsageError("--light-radius=" + text + ": expected a length in the scene's units, above 0 and at most 1e15");
+  }
+  return radius;
 }
 
 void refuse_each(const OptionSet& options, std::initializer_list<const char*> names, const std::string& why) {
@@ -39,7 +48,7 @@ void refuse_each(const OptionSet& options, std::initializer_list<const char*> na
 
 void check_paths(const OptionSet& options, const TransportOptions& transport) {
   if (transport.occlusion) {
-    refuse_each(options, {"--bounces", "--sky", "--light", "--fill", "--ambient"},
+    refuse_each(options, {"--bounces", "--sky", "--light", "--fill", "--ambient", "--emitters", "--light-radius"},
                 " does not go with --occlusion, which shows what is near and nothing else");
   }
   const std::string by_paths = " does not go with --transport=paths: ";
@@ -88,7 +97,8 @@ std::string text_of(const TransportOptions& transport) {
   }
   return !transport.is_by_paths() ? name
                                   : name + ", " + counted(static_cast<std::uint64_t>(transport.bounces), "bounce") +
-                                        (transport.sky ? ", sky " + text_of(*transport.sky) : "");
+                                        (transport.sky ? ", sky " + text_of(*transport.sky) : "") +
+                                        (transport.light_radius ? ", lights of radius " + shortest(*transport.light_radius) : "");
 }
 
 const char* name_of(TransportKind kind) { return kind == TransportKind::paths ? "paths" : "whitted"; }
@@ -107,13 +117,21 @@ void add_options(OptionSet options, TransportOptions& transport) {
   options.add_text(
       "--occlusion", "DISTANCE [none]", [&transport](const std::string& text) { transport.occlusion = parse_distance(text); },
       "By paths: show nothing but which share of its surroundings each place has free so far, white where it is all");
+  options.add_number("--emitters", transport.emitters, 0, emitters_limit, "1024",
+                     "By paths: aim at so many triangles and spheres that shine by themselves, the most powerful; others are met "
+                     "by chance, which brings the same light with more noise");
+  options.add_text(
+      "--light-radius", "R [points]",
+      [&transport](const std::string& text) { transport.light_radius = parse_light_radius(text); },
+      "By paths: make lights spheres of this radius, in the scene's units, which are seen, fall off, and throw soft shadows; in "
+      "the middle of the scene they are as bright as the points were");
 }
 
 void check(const OptionSet& options, const TransportOptions& transport) {
   if (transport.is_by_paths()) {
     return check_paths(options, transport);
   }
-  refuse_each(options, {"--bounces", "--sky", "--occlusion"}, " goes with --transport=paths");
+  refuse_each(options, {"--bounces", "--sky", "--occlusion", "--emitters", "--light-radius"}, " goes with --transport=paths");
 }
 
 core::Transport transport_of(const TransportOptions& options, const core::View& view, const core::GridFrame& frame) {
@@ -129,6 +147,15 @@ core::Transport transport_of(const TransportOptions& options, const core::View& 
     transport.occlusion_distance = static_cast<float>(std::clamp(*options.occlusion * frame.scale, least, most));
   }
   return transport;
+}
+
+std::string emitters_text(std::uint64_t emitters, std::uint64_t others, const TransportOptions& options) {
+  return others == 0 || options.emitters_max() == 0
+             ? ""
+             : counted(others, "primitive") + (others == 1 ? " shines" : " shine") + " and " + (others == 1 ? "is" : "are") +
+                   " met by chance alone, which is noisy: " +
+                   (emitters == options.emitters ? "--emitters=" + std::to_string(options.emitters) + " aims at no more"
+                                                 : "cones, and what alpha or other faces in its plane leave a part of");
 }
 
 std::string gain_text(const std::vector<core::Material>& materials, const TransportOptions& options) {

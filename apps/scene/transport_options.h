@@ -1,6 +1,7 @@
 // How light gets about, on the command line.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,13 +28,19 @@ struct TransportOptions {
   int bounces = 8;                  ///< by paths: 0 to 254
   std::optional<SkyChoice> sky;     ///< by paths; its horizon is the scene's background, too
   std::optional<double> occlusion;  ///< by paths: core::Transport::occlusion_distance, in the scene's units; above 0
+  /// By paths: of what shines by itself so many are aimed at, the most powerful; 0 to emitters_limit.
+  std::uint32_t emitters = 1024;
+  std::optional<double> light_radius;  ///< by paths: point lights are spheres of this radius, in the scene's units; above 0
 
   bool is_by_paths() const { return kind == core::TransportKind::paths; }
   /// Hits at this depth are the last: core::ShadeOptions::depth_max. By paths.
   int depth() const { return occlusion ? 1 : bounces + 1; }
+  /// core::BuildOptions::emitters_max.
+  std::uint32_t emitters_max() const { return is_by_paths() && !occlusion ? emitters : 0; }
 };
+inline constexpr std::uint32_t emitters_limit = 1'000'000;
 
-/// Declares --transport, --bounces, --sky and --occlusion.
+/// Declares --transport, --bounces, --sky, --occlusion, --emitters and --light-radius.
 void add_options(OptionSet options, TransportOptions& transport);
 /// What else goes with them. Throws core::UsageError that says what to do instead.
 void check(const OptionSet& options, const TransportOptions& transport);
@@ -49,6 +56,10 @@ const char* name_of(core::TransportKind kind);
 
 /// As the nodes have it: up is where the view's up points, at a right angle to nothing.
 core::Transport transport_of(const TransportOptions& options, const core::View& view, const core::GridFrame& frame);
+
+/// A sentence about what shines by itself and is met by chance alone, as `emitters` of a database are aimed at and `others` are
+/// not; empty if that is nothing, or nobody aims at anything.
+std::string emitters_text(std::uint64_t emitters, std::uint64_t others, const TransportOptions& options);
 
 /// A sentence about materials that give more light than they get, of which a picture by paths shows more than there is; empty if
 /// there is none, or nothing scatters.

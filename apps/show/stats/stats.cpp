@@ -207,30 +207,33 @@ Json options_json(const RenderRecord& record, const Account& account) {
   const RenderOptions& options = record.options;
   const bool by_paths = options.picture.transport.is_by_paths() && !options.picture.transport.occlusion;
   const bool has_voxels = options.database.build.structure == core::Structure::voxels;
-  Json result = {{"scene", options.picture.scene},
-                 {"width", account.film.width()},
-                 {"height", account.film.height()},
-                 {"samples", options.picture.is_refined ? Json("auto") : Json(options.picture.samples)},
-                 {"error", options.picture.is_refined ? Json(options.picture.refinement.error) : Json()},
-                 {"samples_max", options.picture.is_refined ? Json(options.picture.refinement.samples_max) : Json()},
-                 {"cutoff", options.picture.cutoff},
-                 {"depth", options.picture.depth},
-                 {"convention", options.picture.convention == core::Convention::haines ? "haines" : "paper"},
-                 {"transport", name_of(options.picture.transport.kind)},
-                 {"bounces", by_paths ? Json(options.picture.depth - 1) : Json()},
-                 {"sky", options.picture.transport.sky ? Json(text_of(*options.picture.transport.sky)) : Json()},
-                 {"occlusion", options.picture.transport.occlusion ? Json(*options.picture.transport.occlusion) : Json()},
-                 {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
-                 {"grid_axes", name_of(options.database.axes)},
-                 {"record_order", name_of(options.database.build.record_order)},
-                 {"structure", name_of(options.database.build.structure)},
-                 {"voxels", has_voxels ? Json(text_of(options.database.build.voxels)) : Json()},
-                 {"system", options.system ? Json(name_of(*options.system)) : Json()},
-                 {"strategy", name_of(options.strategy)},
-                 {"nodes", account.nodes.size()},
-                 {"pool_threads", options.computer.pool_threads ? Json(*options.computer.pool_threads) : Json()},
-                 {"node_memory", account.node_memory_max_bytes},
-                 {"page_size", record.database.page_size()}};
+  Json result = {
+      {"scene", options.picture.scene},
+      {"width", account.film.width()},
+      {"height", account.film.height()},
+      {"samples", options.picture.is_refined ? Json("auto") : Json(options.picture.samples)},
+      {"error", options.picture.is_refined ? Json(options.picture.refinement.error) : Json()},
+      {"samples_max", options.picture.is_refined ? Json(options.picture.refinement.samples_max) : Json()},
+      {"cutoff", options.picture.cutoff},
+      {"depth", options.picture.depth},
+      {"convention", options.picture.convention == core::Convention::haines ? "haines" : "paper"},
+      {"transport", name_of(options.picture.transport.kind)},
+      {"bounces", by_paths ? Json(options.picture.depth - 1) : Json()},
+      {"sky", options.picture.transport.sky ? Json(text_of(*options.picture.transport.sky)) : Json()},
+      {"occlusion", options.picture.transport.occlusion ? Json(*options.picture.transport.occlusion) : Json()},
+      {"emitters", by_paths ? Json(options.picture.transport.emitters) : Json()},
+      {"light_radius", options.picture.transport.light_radius ? Json(*options.picture.transport.light_radius) : Json()},
+      {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
+      {"grid_axes", name_of(options.database.axes)},
+      {"record_order", name_of(options.database.build.record_order)},
+      {"structure", name_of(options.database.build.structure)},
+      {"voxels", has_voxels ? Json(text_of(options.database.build.voxels)) : Json()},
+      {"system", options.system ? Json(name_of(*options.system)) : Json()},
+      {"strategy", name_of(options.strategy)},
+      {"nodes", account.nodes.size()},
+      {"pool_threads", options.computer.pool_threads ? Json(*options.computer.pool_threads) : Json()},
+      {"node_memory", account.node_memory_max_bytes},
+      {"page_size", record.database.page_size()}};
   add_staging(result, options.picture.staging);
   const auto told = std::visit([&](const auto& report) { return told_options(options.strategy, report.plan); }, record.report);
   for (const auto& [key, value] : told) {
@@ -296,7 +299,8 @@ Json database_json(const core::Database& database) {
           {"textured", records.textured},
           {"texture_tiles", records.texture_tiles},
           {"materials", records.materials},
-          {"lights", database.header().light_count}};
+          {"lights", database.header().light_count},
+          {"emitters", database.header().emitter_count}};
 }
 
 }  // namespace

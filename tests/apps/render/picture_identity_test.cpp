@@ -91,6 +91,14 @@ TEST_CASE("a picture by paths is told from Whitted's, which has the facts that i
                  "occlusion is 0.5, here there is none"));
 }
 
+TEST_CASE("how many emitters paths aim at is a fact of a scene in which something shines") {
+  const auto shine = [](core::Scene& scene) { scene.materials[0].emission = {1, 1, 1}; };
+  const auto by_paths = [](RenderOptions& options) { options.picture.transport.kind = core::TransportKind::paths; };
+  CHECK(contains(difference(shine, by_paths), "emitters is 1024, here there is none"));
+  CHECK(!contains(difference({}, by_paths), "emitters"));
+  CHECK(!contains(difference(shine), "emitters"));
+}
+
 TEST_CASE("the computer, the strategy and what is left out are no part of the picture") {
   CHECK(difference_by_options([](auto& options) {
           options.strategy = Strategy::dataflow;

@@ -46,6 +46,23 @@ TEST_CASE("a transport is told in a few words") {
   CHECK(text_of(TransportOptions{.kind = core::TransportKind::paths, .occlusion = 0.5}) == "paths, occlusion 0.5");
 }
 
+TEST_CASE("lights that are balls are told with the radius, and only paths aim at what shines") {
+  TransportOptions transport{.kind = core::TransportKind::paths, .light_radius = 0.25};
+  CHECK(text_of(transport) == "paths, 8 bounces, lights of radius 0.25");
+  CHECK(transport.emitters_max() == 1024);
+  transport.occlusion = 1;
+  CHECK(transport.emitters_max() == 0);
+  CHECK(TransportOptions{}.emitters_max() == 0);
+}
+
+TEST_CASE("what shines and is met by chance alone is told of, with why") {
+  const TransportOptions paths{.kind = core::TransportKind::paths, .emitters = 100};
+  CHECK(emitters_text(7, 0, paths).empty());
+  CHECK(emitters_text(0, 3, {}).empty());
+  CHECK(contains(emitters_text(100, 3, paths), "3 primitives shine and are met by chance alone, which is noisy: --emitters=100"));
+  CHECK(contains(emitters_text(7, 1, paths), "1 primitive shines and is met by chance alone, which is noisy: cones"));
+}
+
 TEST_CASE("materials that give more light than they get are told of, where something scatters it") {
   const TransportOptions paths{.kind = core::TransportKind::paths};
   const std::vector<core::Material> materials{{.color = {1, 1, 1}, .diffuse = 0.75, .specular = 0.5}, {.color = {1, 1, 1}}};

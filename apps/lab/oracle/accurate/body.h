@@ -28,6 +28,7 @@ struct AccurateBody {
   std::uint32_t first_normal = flat;      ///< of a smooth triangle: index of its three normals in AccurateScene::normals
   std::uint32_t first_place = flat;       ///< of a textured one: index of its three places in AccurateScene::places
   std::uint32_t first_color = flat;       ///< of one whose corners have colours: likewise in AccurateScene::colors
+  bool is_aimed_at = false;               ///< by paths, as it shines by itself
   std::array<std::uint32_t, 3> corner{};  ///< of a triangle: which corners of the object it has
 
   bool is_smooth() const { return first_normal != flat; }

@@ -24,6 +24,8 @@ struct AccurateRay {
   double cone = 0;
   /// By how much the directions of its pixel's primary rays change from column to column and from row to row.
   std::array<core::Vec3d, 2> apart{};
+  /// core::density_of() the bits of that with which a surface scattered it; infinite for all others.
+  double density = std::numeric_limits<double>::infinity();
   std::uint32_t pixel = 0, sample = 0;  ///< by which a path has its chances
 };
 

@@ -1,11 +1,13 @@
 // A scene in double precision as the accurate renderer takes it: flat lists, world coordinates.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "apps/lab/oracle/accurate/body.h"
 #include "apps/lab/oracle/accurate/texture.h"
 #include "core/base/box.h"
+#include "core/record/emitter.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
@@ -13,6 +15,12 @@ namespace dmpc::apps {
 struct AccurateLight {
   core::Vec3d position;
   core::Vec3d intensity;
+};
+
+/// What paths aim at, and how likely.
+struct AccurateEmitter {
+  std::uint32_t body;
+  double chance;
 };
 
 /// Bodies stand in the order of the product's primitives: objects in file order, polygons as core/scene/triangulate.h splits
@@ -29,6 +37,10 @@ struct AccurateScene {
   core::Box bounds;           ///< of all bodies
   double size = 1;            ///< the largest extent of `bounds`, above 0
   bool has_emission = false;  ///< of some material
+  // None of these unless aim_as_product() was called:
+  std::vector<AccurateEmitter> emitters;
+  std::vector<core::EmitterChoice> choices;  ///< the product's, by which one is drawn
+  double emitter_density = 0;                ///< of a place on them, by area, over the strength of what it shines with
 
   /// Whether hits send light by themselves.
   bool hits_glow() const { return has_emission || !(ambient == core::Vec3d{}); }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/lab/oracle/accurate/emitters.h"
+
 namespace dmpc::apps {
 namespace {
 
@@ -14,6 +16,9 @@ using core::Vec3d;
 constexpr double gap = 1e-13;
 /// A shadow ray ends this share of its length before the light, so that a surface through the light does not hide it.
 constexpr double light_gap = 1e-9;
+constexpr double pi = 3.14159265358979324;
+/// That a ray's record can hold.
+constexpr int depth_limit = 255;
 
 /// Nearer than this to all or nothing, alpha is that, as in the product.
 constexpr double alpha_rounding = 0x1p-16;
@@ -98,6 +103,7 @@ std::vector<AccurateRay> AccurateTracer::spawned(const Touch& met) const {
   }
   add_shadow_rays(met, rays);
   if (options_.transport.is_by_paths()) {
+    add_aimed_ray(met, rays);
     add_path_ray(met, rays);
     return rays;
   }
@@ -191,7 +197,7 @@ void AccurateTracer::finish(Touch& touch) const {
   touch.diffuse = material.diffuse * there;
   touch.specular = (material.specular_color * material.specular + touch.color * material.tinted_specular) * there;
   touch.transmittance = material.transmittance * there + (1 - there);
-  touch.emission = material.emission * there;
+  touch.emission = material.emission * (there * share_met(touch));
   touch.index = there > 0 ? touch.index : 1;
 }
 
@@ -288,6 +294,51 @@ std::optional<Vec3d> AccurateTracer::scattered_direction(const Touch& touch) {
   return is_outside ? std::optional(towards) : std::nullopt;
 }
 
+double AccurateTracer::scattered_density(const Touch& touch, const Vec3d& towards) {
+  const Ways ways = ways_of(touch);
+  const double cosine = dot(towards, touch.normal);
+  const bool is_outside = dot(towards, touch.surface.normal) * dot(touch.ray.direction, touch.surface.normal) < 0;
+  return cosine > 0 && is_outside && ways.all() > 0 ? brightest(ways.scattered) / ways.all() * cosine / pi : 0;
+}
+
+/// At one emitter, as far as a path's own ray would not find it.
+void AccurateTracer::add_aimed_ray(const Touch& touch, std::vector<AccurateRay>& rays) const {
+  const AccurateRay& from = touch.ray;
+  if (scene_.emitters.empty() || from.depth > options_.depth_max || from.depth >= depth_limit) {
+    return;
+  }
+  const auto pair = [&from](core::Purpose purpose) { return core::pair_of(from.pixel, from.sample, from.depth, purpose); };
+  const auto target = aim_from(scene_, touch.surface.point, pair(core::Purpose::place), pair(core::Purpose::emitter));
+  if (!target) {
+    return;
+  }
+  const AccurateAim& aim = target->aim;
+  AccurateRay ray = child(touch, aim.place - touch.surface.point, RayKind::shadow);
+  const double density = scattered_density(touch, ray.direction);
+  if (!(density > 0)) {
+    return;
+  }
+  const AccurateBody& body = scene_.bodies[target->body];
+  const double other = core::density_of(core::density_bits(density));
+  const double share = 1 / (1 + other / aimed_density(scene_, body, touch.surface.point, aim.place, aim.normal));
+  const Vec3d reflected = touch.color * (touch.diffuse * dot(ray.direction, touch.normal) / pi);
+  ray.weight = from.weight * scene_.materials[body.material].emission * reflected * (share / aim.density);
+  const Vec3d way = aim.place - ray.origin;
+  ray.direction = normalize(way);
+  ray.t_max = length(way) * (1 - light_gap);
+  if (!brings_nothing(ray)) {
+    rays.push_back(ray);
+  }
+}
+
+/// Of what shines where the ray met it: the rest was aimed at.
+double AccurateTracer::share_met(const Touch& touch) const {
+  const AccurateBody& body = scene_.bodies[touch.body];
+  return body.is_aimed_at ? 1 / (1 + aimed_density(scene_, body, touch.ray.origin, touch.surface.point, touch.surface.normal) /
+                                         touch.ray.density)
+                          : 1;
+}
+
 /// One way of the three, as often as its brightest channel says, counts for all.
 std::optional<AccurateRay> AccurateTracer::continued(const Touch& touch, const core::SamplePair& choice) const {
   const Ways ways = ways_of(touch);
@@ -302,7 +353,11 @@ std::optional<AccurateRay> AccurateTracer::continued(const Touch& touch, const c
   }
   if (place < brightest(ways.scattered)) {
     const std::optional<Vec3d> towards = scattered_direction(touch);
-    return towards ? go(*towards, ways.scattered, RayKind::scattered) : std::nullopt;
+    std::optional<AccurateRay> ray = towards ? go(*towards, ways.scattered, RayKind::scattered) : std::nullopt;
+    if (ray) {
+      ray->density = core::density_of(core::density_bits(scattered_density(touch, *towards)));
+    }
+    return ray;
   }
   return place < brightest(ways.scattered) + brightest(ways.mirrored)
              ? go(mirrored(touch.ray.direction, touch.normal), ways.mirrored, RayKind::reflected)

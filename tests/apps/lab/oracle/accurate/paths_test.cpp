@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "apps/lab/oracle/accurate/emitters.h"
 #include "apps/lab/oracle/accurate/picture.h"
 #include "core/database/database.h"
 #include "core/picture/render.h"
@@ -20,13 +21,15 @@ constexpr int side = 40;
 
 /// Of a square picture with one sample a pixel by both.
 struct Comparison {
-  Comparison(const core::Scene& scene, const core::Transport& transport, int bounces, double tolerance) {
+  Comparison(const core::Scene& scene, const core::Transport& transport, int bounces, double tolerance,
+             std::uint32_t emitters_max = 0) {
     const core::ShadeOptions shade{.depth_max = bounces + 1, .pixel_share = 1, .transport = transport};
-    const apps::AccurateScene doubled = apps::accurate_scene(scene);
+    apps::AccurateScene doubled = apps::accurate_scene(scene);
+    const core::Database database = core::build_database(scene, {.emitters_max = emitters_max});
+    aim_as_product(doubled, database);
     const apps::AccurateFinder finder(doubled, scene.view.from);
     const apps::AccuratePicture accurate = render_accurately(doubled, finder, apps::AccurateCamera(scene.view, side, side),
                                                              apps::SamplePattern::of_product(1), shade);
-    const core::Database database = core::build_database(scene, {});
     const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, 1),
                                         shade};
     core::LocalRecords records(database.bytes());
@@ -36,6 +39,7 @@ struct Comparison {
     for (std::uint32_t pixel = 0; pixel < accurate.radiance.size(); ++pixel) {
       note(film.radiance(pixel), accurate.radiance[pixel], tolerance);
     }
+    shadow_rays = operations.rays[static_cast<std::size_t>(core::RayKind::shadow)];
     paths_scattered = operations.rays[static_cast<std::size_t>(core::RayKind::scattered)];
   }
   double count() const { return side * side; }
@@ -44,7 +48,7 @@ struct Comparison {
 
   int differing = 0;            ///< pixels with a channel that is off by more than the tolerance, or that share of it
   double sum = 0, squares = 0;  ///< of what pixels differ by, in all channels
-  std::uint64_t paths_scattered = 0;
+  std::uint64_t paths_scattered = 0, shadow_rays = 0;
 
  private:
   void note(const Vec3d& product, const Vec3d& accurate, double tolerance) {
@@ -72,6 +76,27 @@ TEST_CASE(
       const Comparison comparison(scene, sky, bounces, has_alpha ? 1e-4 : 1e-5);
       CHECK((bounces == 0 || comparison.paths_scattered > 200));
       CHECK(comparison.differing <= side * side / (has_alpha ? 50 : 100));
+      CHECK(std::fabs(comparison.mean_difference()) <= 4 * comparison.standard_error() + 1e-6);
+    }
+  }
+}
+
+TEST_CASE("paths that aim at triangles and balls that shine bring the product's light in double precision, with its chances") {
+  core::Scene scene = built_in("balls-2");
+  scene.lights.clear();
+  core::SceneBuilder builder(scene);
+  for (int i = 0; i < 4; ++i) {
+    builder.material({.color = {0.5, 0.5, 0.5}, .emission = {2.0 + i, 3, 4}});
+    builder.sphere({-1 + 0.7 * i, 0.5, 1.1}, 0.1);
+    builder.polygon({{-1 + 0.5 * i, -1, 1}, {-0.7 + 0.5 * i, -1, 1}, {-0.7 + 0.5 * i, -0.7, 1.3}});
+  }
+  for (const std::uint32_t emitters : {1U, 3U, 1024U}) {
+    for (const int bounces : {0, 1, 3}) {
+      CAPTURE(emitters);
+      CAPTURE(bounces);
+      const Comparison comparison(scene, {.kind = core::TransportKind::paths}, bounces, 1e-4, emitters);
+      CHECK(comparison.shadow_rays > 200);
+      CHECK(comparison.differing <= side * side / 50);
       CHECK(std::fabs(comparison.mean_difference()) <= 4 * comparison.standard_error() + 1e-6);
     }
   }
