@@ -199,6 +199,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"
       "  dmpc render teapot-12 --nodes=64 --runner=pool -o teapot.png\n"
       "  dmpc render balls-4 --transport=paths --sky=0.4/0.1,0.2,0.8 --samples=auto -o balls.png\n"
+      "  dmpc render teapot-12 --transport=paths --light-radius=0.5 --samples=64 -o teapot.png\n"
       "  dmpc render teapot-12 --nodes=64 --runner=virtual --machine=ipsc860 --stats=teapot.json -o teapot.png\n"
       "  mpirun -n 4 dmpc render tetra-10 --runner=mpi --nodes=28 -o tetra.exr\n"
       "  dmpc render balls-6 --samples=256 --checkpoint=balls.checkpoint --resume -o balls.exr\n"

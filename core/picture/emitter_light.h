@@ -41,10 +41,14 @@ double density_towards_triangle(double density_on, double distance, double cosin
 /// At any direction in which a sphere is seen whose middle is so far away; 0 within it.
 double density_towards_sphere(double density_on, double middle_distance, double radius);
 
-/// What counts of light that came by a way of density `own`, if another might have brought it with density `other`: the balance
-/// heuristic (E. Veach, L. J. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995). Either
-/// may be infinite or 0, not both alike.
-constexpr double balanced_share(double own, double other) { return 1.0 / (1.0 + other / own); }
+/// What counts of light that came by a way of density `own`, if another might have brought it with density `other`: the power
+/// heuristic with an exponent of 2 (E. Veach, L. J. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering",
+/// SIGGRAPH 1995). Either may be infinite or 0, not both alike. By the balance heuristic, whose exponent is 1, paths that
+/// happen to meet a small light would count so much that they make most of the error.
+constexpr double way_share(double own, double other) {
+  const double ratio = other / own;
+  return 1.0 / (1.0 + ratio * ratio);
+}
 
 /// How far before the place a shadow ray ends, so that the emitter itself is not met, however rounding moves it.
 double gap_before(const EmitterRecord& emitter, const AimedPlace& place);

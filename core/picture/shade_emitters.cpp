@@ -79,7 +79,7 @@ bool Shader::read_emitter(HitState& state, const std::byte* record, Ray& child) 
   child.weight = {};
   if (is_lit) {
     const double aimed = density_where_aimed(emitter, *place, child, start.along, density_on(header_, emitter.radiance));
-    const double share = options_.transport.only_aims ? 1.0 : balanced_share(aimed, density_of(density_bits(response.density)));
+    const double share = options_.transport.only_aims ? 1.0 : way_share(aimed, density_of(density_bits(response.density)));
     child.weight = Color(Vec3d(state.ray.weight) * Vec3d(emitter.radiance) * response.value * (share / place->density));
   }
   return !leaves_out(is_lit, child.weight);
@@ -92,8 +92,7 @@ float Shader::share_met(const HitState& state, const Color& radiance) const {
   if (options_.transport.only_aims) {
     return 0.0F;
   }
-  return static_cast<float>(
-      balanced_share(density_of(state.ray.density), density_where_met(state, density_on(header_, radiance))));
+  return static_cast<float>(way_share(density_of(state.ray.density), density_where_met(state, density_on(header_, radiance))));
 }
 
 }  // namespace dmpc::core

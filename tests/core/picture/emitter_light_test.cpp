@@ -127,12 +127,12 @@ TEST_CASE("shares of two ways that might have brought the same light add up to a
   constexpr double infinite = std::numeric_limits<double>::infinity();
   for (const double own : {1e-30, 0.3, 7.0, 1e30}) {
     for (const double other : {1e-20, 0.5, 1e20}) {
-      CHECK(balanced_share(own, other) + balanced_share(other, own) == doctest::Approx(1).epsilon(1e-15));
+      CHECK(way_share(own, other) + way_share(other, own) == doctest::Approx(1).epsilon(1e-15));
     }
-    CHECK(balanced_share(infinite, own) == 1);
-    CHECK(balanced_share(own, infinite) == 0);
-    CHECK(balanced_share(own, 0) == 1);
-    CHECK(balanced_share(0, own) == 0);
+    CHECK(way_share(infinite, own) == 1);
+    CHECK(way_share(own, infinite) == 0);
+    CHECK(way_share(own, 0) == 1);
+    CHECK(way_share(0, own) == 0);
   }
 }
 

@@ -25,6 +25,9 @@ constexpr double alpha_rounding = 0x1p-16;
 
 Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) { return direction - normal * (2 * dot(direction, normal)); }
 
+/// By Veach's power heuristic, of light that another way might have brought.
+double share_of(double own, double other) { return std::isinf(own) ? 1 : own * own / (own * own + other * other); }
+
 double start_gap(const AccurateBody& body) {
   double coordinate = 0;
   for (const Vec3d& place : body.place) {
@@ -320,7 +323,7 @@ void AccurateTracer::add_aimed_ray(const Touch& touch, std::vector<AccurateRay>&
   }
   const AccurateBody& body = scene_.bodies[target->body];
   const double other = core::density_of(core::density_bits(density));
-  const double share = 1 / (1 + other / aimed_density(scene_, body, touch.surface.point, aim.place, aim.normal));
+  const double share = share_of(aimed_density(scene_, body, touch.surface.point, aim.place, aim.normal), other);
   const Vec3d reflected = touch.color * (touch.diffuse * dot(ray.direction, touch.normal) / pi);
   ray.weight = from.weight * scene_.materials[body.material].emission * reflected * (share / aim.density);
   const Vec3d way = aim.place - ray.origin;
@@ -334,8 +337,8 @@ void AccurateTracer::add_aimed_ray(const Touch& touch, std::vector<AccurateRay>&
 /// Of what shines where the ray met it: the rest was aimed at.
 double AccurateTracer::share_met(const Touch& touch) const {
   const AccurateBody& body = scene_.bodies[touch.body];
-  return body.is_aimed_at ? 1 / (1 + aimed_density(scene_, body, touch.ray.origin, touch.surface.point, touch.surface.normal) /
-                                         touch.ray.density)
+  return body.is_aimed_at ? share_of(touch.ray.density,
+                                     aimed_density(scene_, body, touch.ray.origin, touch.surface.point, touch.surface.normal))
                           : 1;
 }
 
