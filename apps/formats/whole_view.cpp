@@ -15,17 +15,21 @@ using core::Vec3d;
 
 BoundingSphere sphere_around(const IndexedVertices& vertices) {
   core::Box box;
+  std::vector<std::uint8_t> has_vertex(vertices.points.size());  // a point is looked at once, in the order of the vertices
   for (const std::uint32_t index : vertices.indices) {
-    box.include(vertices.points[index]);
+    if (has_vertex[index] == 0) {
+      has_vertex[index] = 1;
+      box.include(vertices.points[index]);
+    }
   }
   if (box.empty()) {
     return {{}, 1};
   }
   BoundingSphere bounds{box.center(), 0};
   double square = 0;
-  for (const std::uint32_t index : vertices.indices) {
-    const Vec3d offset = vertices.points[index] - bounds.center;
-    square = std::max(square, dot(offset, offset));
+  for (std::size_t i = 0; i < has_vertex.size(); ++i) {
+    const Vec3d offset = vertices.points[i] - bounds.center;
+    square = has_vertex[i] != 0 ? std::max(square, dot(offset, offset)) : square;
   }
   bounds.radius = std::sqrt(square);
   return bounds;

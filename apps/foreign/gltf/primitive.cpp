@@ -55,8 +55,11 @@ void check_counts(const Primitive& result, const Part& attributes) {
 
 void check_indices(const Primitive& result, const Part& primitive) {
   const std::size_t count = result.attributes.at("POSITION").count();
-  const auto most = std::max_element(result.indices.begin(), result.indices.end());
-  if (most == result.indices.end() || *most < count) {
+  std::uint32_t most = 0;
+  for (const std::uint32_t index : result.indices) {  // many at once, by vectors
+    most = std::max(most, index);
+  }
+  if (most < count || result.indices.empty()) {
     return;
   }
   for (std::size_t i = 0; i < result.indices.size(); ++i) {

@@ -87,13 +87,7 @@ bool shows_nothing(const core::Material& material) {
 GeometrySize size_of_face(std::uint64_t corners) { return corners < 3 ? GeometrySize{} : GeometrySize{corners - 2, 1, corners}; }
 
 GeometrySize size_of(const FaceList& faces) {
-  GeometrySize size;
-  std::uint32_t first = 0;
-  for (const std::uint32_t end : faces.ends) {
-    size += size_of_face(end - first);
-    first = end;
-  }
-  return size;
+  return {faces.corners.size() - 2 * faces.ends.size(), faces.ends.size(), faces.corners.size()};
 }
 
 void check_size(const GeometrySize& size) {
@@ -127,9 +121,14 @@ void GeometryWriter::add(PolygonMesh mesh, core::Material material) {
   hides_colors_ = false;
   unseen_ += shows_nothing(material) ? 1 : 0;
   builder_.material(material);
+  const bool is_plain = mesh.normals.empty() && mesh.places.empty() && mesh.colors.empty();
   std::size_t first = 0;
   for (const std::uint32_t end : mesh.faces.ends) {
-    add_face(mesh, material, first, end);
+    if (is_plain && has_area_) {
+      builder_.polygon(end - first);
+    } else {
+      add_face(mesh, material, first, end);
+    }
     first = end;
   }
   meshes_without_colors_ += hides_colors_ ? 1 : 0;
@@ -177,7 +176,7 @@ bool GeometryWriter::set_one_color(const PolygonMesh& mesh, const core::Material
 
 void GeometryWriter::add_face(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end) {
   face_vertices_.clear();
-  for (std::size_t i = first; i < end && !(has_area_ && mesh.normals.empty()); ++i) {  // else nobody looks at them
+  for (std::size_t i = first; i < end; ++i) {
     face_vertices_.push_back(mesh.vertices[mesh.faces.corners[i]]);
   }
   has_area_ = has_area_ || spans_an_area(face_vertices_);

@@ -25,6 +25,7 @@ struct GeometrySize {
   GeometrySize& operator+=(const GeometrySize& other) { return core::add_counts(*this, other); }
 };
 GeometrySize size_of_face(std::uint64_t corners);
+/// Of faces that all have so many.
 GeometrySize size_of(const FaceList& faces);
 /// Throws core::RoomError if a database, or the indices of a scene, do not reach so far.
 void check_size(const GeometrySize& size);
