@@ -35,6 +35,20 @@ TEST_CASE("the closing lines of replicated do without pages") {
   CHECK(contains(text, "computer 3 nodes, replicated, 16 pixels in flight\n"));
 }
 
+TEST_CASE("the last closing line says how light got about, and what nobody asked for, with what to say instead") {
+  RenderOptions options = small();
+  CHECK_FALSE(contains(summary(options), "paths"));
+  options.picture.transport = {.kind = core::TransportKind::paths, .bounces = 1, .sky = SkyChoice{{1, 1, 1}, {}}};
+  options.picture.depth = options.picture.transport.depth();
+  CHECK(contains(summary(options), ", paths, 1 bounce, sky 1,1,1\n"));
+  options.picture.is_refined_unasked = true;
+  CHECK(contains(summary(options), ", refined to the default error of 1/255 (--samples=1 for one ray a pixel)\n"));
+  options.picture.is_by_paths_unasked = true;
+  CHECK(contains(summary(options),
+                 "sky 1,1,1, refined to the default error of 1/255 (--transport=whitted for hard light, "
+                 "--samples=1 for one ray of it a pixel)\n"));
+}
+
 TEST_CASE("the closing lines of forest say what was asked") {
   const std::string text = summary(small(Strategy::forest));
   CHECK(contains(text, "computer 3 nodes, forest, forest of 1 page, 16 pixels in flight\n"));
