@@ -6,6 +6,7 @@
 #include "apps/computer/readable_nodes.h"
 #include "apps/computer/record.h"
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/show/page/node_bands.h"
 #include "apps/edge/show/page/traffic.h"
 #include "apps/edge/show/page/view_conclusions.h"
 #include "nodes/size_text.h"
@@ -18,18 +19,12 @@ void begin_page(Page& page, const Origin& origin, const Facts& facts, const std:
   page.add_text(origin.program + ", " + origin.date);
   page.add_facts(facts);
   if (node_count > readable_nodes_max) {
-    page.add_text("Bars for each node, and who sends whom how much, are shown of up to " + std::to_string(readable_nodes_max) +
+    page.add_text("Who sends whom how much is shown of up to " + std::to_string(readable_nodes_max) +
                   " nodes: the tables have all of them.");
   }
   if (!result.empty()) {
     page.begin_section("What it came to");
     page.add_code(result);
-  }
-}
-
-void add_node_plot(Page& page, std::size_t node_count, const Plot& plot, const Table& table) {
-  if (node_count <= readable_nodes_max) {
-    page.add_plot(plot, table);
   }
 }
 
@@ -85,7 +80,7 @@ void add_losses(Page& page, const Losses& losses) {
   page.begin_section("Where the time went");
   page.add_conclusion(loss_conclusion(losses));
   const Table table = loss_table(losses);
-  add_node_plot(page, losses.nodes.size(), loss_plot(losses), table);
+  add_node_plot(page, loss_plot(losses), table);
   page.add_table(table);
 }
 

@@ -25,9 +25,6 @@ PageSpeaker speaker(const std::string& name);
 /// Puts where it is from, what it is of and what the program came to at the beginning of a page.
 void begin_page(Page& page, const Origin& origin, const Facts& facts, const std::string& result, std::uint32_t node_count);
 
-/// Bars of each of so many nodes; nothing of more than readable_nodes_max.
-void add_node_plot(Page& page, std::size_t node_count, const Plot& plot, const Table& table);
-
 /// This process is the program `name`.
 Origin program_origin(const std::string& name);
 

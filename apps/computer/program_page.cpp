@@ -10,6 +10,7 @@
 #include "apps/computer/task_tables.h"
 #include "apps/edge/line/amount.h"
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/show/page/node_bands.h"
 #include "apps/edge/show/page/view_conclusions.h"
 #include "core/base/expect.h"
 #include "nodes/size_text.h"
@@ -81,7 +82,7 @@ void add_nodes(Page& page, const ProgramRecord& record) {
   }
   const Table table = node_table(record);
   if (!has_pages || record.sum().pages.faults > 0) {
-    add_node_plot(page, record.nodes.size(), node_plot(record), table);
+    add_node_plot(page, node_plot(record), table);
   }
   page.add_table(table);
 }
@@ -90,7 +91,7 @@ void add_memory(Page& page, const ProgramRecord& record) {
   page.begin_section("Memory");
   page.add_conclusion(memory_conclusion(record));
   const Table table = memory_table(record);
-  add_node_plot(page, record.nodes.size(), memory_plot(record), table);
+  add_node_plot(page, memory_plot(record), table);
   page.add_table(table);
 }
 

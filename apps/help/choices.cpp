@@ -82,7 +82,8 @@ ChoiceList heat_maps() {
                                                                               "time of computing",
                                                                               "the node that the pixel belongs to",
                                                                               "how deep its rays go; 1: primary rays alone",
-                                                                              "light samples"};
+                                                                              "light samples",
+                                                                              "when it was done, since the start"};
   ChoiceList all{"heatmaps", "--heatmap=", {}};
   for (std::size_t i = 0; i < meanings.size(); ++i) {
     all.entries.push_back({std::string(core::heat_kind_names[i]), meanings[i]});

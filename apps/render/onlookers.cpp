@@ -13,6 +13,10 @@ Onlookers::Onlookers(const WatchOrder& order) : order_(order) {
   if (!order.heat_kinds.empty()) {
     heat_.emplace(order.pixel_count, order.heat_kinds);
   }
+  if (heat_ && heat_->has(core::HeatKind::done)) {
+    done_ = std::make_unique<nodes::DoneWatch>(order.node_count + 1, *heat_);
+    members.push_back(done_.get());
+  }
   if (order.trace) {
     recorder_ = std::make_unique<nodes::TraceRecorder>(order.node_count + 1, *order.trace);
     members.push_back(recorder_.get());
@@ -65,7 +69,7 @@ std::string Onlookers::seen() const {
 void Onlookers::add(std::string_view seen, const nodes::ClockDrift& clock) {
   nodes::FlatReader flat(seen);
   if (heat_) {
-    heat_->add(flat.take_bytes());
+    heat_->add(flat.take_bytes(), clock);
   }
   if (recorder_) {
     recorder_->add(flat.take_bytes(), clock);

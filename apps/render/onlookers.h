@@ -10,6 +10,7 @@
 #include "apps/edge/run/run_view.h"
 #include "apps/render/watch_order.h"
 #include "nodes/ranks/clock_drift.h"
+#include "nodes/watch/done_watch.h"
 #include "nodes/watch/heat_map.h"
 #include "nodes/watch/observer_group.h"
 #include "nodes/watch/trace.h"
@@ -52,6 +53,7 @@ class Onlookers {
   WatchOrder order_;
   std::optional<nodes::HeatMap> heat_;
   std::unique_ptr<nodes::TraceRecorder> recorder_;
+  std::unique_ptr<nodes::DoneWatch> done_;
   std::unique_ptr<nodes::ActivityProfile> profile_;
   std::unique_ptr<svm::FetchWatch> fetches_;
   std::vector<svm::ReferenceLog> reference_logs_;

@@ -16,6 +16,23 @@ std::uint32_t rank_count_of(const RenderOptions& options) {
   return options.computer.ranks == nullptr ? 1 : options.computer.ranks->rank_count();
 }
 
+/// Those that files ask for, and those that a page plays, all of which cost little. Different pages are not among them: they
+/// would take memory of the nodes.
+std::vector<core::HeatKind> heat_kinds_of(const RenderOptions& options) {
+  using core::HeatKind;
+  std::vector<HeatKind> kinds = kinds_of(options.heat_maps);
+  if (options.report) {
+    kinds.insert(kinds.end(), {HeatKind::done, HeatKind::node, HeatKind::rays});
+    if (options.strategy == Strategy::svm) {
+      kinds.insert(kinds.end(), {HeatKind::faults, HeatKind::references});
+    }
+    if (options.computer.machine) {
+      kinds.push_back(HeatKind::time);  // with threads the clock would be read twice a quantum
+    }
+  }
+  return kinds;
+}
+
 }  // namespace
 
 WatchOrder watch_order(const RenderOptions& options, std::uint32_t page_count, std::uint32_t pixel_count,
@@ -24,7 +41,7 @@ WatchOrder watch_order(const RenderOptions& options, std::uint32_t page_count, s
   WatchOrder order{.node_count = node_count,
                    .page_count = page_count,
                    .pixel_count = pixel_count,
-                   .heat_kinds = kinds_of(options.heat_maps),
+                   .heat_kinds = heat_kinds_of(options),
                    .has_profile = options.report.has_value()};
   if (options.trace.path) {
     order.trace = trace_choice(options.trace, node_count);

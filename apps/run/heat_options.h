@@ -18,7 +18,8 @@ struct HeatRequest {
   std::filesystem::path path;
 };
 
-/// All kinds in both formats, and as many again. They are under way at a time, for which apps/edge/system/interrupt.cpp has room.
+/// All kinds in both formats, and most of them again. They are under way at a time, for which apps/edge/system/interrupt.cpp has
+/// room.
 inline constexpr std::size_t heat_requests_max = 32;
 
 /// "KIND:FILE.exr" or "KIND:FILE.png". Throws core::UsageError for anything else.

@@ -35,7 +35,7 @@ struct RenderRecord {
   const core::Database& database;
   const Report& report;
   Seconds seconds;
-  const nodes::HeatMap* heat = nullptr;                        ///< what options.heat_maps ask for
+  const nodes::HeatMap* heat = nullptr;                        ///< what options.heat_maps and options.report ask for
   const nodes::Trace* trace = nullptr;                         ///< what options.trace asks for
   const RunView* view = nullptr;                               ///< what options.report asks for
   const std::vector<svm::ReferenceLog>* references = nullptr;  ///< what options.references asks for

@@ -17,10 +17,11 @@ enum class HeatKind : std::uint8_t {
   time,        ///< picoseconds of computing
   node,        ///< number of the node that the pixel belongs to
   depth,       ///< of its deepest ray; 1: a primary ray
-  samples      ///< light samples on the film
+  samples,     ///< light samples on the film
+  done         ///< nanoseconds from the start of the run until its last ray was worked on
 };
-inline constexpr std::array<std::string_view, 8> heat_kind_names = {"faults", "references", "pages", "rays",
-                                                                    "time",   "node",       "depth", "samples"};
+inline constexpr std::array<std::string_view, 9> heat_kind_names = {"faults", "references", "pages",   "rays", "time",
+                                                                    "node",   "depth",      "samples", "done"};
 constexpr std::string_view name_of(HeatKind kind) { return heat_kind_names[static_cast<std::size_t>(kind)]; }
 
 }  // namespace dmpc::core

@@ -49,15 +49,16 @@ std::string HeatMap::bytes() const {
   return flat.take();
 }
 
-void HeatMap::add(std::string_view bytes) {
+void HeatMap::add(std::string_view bytes, const ClockDrift& clock) {
   FlatReader flat(bytes);
   for (std::size_t kind = 0; kind < values_.size(); ++kind) {
-    const bool is_largest = kind == depth_.value() || kind == node_.value();
+    const bool is_done = kind == done_.value(), is_largest = is_done || kind == depth_.value() || kind == node_.value();
     std::vector<std::uint64_t> more(values_[kind].size());
     flat.take_all(std::span(more));
     for (std::size_t item = 0; item < more.size(); ++item) {
       std::uint64_t& value = values_[kind][item];
-      value = is_largest ? std::max(value, more[item]) : value + more[item];
+      const std::uint64_t other = is_done && more[item] > 0 ? clock.corrected(more[item]) : more[item];
+      value = is_largest ? std::max(value, other) : value + other;
     }
   }
   core::expect(flat.is_at_end(), "heat maps that are added are of the same kinds");

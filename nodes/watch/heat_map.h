@@ -11,11 +11,12 @@
 #include <vector>
 
 #include "nodes/programs_name.h"
+#include "nodes/ranks/clock_drift.h"
 
 namespace dmpc::nodes {
 
 /// How many kinds of numbers a map can have.
-inline constexpr std::size_t heat_kind_count = 8;
+inline constexpr std::size_t heat_kind_count = 9;
 
 /// A kind, by the numbering of whoever makes the map.
 class HeatNumber {
@@ -31,12 +32,13 @@ class HeatNumber {
   std::size_t value_;
 };
 
-/// Kinds that can be recorded. The computer knows what three of them mean, and the program counts the others.
+/// Kinds that can be recorded. The computer knows what four of them mean, and the program counts the others.
 template <class Kind>
 concept HeatKinds = ProgramsName<Kind> && requires {
   Kind::time;   // picoseconds of computing
   Kind::node;   // number of the node that the item belongs to
   Kind::depth;  // of the deepest Worked
+  Kind::done;   // nanoseconds from the start until it was last worked on (DoneWatch)
 };
 
 /// A number for each item and kind recorded; of other kinds nothing is kept. Thread safety: several nodes may write at a time,
@@ -49,7 +51,8 @@ class HeatMap {
       : item_count_(item_count),
         time_(Kinds::value_type::time),
         node_(Kinds::value_type::node),
-        depth_(Kinds::value_type::depth) {
+        depth_(Kinds::value_type::depth),
+        done_(Kinds::value_type::done) {
     for (const HeatNumber kind : kinds) {
       values_.at(kind.value()).resize(item_count);
     }
@@ -60,6 +63,7 @@ class HeatMap {
   HeatNumber time() const { return time_; }
   HeatNumber node() const { return node_; }
   HeatNumber depth() const { return depth_; }
+  HeatNumber done() const { return done_; }
 
   // These do nothing with a kind that is not recorded. They require item < item_count().
   void add(HeatNumber kind, std::uint32_t item, std::uint64_t amount);
@@ -73,15 +77,16 @@ class HeatMap {
 
   /// All numbers, for add() of a map of the same items and kinds.
   std::string bytes() const;
-  /// Adds what others, on another rank, have written to theirs; of depth and node the larger number stays.
-  void add(std::string_view bytes);
+  /// Adds what others, on another rank, have written to theirs; of depth, node and done the larger number stays, of done by this
+  /// rank's clock.
+  void add(std::string_view bytes, const ClockDrift& clock = {});
 
  private:
   /// Where the item's number stands; nullptr if the kind is not recorded.
   std::uint64_t* place(HeatNumber kind, std::uint32_t item);
 
   std::uint32_t item_count_;
-  HeatNumber time_, node_, depth_;
+  HeatNumber time_, node_, depth_, done_;
   std::array<std::vector<std::uint64_t>, heat_kind_count> values_;  ///< by kind
 };
 

@@ -14,30 +14,35 @@ namespace dmpc::tests {
 
 inline constexpr const char* chromium = "/usr/bin/chromium";
 
-/// Tells the frame around the page how wide the page is, and how many of its pictures the browser shows.
+/// Tells how wide the page within is, how many of its pictures the browser shows, and what it has asked for. It stands outside,
+/// as the page's policy has nothing run within that is not the page's own; hence --allow-file-access-from-files.
 inline constexpr const char* telling_script =
-    "<script>addEventListener('load',()=>{const all=[...document.images];"
-    "parent.postMessage(`width ${document.documentElement.scrollWidth} of ${innerWidth}, shown "
+    "<script>addEventListener('load',()=>{const frame=document.querySelector('iframe'),page=frame.contentDocument,"
+    "window=frame.contentWindow,all=[...page.images];"
+    "document.title=`width ${page.documentElement.scrollWidth} of ${window.innerWidth}, shown "
     "${all.filter(i=>i.complete&&i.naturalWidth>0).length} of ${all.length}, asked for "
-    "${performance.getEntriesByType('resource').filter(e=>!e.name.startsWith('data:')).length}, tables cut "
-    "${[...document.querySelectorAll('.scroll')].filter(e=>e.scrollWidth>e.clientWidth).length}, dark "
-    "${matchMedia('(prefers-color-scheme:dark)').matches}`,'*')})</script>";
+    "${window.performance.getEntriesByType('resource').filter(e=>!e.name.startsWith('data:')).length}, tables cut "
+    "${[...page.querySelectorAll('.scroll')].filter(e=>e.scrollWidth>e.clientWidth).length}, dark "
+    "${window.matchMedia('(prefers-color-scheme:dark)').matches}`})</script>";
 
 /// A window with a page so many pixels wide, since no window of the browser's is as narrow as a telephone. Its title says what
-/// the page has told.
-inline std::string window_around(const std::string& file, int width) {
-  return "<!DOCTYPE html><meta name=\"color-scheme\" content=\"light dark\"><script>addEventListener('message',"
-         "e=>{document.title=e.data})</script><style>body{margin:0}iframe{border:0;height:900px;width:" +
-         std::to_string(width) + "px}</style><iframe src=\"" + file + "\"></iframe>";
+/// `script` has told of the page.
+inline std::string window_around(const std::string& file, int width, const std::string& script) {
+  return "<!DOCTYPE html><meta name=\"color-scheme\" content=\"light dark\">" + script +
+         "<style>body{margin:0}iframe{border:0;height:900px;width:" + std::to_string(width) + "px}</style><iframe src=\"" + file +
+         "\"></iframe>";
 }
 
-/// What the browser tells of the page in a window of so many pixels, of which it puts a picture into the file `shot`.
-inline std::string told_by_browser(const std::string& page, int width, bool is_dark, const std::filesystem::path& shot) {
+/// What the browser tells of the page in a window of so many pixels, of which it puts a picture into the file `shot`. `script` is
+/// an element that puts it into the window's title; `state` follows upon the page's address.
+inline std::string told_by_browser(const std::string& page, int width, bool is_dark, const std::filesystem::path& shot,
+                                   const std::string& script = telling_script, const std::string& state = "") {
   const TemporaryFolder folder;
-  write_text(folder / "page.html", page + telling_script);
-  write_text(folder / "window.html", window_around("page.html", width));
+  write_text(folder / "page.html", page);
+  write_text(folder / "window.html", window_around("page.html" + state, width, script));
   ChildProcess browser({chromium, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run",
-                        "--user-data-dir=" + (folder / "profile").string(), "--window-size=" + std::to_string(width) + ",900",
+                        "--allow-file-access-from-files", "--user-data-dir=" + (folder / "profile").string(),
+                        "--window-size=" + std::to_string(width) + ",900",
                         std::string("--blink-settings=preferredColorScheme=") + (is_dark ? "0" : "1"),
                         "--virtual-time-budget=5000", "--screenshot=" + shot.string(), "--dump-dom",
                         "file://" + (folder / "window.html").string()});

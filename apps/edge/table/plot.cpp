@@ -51,13 +51,15 @@ std::string text_of_cell(const Cell& cell) {
   return name;
 }
 
+bool stands_at_place(const PlotSeries& series) { return series.mark == PlotMark::bars || series.mark == PlotMark::bands; }
+
 /// Writes one plot's script.
 class Script {
  public:
   Script(const Plot& plot, const Table& table, const std::string& data_file) : plot_(plot), table_(table), data_(data_file) {
-    is_bars_ = std::any_of(plot.series.begin(), plot.series.end(), [](const auto& one) { return one.mark == PlotMark::bars; });
+    is_bars_ = std::any_of(plot.series.begin(), plot.series.end(), stands_at_place);
     for (const PlotSeries& series : plot.series) {
-      core::expect((series.mark == PlotMark::bars) == is_bars_, "the series of a plot are all bars, or none is");
+      core::expect(stands_at_place(series) == is_bars_, "the series of a plot are all bars or bands, or none is");
       core::expect(series.color < plot_color_count, "a plot has so many colours");
       if (std::any_of(table.rows().begin(), table.rows().end(), [&](const auto& row) { return is_meant(series, row); })) {
         drawn_.push_back(&series);
@@ -130,7 +132,8 @@ class Script {
   }
 
   static std::vector<std::string> ends_of(const PlotSeries& series) {
-    return series.mark == PlotMark::intervals ? std::vector{series.low, series.high} : std::vector<std::string>{};
+    const bool has_ends = series.mark == PlotMark::intervals || series.mark == PlotMark::bands;
+    return has_ends ? std::vector{series.low, series.high} : std::vector<std::string>{};
   }
 
   PlotExtent span_of_y() const {
@@ -310,6 +313,20 @@ class Script {
   /// gnuplot's filled shapes follow upon the same ones hollow.
   static int hollow(int shape) { return shape % 2 == 1 ? shape - 1 : shape; }
 
+  /// The box with its lines to both ends, and upon it one so flat that it is a line.
+  std::string band(std::size_t series, const std::string& color) const {
+    const PlotSeries& drawn = *drawn_[series];
+    const auto box = [&](const std::string& low, const std::string& least, const std::string& most, const std::string& high) {
+      std::string numbers = gnuplot_text(data_) + " using (" + x_of(series) + ")";
+      for (const std::string& name : {low, least, most, high}) {
+        numbers += ":(column(" + column(name) + "))";
+      }
+      return numbers + " with candlesticks linecolor '" + color + "'";
+    };
+    return box(drawn.box_low, drawn.low, drawn.high, drawn.box_high) + " fillstyle solid 0.4 title " + gnuplot_text(drawn.title) +
+           " whiskerbars 0.5" + next_line + box(drawn.column, drawn.column, drawn.column, drawn.column) + " linewidth 3 notitle";
+  }
+
   static bool is_hatched(const PlotSeries& series) { return series.mark == PlotMark::bars && series.color >= plot_colors.size(); }
 
   std::string style_of(const PlotSeries& series) const {
@@ -332,6 +349,9 @@ class Script {
   /// What is drawn of a series, one upon another: a hatch lets through what lies under it, and so needs a ground.
   std::string elements(std::size_t series) const {
     const PlotSeries& drawn = *drawn_[series];
+    if (drawn.mark == PlotMark::bands) {
+      return band(series, plot_colors[drawn.color % plot_colors.size()]);
+    }
     std::string ends;
     for (const std::string& end : ends_of(drawn)) {
       ends += ":(column(" + column(end) + "))";

@@ -14,8 +14,8 @@
 namespace dmpc::apps {
 
 /// How a series is drawn: what was computed as a line from left to right, what it is held against as points, what is uncertain as
-/// hollow points with an interval.
-enum class PlotMark : std::uint8_t { line, points, bars, intervals };
+/// hollow points with an interval; how something is spread out as a box with a line in it, and lines beyond it to the ends.
+enum class PlotMark : std::uint8_t { line, points, bars, intervals, bands };
 
 /// Looks that people who are colour-blind can tell apart: eight colours, then the first four of them again, dashed or hatched.
 inline constexpr std::size_t plot_color_count = 12;
@@ -30,8 +30,9 @@ struct PlotSeries {
   /// Only rows with each of these texts in the column named before it.
   std::vector<std::pair<std::string, std::string>> where = {};
   PlotMark mark = PlotMark::line;
-  std::size_t color = 0;            ///< below plot_color_count; each has a shape of its points, too
-  std::string low = {}, high = {};  ///< intervals: the columns of both ends
+  std::size_t color = 0;                    ///< below plot_color_count; each has a shape of its points, too
+  std::string low = {}, high = {};          ///< intervals and bands: the columns of both ends
+  std::string box_low = {}, box_high = {};  ///< bands: of the ends of the box; `column` is the line in it
 };
 
 enum class PlotScale : std::uint8_t { linear, powers_of_2, powers_of_10 };
@@ -45,7 +46,7 @@ struct PlotAxis {
 /// large: a file of its own. small: part of a page, legible on a telephone, with the legend below, and as high as that needs.
 enum class PlotSize : std::uint8_t { large, small };
 
-/// What is drawn. The series are all bars, or none is.
+/// What is drawn. The series are all bars or bands, or none is.
 struct Plot {
   std::string name;  ///< of its files, without an extension
   std::string title;

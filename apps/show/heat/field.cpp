@@ -15,6 +15,7 @@ namespace {
 using core::HeatKind;
 
 constexpr double picoseconds_in_us = 1e6;
+constexpr double nanoseconds_in_us = 1e3;
 
 /// Work items move from node to node, or pixels overtake each other, unless these hold.
 struct FixedOrder {
@@ -38,19 +39,28 @@ bool is_repeatable(HeatKind kind, const RenderRecord& record) {
     case HeatKind::node:
       return is_modelled || order.of_nodes;
     case HeatKind::time:
+    case HeatKind::done:
       return is_modelled;
     default:
       return true;
   }
 }
 
-/// What is counted, and its unit.
-struct Meaning {
-  const char* text;
-  const char* unit;
-};
+std::vector<double> values_of(HeatKind kind, const RenderRecord& record, const core::Film& film) {
+  std::vector<double> values(film.pixel_count());
+  const std::span<const std::uint64_t> counts = record.heat->values(kind);
+  for (std::uint32_t pixel = 0; pixel < values.size(); ++pixel) {
+    const auto count = static_cast<double>(kind == HeatKind::samples ? film.samples(pixel) : counts[pixel]);
+    values[pixel] = kind == HeatKind::time   ? count / picoseconds_in_us
+                    : kind == HeatKind::done ? count / nanoseconds_in_us
+                                             : count;
+  }
+  return values;
+}
 
-Meaning meaning_of(HeatKind kind, Strategy strategy) {
+}  // namespace
+
+HeatMeaning meaning_of(HeatKind kind, Strategy strategy) {
   switch (kind) {
     case HeatKind::faults:
       return {"pages requested from other nodes", "faults"};
@@ -68,22 +78,12 @@ Meaning meaning_of(HeatKind kind, Strategy strategy) {
       return {"depth of the deepest ray", "rays"};
     case HeatKind::samples:
       return {"light samples", "samples"};
+    case HeatKind::done:
+      return {"done, since the start of the run", "us"};
   }
   core::expect(false, "a kind of heat map has a meaning");
   return {};
 }
-
-std::vector<double> values_of(HeatKind kind, const RenderRecord& record, const core::Film& film) {
-  std::vector<double> values(film.pixel_count());
-  const std::span<const std::uint64_t> counts = record.heat->values(kind);
-  for (std::uint32_t pixel = 0; pixel < values.size(); ++pixel) {
-    const auto count = static_cast<double>(kind == HeatKind::samples ? film.samples(pixel) : counts[pixel]);
-    values[pixel] = kind == HeatKind::time ? count / picoseconds_in_us : count;
-  }
-  return values;
-}
-
-}  // namespace
 
 double HeatField::least() const { return *std::min_element(values.begin(), values.end()); }
 double HeatField::largest() const { return *std::max_element(values.begin(), values.end()); }
@@ -92,7 +92,7 @@ double HeatField::sum() const { return std::accumulate(values.begin(), values.en
 HeatField heat_field(HeatKind kind, const RenderRecord& record) {
   core::expect(record.heat != nullptr && record.heat->has(kind), "a heat map is shown of what was recorded");
   const Account account = account_of(record.report);
-  const Meaning meaning = meaning_of(kind, record.options.strategy);
+  const HeatMeaning meaning = meaning_of(kind, record.options.strategy);
   const bool is_modelled = record.options.computer.machine.has_value();
   return {.kind = kind,
           .width = account.film.width(),
@@ -100,9 +100,10 @@ HeatField heat_field(HeatKind kind, const RenderRecord& record) {
           .values = values_of(kind, record, account.film),
           .meaning = meaning.text,
           .unit = meaning.unit,
-          .clock = kind != HeatKind::time ? ""
-                   : is_modelled          ? "virtual time"
-                                          : "processor time",
+          .clock = kind != HeatKind::time && kind != HeatKind::done ? ""
+                   : is_modelled                                    ? "virtual time"
+                   : kind == HeatKind::done                         ? "wall clock"
+                                                                    : "processor time",
           .is_repeatable = is_repeatable(kind, record)};
 }
 

@@ -10,14 +10,21 @@
 
 namespace dmpc::apps {
 
+/// What is counted, and its unit: "rays", "us".
+struct HeatMeaning {
+  const char* text;
+  const char* unit;
+};
+HeatMeaning meaning_of(core::HeatKind kind, Strategy strategy);
+
 /// A number for each pixel, row by row from the top left.
 struct HeatField {
   core::HeatKind kind;
   int width = 0, height = 0;
   std::vector<double> values;
-  std::string meaning;         ///< what the numbers count, in words
-  std::string unit;            ///< of the numbers: "rays", "us"
-  std::string clock;           ///< of `time`: "processor time" or "virtual time"; of other kinds empty
+  std::string meaning;  ///< what the numbers count, in words
+  std::string unit;     ///< of the numbers: "rays", "us"
+  std::string clock;  ///< of `time`: "processor time" or "virtual time", of `done` the "wall clock" or that; of other kinds empty
   bool is_repeatable = false;  ///< another run with the same options gives the same bits
 
   double least() const;

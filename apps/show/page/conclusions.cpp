@@ -71,7 +71,8 @@ std::string memory_conclusion(const Account& account, std::size_t database_bytes
 }
 
 std::string heat_conclusion(const HeatField& field) {
-  if (field.kind == core::HeatKind::node || field.kind == core::HeatKind::depth || field.sum() == 0) {
+  if (field.kind == core::HeatKind::node || field.kind == core::HeatKind::depth || field.kind == core::HeatKind::done ||
+      field.sum() == 0) {
     return "";
   }
   return "The tenth of the pixels with the most " + std::string(core::name_of(field.kind)) + " had " +

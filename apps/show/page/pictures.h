@@ -12,7 +12,7 @@ namespace dmpc::apps::html {
 inline constexpr int picture_side_max = 1024;
 
 /// `description`: for those who do not see it. Larger pictures than picture_side_max a side are shrunk, and the page says so; the
-/// link saves them whole.
+/// link saves them whole. Others are in the page once: a script makes the link.
 void add_picture(Page& page, const Image& image, const std::string& description, const std::string& caption);
 
 /// The picture as a PNG within its own address. Throws core::InputError if no temporary file can be written.

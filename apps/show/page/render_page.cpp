@@ -1,5 +1,6 @@
 #include "apps/show/page/render_page.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -8,15 +9,19 @@
 #include "apps/edge/line/amount.h"
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/run/work.h"
+#include "apps/edge/show/page/node_bands.h"
 #include "apps/edge/show/page/page.h"
 #include "apps/edge/show/page/view_conclusions.h"
 #include "apps/edge/show/page/view_tables.h"
 #include "apps/picture/film_image.h"
+#include "apps/run/heat_options.h"
 #include "apps/run/render_record.h"
 #include "apps/show/heat/field.h"
 #include "apps/show/heat/picture.h"
 #include "apps/show/page/conclusions.h"
 #include "apps/show/page/pictures.h"
+#include "apps/show/page/play_data.h"
+#include "apps/show/page/play_parts.h"
 #include "apps/show/page/render_tables.h"
 #include "core/picture/heat_kind.h"
 #include "nodes/size_text.h"
@@ -57,12 +62,13 @@ void add_pictures(Page& page, const RenderRecord& record, const Account& account
   page.begin_section("Picture");
   const std::string size = std::to_string(account.film.width()) + "x" + std::to_string(account.film.height()) + " pixels";
   add_picture(page, image_of(account.film), "The picture of " + record.options.picture.scene, size + ".");
-  if (record.heat == nullptr) {
+  const std::vector<core::HeatKind> wanted = kinds_of(record.options.heat_maps);
+  if (wanted.empty()) {
     return;
   }
   page.begin_section("What each pixel took");
   for (std::size_t number = 0; number < core::heat_kind_names.size(); ++number) {
-    if (const auto kind = static_cast<core::HeatKind>(number); record.heat->has(kind)) {
+    if (const auto kind = static_cast<core::HeatKind>(number); std::find(wanted.begin(), wanted.end(), kind) != wanted.end()) {
       const HeatField field = heat_field(kind, record);
       const std::string name(core::name_of(kind));
       page.add_conclusion(heat_conclusion(field));
@@ -137,7 +143,7 @@ void add_nodes(Page& page, const RenderRecord& record) {
   page.add_conclusion(node_conclusion(account_of(record.report)));
   const Table table = node_table(record);
   for (const Plot& plot : node_plots(record)) {
-    page.add_plot(plot, table);
+    add_node_plot(page, plot, table);
   }
   page.add_table(table);
 }
@@ -147,7 +153,7 @@ void add_losses(Page& page, const Account& account) {
   const Losses losses = losses_of(account);
   page.add_conclusion(loss_conclusion(losses));
   const Table table = loss_table(losses);
-  page.add_plot(loss_plot(losses), table);
+  add_node_plot(page, loss_plot(losses), table);
   page.add_table(table);
 }
 
@@ -172,8 +178,15 @@ void add_memory(Page& page, const Account& account, std::size_t database_bytes) 
   page.begin_section("Memory");
   page.add_conclusion(memory_conclusion(account, database_bytes));
   const Table table = memory_table(account);
-  page.add_plot(memory_plot(account), table);
+  add_node_plot(page, memory_plot(account), table);
   page.add_table(table);
+}
+
+/// What shows the run as it went, where the reader lets scripts run; print is without.
+void add_player(Page& page, const RenderRecord& record, const Origin& origin) {
+  page.add_style(play_style);
+  page.add_data("data", play_data(record, origin));
+  page.add_script(play_script);
 }
 
 }  // namespace
@@ -198,6 +211,9 @@ std::string render_page(const RenderRecord& record, const Origin& origin, std::o
   add_traffic(page, account);
   add_memory(page, account, record.database.page_count() * record.database.page_size());
   page.add_origin(origin, results_of(account));
+  if (record.view != nullptr && !record.view->steps.nodes.front().empty()) {
+    add_player(page, record, origin);
+  }
   return page.text();
 }
 

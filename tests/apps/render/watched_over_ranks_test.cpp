@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <numeric>
 #include <sstream>
@@ -122,6 +123,22 @@ TEST_CASE("where pixels stay and wait alone, faults and nodes of pixels are the 
       CHECK(watched.heat->sum(HeatKind::faults) == std::get<svm::Report>(*watched.report).pages().faults);
       CHECK(watched.heat->sum(HeatKind::time) > 0);
     });
+  }
+}
+
+TEST_CASE("over ranks each pixel is done once, within the run") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::dataflow}) {
+    for (const std::uint32_t ranks : rank_counts) {
+      const auto before = std::chrono::steady_clock::now();
+      watch_over(ranks, heated(strategy, {}), [&](const Watched& watched) {
+        const auto gone = std::chrono::steady_clock::now() - before;
+        const auto gone_ns = static_cast<std::uint64_t>(std::chrono::nanoseconds(gone).count());
+        const std::vector<std::uint64_t> done = values(watched, HeatKind::done);
+        CHECK(done.size() == 16 * 12);
+        CHECK(std::count(done.begin(), done.end(), 0U) == 0);
+        CHECK(*std::max_element(done.begin(), done.end()) <= gone_ns + clock_error_ns(watched));
+      });
+    }
   }
 }
 

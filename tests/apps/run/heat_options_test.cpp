@@ -36,14 +36,14 @@ TEST_CASE("heat maps may be asked for several times, of every kind") {
   }
   arguments.push_back("--heatmap=rays:C:a b.exr");
   const std::vector<HeatRequest> requests = render(arguments).heat_maps;
-  REQUIRE(requests.size() == 9);
+  REQUIRE(requests.size() == 10);
   CHECK(requests[0].kind == HeatKind::faults);
   CHECK(requests[7].kind == HeatKind::samples);
   CHECK(requests[7].path == "samples.png");
   CHECK_FALSE(holds_numbers(requests[7]));
-  CHECK(requests[8].path == "C:a b.exr");
-  CHECK(holds_numbers(requests[8]));
-  CHECK(kinds_of(requests).size() == 9);
+  CHECK(requests[9].path == "C:a b.exr");
+  CHECK(holds_numbers(requests[9]));
+  CHECK(kinds_of(requests).size() == 10);
 }
 
 TEST_CASE("a heat map needs a kind, a colon and a file of one of two formats") {
@@ -51,7 +51,8 @@ TEST_CASE("a heat map needs a kind, a colon and a file of one of two formats") {
        {"rays", "heat:a.png", "RAYS:a.png", ":a.png", "rays:", "rays:a", "rays:a.jpg", "rays:a.tif", ""}) {
     CHECK_MESSAGE(contains(render_usage_complaint({"--heatmap=" + wrong}), "--heatmap"), wrong);
   }
-  CHECK(contains(render_usage_complaint({"--heatmap=colour:a.png"}), "faults|references|pages|rays|time|node|depth|samples"));
+  CHECK(
+      contains(render_usage_complaint({"--heatmap=colour:a.png"}), "faults|references|pages|rays|time|node|depth|samples|done"));
 }
 
 TEST_CASE("there may be 32 heat maps and no more") {

@@ -27,7 +27,12 @@ struct Watched {
     }
   }
   RenderRecord record() const {
-    return {.options = options, .database = database, .report = *report, .seconds = {}, .view = &*sights.view};
+    return {.options = options,
+            .database = database,
+            .report = *report,
+            .seconds = {},
+            .heat = heat ? &*heat : nullptr,
+            .view = &*sights.view};
   }
   const RunView& view() const { return *sights.view; }
 
@@ -35,7 +40,7 @@ struct Watched {
   core::Database database;
   std::optional<Report> report;
   Sights sights;
-  std::optional<nodes::HeatMap> heat;  ///< if options.heat_maps ask for one
+  std::optional<nodes::HeatMap> heat;  ///< what a page plays, and what options.heat_maps ask for
 };
 
 /// With caches so small that pages are fetched.

@@ -6,6 +6,6 @@
 namespace dmpc::nodes {
 
 /// The computer's own stand anywhere.
-enum class ToyKind : std::uint8_t { bites, depth, steps, time, crumbs, node, drops };
+enum class ToyKind : std::uint8_t { bites, depth, steps, time, crumbs, node, drops, done };
 
 }  // namespace dmpc::nodes

@@ -12,7 +12,7 @@ namespace dmpc::apps::html {
 
 namespace {
 
-/// A style is stronger than the attributes that gnuplot writes.
+/// A style is stronger than the attributes that gnuplot writes. save.js knows it by how it begins.
 constexpr const char* chart_style =
     "<style>rect[fill='#ffffff']{fill:none}"
     "@media(prefers-color-scheme:dark){[fill='black']{fill:#e4e4e4}[stroke='black']{stroke:#e4e4e4}[color='black']{color:#e4e4e4}"
@@ -24,13 +24,13 @@ constexpr const char* chart_style =
 Charts::Charts(std::ostream& complaints, std::string speaker, std::string program)
     : complaints_(complaints), speaker_(std::move(speaker)), program_(std::move(program)) {}
 
-Chart Charts::draw(Plot plot, const Table& table) {
+std::string Charts::draw(Plot plot, const Table& table) {
   plot.size = PlotSize::small;
   const std::string data_file = plot.name + ".csv";
   write_file(folder_ / data_file, text_of(table, TableFormat::csv), Durability::until_power_loss);
   const std::optional<PlotOutcome> outcome = apps::draw(plot, table, folder_ / "", data_file, program_);
   if (!outcome) {
-    return {};
+    return "";
   }
   if (!outcome->is_drawn) {
     const std::string sentence = outcome->is_program_missing
@@ -39,10 +39,9 @@ Chart Charts::draw(Plot plot, const Table& table) {
     if (told_.insert(sentence).second) {
       complaints_ << speaker_ << ": " << sentence << std::endl;
     }
-    return {};
+    return "";
   }
-  const std::string svg = file_bytes(folder_ / (plot.name + ".svg"));
-  return {data_url("image/svg+xml", themed(svg)), data_url("image/svg+xml", svg)};
+  return data_url("image/svg+xml", themed(file_bytes(folder_ / (plot.name + ".svg"))));
 }
 
 std::string themed(std::string svg) {

@@ -11,12 +11,6 @@
 
 namespace dmpc::apps::html {
 
-/// A plot as URLs of its own bytes; empty if it has nothing to show, or cannot be drawn.
-struct Chart {
-  std::string url;          ///< to be shown in a page, light or dark as that is
-  std::string url_to_save;  ///< to be shown by itself, dark on white
-};
-
 /// Draws one after the other. Not thread-safe.
 class Charts {
  public:
@@ -24,8 +18,9 @@ class Charts {
   /// extra. `program` is looked for as draw() does.
   explicit Charts(std::ostream& complaints, std::string speaker = "dmpc", std::string program = "gnuplot");
 
+  /// The plot within its own address, light or dark as the page is; empty if there is nothing to show, or it cannot be drawn.
   /// Throws core::InputError if no temporary file can be written.
-  Chart draw(Plot plot, const Table& table);
+  std::string draw(Plot plot, const Table& table);
 
  private:
   std::ostream& complaints_;

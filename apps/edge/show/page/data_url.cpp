@@ -25,12 +25,17 @@ std::string group(std::string_view bytes) {
 
 }  // namespace
 
-std::string data_url(std::string_view type, std::string_view bytes) {
-  std::string url = "data:" + std::string(type) + ";base64,";
+std::string base64(std::string_view bytes) {
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t at = 0; at < bytes.size(); at += 3) {
-    url += group(bytes.substr(at, 3));
+    text += group(bytes.substr(at, 3));
   }
-  return url;
+  return text;
+}
+
+std::string data_url(std::string_view type, std::string_view bytes) {
+  return "data:" + std::string(type) + ";base64," + base64(bytes);
 }
 
 }  // namespace dmpc::apps::html

@@ -6,7 +6,10 @@
 
 namespace dmpc::apps::html {
 
-/// "data:TYPE;base64,..." (RFC 2397, RFC 4648).
+/// As RFC 4648 has it, with padding.
+std::string base64(std::string_view bytes);
+
+/// "data:TYPE;base64,..." (RFC 2397).
 std::string data_url(std::string_view type, std::string_view bytes);
 
 }  // namespace dmpc::apps::html

@@ -73,20 +73,31 @@ std::string build_text() {
 #endif
 }
 
+/// Each as a shell takes it, the program without its folder.
+std::vector<std::string> shell_words(std::span<const std::string> words) {
+  std::vector<std::string> quoted;
+  for (const std::string& word : words) {
+    quoted.push_back(shell_word(quoted.empty() ? std::filesystem::path(word).filename().string() : word));
+  }
+  return quoted;
+}
+
 }  // namespace
 
 Origin this_origin(std::optional<std::uint64_t> scene_digest) {
-  return {.command = command_text(own_words()),
+  const std::vector<std::string> words = own_words();
+  return {.command = command_text(words),
           .program = "dmpc " DMPC_VERSION " (" + build_text() + ")",
           .date = date_text(std::getenv("SOURCE_DATE_EPOCH"), std::time(nullptr)),
           .computer = counted(processor_count(), "processor") + ", " + processor_name(),
-          .scene_digest = scene_digest};
+          .scene_digest = scene_digest,
+          .words = shell_words(words)};
 }
 
 std::string command_text(std::span<const std::string> words) {
   std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? shell_word(std::filesystem::path(word).filename().string()) : " " + shell_word(word));
+  for (const std::string& word : shell_words(words)) {
+    text += (text.empty() ? "" : " ") + word;
   }
   return text;
 }

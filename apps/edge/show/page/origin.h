@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace dmpc::apps {
 
@@ -15,6 +16,7 @@ struct Origin {
   std::string date;      ///< "2026-11-22 21:40 UTC"
   std::string computer;  ///< its processors
   std::optional<std::uint64_t> scene_digest = {};
+  std::vector<std::string> words = {};  ///< of the command, each as a shell takes it
 };
 
 /// The origin of what this process makes now. The date is that of SOURCE_DATE_EPOCH (seconds since 1970) where this is a number.

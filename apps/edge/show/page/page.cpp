@@ -7,7 +7,6 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/show/page/data_url.h"
 #include "apps/edge/show/page/escaped.h"
-#include "apps/edge/show/page/style.h"
 #include "apps/edge/show/page/table.h"
 
 namespace dmpc::apps::html {
@@ -19,6 +18,15 @@ constexpr std::size_t open_rows_max = 16;
 
 std::string element(const std::string& name, const std::string& text) {
   return "<" + name + ">" + escaped_with_code(text) + "</" + name + ">\n";
+}
+
+/// Their text to the last byte, as the policy has its digest.
+std::string elements(const std::string& name, std::span<const WebPart> parts) {
+  std::string text;
+  for (const WebPart& part : parts) {
+    text += "<" + name + ">" + part.text + "</" + name + ">\n";
+  }
+  return text;
 }
 
 std::string notes_of(const Table& table) {
@@ -66,7 +74,12 @@ std::string citation(const std::string& title, const Origin& origin, const Facts
 }  // namespace
 
 Page::Page(std::string title, std::ostream& complaints, PageSpeaker speaker)
-    : title_(std::move(title)), glossary_(speaker.words), charts_(complaints, std::move(speaker.name)), words_(title_) {}
+    : title_(std::move(title)),
+      glossary_(speaker.words),
+      charts_(complaints, std::move(speaker.name)),
+      styles_({page_style}),
+      scripts_({save_script}),
+      words_(title_) {}
 
 void Page::begin_section(const std::string& heading) {
   headings_.push_back(heading);
@@ -97,7 +110,7 @@ void Page::add_code(const std::string& text) { body_ += "<pre class=\"copy\">" +
 
 void Page::add_map(const NumberMap& map, const std::string& caption) {
   const std::string url = data_url("image/svg+xml", svg_of(map));
-  add_figure(url, "class=\"plot\"", map.title, caption, save_link(map.title, "SVG", url));
+  add_figure(url, "class=\"plot\"", map.title, caption, shown_save_link(map.title, "SVG"));
 }
 
 void Page::add_table(const Table& table) {
@@ -112,9 +125,9 @@ void Page::add_table(const Table& table) {
   words_ += "\n" + words_of(table);
 }
 
-void Page::add_plot(const Plot& plot, const Table& table) {
-  if (const Chart chart = charts_.draw(plot, table); !chart.url.empty()) {
-    add_figure(chart.url, "class=\"plot\"", "Plot: " + plot.title, "", save_link(plot.title, "SVG", chart.url_to_save));
+void Page::add_plot(const Plot& plot, const Table& table, const std::string& caption) {
+  if (const std::string url = charts_.draw(plot, table); !url.empty()) {
+    add_figure(url, "class=\"plot\"", "Plot: " + plot.title, caption, shown_save_link(plot.title, "SVG"));
     for (const PlotSeries& series : plot.series) {
       words_ += "\n" + series.title;
     }
@@ -146,6 +159,18 @@ void Page::add_origin(const Origin& origin, const Facts& results) {
   add_code(citation(title_, origin, marks));
 }
 
+void Page::add_style(const WebPart& style) { styles_.push_back(style); }
+
+void Page::add_script(const WebPart& script) { scripts_.push_back(script); }
+
+void Page::add_data(const std::string& id, const std::string& json) {
+  data_ += "<script type=\"application/json\" id=\"" + escaped(id) + "\">";
+  for (const char letter : json) {
+    data_ += letter == '<' ? "\\u003c" : std::string(1, letter);  // JSON has it in texts alone
+  }
+  data_ += "</script>\n";
+}
+
 std::string Page::text() const {
   const std::string list = meanings(words_, glossary_);
   std::vector<std::string> headings = headings_;
@@ -159,11 +184,14 @@ std::string Page::text() const {
     contents += "<a href=\"#" + id_of(i + 1) + "\">" + escaped(headings[i]) + "</a>\n";
   }
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
+         policy_of(styles_, scripts_) +
+         "\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
-         escaped(title_) + "</title>\n<style>\n" + style + "</style>\n</head>\n<body>\n<main>\n<h1>" + escaped(title_) +
+         escaped(title_) + "</title>\n" + elements("style", styles_) + "</head>\n<body>\n<main>\n<h1>" + escaped(title_) +
          "</h1>\n" + (contents.empty() ? "" : "<nav aria-label=\"Contents\">\n" + contents + "</nav>\n") + body_ +
-         glossary_section + "</main>\n</body>\n</html>\n";
+         glossary_section + "</main>\n" + data_ + elements("script", scripts_) + "</body>\n</html>\n";
 }
 
 }  // namespace dmpc::apps::html

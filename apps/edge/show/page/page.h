@@ -11,6 +11,7 @@
 #include "apps/edge/show/page/charts.h"
 #include "apps/edge/show/page/number_map.h"
 #include "apps/edge/show/page/origin.h"
+#include "apps/edge/show/page/web_part.h"
 #include "apps/edge/table/plot.h"
 #include "apps/edge/table/table.h"
 
@@ -49,9 +50,15 @@ class Page {
   /// With title and notes; a long one is folded.
   void add_table(const Table& table);
   /// Nothing if there is nothing to see, or no program to draw it.
-  void add_plot(const Plot& plot, const Table& table);
+  void add_plot(const Plot& plot, const Table& table, const std::string& caption = "");
   /// How to make it again, and what to cite: where it comes from, and the `results` by which another run is known to be the same.
   void add_origin(const Origin& origin, const Facts& results);
+
+  /// What the page looks like beyond its own style, and what it does once it is read, in order.
+  void add_style(const WebPart& style);
+  void add_script(const WebPart& script);
+  /// For scripts, which find it by its id: `json` is a whole JSON text, whatever its texts contain.
+  void add_data(const std::string& id, const std::string& json);
 
   /// The whole document, with what its words mean at the end.
   std::string text() const;
@@ -60,6 +67,8 @@ class Page {
   std::string title_;
   std::span<const GlossaryEntry> glossary_;
   Charts charts_;
+  std::vector<WebPart> styles_, scripts_;
+  std::string data_;  ///< elements for scripts
   std::vector<std::string> headings_;
   std::string body_;
   std::string words_;  ///< all that is shown, without markup

@@ -145,6 +145,15 @@ std::string file_stem(const std::string& title) {
   return stem.substr(0, stem.find_last_not_of('-') + 1);
 }
 
+/// Saves under a name made of title and ending.
+std::string link_with(const std::string& attribute, const std::string& title, const std::string& ending) {
+  std::string name = ending;
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return "<a class=\"save\" download=\"" + file_stem(title) + "." + name + "\" " + attribute + " title=\"Save as " + ending +
+         ": " + escaped(title) + "\">" + ending + "</a>";
+}
+
 }  // namespace
 
 std::string table_element(const Table& table, bool has_caption) {
@@ -174,11 +183,9 @@ std::string words_of(const Table& table) {
 }
 
 std::string save_link(const std::string& title, const std::string& ending, const std::string& url) {
-  std::string name = ending;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return "<a class=\"save\" download=\"" + file_stem(title) + "." + name + "\" href=\"" + url + "\" title=\"Save as " + ending +
-         ": " + escaped(title) + "\">" + ending + "</a>";
+  return link_with("href=\"" + url + "\"", title, ending);
 }
+
+std::string shown_save_link(const std::string& title, const std::string& ending) { return link_with("hidden", title, ending); }
 
 }  // namespace dmpc::apps::html

@@ -14,7 +14,9 @@ std::string table_element(const Table& table, bool has_caption);
 /// All words that it shows.
 std::string words_of(const Table& table);
 
-/// A link that saves `bytes` under a name made of `title` and `ending`: "CSV".
+/// A link that saves what is at `url` under a name made of `title` and `ending`: "CSV".
 std::string save_link(const std::string& title, const std::string& ending, const std::string& url);
+/// The same within a figure, of what that shows: save.js gives it its address, without which it is hidden.
+std::string shown_save_link(const std::string& title, const std::string& ending);
 
 }  // namespace dmpc::apps::html

@@ -58,4 +58,11 @@ TEST_CASE("a picture can be saved whole and without a script") {
                  "download=\"the-picture-of-x.png\" href=\"" + picture_url(Image(1025, 1)) + "\""));
 }
 
+TEST_CASE("a picture that is shown whole is in the page once") {
+  const std::string text = page_of(Image(5, 3), "x", "Black."), url = picture_url(Image(5, 3));
+  CHECK(text.find(url) != std::string::npos);
+  CHECK(text.find(url) == text.rfind(url));
+  CHECK(contains(text, "download=\"x.png\" hidden"));
+}
+
 }  // namespace dmpc::apps::html::pictures_test

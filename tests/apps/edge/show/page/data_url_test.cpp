@@ -5,7 +5,6 @@
 namespace dmpc::apps::html::data_url_test {
 
 TEST_CASE("bytes are written as RFC 4648 has them") {
-  const auto base64 = [](std::string_view bytes) { return data_url("", bytes).substr(std::string("data:;base64,").size()); };
   CHECK(base64("").empty());
   CHECK(base64("f") == "Zg==");
   CHECK(base64("fo") == "Zm8=");
@@ -13,5 +12,7 @@ TEST_CASE("bytes are written as RFC 4648 has them") {
   CHECK(base64("foobar") == "Zm9vYmFy");
   CHECK(base64(std::string_view("\xFF\x00\xFB", 3)) == "/wD7");
 }
+
+TEST_CASE("an address with its own bytes names their type") { CHECK(data_url("text/csv", "foo") == "data:text/csv;base64,Zm9v"); }
 
 }  // namespace dmpc::apps::html::data_url_test

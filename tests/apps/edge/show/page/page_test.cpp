@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <sstream>
 
 #include "apps/edge/show/page/data_url.h"
@@ -55,10 +56,26 @@ TEST_CASE("a page asks for nothing from elsewhere") {
     page.add_figure("data:image/png;base64,", "", "black", "Black.", "");
     page.add_table(table_of(1));
   });
-  CHECK_FALSE(contains(text, "http"));
-  CHECK_FALSE(contains(text, "<script"));
+  CHECK_FALSE(contains(text, "http:"));
+  CHECK_FALSE(contains(text, "https:"));
   CHECK_FALSE(contains(text, "<link"));
   CHECK(count_of(text, "src=\"") == count_of(text, "src=\"data:image/"));
+}
+
+TEST_CASE("a page's policy knows its own style and script by their digests, and has nothing else run") {
+  const std::string text = page_with([](Page& page) { page.add_script({"alert(1)", save_script.sha256}); });
+  const std::string policy = policy_of(std::array{page_style}, std::array{save_script, save_script});
+  CHECK(contains(text, "<meta http-equiv=\"Content-Security-Policy\" content=\"" + policy + "\">\n<meta name=\"viewport\""));
+  CHECK(contains(text, "<style>" + std::string(page_style.text) + "</style>"));
+  CHECK(contains(text, "<script>" + std::string(save_script.text) + "</script>\n<script>alert(1)</script>"));
+  CHECK_FALSE(contains(text, " style=\""));
+  CHECK_FALSE(contains(text, " onclick=\""));
+}
+
+TEST_CASE("data for scripts end no element, whatever their texts contain") {
+  const std::string text = page_with([](Page& page) { page.add_data("data", "{\"scene\":\"</script><script>alert(1)\"}"); });
+  CHECK(contains(text,
+                 "<script type=\"application/json\" id=\"data\">{\"scene\":\"\\u003c/script>\\u003cscript>alert(1)\"}</script>"));
 }
 
 TEST_CASE("the list of contents leads to each section") {

@@ -1,0 +1,22 @@
+// Styles and scripts that are built into a page: the sources beside this one, as they are.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace dmpc::apps::html {
+
+/// A style or a script. CMake makes it of files (web_part() in apps/CMakeLists.txt).
+struct WebPart {
+  const char* text;
+  const char* sha256;  ///< of the text: 64 hexadecimal digits
+};
+
+extern const WebPart page_style;   ///< page.css
+extern const WebPart save_script;  ///< save.js
+
+/// The content of the policy's meta element: these styles and scripts, as they are to the last byte, pictures within the page,
+/// and nothing else (W3C, "Content Security Policy Level 3").
+std::string policy_of(std::span<const WebPart> styles, std::span<const WebPart> scripts);
+
+}  // namespace dmpc::apps::html

@@ -1,0 +1,35 @@
+// What the page of a render plays: one JSON text with a head and arrays, which the scripts in apps/show/page/play read.
+#pragma once
+
+#include <string>
+
+#include "apps/edge/show/page/origin.h"
+#include "apps/run/render_record.h"
+
+namespace dmpc::apps::html {
+
+/// Of the text: counted up when a key goes or comes to mean something else.
+inline constexpr int play_format = 1;
+
+/// Pictures of more pixels are played in cells of 2x2, 4x4, ... pixels.
+inline constexpr std::size_t play_cells_max = std::size_t{1} << 18U;
+
+/// When cells are done is told in so many parts of the run.
+inline constexpr std::uint64_t done_parts = 65'535;
+
+/// The text. Requires record.view, and record.heat with the time at which pixels were done. Keys, times in nanoseconds:
+///
+/// - format, scene, computer, clock ("virtual time", "wall clock"), total_ns, words (of the command), nodes, step_ns, steps
+/// - width, height (pixels), cell (pixels a side), wide, high (cells); the last cells of a row or column may have fewer pixels
+/// - done: by cell, when its last pixel was, in done_parts of the run, rounded up: at the end of part p what has p or less is
+/// done
+/// - fields: [{name, meaning, unit, scale, values}] by cell: sums over its pixels; of `node` that of the pixel done last.
+///   A value times `scale` is in the unit
+/// - works: [{name, ns, shares}]: by node and step, in 255ths of a step, rounded so that a node's add up to what it did; `ns`:
+/// sum
+/// - pairs: {what, row, column, side, counts} or, where that takes less, {..., places, counts}: of row * side + column
+/// - links: [[from, to, messages, bytes, held_ns, waited_ns]], the busiest (modelled machines)
+/// - pages: [[number, home, fetched]], the hottest (svm); fetched: of all pages
+std::string play_data(const RenderRecord& record, const Origin& origin);
+
+}  // namespace dmpc::apps::html

@@ -1,0 +1,99 @@
+// The page that plays, in a real browser: what its script draws, by pointer, by keys and by the address, and what may not run.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/show/page/render_page.h"
+#include "tests/apps/show/page/numbers_in.h"
+#include "tests/apps/show/watched.h"
+#include "tests/support/browser.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::apps::html::player_test {
+
+namespace {
+
+/// Of a modelled machine, whose scene has another name.
+std::string page_of(const std::string& scene = "balls-2") {
+  Watched watched(starved(modelled()));
+  watched.options.picture.scene = scene;
+  std::ostringstream complaints;
+  return render_page(watched.record(), {.command = "dmpc", .words = {"dmpc", "render", "balls-2"}}, complaints);
+}
+
+/// Puts `expression` of the page `p` within, once its player is there, into the window's title. `act` is done before.
+std::string script(const std::string& act, const std::string& expression) {
+  return "<script>addEventListener('load',()=>{const frame=document.querySelector('iframe'),p=frame.contentDocument,"
+         "w=frame.contentWindow,id=(name)=>p.getElementById(name),key=(target,key)=>target.dispatchEvent(new "
+         "w.KeyboardEvent('keydown',"
+         "{key,bubbles:true,cancelable:true})),lit=()=>{const "
+         "c=id('shot'),d=c.getContext('2d').getImageData(0,0,c.width,c.height)"
+         ".data;let n=0;for(let i=0;i<d.length;i+=4)n+=!(d[i]===26&&d[i+1]===26&&d[i+2]===26);return n};"
+         "setTimeout(()=>{" +
+         act + ";setTimeout(()=>{document.title=String(" + expression + ")},500)},1000)})</script>";
+}
+
+std::string told(const std::string& page, const std::string& act, const std::string& expression, const std::string& state = "") {
+  const tests::TemporaryFolder folder;
+  return tests::told_by_browser(page, 1280, false, folder / "shot.png", script(act, expression), state);
+}
+
+}  // namespace
+
+TEST_CASE("the pixels that are lit at a time are those that were done by then") {
+  const std::string page = page_of();
+  const nlohmann::json data = nlohmann::json::parse(tests::data_in(page));
+  const std::vector<std::uint64_t> done = tests::numbers_in(data["done"]);
+  for (const int share : {0, 40, 75, 100}) {
+    const double ms = data["total_ns"].get<double>() / 1e6 * share / 100;
+    const auto count = std::count_if(done.begin(), done.end(),
+                                     [&](std::uint64_t part) { return static_cast<double>(part) <= 65535.0 * share / 100; });
+    std::ostringstream state;
+    state.precision(17);
+    state << "#t=" << ms;
+    CHECK(told(page, "", "lit()", state.str()) == std::to_string(count));
+  }
+}
+
+TEST_CASE("by keys alone a pixel is chosen, said and let go, time goes on, and the address has it") {
+  const std::string page = page_of();
+  const std::string chosen =
+      told(page, "key(id('shot'),'ArrowRight');key(id('shot'),'ArrowDown')", "id('said').textContent+w.location.hash");
+  CHECK(contains(chosen, "Pixel 8, 7: node "));
+  CHECK(contains(chosen, "x=8"));
+  CHECK(contains(told(page, "key(id('shot'),'ArrowRight');key(p.body,'Escape')", "id('said').textContent"), "Point at a pixel"));
+  CHECK(contains(told(page, "key(id('raster'),'ArrowDown')", "id('said').textContent"), "Node 0"));
+  CHECK(contains(told(page, "key(id('pairs'),'ArrowDown')", "id('said').textContent"), "fetched by node 0 from node 1"));
+  CHECK(told(page, "key(p.body,' ')", "id('play').textContent") == "Pause");
+}
+
+TEST_CASE("the view's command has its heat map, window and node") {
+  CHECK(told(page_of(), "", "id('command').textContent", "#heat=faults&from=1&to=2&node=1") ==
+        "dmpc render balls-2 --heatmap=faults:faults.png --trace=part.json --trace-window=1.000000,2.000000 --trace-nodes=1");
+}
+
+TEST_CASE("of a script in which a byte is changed nothing runs") {
+  std::string page = page_of();
+  CHECK(told(page, "", "!!id('player')") == "true");
+  const std::size_t at = page.find("\"The run, as it went\"");
+  REQUIRE(at != std::string::npos);
+  page[at + 1] = 't';
+  CHECK(told(page, "", "!!id('player')") == "false");
+}
+
+TEST_CASE("names that would be script do nothing") {
+  const std::string page = page_of("</script><script>document.title='run'</script>\xe2\x80\xa8<img src=x onerror=alert(1)>");
+  CHECK(told(page, "", "[!!id('player'),p.querySelectorAll('img[onerror]').length,p.querySelectorAll('script').length]") ==
+        "true,0,3");
+}
+
+TEST_CASE("an address that says nonsense is taken as far as it makes sense") {
+  CHECK(told(page_of(), "", "!!p.documentElement.dataset.loaded", "#t=nan&x=1e9&node=-7&heat=__proto__&mix=-5&from=9&to=3") ==
+        "true");
+}
+
+}  // namespace dmpc::apps::html::player_test
