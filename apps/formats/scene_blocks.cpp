@@ -100,6 +100,7 @@ bool is_point(const Vec3d& point) {
 
 bool is_light(const Vec3d& color) { return is_point(color) && std::min({color.x, color.y, color.z}) >= 0; }
 
+bool is_share(double value) { return value >= 0 && value <= 1; }
 bool is_weight(double value) { return value >= 0 && value < coordinate_max; }
 
 }  // namespace
@@ -256,6 +257,10 @@ void SceneReceiver::check_material(const core::Material& material) const {
   Unpacker::require(material.texture == core::Material::no_texture || material.texture < scene_.textures.size());
   Unpacker::require(material.mirror <= 1 && material.alpha_cutoff <= 1 && is_light(material.specular_color * material.specular) &&
                     is_light(material.color * material.tinted_specular));  // what a record keeps of them is finite, too
+  const core::Microfacets& facets = material.microfacets;
+  Unpacker::require(facets == core::Microfacets{} ||
+                    (is_share(facets.roughness) && is_share(facets.metallic) && is_share(facets.reflectance) &&
+                     is_share(facets.transmission) && is_share(facets.opacity)));
 }
 
 /// A reader does not know whether a texture has alpha, which it asks dmpc to read.

@@ -61,6 +61,23 @@ void add_finish(Digest& digest, const core::Material& material) {
   digest.add(static_cast<std::uint64_t>(material.alpha));
 }
 
+/// What pictures by paths show of them beside.
+std::string microfacets_text(const core::Scene& scene) {
+  Digest digest;
+  for (const core::Material& material : scene.materials) {
+    const core::Microfacets& facets = material.microfacets;
+    for (const double number : {facets.roughness, facets.metallic, facets.reflectance, facets.transmission, facets.opacity}) {
+      digest.add(number);
+    }
+  }
+  return text_of(digest);
+}
+
+bool has_microfacets(const core::Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const core::Material& material) { return material.microfacets.are_there(); });
+}
+
 std::string materials_text(const core::Scene& scene) {
   Digest digest;
   for (const core::Material& material : scene.materials) {
@@ -164,6 +181,9 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
            {"grid-axes", name_of(options.database.axes)}};
   add_samples(facts, picture);
   add_transport(facts, picture.transport, scene);
+  if (picture.transport.is_by_paths() && has_microfacets(scene)) {
+    facts.push_back({"metal and roughness of materials", microfacets_text(scene)});
+  }
   identity.terms = {static_cast<std::uint32_t>(picture.samples), picture.refinement, radiance_bound(picture, scene),
                     film_scale_of(picture, scene)};
   facts.push_back({film_scale_fact, apps::text_of(identity.terms.film_scale)});

@@ -18,6 +18,7 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
   core::BuildOptions build = options.build;
   build.axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
   build.emitters_max = picture.transport.emitters_max();
+  build.for_paths = picture.transport.is_by_paths();
   build.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
   core::Database database = core::build_database(std::move(scene), build);
   const core::RenderSettings settings = render_settings(picture, scene, database);

@@ -9,6 +9,7 @@
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/line/words.h"
 #include "apps/scene/staging.h"
+#include "core/picture/microfacet_bound.h"
 #include "core/scene/frame.h"
 
 namespace dmpc::apps {
@@ -62,6 +63,9 @@ void check_paths(const OptionSet& options, const TransportOptions& transport) {
 
 /// In the brightest channel of each way in which it sends light on.
 double share_sent_on(const core::Material& material) {
+  if (material.microfacets.are_there()) {
+    return core::sent_on_straight(material);
+  }
   const core::Vec3d& color = material.color;
   return material.diffuse * std::max({color.x, color.y, color.z}) + material.specular_max() * material.mirror +
          material.transmittance;

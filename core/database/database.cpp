@@ -259,7 +259,7 @@ class DatabaseBuilder {
   void write_materials() {
     std::vector<Material> materials = scene_.materials;
     materials.insert(materials.end(), emitters_.materials.begin(), emitters_.materials.end());
-    const MaterialRecords records = material_records(materials);
+    const MaterialRecords records = material_records(materials, options_.for_paths);
     const std::size_t count = records.materials.size() + records.finishes.size();
     expect(count <= 0x7fffffffU, "a database has no room for more materials");
     header().material_count = count & 0x7fffffffU;

@@ -28,6 +28,7 @@ struct BuildOptions {
   GridAxes axes = world_axes;  ///< the grid's directions: another grid, so other bits, but the same picture to rounding
   /// Of what shines by itself at most so many are aimed at by paths (core/database/emitters.h). 0: none, as Whitted's has it.
   std::uint32_t emitters_max = 0;
+  bool for_paths = false;     ///< surfaces are as pictures by paths show them: Material::microfacets
   std::uint32_t threads = 0;  ///< that build; 0: one for each core. The bytes are the same
   /// Called now and then, by one thread at a time, with the references that are sorted into trees and how many there are: the
   /// longest part of a build. May be empty.

@@ -1,6 +1,7 @@
 #include "core/database/material_records.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -13,16 +14,41 @@ std::uint16_t share_of(double share) {
   return static_cast<std::uint16_t>(std::floor(std::clamp(share, 0.0, 1.0) * FinishRecord::share_max + 0.5));
 }
 
+std::uint16_t cutoff_of(const Material& from) {
+  return from.alpha == AlphaUse::cut ? std::max<std::uint16_t>(share_of(from.alpha_cutoff), 1) : std::uint16_t{0};
+}
+
 FinishRecord finish_of(const Material& from) {
   FinishRecord finish;
   finish.specular = Color(from.specular_color * from.specular);
   finish.emission = Color(from.emission);
   finish.refraction_index = static_cast<float>(from.refraction_index);
-  if (from.alpha == AlphaUse::cut) {
-    finish.alpha_cutoff = std::max<std::uint16_t>(share_of(from.alpha_cutoff), 1);
-  }
+  finish.alpha_cutoff = cutoff_of(from);
   finish.mirror = share_of(from.mirror);
   return finish;
+}
+
+/// As a FinishRecord, whose place it takes.
+FinishRecord microfacets_of(const Material& from) {
+  const Microfacets& facets = from.microfacets;
+  return std::bit_cast<FinishRecord>(MicrofacetRecord{.metallic = static_cast<float>(facets.metallic),
+                                                      .alpha = static_cast<float>(facets.roughness * facets.roughness),
+                                                      .reflectance = static_cast<float>(facets.reflectance),
+                                                      .emission = Color(from.emission),
+                                                      .refraction_index = static_cast<float>(from.refraction_index),
+                                                      .alpha_cutoff = cutoff_of(from)});
+}
+
+MaterialRecord base_of(const Material& from) {
+  const Microfacets& facets = from.microfacets;
+  const double dielectric = facets.opacity * (1 - facets.metallic), through = facets.transmission;
+  const double mean = (from.color.x + from.color.y + from.color.z) / 3;
+  return {Color(from.color),
+          static_cast<float>(dielectric * (1 - through)),
+          static_cast<float>(facets.opacity),
+          MaterialRecord::microfacet_mark,
+          static_cast<float>(dielectric * through * mean + (1 - facets.opacity)),
+          1};
 }
 
 MaterialRecord record_of(const Material& from) {
@@ -36,19 +62,24 @@ MaterialRecord record_of(const Material& from) {
 
 }  // namespace
 
-MaterialRecords material_records(const std::vector<Material>& materials) {
+MaterialRecords material_records(const std::vector<Material>& materials, bool for_paths) {
   MaterialRecords records;
   for (const Material& material : materials) {
-    MaterialRecord& record = records.materials.emplace_back(record_of(material));
-    if (material.has_finish()) {
+    const bool has_microfacets = for_paths && material.microfacets.are_there();
+    MaterialRecord& record = records.materials.emplace_back(has_microfacets ? base_of(material) : record_of(material));
+    if (has_microfacets || material.has_finish()) {
       const std::size_t place = materials.size() + records.finishes.size();
       if (place > MaterialRecord::finish_max) {
         throw RoomError("the scene has more than " + std::to_string(MaterialRecord::finish_max) +
                         " materials together with what only mesh files say of them; give it fewer");
       }
-      record.specular = static_cast<float>(material.tinted_specular);
       record.set_finish(static_cast<std::uint32_t>(place));
-      records.finishes.push_back(finish_of(material));
+      if (has_microfacets) {
+        records.finishes.push_back(microfacets_of(material));
+      } else {
+        record.specular = static_cast<float>(material.tinted_specular);
+        records.finishes.push_back(finish_of(material));
+      }
     }
   }
   return records;

@@ -15,7 +15,8 @@ struct MaterialRecords {
   std::vector<FinishRecord> finishes;     ///< of those of them that have one, in order
 };
 
+/// `for_paths`: materials that have microfacets are of those, in place of what approximates them.
 /// Throws RoomError if more have a finish than a material's record can name.
-MaterialRecords material_records(const std::vector<Material>& materials);
+MaterialRecords material_records(const std::vector<Material>& materials, bool for_paths = false);
 
 }  // namespace dmpc::core

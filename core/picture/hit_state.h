@@ -58,12 +58,26 @@ struct HitState {
     float mirror = 1;     ///< the share of them that mirrors
   };
 
+  /// What a surface of microfacets has in place of highlight and mirror.
+  struct Microfacets {
+    float metallic = 0, alpha = 1, reflectance = 0;
+    float there = 1;  ///< the share of the surface that is
+  };
+
   HitState() : surface() {}
 
   /// Once the material has been read: in the room of the weights, which nobody asks for any more.
   Gloss gloss() const { return std::bit_cast<Gloss>(std::array{u, v}); }
   void set_gloss(const Gloss& gloss) {
     const auto bits = std::bit_cast<std::array<double, 2>>(gloss);
+    u = bits[0];
+    v = bits[1];
+  }
+  bool has_microfacets() const { return surface.material.has_microfacets(); }
+  /// If so, in the room of the gloss.
+  Microfacets microfacets() const { return std::bit_cast<Microfacets>(std::array{u, v}); }
+  void set_microfacets(const Microfacets& facets) {
+    const auto bits = std::bit_cast<std::array<double, 2>>(facets);
     u = bits[0];
     v = bits[1];
   }

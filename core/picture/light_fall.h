@@ -1,6 +1,7 @@
 // How a point light falls on hits, of one or of many side by side.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "core/base/vec.h"
@@ -46,7 +47,7 @@ class LitLanes {
     put(normal_, count_, state.normal);
     put(direction_, count_, state.ray.full_direction());
     starts_.put_hit(count_, state);
-    shine_[count_++] = double{state.surface.material.shine};
+    shine_[count_++] = double{std::max(state.surface.material.shine, 0.0F)};  // not what marks microfacets
   }
   /// How a light falls on all: fall() and highlight() tell, with the bits of fall_on() and of pow_unit().
   void light(const Vec3d& position, VectorWidth width = vector_width());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/picture/disc.h"
+#include "core/picture/microfacet_lobes.h"
 #include "core/picture/ray_start.h"
 #include "core/picture/surface_response.h"
 #include "core/picture/surface_shares.h"
@@ -41,6 +42,14 @@ std::optional<PathStep> step_at(const HitState& state, const WayShares& shares, 
                   kind_after(state, RayKind::refracted)};
 }
 
+std::optional<PathStep> chosen_step(const HitState& state, const SamplePair& choice) {
+  if (state.has_microfacets()) {
+    return MicrofacetLobes(state).step(choice, pair_of(state.ray, Purpose::direction));
+  }
+  const WayShares shares = shares_of(state);
+  return shares.all() > 0.0 ? step_at(state, shares, choice.x * shares.all()) : std::nullopt;
+}
+
 /// Whether the path survives, and counts for those that do not. `chance`: from 0 to less than 1; `first`: of the hits that ask.
 bool survives(const Ray& ray, double chance, int first, PathStep& step) {
   const double share = double{brightest(ray.weight * step.weight)};
@@ -72,12 +81,8 @@ std::optional<Vec3d> scattered_direction(const HitState& state) {
 }
 
 std::optional<PathStep> path_step(const HitState& state, int roulette_from) {
-  const WayShares shares = shares_of(state);
-  if (!(shares.all() > 0.0)) {
-    return std::nullopt;
-  }
   const SamplePair choice = pair_of(state.ray, Purpose::choice);
-  std::optional<PathStep> step = step_at(state, shares, choice.x * shares.all());
+  std::optional<PathStep> step = chosen_step(state, choice);
   return step && survives(state.ray, choice.y, roulette_from, *step) ? step : std::nullopt;
 }
 

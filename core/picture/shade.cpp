@@ -5,13 +5,17 @@
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
+#include <utility>
 
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "core/picture/child_ray.h"
 #include "core/picture/hit_geometry.h"
+#include "core/picture/microfacet_bound.h"
+#include "core/picture/microfacet_lobes.h"
 #include "core/picture/surface_shares.h"
 #include "core/record/emitter.h"
 
@@ -53,11 +57,17 @@ Ray shadow_ray(const HitState& state, const LightRecord& light, const LightFall&
   return ray;
 }
 
-/// Diffuse plus Phong's highlight (NFF) for light that falls at this cosine, of which a mirror would send so much to the eye.
-Color reflected_light(const HitState& state, const LightRecord& light, double cosine, double highlight) {
+/// Of a surface of microfacets their light, else diffuse plus Phong's highlight (NFF) for light that falls at this cosine, of
+/// which a mirror would send so much to the eye.
+Color reflected_light(const HitState& state, const LightRecord& light, const LightFall& fall, double highlight) {
   const MaterialRecord& material = state.surface.material;
+  if (material.has_microfacets()) {
+    return Color(Vec3d(state.ray.weight) * Vec3d(light.intensity) *
+                 (MicrofacetLobes(state).response(fall.towards) * std::numbers::pi));
+  }
   const double mirrored_light = material.specular > 0.0F ? double{material.specular} * highlight : 0.0;
-  const Vec3d surface = Vec3d(material.color) * (double{material.diffuse} * cosine) + Vec3d(state.gloss().tint) * mirrored_light;
+  const Vec3d surface =
+      Vec3d(material.color) * (double{material.diffuse} * fall.cosine) + Vec3d(state.gloss().tint) * mirrored_light;
   return Color(Vec3d(state.ray.weight) * Vec3d(light.intensity) * surface);
 }
 
@@ -68,15 +78,26 @@ void cover(MaterialRecord& material, float share) {
   material.transmittance = material.transmittance * share + (1.0F - share);
 }
 
-/// What alpha leaves of a surface with this finish. The weights of a look-up add up to 1 but for rounding, for the sake of which
+/// What alpha leaves of a surface with this cutoff. The weights of a look-up add up to 1 but for rounding, for the sake of which
 /// no ray is sent, and no texel of just the cutoff is cut away.
-float share_left(const FinishRecord& finish, float alpha) {
+float share_left(std::uint16_t cutoff, float alpha) {
   constexpr float rounding = 0x1p-16F;
   const float share = alpha > 1.0F - rounding ? 1.0F : alpha < rounding ? 0.0F : alpha;
-  if (finish.alpha_cutoff == 0) {
+  if (cutoff == 0) {
     return share;
   }
-  return share * float{FinishRecord::share_max} < static_cast<float>(finish.alpha_cutoff) - 0.5F ? 0.0F : 1.0F;
+  return share * float{FinishRecord::share_max} < static_cast<float>(cutoff) - 0.5F ? 0.0F : 1.0F;
+}
+
+/// The same of a hit. Returns it.
+float cover_by_alpha(HitState& state, std::uint16_t cutoff, float refraction_index) {
+  MaterialRecord& material = state.surface.material;
+  const float share = share_left(cutoff, state.coverage());
+  material.refraction_index = share > 0.0F ? refraction_index : 1.0F;  // a hole bends nothing
+  if (share < 1.0F) {
+    cover(material, share);
+  }
+  return share;
 }
 
 /// Highlight and mirror, the surface's own colour being that of the material.
@@ -88,6 +109,11 @@ HitState::Gloss gloss_of(MaterialRecord& material, const FinishRecord& finish) {
     gloss.tint = {color.x / material.specular, color.y / material.specular, color.z / material.specular};
   }
   return gloss;
+}
+
+/// What a texture multiplies the material's colour by at most.
+double texture_max(const Scene& scene, const Material& material) {
+  return material.texture == Material::no_texture ? 1 : scene.textures[material.texture].brightest;
 }
 
 }  // namespace
@@ -107,7 +133,14 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
     emitter = std::max(emitter, transport.is_by_paths() ? brightest(material.emission) : 0.0);
   }
   for (const Material& material : scene.materials) {
-    const double texture = material.texture == Material::no_texture ? 1 : scene.textures[material.texture].brightest;
+    if (transport.is_by_paths() && material.microfacets.are_there()) {
+      const MicrofacetBound bound = bound_of(material, texture_max(scene, material));
+      const double aimed = emitter * bound.passed_on * (1 + 0x1p-6);
+      direct = std::max(direct, light * bound.direct + brightest(material.emission) + aimed);
+      passed_on = std::max(passed_on, bound.passed_on);
+      continue;
+    }
+    const double texture = texture_max(scene, material);
     const double diffuse = material.diffuse * brightest(material.color) * texture, specular = material.specular_max(texture);
     const double scattered = transport.is_by_paths() ? diffuse : 0, share = specular * material.mirror + material.transmittance;
     // Of an emitter at which it aims no more comes than of one that its path meets, as densities are rounded.
@@ -308,15 +341,24 @@ void Shader::read_material(HitState& state, const std::byte* record) const {
 
 /// The surface shines by itself as far as it is there.
 void Shader::read_finish(HitState& state, const std::byte* record) const {
-  const auto finish = read<FinishRecord>(record);
-  MaterialRecord& material = state.surface.material;
-  const float share = share_left(finish, state.coverage());
-  state.set_gloss(gloss_of(material, finish));
-  material.refraction_index = share > 0.0F ? finish.refraction_index : 1.0F;  // a hole bends nothing
-  if (share < 1.0F) {
-    cover(material, share);
+  if (state.has_microfacets()) {
+    return read_microfacets(state, record);
   }
+  const auto finish = read<FinishRecord>(record);
+  state.set_gloss(gloss_of(state.surface.material, finish));
+  const float share = cover_by_alpha(state, finish.alpha_cutoff, finish.refraction_index);
   come_to_lights(state, finish.emission * (share * share_met(state, finish.emission)));
+}
+
+/// No highlight and no mirror is left of the material.
+void Shader::read_microfacets(HitState& state, const std::byte* record) const {
+  const auto facets = read<MicrofacetRecord>(record);
+  const float share = cover_by_alpha(state, facets.alpha_cutoff, facets.refraction_index);
+  state.set_microfacets({.metallic = facets.metallic,
+                         .alpha = facets.alpha,
+                         .reflectance = facets.reflectance,
+                         .there = std::exchange(state.surface.material.specular, 0.0F)});
+  come_to_lights(state, facets.emission * (share * share_met(state, facets.emission)));
 }
 
 void Shader::come_to_lights(HitState& state, const Color& emission) const {
@@ -371,7 +413,7 @@ bool Shader::shine(HitState& state, const LightRecord& light, const LightFall& f
     end_point_lights(state);
   }
   const bool is_lit = fall.cosine > 0.0;
-  const Color weight = is_lit ? reflected_light(state, light, fall.cosine, highlight) : Color{};
+  const Color weight = is_lit ? reflected_light(state, light, fall, highlight) : Color{};
   if (leaves_out(is_lit, weight)) {
     return false;
   }

@@ -105,6 +105,7 @@ class Shader {
   void read_corners(HitState& state, const std::byte* record) const;
   void read_material(HitState& state, const std::byte* record) const;
   void read_finish(HitState& state, const std::byte* record) const;
+  void read_microfacets(HitState& state, const std::byte* record) const;
   void come_to_lights(HitState& state, const Color& emission) const;
   /// Whether `child` was set.
   bool read_light(HitState& state, const std::byte* record, Ray& child) const;

@@ -41,7 +41,7 @@ bool Shader::aims_at_emitter(const HitState& state) const {
       state.ray.depth > options_.depth_max || is_at_last_depth(state)) {
     return false;
   }
-  const bool is_needless = skips_.zero_terms && !(shares_of(state).scattered > 0.0);
+  const bool is_needless = skips_.zero_terms && !scatters(state);
   operations_.skipped.zero_terms += is_needless ? 1 : 0;
   return !is_needless;
 }

@@ -1,5 +1,6 @@
 #include "core/picture/surface_response.h"
 
+#include "core/picture/microfacet_lobes.h"
 #include "core/picture/surface_shares.h"
 
 namespace dmpc::core {
@@ -16,7 +17,15 @@ WayShares shares_of(const HitState& state) {
           state.has_refraction ? double{state.surface.material.transmittance} : 0.0};
 }
 
+bool scatters(const HitState& state) {
+  return state.has_microfacets() ? MicrofacetLobes(state).scatters() : shares_of(state).scattered > 0.0;
+}
+
 SurfaceResponse response_towards(const HitState& state, const Vec3d& towards) {
+  if (state.has_microfacets()) {
+    const MicrofacetLobes lobes(state);
+    return {lobes.response(towards), lobes.density(towards)};
+  }
   const double cosine = dot(towards, state.normal);
   if (!(cosine > 0.0) || !leads_outside(state, towards)) {
     return {};

@@ -31,6 +31,9 @@ struct SurfaceResponse {
 /// true one. Requires a hit of which all is known.
 SurfaceResponse response_towards(const HitState& state, const Vec3d& towards);
 
+/// Whether the value is above 0 from anywhere.
+bool scatters(const HitState& state);
+
 /// Whether a unit direction leads away from the surface, on the ray's side, by its true normal.
 inline bool leads_outside(const HitState& state, const Vec3d& towards) {
   return (state.leaving ? -1.0 : 1.0) * dot(towards, state.geometric_normal) > 0.0;

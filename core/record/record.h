@@ -262,8 +262,12 @@ struct MaterialRecord {
   Color color;
   float diffuse = 0, specular = 0, shine = 0, transmittance = 0, refraction_index = 1;
 
+  /// In the place of `shine`: of a surface of microfacets, whose finish is a MicrofacetRecord. Its `diffuse` and `transmittance`
+  /// are so, but for what the tiny mirrors reflect of either, and `specular` is the share of it that is there.
+  static constexpr float microfacet_mark = -1;
   static constexpr std::uint32_t finish_mark = 0xffc00000U, finish_max = ~finish_mark;
 
+  bool has_microfacets() const { return shine < 0; }
   bool has_finish() const { return std::bit_cast<std::uint32_t>(refraction_index) > finish_mark; }
   /// Which record from the first material on is the finish.
   std::uint32_t finish() const { return std::bit_cast<std::uint32_t>(refraction_index) & finish_max; }
@@ -284,6 +288,18 @@ struct FinishRecord {
   std::uint16_t mirror = share_max;  ///< in 65535ths, the share of highlight and mirror that mirrors
 };
 static_assert(sizeof(FinishRecord) == sizeof(MaterialRecord));
+
+/// What takes the place of a FinishRecord for a surface of microfacets, in databases of pictures by paths.
+struct MicrofacetRecord {
+  float metallic = 0;
+  float alpha = 1;  ///< its roughness squared
+  float reflectance = 0;
+  Color emission;
+  float refraction_index = 1;
+  std::uint16_t alpha_cutoff = 0;  ///< as a FinishRecord has it
+  std::uint16_t padding = 0;
+};
+static_assert(sizeof(MicrofacetRecord) == sizeof(MaterialRecord));
 
 struct LightRecord {
   Vec3f position;  ///< grid-local

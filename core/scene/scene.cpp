@@ -76,11 +76,30 @@ TexturedCorner colored_corner(const Vec3d& normal, const Vec3d& color, double al
 
 std::size_t SceneBuilder::MaterialHash::operator()(const Material& material) const {
   std::size_t hash = 0;
-  for (const double value :
-       {material.color.x, material.color.y, material.color.z, material.diffuse, material.specular, material.shine,
-        material.transmittance, material.refraction_index, static_cast<double>(material.texture), material.specular_color.x,
-        material.specular_color.y, material.specular_color.z, material.tinted_specular, material.mirror, material.emission.x,
-        material.emission.y, material.emission.z, static_cast<double>(material.alpha), material.alpha_cutoff}) {
+  for (const double value : {material.color.x,
+                             material.color.y,
+                             material.color.z,
+                             material.diffuse,
+                             material.specular,
+                             material.shine,
+                             material.transmittance,
+                             material.refraction_index,
+                             static_cast<double>(material.texture),
+                             material.specular_color.x,
+                             material.specular_color.y,
+                             material.specular_color.z,
+                             material.tinted_specular,
+                             material.mirror,
+                             material.emission.x,
+                             material.emission.y,
+                             material.emission.z,
+                             static_cast<double>(material.alpha),
+                             material.alpha_cutoff,
+                             material.microfacets.roughness,
+                             material.microfacets.metallic,
+                             material.microfacets.reflectance,
+                             material.microfacets.transmission,
+                             material.microfacets.opacity}) {
     hash = mix(hash, value);
   }
   return hash;

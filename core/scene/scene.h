@@ -18,6 +18,19 @@ namespace dmpc::core {
 /// the share that is not; or it is there altogether from a cutoff on, and below that not at all.
 enum class AlphaUse : std::uint8_t { none, blend, cut };
 
+/// A surface of tiny mirrors, as glTF's metallic-roughness has it (core/picture/microfacet_lobes.h). What it scatters or reflects
+/// as a metal has the material's colour; light, index and alpha are the material's, too.
+struct Microfacets {
+  double roughness = -1;      ///< 0 to 1; below 0 there are none
+  double metallic = 0;        ///< 0 to 1
+  double reflectance = 0.04;  ///< 0 to 1: what is no metal reflects so much straight ahead
+  double transmission = 0;    ///< 0 to 1: of what is no metal, the share that lets light through in place of scattering it
+  double opacity = 1;         ///< 0 to 1: the share of the surface that is there
+
+  constexpr bool are_there() const { return roughness >= 0; }
+  constexpr bool operator==(const Microfacets&) const = default;
+};
+
 /// NFF's `f`: what an object's surface does with light (E. Haines, SPD, NFF.TXT), and behind it what only other formats know.
 struct Material {
   Vec3d color{0.5, 0.5, 0.5};   ///< of the diffuse part, 0..1
@@ -34,6 +47,9 @@ struct Material {
   double tinted_specular = 0;     ///< weight of more highlight and mirror in the surface's own colour, as metals have
   double mirror = 1;              ///< the share of both that mirrors; 0 where there is a highlight alone
   Vec3d emission;                 ///< radiance of its own, which lights nothing else
+  /// What pictures by paths show of the surface in place of `diffuse`, what is specular and `transmittance`, which approximate
+  /// it.
+  Microfacets microfacets;
 
   static constexpr std::uint32_t no_texture = 0xffffffffU;
   bool operator==(const Material&) const = default;

@@ -80,6 +80,7 @@ class Studio {
   static core::BuildOptions options_for(const core::Scene& scene, std::uint32_t emitters_max) {
     core::BuildOptions options = apps::several_top_cells(scene);
     options.emitters_max = emitters_max;
+    options.for_paths = true;
     return options;
   }
 

@@ -9,6 +9,7 @@
 
 #include "core/picture/partial_picture.h"
 #include "nodes/chaos.h"
+#include "tests/support/faceted_surfaces.h"
 #include "tests/support/mesh_surfaces.h"
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
@@ -50,10 +51,13 @@ core::Scene ball_in_the_air() {
   return scene;
 }
 
-/// Mirrors, glass and textures, lit by points and by a dozen of what shines, of which paths aim at triangles and spheres.
-core::Scene shining() {
-  core::Scene scene = mirrors_and_glass();
-  add_textured_walls(scene);
+/// Lit by points and by a dozen of what shines, of which paths aim at triangles and spheres: mirrors, glass and textures, or
+/// tiny mirrors.
+core::Scene shining(bool is_faceted = false) {
+  core::Scene scene = is_faceted ? faceted_surfaces() : mirrors_and_glass();
+  if (!is_faceted) {
+    add_textured_walls(scene);
+  }
   core::SceneBuilder builder(scene);
   for (int i = 0; i < 6; ++i) {
     builder.material({.color = {0.1, 0.1, 0.1}, .emission = {1.0 + i, 2, 3.0 - 0.5 * i}});
@@ -83,15 +87,16 @@ void check_strategies(const Subject& subject, const std::optional<nodes::Chaos>&
 
 }  // namespace
 
-TEST_CASE("paths under a sky, with mirrors, glass, textures and what shines, give one picture by every strategy") {
+TEST_CASE("paths under a sky, with mirrors, glass, tiny mirrors, textures and what shines, give one picture by every strategy") {
   core::Scene textured = mirrors_and_glass();
   add_textured_walls(textured);
-  for (const core::Scene& scene : {textured, mesh_surfaces()}) {
+  for (const core::Scene& scene : {textured, mesh_surfaces(), faceted_surfaces()}) {
     CAPTURE(scene.name);
-    const Subject subject(scene, size_of(under_sky(), 3));
+    const Subject subject(scene, size_of(under_sky(), 3), {.for_paths = true});
     REQUIRE(subject.outcome().rays[static_cast<std::size_t>(core::RayKind::scattered)] > 0);
     check_strategies(subject);
-    const Subject extents(scene, size_of(under_sky(), 3), {.page_size_bytes = 512, .structure = core::Structure::extents});
+    const Subject extents(scene, size_of(under_sky(), 3),
+                          {.page_size_bytes = 512, .structure = core::Structure::extents, .for_paths = true});
     CHECK(extents.outcome() == subject.outcome());
     for (const std::uint32_t nodes : {1U, 3U, 16U}) {
       CHECK(outcome_of(run_forest(extents, {.computer = {.node_count = nodes}})) == subject.outcome());
@@ -110,6 +115,9 @@ TEST_CASE("paths that aim at what shines give one picture by every strategy, wha
     CHECK(extents.outcome() == subject.outcome());
     CHECK(outcome_of(run_forest(extents, {.computer = {.node_count = 3}})) == subject.outcome());
   }
+  const Subject faceted(shining(true), size_of(indoors, 3), {.emitters_max = 1024, .for_paths = true});
+  CHECK(faceted.outcome().film_hash != Subject(shining(true), size_of(indoors, 3), {.for_paths = true}).outcome().film_hash);
+  check_strategies(faceted);
   const Subject subject(shining(), size_of(under_sky(), 2), {.emitters_max = 1024});
   CHECK(subject.outcome().film_hash != Subject(shining(), size_of(under_sky(), 2)).outcome().film_hash);
   for (std::uint64_t seed = 1; seed <= scaled(4); ++seed) {

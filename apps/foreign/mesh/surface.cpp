@@ -78,6 +78,11 @@ Material material_of(const MetallicSurface& surface) {
   material.refraction_index = transmission > 0 ? index : 1;
   material.emission = surface.emission;
   cover(material, surface.opacity);
+  material.microfacets = {.roughness = surface.roughness,
+                          .metallic = surface.metallic,
+                          .reflectance = straight_reflection(index),
+                          .transmission = surface.transmission,
+                          .opacity = surface.opacity};
   return material;
 }
 

@@ -185,6 +185,13 @@ TEST_CASE("a scene that cannot be is refused, whatever is wrong with it") {
   CHECK(is_refused([](core::Scene& scene) { scene.materials[1].texture = 1; }));
   CHECK(is_refused([](core::Scene& scene) { scene.materials[0].shine = -1; }));
   CHECK(is_refused([](core::Scene& scene) { scene.materials[0].mirror = 1.5; }));
+  CHECK_FALSE(is_refused([](core::Scene& scene) { scene.materials[0].microfacets = {.roughness = 1, .metallic = 1}; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.materials[0].microfacets.roughness = 1.5; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.materials[0].microfacets.roughness = -0.5; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.materials[0].microfacets = {.roughness = 0.5, .metallic = -1}; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.materials[0].microfacets = {.roughness = 0.5, .opacity = 2}; }));
+  CHECK(is_refused(
+      [](core::Scene& scene) { scene.materials[0].microfacets.reflectance = std::numeric_limits<double>::quiet_NaN(); }));
   CHECK(is_refused([](core::Scene& scene) {
     scene.materials[0].specular_color = {1e20, 0, 0}, scene.materials[0].specular = 1e20;
   }));

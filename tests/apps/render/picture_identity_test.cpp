@@ -99,6 +99,14 @@ TEST_CASE("how many emitters paths aim at is a fact of a scene in which somethin
   CHECK(!contains(difference(shine), "emitters"));
 }
 
+TEST_CASE("what surfaces of tiny mirrors are is a fact of pictures by paths alone, and of scenes that have some") {
+  const auto roughen = [](core::Scene& scene) { scene.materials[0].microfacets.roughness = 0.5; };
+  const auto by_paths = [](RenderOptions& options) { options.picture.transport.kind = core::TransportKind::paths; };
+  CHECK(contains(difference(roughen, by_paths), "metal and roughness of materials"));
+  CHECK(!contains(difference({}, by_paths), "roughness"));
+  CHECK(difference(roughen).empty());
+}
+
 TEST_CASE("the computer, the strategy and what is left out are no part of the picture") {
   CHECK(difference_by_options([](auto& options) {
           options.strategy = Strategy::dataflow;

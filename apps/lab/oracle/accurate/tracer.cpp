@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/lab/oracle/accurate/emitters.h"
+#include "apps/lab/oracle/accurate/facets.h"
 
 namespace dmpc::apps {
 namespace {
@@ -58,6 +59,21 @@ struct AccurateTracer::Touch {
   Vec3d specular;         ///< of highlight and mirror
   Vec3d emission;
   double diffuse = 0, transmittance = 0;
+  double there = 1;  ///< the share of the surface that alpha leaves
+
+  /// By paths, if the material has them.
+  bool has_facets = false;
+  AccurateFacets facets() const {
+    const core::Microfacets& facets = material.microfacets;
+    const double side = dot(ray.direction, surface.normal) > 0 ? -1 : 1;
+    return AccurateFacets({.facets = facets,
+                           .base = color,
+                           .there = there * facets.opacity,
+                           .index = index,
+                           .direction = ray.direction,
+                           .normal = normal,
+                           .true_normal = surface.normal * side});
+  }
 
   /// The square of the cosine behind the surface by Snell's law; below 0 all is reflected.
   double refracted_cosine_squared() const {
@@ -202,6 +218,8 @@ void AccurateTracer::finish(Touch& touch) const {
   touch.transmittance = material.transmittance * there + (1 - there);
   touch.emission = material.emission * (there * share_met(touch));
   touch.index = there > 0 ? touch.index : 1;
+  touch.there = there;
+  touch.has_facets = options_.transport.is_by_paths() && material.microfacets.are_there();
 }
 
 AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayKind kind) const {
@@ -236,7 +254,9 @@ void AccurateTracer::add_shadow_rays(const Touch& touch, std::vector<AccurateRay
     ray.t_max = length(from_start) * (1 - light_gap);
     ray.light = index;
     ray.weight = {};
-    if (cosine > 0) {
+    if (cosine > 0 && touch.has_facets) {
+      ray.weight = touch.ray.weight * light.intensity * touch.facets().response(towards * (1 / distance));
+    } else if (cosine > 0) {
       const double lobe = std::clamp(dot(mirror, towards) / distance, 0.0, 1.0);
       const double highlight = touch.specular == Vec3d{} ? 0 : std::pow(lobe, touch.material.shine);
       ray.weight = touch.ray.weight * light.intensity * (touch.color * (touch.diffuse * cosine) + touch.specular * highlight);
@@ -298,6 +318,9 @@ std::optional<Vec3d> AccurateTracer::scattered_direction(const Touch& touch) {
 }
 
 double AccurateTracer::scattered_density(const Touch& touch, const Vec3d& towards) {
+  if (touch.has_facets) {
+    return touch.facets().density(towards);
+  }
   const Ways ways = ways_of(touch);
   const double cosine = dot(towards, touch.normal);
   const bool is_outside = dot(towards, touch.surface.normal) * dot(touch.ray.direction, touch.surface.normal) < 0;
@@ -324,7 +347,8 @@ void AccurateTracer::add_aimed_ray(const Touch& touch, std::vector<AccurateRay>&
   const AccurateBody& body = scene_.bodies[target->body];
   const double other = core::density_of(core::density_bits(density));
   const double share = share_of(aimed_density(scene_, body, touch.surface.point, aim.place, aim.normal), other);
-  const Vec3d reflected = touch.color * (touch.diffuse * dot(ray.direction, touch.normal) / pi);
+  const Vec3d reflected = touch.has_facets ? touch.facets().response(ray.direction) * (1 / pi)
+                                           : touch.color * (touch.diffuse * dot(ray.direction, touch.normal) / pi);
   ray.weight = from.weight * scene_.materials[body.material].emission * reflected * (share / aim.density);
   const Vec3d way = aim.place - ray.origin;
   ray.direction = normalize(way);
@@ -342,8 +366,26 @@ double AccurateTracer::share_met(const Touch& touch) const {
                           : 1;
 }
 
+std::optional<AccurateRay> AccurateTracer::continued_by_facets(const Touch& touch, const core::SamplePair& choice) const {
+  const AccurateRay& before = touch.ray;
+  const auto step =
+      touch.facets().step(choice, core::pair_of(before.pixel, before.sample, before.depth, core::Purpose::direction));
+  if (!step) {
+    return std::nullopt;
+  }
+  AccurateRay ray = child(touch, step->towards, before.kind == RayKind::scattered ? RayKind::scattered : step->kind);
+  ray.weight = ray.weight * step->weight;
+  if (step->kind == RayKind::scattered) {
+    ray.density = core::density_of(core::density_bits(scattered_density(touch, step->towards)));
+  }
+  return ray;
+}
+
 /// One way of the three, as often as its brightest channel says, counts for all.
 std::optional<AccurateRay> AccurateTracer::continued(const Touch& touch, const core::SamplePair& choice) const {
+  if (touch.has_facets) {
+    return continued_by_facets(touch, choice);
+  }
   const Ways ways = ways_of(touch);
   const double all = ways.all(), place = choice.x * all;
   const auto go = [&](const Vec3d& towards, const Vec3d& share, RayKind kind) {

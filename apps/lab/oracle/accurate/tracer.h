@@ -69,6 +69,7 @@ class AccurateTracer {
   static double scattered_density(const Touch& touch, const core::Vec3d& towards);
   void add_aimed_ray(const Touch& touch, std::vector<AccurateRay>& rays) const;
   double share_met(const Touch& touch) const;
+  std::optional<AccurateRay> continued_by_facets(const Touch& touch, const core::SamplePair& choice) const;
   std::optional<AccurateRay> continued(const Touch& touch, const core::SamplePair& choice) const;
   void add_path_ray(const Touch& touch, std::vector<AccurateRay>& rays) const;
   core::Vec3d light_beyond(const AccurateRay& ray) const;

@@ -136,6 +136,22 @@ TEST_CASE("glTF: smooth things reflect, metals in their colour, others as glass 
   CHECK(smooth("0.5").tinted_specular == Approx(0.5));
 }
 
+TEST_CASE("glTF: for pictures by paths a surface of tiny mirrors is as the file says; Phong's has none") {
+  const Material paint =
+      from_gltf(R"({"pbrMetallicRoughness":{"baseColorFactor":[0.9,0.6,0.3,1],"roughnessFactor":0.25,"metallicFactor":0.75},)"
+                R"("extensions":{"KHR_materials_transmission":{"transmissionFactor":0.5},"KHR_materials_ior":{"ior":2}}})");
+  CHECK(paint.microfacets.roughness == Approx(0.25));
+  CHECK(paint.microfacets.metallic == Approx(0.75));
+  CHECK(paint.microfacets.transmission == Approx(0.5));
+  CHECK(paint.microfacets.reflectance == Approx(1.0 / 9));
+  CHECK(paint.microfacets.opacity == 1);
+  const core::Microfacets plain = from_gltf("{}").microfacets;  // white, of metal and rough
+  CHECK(plain == core::Microfacets{.roughness = 1, .metallic = 1, .reflectance = plain.reflectance});
+  CHECK(plain.reflectance == Approx(0.04));
+  CHECK(!from_mtl("Kd 0.5 0.25 0.125\nKs 1 1 1\nillum 3\n").microfacets.are_there());
+  CHECK(from_mtl("Kd 0.5 0.25 0.125\nPr 0.5\nPm 1\n").microfacets.metallic == 1);
+}
+
 TEST_CASE("glTF: a factor, and its strength, is light of the surface's own, unless a texture has its say") {
   const std::string factor = R"({"emissiveFactor":[0.5,0.25,1])";
   CHECK(near(from_gltf(factor + "}").emission, {0.5, 0.25, 1}));

@@ -9,6 +9,7 @@
 #include "core/database/database.h"
 #include "core/picture/render.h"
 #include "core/record/records.h"
+#include "tests/support/faceted_surfaces.h"
 #include "tests/support/mesh_surfaces.h"
 #include "tests/support/small_scenes.h"
 
@@ -25,7 +26,7 @@ struct Comparison {
              std::uint32_t emitters_max = 0) {
     const core::ShadeOptions shade{.depth_max = bounces + 1, .pixel_share = 1, .transport = transport};
     apps::AccurateScene doubled = apps::accurate_scene(scene);
-    const core::Database database = core::build_database(scene, {.emitters_max = emitters_max});
+    const core::Database database = core::build_database(scene, {.emitters_max = emitters_max, .for_paths = true});
     aim_as_product(doubled, database);
     const apps::AccurateFinder finder(doubled, scene.view.from);
     const apps::AccuratePicture accurate = render_accurately(doubled, finder, apps::AccurateCamera(scene.view, side, side),
@@ -62,17 +63,29 @@ struct Comparison {
 constexpr core::Transport sky{
     .kind = core::TransportKind::paths, .has_sky = true, .has_gradient = true, .zenith = {0.1F, 0.3F, 2}, .up = {0, 0, 1}};
 
+core::Scene lit_by_eight(core::Scene scene) {
+  scene.lights.clear();
+  core::SceneBuilder builder(scene);
+  for (int i = 0; i < 4; ++i) {
+    builder.material({.color = {0.5, 0.5, 0.5}, .emission = {2.0 + i, 3, 4}});
+    builder.sphere({-1 + 0.7 * i, 0.5, 1.1}, 0.1);
+    builder.polygon({{-1 + 0.5 * i, -1, 1}, {-0.7 + 0.5 * i, -1, 1}, {-0.7 + 0.5 * i, -0.7, 1.3}});
+  }
+  return scene;
+}
+
 }  // namespace
 
 TEST_CASE(
     "of paths of three bounces in double precision 99 of 100 bring the product's light, to 1e-5, the others no other mean") {
   core::Scene textured = mirrors_and_glass();
   add_textured_walls(textured);
-  for (const core::Scene& scene : {built_in("tetra-5"), built_in("balls-2"), textured, mesh_surfaces()}) {
+  for (const core::Scene& scene : {built_in("tetra-5"), built_in("balls-2"), textured, mesh_surfaces(), faceted_surfaces()}) {
     for (const int bounces : {0, 1, 3}) {
       CAPTURE(scene.name);
       CAPTURE(bounces);
-      const bool has_alpha = scene.name == "mesh surfaces";  // which is looked up in single precision, and decides of ways
+      const bool has_alpha = scene.name == "mesh surfaces" ||
+                             scene.name == "faceted surfaces";  // which is looked up in single precision, and decides of ways
       const Comparison comparison(scene, sky, bounces, has_alpha ? 1e-4 : 1e-5);
       CHECK((bounces == 0 || comparison.paths_scattered > 200));
       CHECK(comparison.differing <= side * side / (has_alpha ? 50 : 100));
@@ -82,22 +95,18 @@ TEST_CASE(
 }
 
 TEST_CASE("paths that aim at triangles and balls that shine bring the product's light in double precision, with its chances") {
-  core::Scene scene = built_in("balls-2");
-  scene.lights.clear();
-  core::SceneBuilder builder(scene);
-  for (int i = 0; i < 4; ++i) {
-    builder.material({.color = {0.5, 0.5, 0.5}, .emission = {2.0 + i, 3, 4}});
-    builder.sphere({-1 + 0.7 * i, 0.5, 1.1}, 0.1);
-    builder.polygon({{-1 + 0.5 * i, -1, 1}, {-0.7 + 0.5 * i, -1, 1}, {-0.7 + 0.5 * i, -0.7, 1.3}});
-  }
+  const core::Scene smooth = lit_by_eight(built_in("balls-2")), faceted = lit_by_eight(faceted_surfaces());
   for (const std::uint32_t emitters : {1U, 3U, 1024U}) {
     for (const int bounces : {0, 1, 3}) {
       CAPTURE(emitters);
       CAPTURE(bounces);
-      const Comparison comparison(scene, {.kind = core::TransportKind::paths}, bounces, 1e-4, emitters);
-      CHECK(comparison.shadow_rays > 200);
-      CHECK(comparison.differing <= side * side / 50);
-      CHECK(std::fabs(comparison.mean_difference()) <= 4 * comparison.standard_error() + 1e-6);
+      for (const core::Scene& scene : {smooth, faceted}) {
+        CAPTURE(scene.name);
+        const Comparison comparison(scene, {.kind = core::TransportKind::paths}, bounces, 1e-4, emitters);
+        CHECK(comparison.shadow_rays > 200);
+        CHECK(comparison.differing <= side * side / 50);
+        CHECK(std::fabs(comparison.mean_difference()) <= 4 * comparison.standard_error() + 1e-6);
+      }
     }
   }
 }

@@ -1,0 +1,127 @@
+#include "core/picture/microfacet_lobes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/picture/microfacet.h"
+#include "core/picture/ray_start.h"
+#include "core/picture/surface_response.h"
+#include "core/picture/surface_shares.h"
+
+namespace dmpc::core {
+namespace {
+
+Vec3d white(double share) { return {share, share, share}; }
+
+/// On the normal's side.
+Vec3d raised(const Vec3d& direction, const Vec3d& normal) {
+  const double height = dot(direction, normal);
+  return height < 0.0 ? direction - normal * (2.0 * height) : direction;
+}
+
+/// Above the blended normal and the true one.
+bool is_above(const HitState& state, const Vec3d& in) { return dot(in, state.normal) > 0.0 && leads_outside(state, in); }
+
+RayKind kind_after(const Ray& ray, RayKind kind) { return ray.kind == RayKind::scattered ? RayKind::scattered : kind; }
+
+}  // namespace
+
+MicrofacetLobes::MicrofacetLobes(const HitState& state)
+    : state_(state),
+      facets_(state.microfacets()),
+      out_(raised(-state.ray.full_direction(), state.normal)),
+      cosine_(std::min(dot(out_, state.normal), 1.0)),
+      index_(relative_index(state)) {
+  const MaterialRecord& material = state.surface.material;
+  const double metallic{facets_.metallic}, reflectance{facets_.reflectance}, there{facets_.there}, absent = 1.0 - there;
+  const Vec3d base(material.color);
+  straight_ = (base * metallic + white(reflectance * (1.0 - metallic))) * there;
+  scattered_ = base * (double{material.diffuse} * (1.0 - reflectance));
+  unreflected_ = 1.0 - share_at(cosine_);
+  chances_.scattered = brightest(scattered_) * unreflected_;
+  chances_.reflected = brightest(reflected_share(cosine_ * (is_mirror() ? 1.0 : 1.0 - 0.5 * double{facets_.alpha})));
+  chances_.through = std::min(double{material.transmittance}, absent) +
+                     std::max(double{material.transmittance} - absent, 0.0) * (1.0 - reflectance) * unreflected_;
+}
+
+bool MicrofacetLobes::is_mirror() const { return double{facets_.alpha} < sharpest_alpha; }
+
+/// schlick_share() on the side where the angles are wider, since light is reflected alike from both.
+double MicrofacetLobes::share_at(double cosine) const {
+  if (index_ > 1.0) {
+    cosine = std::sqrt(std::max(0.0, 1.0 - index_ * index_ * (1.0 - cosine * cosine)));
+  }
+  return schlick_share(cosine);
+}
+
+/// By mirrors at this cosine.
+Vec3d MicrofacetLobes::reflected_share(double cosine) const {
+  return straight_ + (white(double{facets_.there}) - straight_) * share_at(cosine);
+}
+
+Vec3d MicrofacetLobes::response(const Vec3d& in) const {
+  if (!is_above(state_, in)) {
+    return {};
+  }
+  const double cosine = std::min(dot(in, state_.normal), 1.0);
+  const Vec3d scattered = scattered_ * (unreflected_ * (1.0 - share_at(cosine)) * over_mean_unreflected * std::numbers::inv_pi);
+  if (is_mirror()) {
+    return scattered * cosine;
+  }
+  const Vec3d half = normalize(in + out_);
+  const double alpha{facets_.alpha};
+  const double mirrors =
+      normal_density(alpha, std::min(dot(half, state_.normal), 1.0)) * microfacet_visibility(alpha, cosine_, cosine);
+  return (scattered + reflected_share(std::min(dot(half, in), 1.0)) * mirrors) * cosine;
+}
+
+double MicrofacetLobes::density(const Vec3d& in) const {
+  if (!is_above(state_, in) || !(chances_.all() > 0.0)) {
+    return 0.0;
+  }
+  const double scattered = chances_.scattered * dot(in, state_.normal) * std::numbers::inv_pi;
+  const double half = std::min(dot(normalize(in + out_), state_.normal), 1.0);
+  const double reflected = is_mirror() ? 0.0 : chances_.reflected * reflected_density(double{facets_.alpha}, cosine_, half);
+  return (scattered + reflected) / chances_.all();
+}
+
+std::optional<PathStep> MicrofacetLobes::step(const SamplePair& choice, const SamplePair& direction) const {
+  const double place = choice.x * chances_.all();
+  if (place < chances_.scattered) {
+    return spread_step(cosine_direction(direction, state_.normal));
+  }
+  if (place < chances_.scattered + chances_.reflected) {
+    return is_mirror() ? std::optional(mirror_step()) : spread_step(reflected_direction(direction));
+  }
+  return chances_.through > 0.0 ? std::optional(through_step()) : std::nullopt;
+}
+
+/// By whichever of the two the direction was found.
+std::optional<PathStep> MicrofacetLobes::spread_step(const Vec3d& in) const {
+  const double likely = density(in);
+  return likely > 0.0 ? std::optional(PathStep{in, Color(response(in) * (1.0 / likely)), RayKind::scattered, likely})
+                      : std::nullopt;
+}
+
+PathStep MicrofacetLobes::mirror_step() const {
+  const Vec3d towards = mirrored_direction(state_.ray.full_direction(), state_.normal);
+  return {normalize(towards), Color(reflected_share(cosine_) * (chances_.all() / chances_.reflected)),
+          kind_after(state_.ray, RayKind::reflected)};
+}
+
+/// What cannot get through is mirrored.
+PathStep MicrofacetLobes::through_step() const {
+  const Vec3d direction = state_.ray.full_direction();
+  const Vec3d towards =
+      state_.has_refraction ? bent_direction(direction, state_.normal, index_) : mirrored_direction(direction, state_.normal);
+  return {normalize(towards), Color(white(chances_.all())),
+          kind_after(state_.ray, state_.has_refraction ? RayKind::refracted : RayKind::reflected)};
+}
+
+Vec3d MicrofacetLobes::reflected_direction(const SamplePair& direction) const {
+  const Vec3d mirror = visible_normal(out_, state_.normal, double{facets_.alpha}, direction);
+  return normalize(mirror * (2.0 * dot(mirror, out_)) - out_);
+}
+
+}  // namespace dmpc::core
