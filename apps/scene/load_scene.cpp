@@ -62,10 +62,12 @@ core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadN
 std::string points_text(std::uint64_t count) {
   return count == 0 ? ""
                     : counted(count, "light") + (count == 1 ? " stays a point" : " stay points") +
-                          ", in the eye or so far away that no radius shows";
+                          ": as spheres of --light-radius they would be around the eye, or too small or too far away to show";
 }
 
 constexpr const char* one_path_note = "one path a pixel shows mostly noise, which falls with more, such as --samples=256";
+
+constexpr const char* no_points_note = "--light-radius changes nothing: no point light is in the scene";
 
 /// What is to be done about a file that no reader reads.
 std::string advice_on(const std::string& path, const std::string& ending) {
@@ -163,12 +165,13 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   }
   const SceneKind kind = is_mesh(picture.scene) ? SceneKind::mesh : SceneKind::own;
   const std::string note = apply(picture.staging, scene, kind);
+  const bool has_points = !scene.lights.empty();
   const std::uint64_t points_left =
       picture.transport.light_radius ? core::make_lights_spheres(scene, *picture.transport.light_radius) : 0;
   if (notes == LoadNotes::said) {
     const bool may_be_black = kind == SceneKind::mesh && !picture.transport.is_by_paths();
     say_once({note, may_be_black ? shadow_note(picture.staging) : "", picture.is_one_path_unasked ? one_path_note : "",
-              points_text(points_left)});
+              picture.transport.light_radius && !has_points ? no_points_note : "", points_text(points_left)});
     say_what_is_missing(scene, picture.transport);
   }
   return scene;

@@ -86,7 +86,7 @@ void refine_paths(PictureOptions& picture) {
     picture.samples = core::first_refined_samples(core::ErrorKind::noise);
     if (picture.refinement.samples_max < least) {
       throw core::UsageError("--samples-max=" + std::to_string(picture.refinement.samples_max) + ": by paths expected at least " +
-                             std::to_string(least) + ", from which an error of noise is told");
+                             std::to_string(least) + ", from which an error of noise is told; or say --transport=whitted");
     }
   }
 }

@@ -158,8 +158,10 @@ std::string emitters_text(std::uint64_t emitters, std::uint64_t others, const Tr
              ? ""
              : counted(others, "primitive") + (others == 1 ? " shines" : " shine") + " and " + (others == 1 ? "is" : "are") +
                    " met by chance alone, which is noisy: " +
-                   (emitters == options.emitters ? "--emitters=" + std::to_string(options.emitters) + " aims at no more"
-                                                 : "cones, and what alpha or other faces in its plane leave a part of");
+                   (emitters == options.emitters
+                        ? "--emitters=" + std::to_string(options.emitters) + " aims at no more"
+                        : "cones, what is a millionth as strong as others, and what alpha or other faces in its plane leave a "
+                          "part of");
 }
 
 std::string gain_text(const std::vector<core::Material>& materials, const TransportOptions& options) {

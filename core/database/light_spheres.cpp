@@ -9,17 +9,20 @@
 #include "core/database/parallel.h"
 
 namespace dmpc::core {
+
 std::uint64_t make_lights_spheres(Scene& scene, double radius) {
   const Box box = bounds_of(scene, world_axes, Parallel(1));
   if (box.empty()) {
     return scene.lights.size();
   }
+  const double diagonal = 2.0 * length(box.half());
   std::vector<std::pair<PointLight, Vec3d>> spheres;  // with what they shine with
   std::vector<PointLight> points;
   for (const PointLight& light : scene.lights) {
     const Vec3d intensity = intensity_of(light, scene);
     const double distance = length(light.position - box.center());
-    if (length(light.position - scene.view.from) <= radius || distance > far_light_diagonals * 2.0 * length(box.half())) {
+    if (radius < small_light_share * diagonal || length(light.position - scene.view.from) <= radius ||
+        distance > far_light_diagonals * diagonal) {
       points.push_back({light.position, intensity, true});  // as bright as it was among the others
       continue;
     }

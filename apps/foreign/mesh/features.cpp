@@ -51,7 +51,7 @@ void note_materials(const std::set<const aiMaterial*>& materials, std::vector<st
              count(materials, has_projected_texture));
   note_count(notes, "materials whose texture is moved, turned or scaled, shown without that",
              count(materials, has_moved_texture));
-  note_count(notes, "materials that shine by themselves, and light other things by --transport=paths alone",
+  note_count(notes, "materials that shine by themselves, and light other things by paths, not by --transport=whitted",
              count(materials, is_emissive));
   note_count(notes, "materials whose own light is a texture's, shown without it", count(materials, has_emissive_texture));
   note_count(notes, "materials that colour what shines through them, shown without that",

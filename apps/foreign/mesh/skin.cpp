@@ -83,7 +83,7 @@ aiVector3D to_ai(const Vec3d& v) { return {static_cast<ai_real>(v.x), static_cas
 void turn_mirrored(aiMesh& mesh, FaceList& triangles, const std::vector<Transform>& transforms) {
   for (std::size_t first = 0; first < triangles.corners.size(); first += 3) {
     const auto corner = triangles.corners.begin() + static_cast<std::ptrdiff_t>(first);
-    if (transforms[*corner].determinant() < 0) {
+    if (*corner < transforms.size() && transforms[*corner].determinant() < 0) {
       std::reverse(corner, corner + 3);
     }
   }

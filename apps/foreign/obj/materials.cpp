@@ -69,7 +69,7 @@ void Losses::note(std::vector<std::string>& notes) const {
   for (const auto& [option, count] : options_) {
     note_count(notes, "textures' option " + option + ", which is not followed", count);
   }
-  note_count(notes, "materials that shine by themselves, and light other things by --transport=paths alone", emissive_);
+  note_count(notes, "materials that shine by themselves, and light other things by paths, not by --transport=whitted", emissive_);
   note_count(notes, "materials whose own light is a texture's, shown without it", light_textures_);
   note_count(notes, "materials with a clear coat, shown without it", coated_);
   note_count(notes, "materials that colour what shines through them (Tf), shown without that", filtered_);

@@ -55,8 +55,9 @@ TEST_CASE("lights that no radius makes larger are said") {
   const std::string sphere = nff_view + "f 1 1 1 1 0 0 0 0\ns 0 0 0.5 1\n";
   const TransportOptions balls{.kind = core::TransportKind::paths, .light_radius = 0.1};
   CHECK(said_of(sphere, {parse_light("1,2,3")}, balls).empty());
-  CHECK(tests::contains(said_of(sphere, {parse_light("1,2,3"), parse_light("1e6,0,0")}, balls),
-                        "1 light stays a point, in the eye or so far away that no radius shows"));
+  CHECK(tests::contains(
+      said_of(sphere, {parse_light("1,2,3"), parse_light("1e6,0,0")}, balls),
+      "1 light stays a point: as spheres of --light-radius they would be around the eye, or too small or too far away to show"));
 }
 
 TEST_CASE("a scene with nothing in it is said") {

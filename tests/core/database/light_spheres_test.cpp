@@ -57,6 +57,15 @@ TEST_CASE("a light as far away as those are that stand for a direction stays a p
   CHECK(scene.lights.at(0).position.z == 1e3);
 }
 
+TEST_CASE("lights of a radius that is nothing beside the scene stay points, and shine as before") {
+  for (const double radius : {1e-7, 1e-12, 1e-40}) {
+    Scene scene = lit({{{0, 0, 4}, {1, 0.5, 0.25}, true}});
+    CHECK(make_lights_spheres(scene, radius) == 1);
+    CHECK(scene.lights.at(0).position == Vec3d{0, 0, 4});
+    CHECK(scene.spheres.size() == 1);
+  }
+}
+
 TEST_CASE("without objects lights stay points") {
   Scene scene;
   scene.lights = {{.position = {1, 2, 3}}};

@@ -124,7 +124,9 @@ PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scen
   picture.resolution = resolution.value_or(Resolution{side, side});
   if (part == SpeedPart::paths) {
     picture.samples = path_samples;
-    picture.transport = {.kind = core::TransportKind::paths, .bounces = path_bounces, .sky = SkyChoice{{1, 1, 1}, {}}};
+    // The rival aims at nothing that shines, and so no more do we.
+    picture.transport = {
+        .kind = core::TransportKind::paths, .bounces = path_bounces, .sky = SkyChoice{{1, 1, 1}, {}}, .emitters = 0};
     picture.depth = picture.transport.depth();
     picture.staging.background = picture.transport.sky->horizon;
   }

@@ -129,12 +129,9 @@ RenderOptions options_of(const SweepRun& run, const std::vector<VariedOption>& v
   }
 }
 
-/// What a picture takes is what is swept, so a mesh file is shown as other scenes are, unless something is said of that.
-bool says_how_it_shows_meshes(const SweepSettings& settings) {
-  const auto is_one = [](const std::string& word) {
-    const std::string name = word.substr(0, word.find('='));
-    return name == "--samples" || name == "--quality" || name == "--transport" || name == "--error";
-  };
+/// Whether any of these options of `render` is fixed or varied.
+bool gives_any(const SweepSettings& settings, const std::set<std::string>& names) {
+  const auto is_one = [&](const std::string& word) { return names.contains(word.substr(0, word.find('='))); };
   return std::any_of(settings.fixed.begin(), settings.fixed.end(), is_one) ||
          std::any_of(settings.variations.begin(), settings.variations.end(),
                      [&](const VariedOption& variation) { return is_one(variation.option); });
@@ -171,8 +168,9 @@ std::vector<SweepRun> sweep_runs(const SweepSettings& settings) {
   check_options(settings);
   std::vector<std::string> words = {"render", settings.scene};
   words.insert(words.end(), settings.fixed.begin(), settings.fixed.end());
-  if (is_mesh(settings.scene) && !says_how_it_shows_meshes(settings)) {
-    words.emplace_back("--samples=1");
+  // What a picture takes is what is swept, so a mesh file is shown as other scenes are, unless something is said of that.
+  if (is_mesh(settings.scene) && !gives_any(settings, {"--samples", "--quality", "--transport"})) {
+    words.emplace_back(gives_any(settings, {"--error"}) ? "--transport=whitted" : "--samples=1");
   }
   std::vector<SweepRun> runs = {{.values = {}, .words = words, .options = {}}};
   for (const VariedOption& variation : settings.variations) {

@@ -63,6 +63,8 @@ TEST_CASE("a mesh file that is swept has one ray a pixel, unless something is sa
   CHECK_FALSE(apps::sweep_runs(mesh)[0].options.picture.transport.is_by_paths());
   mesh.fixed = {"--transport=paths"};
   CHECK(apps::sweep_runs(mesh)[0].words == std::vector<std::string>{"render", "a.glb", "--transport=paths", "--nodes=2"});
+  mesh.fixed = {"--error=0.1"};
+  CHECK_FALSE(apps::sweep_runs(mesh)[0].options.picture.transport.is_by_paths());
   mesh.fixed = {};
   mesh.variations.push_back(apps::parse_variation("samples:1,4"));
   CHECK(apps::sweep_runs(mesh)[1].options.picture.samples == 4);
