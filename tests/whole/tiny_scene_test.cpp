@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/picture/render.h"
+#include "core/scene/frame.h"
 #include "tests/support/small_scenes.h"
 
 namespace dmpc::tests::tiny_scene_test {

@@ -114,7 +114,7 @@ TEST_CASE(
     CAPTURE(alpha);
     Scene scene = floor_of(microfacets(gold, metallic, alpha), 1);
     SceneBuilder builder(scene);
-    builder.material(grey(0, 3));
+    builder.material({.color = {0, 0, 0}, .emission = {3, 3, 3}, .microfacets = {.roughness = 0.5}});
     builder.sphere({0.3, 0.2, 1}, 0.4);
     scene.view = {.from = {0, -3, 1.2}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 30};
     const Studio aiming(scene, 10), meeting(scene);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/line/words.h"
@@ -71,6 +72,13 @@ int default_side(SpeedPart part) {
   return part == SpeedPart::plain || part == SpeedPart::emulation ? 1024 : static_cast<int>(paper_resolution);
 }
 
+/// What the plain path tracer does not know: materials show what they do by Whitted, on both sides.
+void leave_out_microfacets(core::Scene& scene) {
+  for (core::Material& material : scene.materials) {
+    material.microfacets = {};
+  }
+}
+
 }  // namespace
 
 const char* name_of(SpeedPart part) { return names[static_cast<std::size_t>(part)]; }
@@ -135,7 +143,11 @@ PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scen
 
 Subject SpeedSettings::subject_of(SpeedPart part, const std::string& scene) const {
   const PictureOptions picture = picture_of(part, scene);
-  return build_subject(load(picture), picture);
+  core::Scene loaded = load(picture);
+  if (part == SpeedPart::paths) {
+    leave_out_microfacets(loaded);
+  }
+  return build_subject(std::move(loaded), picture);
 }
 
 core::Scene SpeedSettings::load(const PictureOptions& picture) const { return load_scene_beside(picture, outputs); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "apps/lab/oracle/accurate/ray_log.h"
 #include "core/base/expect.h"
@@ -15,7 +16,6 @@ namespace {
 
 using core::Vec3d;
 
-constexpr double pi = 3.14159265358979324;
 /// As the product has it: nearer to a sphere paths alone find it.
 constexpr double nearest = 1 + 1e-4;
 
@@ -42,7 +42,7 @@ std::optional<AccurateAim> aim_at_sphere(const AccurateBody& body, double chance
   const Vec3d aside = way - towards * near_middle;
   const double before = std::sqrt(std::max(0.0, radius * radius - dot(aside, aside)));
   const Vec3d place = from + towards * (near_middle - before);
-  return AccurateAim{place, (place - body.place[0]) * (1 / radius), chance / (2 * pi * share)};
+  return AccurateAim{place, (place - body.place[0]) * (1 / radius), chance / (2 * std::numbers::pi * share)};
 }
 
 std::optional<AccurateAim> aim_at_triangle(const AccurateBody& body, double chance, const Vec3d& from,
@@ -93,7 +93,9 @@ double aimed_density(const AccurateScene& scene, const AccurateBody& body, const
   const double by_area = scene.emitter_density * strength_of(scene.materials[body.material].emission);
   if (body.kind == core::PrimitiveKind::sphere) {
     const double distance = length(body.place[0] - from), radius = body.radius[0];
-    return distance <= radius * nearest ? 0 : by_area * 4 * pi * radius * radius / (2 * pi * cone_share(radius, distance));
+    return distance <= radius * nearest
+               ? 0
+               : by_area * 4 * std::numbers::pi * radius * radius / (2 * std::numbers::pi * cone_share(radius, distance));
   }
   const Vec3d way = place - from;
   const double distance = length(way);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "apps/lab/oracle/accurate/emitters.h"
 #include "apps/lab/oracle/accurate/facets.h"
@@ -17,7 +18,6 @@ using core::Vec3d;
 constexpr double gap = 1e-13;
 /// A shadow ray ends this share of its length before the light, so that a surface through the light does not hide it.
 constexpr double light_gap = 1e-9;
-constexpr double pi = 3.14159265358979324;
 /// That a ray's record can hold.
 constexpr int depth_limit = 255;
 
@@ -324,7 +324,7 @@ double AccurateTracer::scattered_density(const Touch& touch, const Vec3d& toward
   const Ways ways = ways_of(touch);
   const double cosine = dot(towards, touch.normal);
   const bool is_outside = dot(towards, touch.surface.normal) * dot(touch.ray.direction, touch.surface.normal) < 0;
-  return cosine > 0 && is_outside && ways.all() > 0 ? brightest(ways.scattered) / ways.all() * cosine / pi : 0;
+  return cosine > 0 && is_outside && ways.all() > 0 ? brightest(ways.scattered) / ways.all() * cosine / std::numbers::pi : 0;
 }
 
 /// At one emitter, as far as a path's own ray would not find it.
@@ -347,8 +347,8 @@ void AccurateTracer::add_aimed_ray(const Touch& touch, std::vector<AccurateRay>&
   const AccurateBody& body = scene_.bodies[target->body];
   const double other = core::density_of(core::density_bits(density));
   const double share = share_of(aimed_density(scene_, body, touch.surface.point, aim.place, aim.normal), other);
-  const Vec3d reflected = touch.has_facets ? touch.facets().response(ray.direction) * (1 / pi)
-                                           : touch.color * (touch.diffuse * dot(ray.direction, touch.normal) / pi);
+  const Vec3d reflected = touch.has_facets ? touch.facets().response(ray.direction) * (1 / std::numbers::pi)
+                                           : touch.color * (touch.diffuse * dot(ray.direction, touch.normal) / std::numbers::pi);
   ray.weight = from.weight * scene_.materials[body.material].emission * reflected * (share / aim.density);
   const Vec3d way = aim.place - ray.origin;
   ray.direction = normalize(way);

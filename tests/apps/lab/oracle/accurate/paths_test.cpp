@@ -63,11 +63,11 @@ struct Comparison {
 constexpr core::Transport sky{
     .kind = core::TransportKind::paths, .has_sky = true, .has_gradient = true, .zenith = {0.1F, 0.3F, 2}, .up = {0, 0, 1}};
 
-core::Scene lit_by_eight(core::Scene scene) {
+core::Scene lit_by_eight(core::Scene scene, const core::Microfacets& facets = {}) {
   scene.lights.clear();
   core::SceneBuilder builder(scene);
   for (int i = 0; i < 4; ++i) {
-    builder.material({.color = {0.5, 0.5, 0.5}, .emission = {2.0 + i, 3, 4}});
+    builder.material({.color = {0.5, 0.5, 0.5}, .emission = {2.0 + i, 3, 4}, .microfacets = facets});
     builder.sphere({-1 + 0.7 * i, 0.5, 1.1}, 0.1);
     builder.polygon({{-1 + 0.5 * i, -1, 1}, {-0.7 + 0.5 * i, -1, 1}, {-0.7 + 0.5 * i, -0.7, 1.3}});
   }
@@ -95,7 +95,7 @@ TEST_CASE(
 }
 
 TEST_CASE("paths that aim at triangles and balls that shine bring the product's light in double precision, with its chances") {
-  const core::Scene smooth = lit_by_eight(built_in("balls-2")), faceted = lit_by_eight(faceted_surfaces());
+  const core::Scene smooth = lit_by_eight(built_in("balls-2")), faceted = lit_by_eight(faceted_surfaces(), {.roughness = 0.5});
   for (const std::uint32_t emitters : {1U, 3U, 1024U}) {
     for (const int bounces : {0, 1, 3}) {
       CAPTURE(emitters);
