@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <unordered_map>
 
 #include "core/database/alias_table.h"
@@ -9,7 +10,6 @@
 namespace dmpc::core {
 namespace {
 
-constexpr double pi = 3.14159265358979324;
 /// Of the mean power: who has less would be drawn as often as the steps of chance allow, and not as it should.
 constexpr double share_min = 0x1p-20;
 
@@ -22,7 +22,7 @@ struct Candidate {
 double area_of(const PrimitiveValues& primitive) {
   if (primitive.kind == PrimitiveKind::sphere) {
     const double radius = primitive.curved().value(3);
-    return radius > 0.0 ? 4.0 * pi * radius * radius : 0.0;
+    return radius > 0.0 ? 4.0 * std::numbers::pi * radius * radius : 0.0;
   }
   if (primitive.kind == PrimitiveKind::cone || primitive.plane() != 0) {
     return 0.0;

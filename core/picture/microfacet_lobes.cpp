@@ -23,8 +23,6 @@ Vec3d raised(const Vec3d& direction, const Vec3d& normal) {
 /// Above the blended normal and the true one.
 bool is_above(const HitState& state, const Vec3d& in) { return dot(in, state.normal) > 0.0 && leads_outside(state, in); }
 
-RayKind kind_after(const Ray& ray, RayKind kind) { return ray.kind == RayKind::scattered ? RayKind::scattered : kind; }
-
 }  // namespace
 
 MicrofacetLobes::MicrofacetLobes(const HitState& state)

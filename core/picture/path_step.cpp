@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::uint32_t pairs_a_hit = 4;
 
-RayKind kind_after(const HitState& state, RayKind kind) {
-  return state.ray.kind == RayKind::scattered ? RayKind::scattered : kind;
-}
-
 std::optional<PathStep> scattered_step(const HitState& state, double chance) {
   const std::optional<Vec3d> towards = scattered_direction(state);
   if (!towards) {
@@ -36,10 +32,10 @@ std::optional<PathStep> step_at(const HitState& state, const WayShares& shares, 
   const auto all = static_cast<float>(shares.all());
   if (place < shares.scattered + shares.mirrored) {
     return PathStep{normalize(mirrored_direction(direction, state.normal)), mirrored_tint(state) * all,
-                    kind_after(state, RayKind::reflected)};
+                    kind_after(state.ray, RayKind::reflected)};
   }
   return PathStep{normalize(bent_direction(direction, state.normal, relative_index(state))), Color{all, all, all},
-                  kind_after(state, RayKind::refracted)};
+                  kind_after(state.ray, RayKind::refracted)};
 }
 
 std::optional<PathStep> chosen_step(const HitState& state, const SamplePair& choice) {

@@ -21,6 +21,9 @@ struct PathStep {
   double density = std::numeric_limits<double>::infinity();
 };
 
+/// The kind of what a ray sends on by a mirror or through glass: what has been scattered stays so.
+inline RayKind kind_after(const Ray& ray, RayKind kind) { return ray.kind == RayKind::scattered ? RayKind::scattered : kind; }
+
 /// What a hit's chances are for, each with a pair of numbers of its own: the way in which its path goes on and roulette, whither,
 /// further digits of the emitter to aim at, and that with the place on it.
 enum class Purpose : std::uint32_t { choice, direction, emitter, place };

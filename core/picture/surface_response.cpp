@@ -1,14 +1,11 @@
 #include "core/picture/surface_response.h"
 
+#include <numbers>
+
 #include "core/picture/microfacet_lobes.h"
 #include "core/picture/surface_shares.h"
 
 namespace dmpc::core {
-namespace {
-
-constexpr double one_over_pi = 0.318309886183790672;
-
-}  // namespace
 
 Color scattered_color(const HitState& state) { return state.surface.material.color * state.surface.material.diffuse; }
 
@@ -31,7 +28,7 @@ SurfaceResponse response_towards(const HitState& state, const Vec3d& towards) {
     return {};
   }
   const WayShares shares = shares_of(state);
-  const double lambert = cosine * one_over_pi;
+  const double lambert = cosine * std::numbers::inv_pi;
   return {Vec3d(scattered_color(state)) * lambert, shares.scattered > 0.0 ? shares.scattered / shares.all() * lambert : 0.0};
 }
 
