@@ -47,7 +47,7 @@ struct BundleHit {
   /// Requires room, and that no phase is over.
   void add(const Ray& ray, const Hit& met, std::size_t its_place) {
     place[count] = static_cast<std::uint8_t>(its_place);
-    hit[count++] = begin_shading(ray, met);
+    begin_shading(hit[count++], ray, met);
   }
   bool has_any_at(HitState::Stage stage) const {
     return std::any_of(hit.begin(), hit.begin() + count, [stage](const HitState& state) { return state.stage == stage; });
@@ -78,9 +78,10 @@ class BundleShader {
         operations_(operations),
         shader_(settings.header, settings.shade, settings.skips, operations, &settings.camera) {}
 
-  /// Ends the phase that the hits are in: shoot(child, i) is called for every child of hit i, at most one for each, and, where
-  /// hits glow, shine(light, i) once for each when all surfaces are known. False if a record is absent, whose address is then
-  /// `absent`: call it again once that is there. Requires a phase other than finished.
+  /// Ends the phase that the hits are in: shoot(i, make) is called for each hit i that may have a child, which make(ray) makes of
+  /// any ray, in the place where it is to be, or says that there is none (false); and, where hits glow, shine(light, i) once for
+  /// each when all surfaces are known. False if a record is absent, whose address is then `absent`: call it again once that is
+  /// there. Requires a phase other than finished.
   template <class Shoot, class Shine>
   bool step(Address& absent, const Shoot& shoot, const Shine& shine) {
     if ((hits_.phase == Phase::surface && !read_surfaces(absent)) ||
@@ -171,10 +172,13 @@ bool BundleShader<T>::shoot_at_light(Address& absent, const Shoot& shoot) {
   }
   lanes.light(Vec3d(light.position));
   for (std::uint32_t i = 0; i < hits_.count; ++i) {
-    Ray child;
-    if (shader_.shine(hits_.hit[i], light, lanes.fall(i), lanes.highlight(i), child)) {
-      shoot(child, i);
-    }
+    shoot(i, [&](Ray& child) {
+      const bool shines = shader_.shine(hits_.hit[i], light, lanes.fall(i), lanes.highlight(i), child);
+      if (shines) {
+        lanes.set_way(i, child);
+      }
+      return shines;
+    });
   }
   return true;
 }
@@ -193,9 +197,7 @@ bool BundleShader<T>::read_stage(HitState::Stage stage, Address& absent, const S
     if (record == nullptr) {
       return false;
     }
-    if (Ray child; shader_.step(state, record, child)) {
-      shoot(child, hits_.next);
-    }
+    shoot(hits_.next, [&](Ray& child) { return shader_.step(state, record, child); });
   }
   hits_.next = 0;
   return true;
@@ -220,10 +222,13 @@ void BundleShader<T>::shoot_children(HitState::Stage stage, const Shoot& shoot) 
     is_bent ? lanes.bend() : lanes.mirror();
   }
   for (std::uint32_t lane = 0; lane < count; ++lane) {
-    Ray child;
-    if (shader_.send(hits_.hit[sender[lane]], lanes.towards(lane), lanes.start(lane), child)) {
-      shoot(child, sender[lane]);
-    }
+    shoot(sender[lane], [&](Ray& child) {
+      const bool sends = shader_.send(hits_.hit[sender[lane]], child);
+      if (sends) {
+        lanes.set_way(lane, child);
+      }
+      return sends;
+    });
   }
 }
 
@@ -232,9 +237,8 @@ template <BundleTracer T>
 template <class Shoot>
 void BundleShader<T>::send_on(const Shoot& shoot) {
   for (std::uint32_t i = 0; i < hits_.count; ++i) {
-    Ray child;
-    if (hits_.hit[i].stage == HitState::Stage::continued && shader_.send_on(hits_.hit[i], child)) {
-      shoot(child, i);
+    if (hits_.hit[i].stage == HitState::Stage::continued) {
+      shoot(i, [&](Ray& child) { return shader_.send_on(hits_.hit[i], child); });
     }
   }
 }

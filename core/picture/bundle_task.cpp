@@ -39,7 +39,8 @@ bool BundleTask::next_samples(const RenderSettings& settings, Operations& operat
 void BundleTask::shoot_primary(std::uint32_t place, std::uint32_t sample, const RenderSettings& settings,
                                Operations& operations) {
   if (!settings.shows_background(pixels_[place])) {
-    add_ray(settings.camera.primary_ray(pixels_[place], sample), place, operations);
+    bundle_.rays[bundle_.count] = settings.camera.primary_ray(pixels_[place], sample);
+    add_ray(place, operations);
     return;
   }
   ++operations.rays[static_cast<std::size_t>(RayKind::primary)];
@@ -49,10 +50,10 @@ void BundleTask::shoot_primary(std::uint32_t place, std::uint32_t sample, const 
   deposit(sums_[place], ray, settings.light_of_miss(ray), settings, operations);
 }
 
-void BundleTask::add_ray(const Ray& ray, std::uint32_t place, Operations& operations) {
-  bundle_.rays[bundle_.count] = ray;
+/// The ray behind the others, which has been set.
+void BundleTask::add_ray(std::uint32_t place, Operations& operations) {
+  ++operations.rays[static_cast<std::size_t>(bundle_.rays[bundle_.count].kind)];
   place_[bundle_.count++] = static_cast<std::uint8_t>(place);
-  ++operations.rays[static_cast<std::size_t>(ray.kind)];
 }
 
 /// Returns whether there are rays to be traced, which then are under way.

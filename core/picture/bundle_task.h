@@ -52,7 +52,7 @@ class BundleTask {
     return steps_[place].samples(settings.first_samples().count);
   }
   void shoot_primary(std::uint32_t place, std::uint32_t sample, const RenderSettings& settings, Operations& operations);
-  void add_ray(const Ray& ray, std::uint32_t place, Operations& operations);
+  void add_ray(std::uint32_t place, Operations& operations);
   bool begin_tracing();
   BundleHit& fresh_hits();
   void end_rays(const RenderSettings& settings, Operations& operations);
@@ -94,7 +94,11 @@ template <BundleTracer T>
 TaskState BundleTask::shade(T& tracer, const RenderSettings& settings, Operations& operations) {
   while ((stack_size_ = static_cast<std::uint8_t>(waiting_count(stack_, stack_size_))) > 0) {
     BundleHit& hits = stack_[stack_size_ - 1];
-    const auto shoot = [&](const Ray& child, std::uint32_t i) { add_ray(child, hits.place[i], operations); };
+    const auto shoot = [&](std::uint32_t i, const auto& make) {
+      if (make(bundle_.rays[bundle_.count])) {
+        add_ray(hits.place[i], operations);
+      }
+    };
     const auto shine = [&](const Color& light, std::uint32_t i) {
       deposit(sums_[hits.place[i]], hits.hit[i].ray, light, settings, operations);
     };

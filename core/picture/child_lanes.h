@@ -6,7 +6,7 @@
 #include "core/base/vec.h"
 #include "core/picture/hit_state.h"
 #include "core/picture/lanes.h"
-#include "core/picture/ray_start.h"
+#include "core/picture/ray_rows.h"
 #include "core/picture/start_rows.h"
 
 namespace dmpc::core {
@@ -21,23 +21,23 @@ class ChildLanes {
     starts_.put_hit(count_, state);
     index_[count_++] = index;
   }
-  /// How each mirrors, or lets through, its ray: towards() and start() tell, with the bits of normalize() of
-  /// mirrored_direction() or bent_direction(), and of start_towards().
+  /// How each mirrors, or lets through, its ray: set_way() tells, with the bits of leave() for normalize() of
+  /// mirrored_direction() or bent_direction(), and start_towards().
   void mirror(VectorWidth width = vector_width());
   void bend(VectorWidth width = vector_width());
 
-  Vec3d towards(std::size_t lane) const { return get(towards_, lane); }
-  RayStart start(std::size_t lane) const { return starts_.start(lane); }
+  void set_way(std::size_t lane, Ray& child) const { rays_.set(lane, child); }
 
  private:
+  void fill_up();
   template <bool is_bent>
   void send_lanes();
 
   std::size_t count_ = 0;
-  VectorRows direction_{}, normal_{};
-  Row<double> index_{};
-  VectorRows towards_;
+  VectorRows direction_, normal_;
+  Row<double> index_;
   StartRows starts_;
+  RayRows rays_;
 };
 
 }  // namespace dmpc::core

@@ -5,13 +5,6 @@
 
 namespace dmpc::core {
 
-HitState begin_shading(const Ray& ray, const Hit& hit) {
-  HitState state;
-  state.ray = ray;
-  state.hit = hit;
-  return state;
-}
-
 ShadingRecord shading_record_of(const HitState& state) {
   switch (state.stage) {
     case HitState::Stage::geometry:

@@ -126,8 +126,20 @@ inline double relative_index(const HitState& state) {
   return state.leaving ? inside : 1.0 / inside;
 }
 
+/// Makes `state` that of a fresh hit. What nothing asks for before it is set stays as it was.
+inline void begin_shading(HitState& state, const Ray& ray, const Hit& hit) {
+  state.ray = ray;
+  state.hit = hit;
+  state.u = state.v = 0;
+  state.curved = state.leaving = state.has_refraction = false;
+  state.stage = HitState::Stage::geometry;
+}
 /// The state of a fresh hit.
-HitState begin_shading(const Ray& ray, const Hit& hit);
+inline HitState begin_shading(const Ray& ray, const Hit& hit) {
+  HitState state;
+  begin_shading(state, ray, hit);
+  return state;
+}
 
 /// How many of the first `count` hits of a stack, each a HitState or a bundle of them, stay: the newest leave it as far as they
 /// wait for nothing more, so that what they sent last may have their place.

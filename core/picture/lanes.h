@@ -11,22 +11,38 @@
 namespace dmpc::core {
 
 /// Rows of vectors, by component.
-struct VectorRows {
-  Row<double> x, y, z;
+template <class T>
+struct RowsOf {
+  Row<T> x, y, z;
 };
+using VectorRows = RowsOf<double>;
 
-inline void put(VectorRows& rows, std::size_t lane, const Vec3d& v) {
+template <class T>
+void put(RowsOf<T>& rows, std::size_t lane, const Vec3<T>& v) {
   rows.x[lane] = v.x;
   rows.y[lane] = v.y;
   rows.z[lane] = v.z;
 }
 
-inline Vec3d get(const VectorRows& rows, std::size_t lane) { return {rows.x[lane], rows.y[lane], rows.z[lane]}; }
+template <class T>
+Vec3<T> get(const RowsOf<T>& rows, std::size_t lane) {
+  return {rows.x[lane], rows.y[lane], rows.z[lane]};
+}
 
-/// So many lanes rounded up to whole vectors: those that are not taken hold zeros, and are computed for nothing.
-inline std::size_t whole_groups(std::size_t count) {
-  constexpr std::size_t group_lanes = 8;  // doubles in the widest vector
-  return (count + group_lanes - 1) / group_lanes * group_lanes;
+/// Doubles in the widest vector. Loops over lanes go by groups of so many: those of the last group that are not taken hold what
+/// the first one does, by fill_up(), and are computed for nothing.
+inline constexpr std::size_t group_lanes = 8;
+
+/// Puts the first of `count` lanes into those behind them, up to a whole group: nothing is computed with what nobody has set.
+inline void fill_up(Row<double>& row, std::size_t count) {
+  for (; count % group_lanes != 0; ++count) {
+    row[count] = row[0];
+  }
+}
+inline void fill_up(VectorRows& rows, std::size_t count) {
+  fill_up(rows.x, count);
+  fill_up(rows.y, count);
+  fill_up(rows.z, count);
 }
 
 template <class Loop>

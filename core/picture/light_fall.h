@@ -7,17 +7,19 @@
 #include "core/base/vec.h"
 #include "core/picture/hit_state.h"
 #include "core/picture/lanes.h"
+#include "core/picture/ray_rows.h"
 #include "core/picture/ray_start.h"
 #include "core/picture/start_rows.h"
 
 namespace dmpc::core {
 
-/// How a light falls on a hit: all of it, whether or not the surface faces the light.
+/// A shadow ray ends this share of its length before the light.
+inline constexpr double light_gap = 1e-6;
+
+/// How a light falls on a hit, whether or not the surface faces the light.
 struct LightFall {
-  Vec3d towards;    ///< the light, unit length; 0 in the light itself
-  double distance;  ///< of the light, grid-local
-  double cosine;    ///< of `towards` with the shading normal
-  RayStart start;   ///< of a shadow ray
+  Vec3d towards;  ///< the light, unit length; 0 in the light itself
+  double cosine;  ///< of `towards` with the shading normal
 };
 
 /// `way` scaled to length 1; 0 if it has none.
@@ -31,11 +33,17 @@ inline double lobe_cosine(const Vec3d& direction, const Vec3d& normal, const Vec
   return dot(mirrored_direction(direction, normal), towards);
 }
 
-inline LightFall fall_on(const HitState& state, const Vec3d& light) {
-  const Vec3d way = light - state.point;
-  const double distance = length(way);
-  const Vec3d towards = direction_of(way, distance);
-  return {towards, distance, dot(towards, state.normal), start_towards(towards, state.geometric_normal, state.clearance)};
+/// Sets where a shadow ray starts that leaves a point `towards` a light so far away, where it goes and where it ends. One that
+/// starts off the way to the light is aimed anew.
+inline void aim_shadow(Ray& ray, const Vec3d& light, const Vec3d& point, const Vec3d& true_normal, const Vec3d& towards,
+                       double distance, const RayStart& start) {
+  leave(ray, point, true_normal, towards, start);
+  const bool is_off = start.across != 0.0;
+  const Vec3d from_start = light - ray.full_origin();
+  const double length_from_start = length(from_start), length_left = is_off ? length_from_start : distance - start.along;
+  const Vec3d anew = from_start * (1.0 / length_from_start);
+  ray.go_along({is_off ? anew.x : towards.x, is_off ? anew.y : towards.y, is_off ? anew.z : towards.z});
+  ray.t_max = static_cast<float>(length_left * (1.0 - light_gap));
 }
 
 /// Up to bundle_rays_max hits side by side, a row for each of their numbers.
@@ -43,28 +51,31 @@ class LitLanes {
  public:
   /// Adds a hit that has come to its lights. Requires room.
   void add(const HitState& state) {
-    put(point_, count_, state.point);
     put(normal_, count_, state.normal);
     put(direction_, count_, state.ray.full_direction());
     starts_.put_hit(count_, state);
     shine_[count_++] = double{std::max(state.surface.material.shine, 0.0F)};  // not what marks microfacets
   }
-  /// How a light falls on all: fall() and highlight() tell, with the bits of fall_on() and of pow_unit().
+  /// How a light falls on all: fall(), highlight() and set_way() tell, with the bits that each has alone.
   void light(const Vec3d& position, VectorWidth width = vector_width());
 
-  LightFall fall(std::size_t lane) const { return {get(towards_, lane), distance_[lane], cosine_[lane], starts_.start(lane)}; }
+  LightFall fall(std::size_t lane) const { return {get(towards_, lane), cosine_[lane]}; }
   /// lobe_cosine() to the power of the material's shine.
   double highlight(std::size_t lane) const { return highlight_[lane]; }
+  /// As aim_shadow() does.
+  void set_way(std::size_t lane, Ray& shadow) const { rays_.set(lane, shadow); }
 
  private:
   void light_lanes(Vec3d position);
+  void aim_lanes(Vec3d position);
 
   std::size_t count_ = 0;
-  VectorRows point_{}, normal_{}, direction_{};
-  Row<double> shine_{};
-  VectorRows towards_;
+  VectorRows normal_, direction_;
+  Row<double> shine_;
   StartRows starts_;
+  VectorRows towards_;
   Row<double> distance_, cosine_, highlight_;
+  RayRows rays_;
 };
 
 }  // namespace dmpc::core

@@ -26,6 +26,12 @@ inline RayStart start_towards(const Vec3d& towards, const Vec3d& true_normal, co
   return {along, std::copysign(std::max(clearance.across - along * steep, 0.0), cosine)};
 }
 
+/// Sets where a ray starts that leaves a surface's point, and that it goes `towards` a unit direction.
+inline void leave(Ray& ray, const Vec3d& point, const Vec3d& true_normal, const Vec3d& towards, const RayStart& start) {
+  ray.start_at(point + towards * start.along + true_normal * start.across);
+  ray.go_along(towards);
+}
+
 /// The mirrored ray's, not of unit length where rounding has it so.
 inline Vec3d mirrored_direction(const Vec3d& direction, const Vec3d& normal) {
   return direction - normal * (2.0 * dot(direction, normal));

@@ -44,19 +44,6 @@ double chance_of(const Ray& ray) {
   return static_cast<double>(bits >> 11U) * 0x1p-53;
 }
 
-/// A shadow ray to a light. One that starts off the way there is aimed anew.
-Ray shadow_ray(const HitState& state, const LightRecord& light, const LightFall& fall) {
-  Ray ray = child_ray(state, fall.towards, fall.start, RayKind::shadow);
-  double length_left = fall.distance - fall.start.along;
-  if (fall.start.across != 0.0) {
-    const Vec3d from_start = Vec3d(light.position) - ray.full_origin();
-    length_left = length(from_start);
-    ray.go_along(from_start * (1.0 / length_left));
-  }
-  ray.t_max = static_cast<float>(length_left * (1.0 - light_gap));
-  return ray;
-}
-
 /// Of a surface of microfacets their light, else diffuse plus Phong's highlight (NFF) for light that falls at this cosine, of
 /// which a mirror would send so much to the eye.
 Color reflected_light(const HitState& state, const LightRecord& light, const LightFall& fall, double highlight) {
@@ -398,13 +385,22 @@ bool Shader::leaves_out(bool is_lit, const Color& weight) const {
 
 bool Shader::read_light(HitState& state, const std::byte* record, Ray& child) const {
   const auto light = read<LightRecord>(record);
-  const LightFall fall = fall_on(state, Vec3d(light.position));
+  const Vec3d position(light.position);
+  const Vec3d way = position - state.point;
+  const double distance = length(way);
+  const Vec3d towards = direction_of(way, distance);
+  const LightFall fall{towards, dot(towards, state.normal)};
   const MaterialRecord& material = state.surface.material;
   double highlight = 0.0;
   if (fall.cosine > 0.0 && material.specular > 0.0F) {
     highlight = pow_unit(lobe_cosine(state.ray.full_direction(), state.normal, fall.towards), double{material.shine});
   }
-  return shine(state, light, fall, highlight, child);
+  if (!shine(state, light, fall, highlight, child)) {
+    return false;
+  }
+  aim_shadow(child, position, state.point, state.geometric_normal, towards, distance,
+             start_towards(towards, state.geometric_normal, state.clearance));
+  return true;
 }
 
 bool Shader::shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const {
@@ -417,7 +413,7 @@ bool Shader::shine(HitState& state, const LightRecord& light, const LightFall& f
   if (leaves_out(is_lit, weight)) {
     return false;
   }
-  child = shadow_ray(state, light, fall);
+  begin_child(child, state, RayKind::shadow);
   child.weight = weight;
   return is_worth_it(child);
 }
@@ -431,10 +427,10 @@ void Shader::widen(const HitState& state, Ray& child) const {
   }
 }
 
-bool Shader::send(HitState& state, const Vec3d& towards, const RayStart& start, Ray& child) const {
+bool Shader::send(HitState& state, Ray& child) const {
   const bool is_mirrored = state.stage == Stage::reflected;
   expect(is_mirrored || state.stage == Stage::refracted, "a hit sends a ray when it has come to that");
-  child = child_ray(state, towards, start, is_mirrored ? RayKind::reflected : RayKind::refracted);
+  begin_child(child, state, is_mirrored ? RayKind::reflected : RayKind::refracted);
   widen(state, child);
   const float share = sends_one(state) ? both_shares(state)
                       : is_mirrored    ? mirrored_share(state)
@@ -452,7 +448,11 @@ bool Shader::send_alone(HitState& state, Ray& child) const {
   const Vec3d towards =
       normalize(state.stage == Stage::reflected ? mirrored_direction(direction, state.normal)
                                                 : bent_direction(direction, state.normal, relative_index(state)));
-  return send(state, towards, start_towards(towards, state.geometric_normal, state.clearance), child);
+  if (!send(state, child)) {
+    return false;
+  }
+  leave(child, state.point, state.geometric_normal, towards, start_towards(towards, state.geometric_normal, state.clearance));
+  return true;
 }
 
 Ray Shader::continued_ray(const HitState& state, const Vec3d& towards, RayKind kind, const Color& weight) const {

@@ -90,10 +90,11 @@ class Shader {
   /// What a hit whose surface is known sends on by itself: its own light, and of the ambient one what its diffuse part
   /// reflects.
   Color glow(const HitState& state) const;
-  /// Goes on with a hit at a light that is known to fall on it so; `highlight`: lobe_cosine() to the power of its shine.
+  /// Goes on with a hit at a light that is known to fall on it so; `highlight`: lobe_cosine() to the power of its shine. As of
+  /// step(), but for where the child starts, goes and ends, which is the caller's to set.
   bool shine(HitState& state, const LightRecord& light, const LightFall& fall, double highlight, Ray& child) const;
-  /// Goes on with a hit that mirrors or lets through a ray, which leaves `towards` a unit direction from `start`.
-  bool send(HitState& state, const Vec3d& towards, const RayStart& start, Ray& child) const;
+  /// The same of a hit that mirrors or lets through a ray.
+  bool send(HitState& state, Ray& child) const;
   /// Goes on with a hit of a path that has seen to its lights: one ray more, or none.
   bool send_on(HitState& state, Ray& child) const;
 

@@ -6,31 +6,34 @@
 #include "core/base/vec.h"
 #include "core/picture/hit_state.h"
 #include "core/picture/lanes.h"
-#include "core/picture/ray_start.h"
 
 namespace dmpc::core {
 
-/// A row for each number of start_towards(), by lane.
+/// A row for each number that start_towards() and leave() ask of a hit, by lane.
 class StartRows {
  public:
   void put_hit(std::size_t lane, const HitState& state) {
+    put(point_, lane, state.point);
     put(true_normal_, lane, state.geometric_normal);
     along_[lane] = state.clearance.along;
     across_[lane] = state.clearance.across;
     radius_[lane] = state.clearance.radius;
   }
-  /// For loops that compilers vectorise.
-  void find(std::size_t lane, const Vec3d& towards) {
-    const RayStart start = start_towards(towards, get(true_normal_, lane), {along_[lane], across_[lane], radius_[lane]});
-    start_along_[lane] = start.along;
-    start_across_[lane] = start.across;
+  /// See lanes.h.
+  void fill_up(std::size_t count) {
+    core::fill_up(point_, count);
+    core::fill_up(true_normal_, count);
+    core::fill_up(along_, count);
+    core::fill_up(across_, count);
+    core::fill_up(radius_, count);
   }
-  RayStart start(std::size_t lane) const { return {start_along_[lane], start_across_[lane]}; }
+  Vec3d point(std::size_t lane) const { return get(point_, lane); }
+  Vec3d true_normal(std::size_t lane) const { return get(true_normal_, lane); }
+  Clearance clearance(std::size_t lane) const { return {along_[lane], across_[lane], radius_[lane]}; }
 
  private:
-  VectorRows true_normal_{};
-  Row<double> along_{}, across_{}, radius_{};
-  Row<double> start_along_, start_across_;
+  VectorRows point_, true_normal_;
+  Row<double> along_, across_, radius_;
 };
 
 }  // namespace dmpc::core

@@ -24,20 +24,22 @@ bool TriangleLanes::take(HitState& state, const std::byte* record) {
 }
 
 [[gnu::always_inline]] inline void TriangleLanes::find_lanes() {
-  for (std::size_t lane = 0; lane < whole_groups(count_); ++lane) {
-    const Vec3d corner = get(corner_, lane), edge1 = get(second_, lane) - corner, edge2 = get(third_, lane) - corner;
-    const Vec3d origin = get(origin_, lane), direction = get(direction_, lane), normal = unit_normal_of(edge1, edge2);
-    const double t = t_[lane];
-    double u = 0, v = 0;
-    find_weights(edge1, edge2, origin - corner, direction, place_of(origin, direction, t), [&](double second, double third) {
-      u = second;
-      v = third;
-    });
-    put(point_, lane, point_at(corner, edge1, edge2, u, v));
-    put(normal_, lane, normal);
-    u_[lane] = u;
-    v_[lane] = v;
-    clearance_[lane] = clearance_of(corner, edge1, edge2, normal, u, v, t);
+  for (std::size_t first = 0; first < count_; first += group_lanes) {
+    for (std::size_t lane = first; lane < first + group_lanes; ++lane) {
+      const Vec3d corner = get(corner_, lane), edge1 = get(second_, lane) - corner, edge2 = get(third_, lane) - corner;
+      const Vec3d origin = get(origin_, lane), direction = get(direction_, lane), normal = unit_normal_of(edge1, edge2);
+      const double t = t_[lane];
+      double u = 0, v = 0;
+      find_weights(edge1, edge2, origin - corner, direction, place_of(origin, direction, t), [&](double second, double third) {
+        u = second;
+        v = third;
+      });
+      put(point_, lane, point_at(corner, edge1, edge2, u, v));
+      put(normal_, lane, normal);
+      u_[lane] = u;
+      v_[lane] = v;
+      clearance_[lane] = clearance_of(corner, edge1, edge2, normal, u, v, t);
+    }
   }
 }
 
@@ -45,6 +47,10 @@ void TriangleLanes::read_all(VectorWidth width) {
   if (count_ == 0) {
     return;
   }
+  for (VectorRows* const rows : {&corner_, &second_, &third_, &origin_, &direction_}) {
+    fill_up(*rows, count_);
+  }
+  fill_up(t_, count_);
   run_by(width, [&] { find_lanes(); });
   for (std::size_t lane = 0; lane < count_; ++lane) {
     HitState& state = *state_[lane];

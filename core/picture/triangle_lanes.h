@@ -26,8 +26,8 @@ class TriangleLanes {
   std::size_t count_ = 0;
   std::array<HitState*, bundle_rays_max> state_;
   std::array<const std::byte*, bundle_rays_max> record_;
-  VectorRows corner_{}, second_{}, third_{}, origin_{}, direction_{};
-  Row<double> t_{};
+  VectorRows corner_, second_, third_, origin_, direction_;
+  Row<double> t_;
   VectorRows point_, normal_;
   Row<double> u_, v_, clearance_;
 };

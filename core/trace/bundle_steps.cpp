@@ -23,17 +23,52 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 // --- From rays to rows ---
 
-/// Four floats of each ray, from `first` on, to four rows.
+using Four = hn::CappedTag<float, 4>;
+
+/// Where each ray has four floats. Behind the last ray stands the first, so that no lane computes with what nobody has set.
+HWY_INLINE const float* floats_of(const RayBundle& bundle, std::size_t ray, std::size_t offset) {
+  const auto* bytes = reinterpret_cast<const std::byte*>(&bundle.rays[ray < bundle.count ? ray : 0]) + offset;
+  return reinterpret_cast<const float*>(bytes);
+}
+
+/// Four floats of each ray to four rows.
 HWY_INLINE void load_rows(const RayBundle& bundle, std::size_t offset, float* row0, float* row1, float* row2, float* row3) {
+#if HWY_TARGET == HWY_SCALAR
   for (std::size_t i = 0; i < bundle_rays_max; ++i) {
-    // Behind the last ray stands the first, so that no lane computes with what nobody has set.
-    const auto* ray = reinterpret_cast<const std::byte*>(&bundle.rays[i < bundle.count ? i : 0]) + offset;
-    const auto* from = reinterpret_cast<const float*>(ray);
+    const float* const from = floats_of(bundle, i, offset);
     row0[i] = from[0];
     row1[i] = from[1];
     row2[i] = from[2];
     row3[i] = from[3];
   }
+#else
+  const Four tag;
+  for (std::size_t i = 0; i < bundle_rays_max; i += 4) {
+    const auto four = [&](std::size_t ray) { return hn::LoadU(tag, floats_of(bundle, i + ray, offset)); };
+    const auto a = four(0), b = four(1), c = four(2), d = four(3);
+    const auto ab_low = hn::InterleaveLower(tag, a, b), ab_high = hn::InterleaveUpper(tag, a, b);
+    const auto cd_low = hn::InterleaveLower(tag, c, d), cd_high = hn::InterleaveUpper(tag, c, d);
+    hn::StoreU(hn::ConcatLowerLower(tag, cd_low, ab_low), tag, row0 + i);
+    hn::StoreU(hn::ConcatUpperUpper(tag, cd_low, ab_low), tag, row1 + i);
+    hn::StoreU(hn::ConcatLowerLower(tag, cd_high, ab_high), tag, row2 + i);
+    hn::StoreU(hn::ConcatUpperUpper(tag, cd_high, ab_high), tag, row3 + i);
+  }
+#endif
+}
+
+/// The largest rest of all rays' origins; what is no number counts as none.
+HWY_INLINE float largest_rest(const RayBundle& bundle) {
+  const Four tag;
+  alignas(16) float each[4] = {};
+  for (std::size_t axis = 0; axis < 3; axis += lanes_of<Four>()) {
+    auto largest = hn::Zero(tag);
+    for (std::size_t i = 0; i < bundle.count; ++i) {
+      const float* const rests = floats_of(bundle, i, offsetof(Ray, origin_rest));
+      largest = hn::Max(hn::Abs(hn::LoadU(tag, rests + axis)), largest);
+    }
+    hn::Store(largest, tag, each + axis);
+  }
+  return std::max({each[0], each[1], each[2]});
 }
 
 HWY_INLINE void load(RayBundle& bundle) {
@@ -43,10 +78,7 @@ HWY_INLINE void load(RayBundle& bundle) {
   load_rows(bundle, offsetof(Ray, direction), bundle.direction[0].data(), bundle.direction[1].data(), bundle.direction[2].data(),
             ignored.data());
   bundle.ignored_primitive = std::bit_cast<Row<std::uint32_t>>(ignored);
-  bundle.rest_most = 0;
-  for (std::size_t i = 0; i < bundle.count; ++i) {
-    bundle.rest_most = std::max(bundle.rest_most, largest_component(bundle.rays[i].origin_rest));
-  }
+  bundle.rest_most = largest_rest(bundle);
 }
 
 /// No ray has a candidate that has not brought one along.

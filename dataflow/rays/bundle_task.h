@@ -103,7 +103,12 @@ bool BundleTask::next_children(PartTracer& tracer, const core::RenderSettings& s
     core::Address absent = core::no_address;
     core::BundleShader<PartTracer> shader(hits, tracer, settings, operations);
     const bool is_here = shader.step(
-        absent, [&](const core::Ray& child, std::uint32_t) { shoot(child); },
+        absent,
+        [&](std::uint32_t, const auto& make) {
+          if (core::Ray child; make(child)) {
+            shoot(child);
+          }
+        },
         [&](const core::Color& light, std::uint32_t i) { shine(hits.hit[i].ray, light); });
     core::expect(is_here, "a node has every record of its region");
     if (has_rays()) {
