@@ -8,55 +8,14 @@
 // the generated coordinates. A camera's angle spans its pixels there, from side to side; of an NFF view it spans their middles.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "apps/lab/bench/stability/cells.h"
-#include "core/picture/render.h"
-#include "core/picture/transport.h"
-#include "tests/support/scaled.h"
-#include "tests/support/shooting.h"
+#include "tests/support/cycles_pictures.h"
 
 namespace cycles_test {
 
 using namespace dmpc::core;
-using namespace dmpc::tests;
+using namespace dmpc::tests::cycles;
 
 namespace {
-
-constexpr int side = 16, blocks = 4;
-using Light = std::array<double, 3>;
-using Blocks = std::array<Light, blocks * blocks>;
-
-/// Matt polygons, z up.
-class Model {
- public:
-  Model(const Vec3d& from, const Vec3d& at, double angle_degrees) : builder_(scene_) {
-    const double half = angle_degrees * 3.14159265358979323846 / 360;
-    const double middles = 2 * std::atan(std::tan(half) * (side - 1) / side);
-    scene_.view = {.from = from, .at = at, .up = {0, 0, 1}, .angle_degrees = middles * 180 / 3.14159265358979323846};
-  }
-  void fill(const Vec3d& color) { builder_.material({.color = color}); }
-  void shine(const Vec3d& light) { builder_.material({.color = {0, 0, 0}, .emission = light}); }
-  void face(const std::vector<Vec3d>& corners) { builder_.polygon(corners); }
-  void floor(double low, double high) { face({{low, low, 0}, {high, low, 0}, {high, high, 0}, {low, high, 0}}); }
-  void box(const Vec3d& low, const Vec3d& high) {
-    const auto at = [&](bool x, bool y, bool z) { return Vec3d{x ? high.x : low.x, y ? high.y : low.y, z ? high.z : low.z}; };
-    for (const bool far : {false, true}) {
-      face({at(far, false, false), at(far, true, false), at(far, true, true), at(far, false, true)});
-      face({at(false, far, false), at(true, far, false), at(true, far, true), at(false, far, true)});
-      face({at(false, false, far), at(true, false, far), at(true, true, far), at(false, true, far)});
-    }
-  }
-  const Scene& scene() const { return scene_; }
-
- private:
-  Scene scene_;
-  SceneBuilder builder_;
-};
 
 Model corner() {
   Model model({5, -6, 3}, {1.5, 1.5, 1}, 40);
@@ -144,135 +103,88 @@ Model lit_steps() {
   return model;
 }
 
-Film film_of(const Scene& scene, int samples, int bounces, const Transport& transport) {
-  BuildOptions options = dmpc::apps::several_top_cells(scene);
-  options.emitters_max = 100;
-  const Database database = build_database(scene, options);
-  LocalRecords records(database.bytes());
-  GridTracer<LocalRecords> tracer(records, database.header(), {});
-  const ShadeOptions shade{
-      .depth_max = bounces + 1, .first_samples = static_cast<std::uint32_t>(samples), .transport = transport};
-  const RenderSettings settings{database.header(), Camera(scene.view, database.header().frame, side, side, samples), shade};
-  Operations operations;
-  return render(tracer, settings, operations);
-}
-
-Film film_of(Scene scene, int samples, int bounces, const Vec3d& horizon, const Color& zenith) {
+Film under_sky(Scene scene, int samples, int bounces, const Vec3d& horizon, const Color& zenith) {
   scene.background = horizon;
   return film_of(scene, samples, bounces,
                  {.kind = TransportKind::paths, .has_sky = true, .has_gradient = true, .zenith = zenith, .up = {0, 0, 1}});
 }
 
-Light block_of(const Film& film, std::uint32_t block) {
-  constexpr std::uint32_t edge = side / blocks;
-  Light sum{};
-  for (std::uint32_t i = 0; i < edge * edge; ++i) {
-    const std::uint32_t x = block % blocks * edge + i % edge, y = block / blocks * edge + i / edge;
-    const Vec3d light = film.radiance(y * side + x);
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      sum[channel] += light[channel] / (edge * edge);
-    }
-  }
-  return sum;
-}
-
-/// Each block to 0.006, or to that share of it, and the whole to 0.5 %, where a slow build's samples are not too few for it.
-void check(const Film& film, const Blocks& cycles) {
-  Light all{}, expected{};
-  for (std::uint32_t block = 0; block < cycles.size(); ++block) {
-    const Light light = block_of(film, block);
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      CAPTURE(block);
-      CAPTURE(channel);
-      const double off = 0.006 * std::max(1.0, cycles[block][channel]) * std::sqrt(static_cast<double>(slowness));
-      CHECK(std::fabs(light[channel] - cycles[block][channel]) < off);
-      all[channel] += light[channel];
-      expected[channel] += cycles[block][channel];
-    }
-  }
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    CHECK(all[channel] == doctest::Approx(expected[channel]).epsilon(0.005 * std::sqrt(static_cast<double>(slowness))));
-  }
-}
-
-constexpr int samples = static_cast<int>(1024 / slowness);
-
 }  // namespace
 
 TEST_CASE("a corner under a white sky is as bright as Cycles has it after three bounces") {
-  check(film_of(corner().scene(), samples, 3, {1, 1, 1}, {1, 1, 1}), {{{1.00000, 1.00000, 1.00000},
-                                                                       {0.97844, 0.97108, 0.96782},
-                                                                       {0.95293, 0.96995, 0.95680},
-                                                                       {0.97231, 0.98420, 0.97526},
-                                                                       {0.83468, 0.64787, 0.62941},
-                                                                       {0.43662, 0.18278, 0.15512},
-                                                                       {0.22586, 0.42778, 0.32330},
-                                                                       {0.24244, 0.54815, 0.31908},
-                                                                       {0.86698, 0.75273, 0.74241},
-                                                                       {0.54650, 0.42593, 0.45988},
-                                                                       {0.54248, 0.56383, 0.65580},
-                                                                       {0.59286, 0.69731, 0.62181},
-                                                                       {1.00000, 1.00000, 1.00000},
-                                                                       {0.99853, 0.99839, 0.99842},
-                                                                       {0.96397, 0.96297, 0.96310},
-                                                                       {0.96693, 0.96701, 0.96671}}});
+  check(under_sky(corner().scene(), samples, 3, {1, 1, 1}, {1, 1, 1}), {{{1.00000, 1.00000, 1.00000},
+                                                                         {0.97844, 0.97108, 0.96782},
+                                                                         {0.95293, 0.96995, 0.95680},
+                                                                         {0.97231, 0.98420, 0.97526},
+                                                                         {0.83468, 0.64787, 0.62941},
+                                                                         {0.43662, 0.18278, 0.15512},
+                                                                         {0.22586, 0.42778, 0.32330},
+                                                                         {0.24244, 0.54815, 0.31908},
+                                                                         {0.86698, 0.75273, 0.74241},
+                                                                         {0.54650, 0.42593, 0.45988},
+                                                                         {0.54248, 0.56383, 0.65580},
+                                                                         {0.59286, 0.69731, 0.62181},
+                                                                         {1.00000, 1.00000, 1.00000},
+                                                                         {0.99853, 0.99839, 0.99842},
+                                                                         {0.96397, 0.96297, 0.96310},
+                                                                         {0.96693, 0.96701, 0.96671}}});
 }
 
 TEST_CASE("a court under a sky of two colours is as bright as Cycles has it after six bounces") {
-  check(film_of(court().scene(), samples, 6, {1, .8, .6}, {.2F, .4F, 1}), {{{0.15163, 0.11260, 0.15213},
-                                                                            {0.15127, 0.16268, 0.24712},
-                                                                            {0.14470, 0.17195, 0.25381},
-                                                                            {0.11418, 0.16644, 0.19152},
-                                                                            {0.14268, 0.09866, 0.13190},
-                                                                            {0.15092, 0.17084, 0.28073},
-                                                                            {0.14114, 0.18423, 0.28996},
-                                                                            {0.09925, 0.16213, 0.17978},
-                                                                            {0.13629, 0.09523, 0.13234},
-                                                                            {0.13834, 0.15750, 0.27236},
-                                                                            {0.12885, 0.17040, 0.28153},
-                                                                            {0.09527, 0.15568, 0.18007},
-                                                                            {0.11952, 0.09037, 0.16193},
-                                                                            {0.11409, 0.12384, 0.25298},
-                                                                            {0.10940, 0.13008, 0.25923},
-                                                                            {0.09139, 0.13135, 0.19914}}});
+  check(under_sky(court().scene(), samples, 6, {1, .8, .6}, {.2F, .4F, 1}), {{{0.15163, 0.11260, 0.15213},
+                                                                              {0.15127, 0.16268, 0.24712},
+                                                                              {0.14470, 0.17195, 0.25381},
+                                                                              {0.11418, 0.16644, 0.19152},
+                                                                              {0.14268, 0.09866, 0.13190},
+                                                                              {0.15092, 0.17084, 0.28073},
+                                                                              {0.14114, 0.18423, 0.28996},
+                                                                              {0.09925, 0.16213, 0.17978},
+                                                                              {0.13629, 0.09523, 0.13234},
+                                                                              {0.13834, 0.15750, 0.27236},
+                                                                              {0.12885, 0.17040, 0.28153},
+                                                                              {0.09527, 0.15568, 0.18007},
+                                                                              {0.11952, 0.09037, 0.16193},
+                                                                              {0.11409, 0.12384, 0.25298},
+                                                                              {0.10940, 0.13008, 0.25923},
+                                                                              {0.09139, 0.13135, 0.19914}}});
 }
 
 TEST_CASE("steps under a sky of two colours are as bright as Cycles has them after one bounce") {
-  check(film_of(steps().scene(), samples, 1, {1, .9, .7}, {.3F, .5F, .9F}), {{{0.79355, 0.73572, 0.62023},
-                                                                              {0.82443, 0.76029, 0.63217},
-                                                                              {0.85537, 0.78489, 0.64411},
-                                                                              {0.88631, 0.80950, 0.65606},
-                                                                              {0.26395, 0.31347, 0.41321},
-                                                                              {0.35678, 0.30941, 0.30417},
-                                                                              {0.36845, 0.31276, 0.29773},
-                                                                              {0.27670, 0.31253, 0.39770},
-                                                                              {0.26742, 0.28992, 0.35954},
-                                                                              {0.34920, 0.29627, 0.28261},
-                                                                              {0.35585, 0.30045, 0.28464},
-                                                                              {0.24233, 0.27823, 0.35977},
-                                                                              {0.25828, 0.30736, 0.40708},
-                                                                              {0.25184, 0.29791, 0.39438},
-                                                                              {0.25813, 0.29186, 0.37457},
-                                                                              {0.25638, 0.30482, 0.40357}}});
+  check(under_sky(steps().scene(), samples, 1, {1, .9, .7}, {.3F, .5F, .9F}), {{{0.79355, 0.73572, 0.62023},
+                                                                                {0.82443, 0.76029, 0.63217},
+                                                                                {0.85537, 0.78489, 0.64411},
+                                                                                {0.88631, 0.80950, 0.65606},
+                                                                                {0.26395, 0.31347, 0.41321},
+                                                                                {0.35678, 0.30941, 0.30417},
+                                                                                {0.36845, 0.31276, 0.29773},
+                                                                                {0.27670, 0.31253, 0.39770},
+                                                                                {0.26742, 0.28992, 0.35954},
+                                                                                {0.34920, 0.29627, 0.28261},
+                                                                                {0.35585, 0.30045, 0.28464},
+                                                                                {0.24233, 0.27823, 0.35977},
+                                                                                {0.25828, 0.30736, 0.40708},
+                                                                                {0.25184, 0.29791, 0.39438},
+                                                                                {0.25813, 0.29186, 0.37457},
+                                                                                {0.25638, 0.30482, 0.40357}}});
 }
 
 TEST_CASE("an arcade under a sky of two colours is as bright as Cycles has it after four bounces") {
-  check(film_of(arcade().scene(), samples, 4, {.9, .9, 1}, {.4F, .6F, 1}), {{{0.72165, 0.77984, 0.95766},
-                                                                             {0.71713, 0.77711, 0.95762},
-                                                                             {0.71713, 0.77710, 0.95759},
-                                                                             {0.72177, 0.77995, 0.95776},
-                                                                             {0.38240, 0.43242, 0.55061},
-                                                                             {0.29102, 0.31087, 0.36898},
-                                                                             {0.29132, 0.31105, 0.36904},
-                                                                             {0.38282, 0.43273, 0.55081},
-                                                                             {0.32236, 0.37857, 0.51251},
-                                                                             {0.27510, 0.28134, 0.32851},
-                                                                             {0.27514, 0.28126, 0.32832},
-                                                                             {0.32215, 0.37838, 0.51234},
-                                                                             {0.34695, 0.43129, 0.61707},
-                                                                             {0.34256, 0.42515, 0.60701},
-                                                                             {0.34270, 0.42524, 0.60702},
-                                                                             {0.34698, 0.43128, 0.61698}}});
+  check(under_sky(arcade().scene(), samples, 4, {.9, .9, 1}, {.4F, .6F, 1}), {{{0.72165, 0.77984, 0.95766},
+                                                                               {0.71713, 0.77711, 0.95762},
+                                                                               {0.71713, 0.77710, 0.95759},
+                                                                               {0.72177, 0.77995, 0.95776},
+                                                                               {0.38240, 0.43242, 0.55061},
+                                                                               {0.29102, 0.31087, 0.36898},
+                                                                               {0.29132, 0.31105, 0.36904},
+                                                                               {0.38282, 0.43273, 0.55081},
+                                                                               {0.32236, 0.37857, 0.51251},
+                                                                               {0.27510, 0.28134, 0.32851},
+                                                                               {0.27514, 0.28126, 0.32832},
+                                                                               {0.32215, 0.37838, 0.51234},
+                                                                               {0.34695, 0.43129, 0.61707},
+                                                                               {0.34256, 0.42515, 0.60701},
+                                                                               {0.34270, 0.42524, 0.60702},
+                                                                               {0.34698, 0.43128, 0.61698}}});
 }
 
 TEST_CASE("a room below a panel that shines is as bright as Cycles has it after four bounces") {
