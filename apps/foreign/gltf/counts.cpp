@@ -1,5 +1,7 @@
 #include "apps/foreign/gltf/counts.h"
 
+#include <assimp/mesh.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -14,6 +16,8 @@ constexpr std::uint64_t count_max = std::uint64_t{1} << 40U;
 /// Of a mesh, once.
 struct MeshSize {
   std::uint64_t vertices = 0, corners = 0;
+  std::uint64_t thin_faces = 0;  ///< points and lines
+  std::uint64_t indices = 0;     ///< of all faces
 };
 
 class Counter {
@@ -26,8 +30,11 @@ class Counter {
       const auto attributes = primitive.find("attributes");
       const std::uint64_t vertices = attributes ? count_of(attributes->find("POSITION")) : 0;
       const auto indices = primitive.find("indices");
+      const std::uint64_t places = indices ? count_of(indices) : vertices, mode = primitive.whole("mode", 4);
       size.vertices += vertices;
-      size.corners += (is_strip(primitive) ? 3 : 1) * (indices ? count_of(indices) : vertices);
+      size.thin_faces += mode >= triangles ? 0 : mode == lines ? places / 2 : places;
+      size.corners += mode < triangles ? 0 : mode == triangles ? places : 3 * places;
+      size.indices += mode > triangles ? 3 * places : places;
       counts.has_normals = counts.has_normals || (attributes && attributes->find("NORMAL"));
       counts.has_places = counts.has_places || (attributes && attributes->find("TEXCOORD_0"));
       counts.has_colors = counts.has_colors || (attributes && attributes->find("COLOR_0"));
@@ -46,7 +53,8 @@ class Counter {
   }
 
  private:
-  static bool is_strip(const Part& primitive) { return primitive.whole("mode", 4) > 4; }
+  static constexpr std::uint64_t lines = 1, triangles = 4;
+
   std::uint64_t count_of(const std::optional<Part>& place) const {
     return place ? std::min(accessors_.at(place->as_index(accessors_.size(), "accessors")).whole("count", 0), count_max) : 0;
   }
@@ -67,8 +75,9 @@ std::uint64_t buffer_bytes(const Document& document, std::uint64_t file_bytes) {
 }  // namespace
 
 MeshCounts counts_of(const Document& document, std::uint64_t file_bytes) {
-  // Assimp's: four floats at most each; a triangle is three indices and where they end.
-  constexpr std::uint64_t vector_bytes = 12, color_bytes = 16, face_bytes = 16;
+  // Assimp's: four floats at most each; a triangle is three indices and where they end; a point or line is a face of Assimp's
+  // with a piece of memory of its own.
+  constexpr std::uint64_t vector_bytes = 12, color_bytes = 16, face_bytes = 16, piece_bytes = 32;
   const Counter counter(document);
   const std::vector<Part> meshes = document.root().list("meshes");
   const std::vector<std::uint64_t> uses = counter.uses(meshes.size());
@@ -78,6 +87,8 @@ MeshCounts counts_of(const Document& document, std::uint64_t file_bytes) {
     const MeshSize size = counter.size(meshes[i], counts);
     once.vertices += size.vertices;
     once.corners += size.corners;
+    once.thin_faces += size.thin_faces;
+    once.indices += size.indices;
     counts.vertices += uses[i] * size.vertices;
     counts.corners += uses[i] * size.corners;
     counts.triangles_min += uses[i] > 0 ? size.corners / 3 : 0;
@@ -85,9 +96,10 @@ MeshCounts counts_of(const Document& document, std::uint64_t file_bytes) {
   counts.faces = counts.corners / 3;
   const std::uint64_t of_vertex =
       vector_bytes * (1 + (counts.has_normals ? 1 : 0) + (counts.has_places ? 1 : 0)) + (counts.has_colors ? color_bytes : 0);
-  counts.kept_bytes = of_vertex * once.vertices + face_bytes * (once.corners / 3);
+  counts.kept_bytes =
+      of_vertex * once.vertices + face_bytes * (once.corners / 3) + (sizeof(aiFace) + piece_bytes) * once.thin_faces;
   counts.read_bytes =
-      counts.kept_bytes + buffer_bytes(document, file_bytes) + of_vertex * once.vertices + sizeof(std::uint32_t) * once.corners;
+      counts.kept_bytes + buffer_bytes(document, file_bytes) + of_vertex * once.vertices + sizeof(std::uint32_t) * once.indices;
   return counts;
 }
 
