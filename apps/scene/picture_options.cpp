@@ -19,7 +19,6 @@ namespace dmpc::apps {
 namespace {
 
 constexpr int samples_max = 32768;
-constexpr double default_error = 1.0 / 255;
 
 void take_samples(PictureOptions& picture, std::string_view text) {
   picture.is_refined = text == "auto";
@@ -112,7 +111,7 @@ void check_refinement(const OptionSet& options, PictureOptions& picture) {
     }
   }
   if (picture.is_refined && picture.refinement.error == 0) {
-    picture.refinement.error = default_error;
+    picture.refinement.error = default_error(picture.transport.is_by_paths()).error;
   }
 }
 
@@ -124,6 +123,10 @@ double pixel_share(const PictureOptions& picture) { return picture.is_refined ? 
 core::Transport light_of(const PictureOptions& picture) { return transport_of(picture.transport, {}, {}); }
 
 }  // namespace
+
+DefaultError default_error(bool is_by_paths) {
+  return is_by_paths ? DefaultError{1.0 / 100, "1/100"} : DefaultError{1.0 / 255, "1/255"};
+}
 
 QualityChoice choice_of(Quality quality) {
   return quality == Quality::draft ? QualityChoice{4.0 / 255, 1.0 / 64} : QualityChoice{1.0 / 255, 1.0 / 255};
@@ -140,7 +143,8 @@ void add_options(OptionSet options, PictureOptions& picture) {
       [&picture](const std::string& text) { take_samples(picture, text); },
       "Rays through each pixel; auto: as many as it needs for --error");
   options.add_text(
-      "--error", "E [1/255]", [&picture](const std::string& text) { picture.refinement.error = parse_share(text, "--error"); },
+      "--error", "E [1/255, by paths 1/100]",
+      [&picture](const std::string& text) { picture.refinement.error = parse_share(text, "--error"); },
       "With --samples=auto: the estimated root mean square error of the linear picture at which it is done");
   options.add_number("--samples-max", picture.refinement.samples_max, 2, 32768, "4096",
                      "With --samples=auto: no pixel gets more rays than this");
@@ -148,7 +152,7 @@ void add_options(OptionSet options, PictureOptions& picture) {
       "--cutoff", "C [0]", [&picture](const std::string& text) { picture.cutoff = parse_share(text, "--cutoff", true); },
       "Shoot no ray that can bring but less than C of light to its sample; 0 is exact");
   options.add_choice<Quality>("--quality", picture.quality, {{"draft", Quality::draft}, {"default", Quality::standard}},
-                              picture.presents_meshes ? "one ray a pixel, of a mesh file an error of 1/255" : "one ray a pixel",
+                              picture.presents_meshes ? "one ray a pixel, of a mesh file --samples=auto" : "one ray a pixel",
                               "As --samples=auto with an error and, but by paths, a cutoff for a quick look, or for a good one; "
                               "what other options say counts more");
   add_skip_option(options, picture.skips);

@@ -34,6 +34,15 @@ struct QualityChoice {
 /// SPD's scenes; `bench error` shows what all that costs and does.
 QualityChoice choice_of(Quality quality);
 
+/// To which samples are refined where no option says so, and as it is shown. An 8-bit step; by paths two and a half, about as
+/// much as other path tracers stop at: there errors fall with little more than the root of the samples, so where surfaces see the
+/// sky between others a step takes a thousand samples a pixel, a hundredth a sixth of them.
+struct DefaultError {
+  double error;
+  const char* text;
+};
+DefaultError default_error(bool is_by_paths);
+
 struct PictureOptions {
   std::string scene;                     ///< an NFF file, a mesh file or a built-in name
   std::optional<Resolution> resolution;  ///< the view's own if not given

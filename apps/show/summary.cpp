@@ -123,7 +123,9 @@ std::string sampling_line(const RenderOptions& options, const Account& account) 
 /// Behind the picture's name: how light got about, if not as by default, and samples that nobody asked for.
 std::string picture_text(const PictureOptions& picture) {
   const std::string transport = picture.transport.is_by_paths() ? ", " + text_of(picture.transport) : "";
-  return transport + (picture.is_refined_unasked ? ", refined to the default error of 1/255" : "") +
+  const std::string error =
+      std::string(", refined to the default error of ") + default_error(picture.transport.is_by_paths()).text;
+  return transport + (picture.is_refined_unasked ? error : "") +
          (picture.is_by_paths_unasked  ? " (--transport=whitted for hard light, --samples=1 for one ray of it a pixel)"
           : picture.is_refined_unasked ? " (--samples=1 for one ray a pixel)"
                                        : "");

@@ -121,12 +121,15 @@ TEST_CASE("every option of the picture reaches its field") {
   CHECK_FALSE(options.computer.node_memory_bytes);
 }
 
-TEST_CASE("samples refined to an error start with two a pixel, and the error is an eight-bit step unless said") {
+TEST_CASE(
+    "samples refined to an error start with two a pixel, and the error is an eight-bit step, by paths a hundredth, unless said") {
   const PictureOptions options = render({"--samples=auto"}).picture;
   CHECK(options.is_refined);
   CHECK(options.samples == 2);
   CHECK(options.refinement.error == doctest::Approx(1.0 / 255));
   CHECK(render({"--error=2/255", "--samples=auto"}).picture.refinement.error == doctest::Approx(2.0 / 255));
+  CHECK(render({"--samples=auto", "--transport=paths"}).picture.refinement.error == 0.01);
+  CHECK(render({"--quality=default", "--transport=paths"}).picture.refinement.error == doctest::Approx(1.0 / 255));
   CHECK(render({"--samples=auto", "--samples-max=64"}).picture.refinement.samples_max == 64);
   CHECK_FALSE(render().picture.refinement.is_wanted());
   CHECK(contains(render_complaint({"--error=0.01"}), "--error goes with --samples=auto"));
@@ -168,7 +171,7 @@ TEST_CASE("a mesh file that nobody has lit is shown by paths under a sky, refine
   CHECK(usual.is_refined);
   CHECK(usual.is_refined_unasked);
   CHECK(usual.refinement.kind == core::ErrorKind::noise);
-  CHECK(usual.refinement.error == doctest::Approx(1.0 / 255));
+  CHECK(usual.refinement.error == 0.01);
   CHECK(usual.cutoff == 0);
   CHECK(usual.depth == 9);
   CHECK(mesh({"--sky=0.5"}).staging.background == Vec3d{0.5, 0.5, 0.5});

@@ -42,11 +42,14 @@ TEST_CASE("the last closing line says how light got about, and what nobody asked
   options.picture.depth = options.picture.transport.depth();
   CHECK(contains(summary(options), ", paths, 1 bounce, sky 1,1,1\n"));
   options.picture.is_refined_unasked = true;
-  CHECK(contains(summary(options), ", refined to the default error of 1/255 (--samples=1 for one ray a pixel)\n"));
+  CHECK(contains(summary(options), ", refined to the default error of 1/100 (--samples=1 for one ray a pixel)\n"));
   options.picture.is_by_paths_unasked = true;
   CHECK(contains(summary(options),
-                 "sky 1,1,1, refined to the default error of 1/255 (--transport=whitted for hard light, "
+                 "sky 1,1,1, refined to the default error of 1/100 (--transport=whitted for hard light, "
                  "--samples=1 for one ray of it a pixel)\n"));
+  options.picture = small().picture;
+  options.picture.is_refined_unasked = true;
+  CHECK(contains(summary(options), ", refined to the default error of 1/255 (--samples=1"));
 }
 
 TEST_CASE("the closing lines of forest say what was asked") {
