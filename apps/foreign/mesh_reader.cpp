@@ -55,6 +55,21 @@ void note_other_names(const std::vector<std::string>& names, std::vector<std::st
   }
 }
 
+/// Gives a material its texture of metal and roughness; returns whether that is shown by its mean, as it lies elsewhere than that
+/// of the colour, `color`, or there is none.
+bool add_facets(const MaterialTextures& known, const std::optional<TextureUse>& color, TextureReader& textures,
+                core::Material& material) {
+  const auto texture = known.facets && material.microfacets.are_there() ? textures.find_numbers(*known.facets) : std::nullopt;
+  if (!texture) {
+    return false;
+  }
+  const bool lies_there = material.texture != core::Material::no_texture && color->coordinates == known.facets->coordinates &&
+                          known.color_place == known.facets_place;
+  material.microfacets.texture = *texture;
+  material.microfacets.use = lies_there ? core::FacetTexture::placed : core::FacetTexture::mean;
+  return !lies_there;
+}
+
 /// Tells what of textures was not to be had, or was had from elsewhere, or is multiplied by nothing: `black`.
 void note_textures(const TextureReader& textures, std::uint64_t black, MeshScene& result, std::vector<std::string>& missing) {
   for (const std::string& texture : textures.missing()) {
@@ -70,11 +85,13 @@ std::vector<MeshMaterial> materials_of(const ImportedFile& imported, const Place
   const aiScene& file = *imported.scene;
   TextureReader textures(&file, result.scene.name, files, result.scene.textures);
   const std::vector<bool> used = used_materials(file, placements);
-  std::uint64_t black = 0;
+  std::uint64_t black = 0, means = 0;
   std::vector<MeshMaterial> materials;
   for (std::size_t i = 0; i < file.mNumMaterials; ++i) {
     MeshMaterial material{.material = material_of(*file.mMaterials[i]), .is_cut_away = is_cut_away(*file.mMaterials[i])};
-    auto use = used[i] && !material.is_cut_away ? colour_texture(*file.mMaterials[i]) : std::nullopt;
+    const bool is_shown = used[i] && !material.is_cut_away;
+    const MaterialTextures known = i < imported.textures.size() ? imported.textures[i] : MaterialTextures{};
+    auto use = is_shown ? colour_texture(*file.mMaterials[i]) : std::nullopt;
     if (use) {
       use->edges.alpha = material.material.alpha != core::AlphaUse::none ? TextureAlpha::kept
                          : says_what_alpha_does(*file.mMaterials[i])     ? TextureAlpha::ignored
@@ -85,11 +102,16 @@ std::vector<MeshMaterial> materials_of(const ImportedFile& imported, const Place
       material.material.texture = *texture;
       black += material.material.color == core::Vec3d{} ? 1 : 0;
       material.coordinates = use->coordinates;
-      material.place = i < imported.texture_places.size() ? imported.texture_places[i] : TexturePlace{};
+      material.place = known.color_place;
     }
+    means += is_shown && add_facets(known, use, textures, material.material) ? 1 : 0;
     materials.push_back(material);
   }
   note_textures(textures, black, result, missing);
+  note_count(
+      result.notes,
+      "materials whose texture of metal and roughness is shown by its mean, as it does not lie where that of their colour does",
+      means);
   return materials;
 }
 

@@ -13,6 +13,7 @@
 #include "apps/formats/view_faults.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
+#include "core/scene/facet_texture.h"
 
 namespace dmpc::apps {
 namespace {
@@ -240,6 +241,7 @@ void SceneReceiver::check_object(const core::Object& object) const {
   Unpacker::require(object.kind == ObjectKind::polygon || object.kind == ObjectKind::patch ||
                     object.kind == ObjectKind::textured);
   Unpacker::require(object.material < scene_.materials.size());
+  Unpacker::require(object.kind == ObjectKind::textured || !scene_.materials[object.material].microfacets.have_texture());
   Unpacker::require(object.vertex_count >= 3 && object.vertex_count <= polygon_vertices_max);
   const auto fits = [&object](std::uint32_t first, const auto& pool) {
     return std::uint64_t{first} + object.vertex_count <= pool.size();
@@ -261,6 +263,23 @@ void SceneReceiver::check_material(const core::Material& material) const {
   Unpacker::require(facets == core::Microfacets{} ||
                     (is_share(facets.roughness) && is_share(facets.metallic) && is_share(facets.reflectance) &&
                      is_share(facets.transmission) && is_share(facets.opacity)));
+  Unpacker::require(!facets.have_texture() || (facets.are_there() && facets.texture < scene_.textures.size()));
+  Unpacker::require(
+      facets.use == core::FacetTexture::mean ||
+      (facets.use == core::FacetTexture::placed && (!facets.have_texture() || material.texture != core::Material::no_texture)));
+}
+
+/// None of them is one of a colour, too.
+void SceneReceiver::check_facet_textures() const {
+  std::vector<bool> are_numbers(scene_.textures.size());
+  for (const core::Material& material : scene_.materials) {
+    if (material.microfacets.have_texture()) {
+      are_numbers[material.microfacets.texture] = true;
+    }
+  }
+  for (const core::Material& material : scene_.materials) {
+    Unpacker::require(material.texture == core::Material::no_texture || !are_numbers[material.texture]);
+  }
 }
 
 /// A reader does not know whether a texture has alpha, which it asks dmpc to read.
@@ -283,6 +302,8 @@ core::Scene SceneReceiver::finish() {
     check_material(material);
     drop_needless_alpha(material);
   }
+  check_facet_textures();
+  core::settle_facet_textures(scene_);
   for (const core::Object& object : scene_.objects) {
     check_object(object);
   }

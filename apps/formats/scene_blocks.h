@@ -59,6 +59,7 @@ class SceneReceiver {
   bool append_vertices(std::uint64_t bytes, const Fill& fill);
   void check_object(const core::Object& object) const;
   void check_material(const core::Material& material) const;
+  void check_facet_textures() const;
   void drop_needless_alpha(core::Material& material) const;
 
   std::uint64_t believed_bytes_;

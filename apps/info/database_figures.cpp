@@ -85,10 +85,13 @@ std::vector<RecordFigures> records_of(const core::Database& database, const Scen
     records.push_back({block_names[kind], trees.blocks[kind].count, trees.blocks[kind].bytes});
   }
   records.push_back(figures_for<core::PatchNormals>("normals", counts.normals));
-  records.push_back(figures_for<core::TexturedNormals>("textured triangles", counts.textured));
+  records.push_back(figures_for<core::TexturedNormals>("textured triangles", counts.textured - counts.faceted));
+  if (counts.faceted > 0) {
+    records.push_back(figures_for<core::FacetedNormals>("triangles with a texture of metal", counts.faceted));
+  }
   std::uint64_t entries = 0;
   for (const TextureFigures& texture : scene.textures) {
-    entries += texture.entries;
+    entries += counts.faceted > 0 || texture.format != core::TexelFormat::linear ? texture.entries : 0;
   }
   records.push_back(figures_for<core::Address>("entries of tables of tiles", entries));
   records.push_back(figures_for<core::TextureTile>("texture tiles", counts.texture_tiles));

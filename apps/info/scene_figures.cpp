@@ -58,6 +58,8 @@ const char* name_of(core::TexelFormat format) {
       return "srgb of 10 bits";
     case core::TexelFormat::srgb_alpha:
       return "srgb with alpha";
+    case core::TexelFormat::linear:
+      return "linear";
     case core::TexelFormat::shared_exponent:
       break;
   }

@@ -61,6 +61,15 @@ void add_finish(Digest& digest, const core::Material& material) {
   digest.add(static_cast<std::uint64_t>(material.alpha));
 }
 
+void add(Digest& digest, const core::Texture& texture) {
+  digest.add(static_cast<std::uint64_t>(texture.format));
+  digest.add(static_cast<std::uint64_t>(texture.wrap_s) << 8U | static_cast<std::uint64_t>(texture.wrap_t));
+  for (const core::TextureLevel& level : texture.levels) {
+    digest.add(std::uint64_t{level.width} << 32U | level.height);
+    digest.add(std::as_bytes(std::span(level.texels)));
+  }
+}
+
 /// What pictures by paths show of them beside.
 std::string microfacets_text(const core::Scene& scene) {
   Digest digest;
@@ -68,6 +77,9 @@ std::string microfacets_text(const core::Scene& scene) {
     const core::Microfacets& facets = material.microfacets;
     for (const double number : {facets.roughness, facets.metallic, facets.reflectance, facets.transmission, facets.opacity}) {
       digest.add(number);
+    }
+    if (facets.have_texture()) {
+      add(digest, scene.textures[facets.texture]);
     }
   }
   return text_of(digest);
@@ -94,14 +106,12 @@ std::string materials_text(const core::Scene& scene) {
   return text_of(digest);
 }
 
+/// Of colours: others are told with what they say of materials.
 std::string textures_text(const core::Scene& scene) {
   Digest digest;
   for (const core::Texture& texture : scene.textures) {
-    digest.add(static_cast<std::uint64_t>(texture.format));
-    digest.add(static_cast<std::uint64_t>(texture.wrap_s) << 8U | static_cast<std::uint64_t>(texture.wrap_t));
-    for (const core::TextureLevel& level : texture.levels) {
-      digest.add(std::uint64_t{level.width} << 32U | level.height);
-      digest.add(std::as_bytes(std::span(level.texels)));
+    if (texture.format != core::TexelFormat::linear) {
+      add(digest, texture);
     }
   }
   return text_of(digest);

@@ -237,7 +237,8 @@ class Converter {
   }
 
   void add_texture(const Object& object, const std::array<std::uint32_t, 3>& corners) {
-    const std::uint32_t index = scene_.materials[object.material].texture;
+    const Material& material = scene_.materials[object.material];
+    const std::uint32_t index = material.texture;
     TexturedNormals textured;
     textured.normals.material_bits = object.material | PatchNormals::textured_flag;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -245,7 +246,8 @@ class Converter {
       textured.normals.normal[i] = unit_normal(turned(frame_.axes, corner.normal));
       textured.place[i] = index == Material::no_texture ? corner.place : usable_place(corner.place);
     }
-    result_.textured.push_back({static_cast<std::uint32_t>(result_.primitives.size()), index, textured});
+    result_.textured.push_back(
+        {static_cast<std::uint32_t>(result_.primitives.size()), index, material.microfacets.texture, textured});
   }
 
   void add_sphere(std::uint32_t index, const Object& object, const Sphere& sphere) {
@@ -341,7 +343,7 @@ void append(Conversion& all, const Conversion& more) {
     all.smooth.push_back({before + smooth.primitive, smooth.normals});
   }
   for (const Conversion::Textured& textured : more.textured) {
-    all.textured.push_back({before + textured.primitive, textured.texture, textured.normals});
+    all.textured.push_back({before + textured.primitive, textured.texture, textured.facets, textured.normals});
   }
   all.dropped += more.dropped;
 }

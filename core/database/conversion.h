@@ -19,10 +19,11 @@ struct Conversion {
     std::uint32_t primitive;
     PatchNormals normals;
   };
-  /// A textured triangle, likewise; its reference to the texture, if its corners have no colours, is still to come.
+  /// A textured triangle, likewise; its references to textures, if its corners have no colours, are still to come.
   struct Textured {
     std::uint32_t primitive;
     std::uint32_t texture;  ///< index into Scene::textures, or Material::no_texture
+    std::uint32_t facets;   ///< of that of metal and roughness, likewise
     TexturedNormals normals;
   };
   std::vector<PrimitiveValues> primitives;

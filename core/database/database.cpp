@@ -251,7 +251,7 @@ class DatabaseBuilder {
     write_materials();
     write_emitters();
     for (const Texture& texture : scene_.textures) {
-      textures_.push_back(reference_to(texture, writer_));
+      textures_.push_back(is_shown(texture) ? reference_to(texture, writer_) : TextureReference{});
     }
   }
 
@@ -289,8 +289,14 @@ class DatabaseBuilder {
     writer_.write(choices, 0, std::as_bytes(std::span(emitters_.choices)));
   }
 
+  /// Numbers that are no colours are what pictures by paths show alone.
+  bool is_shown(const Texture& texture) const { return options_.for_paths || texture.format != TexelFormat::linear; }
+
   void write_textures() {
     for (std::size_t i = 0; i < textures_.size(); ++i) {
+      if (!is_shown(scene_.textures[i])) {
+        continue;
+      }
       write_tiles(scene_.textures[i], textures_[i], writer_);
       result_.records_.texture_tiles += tile_count(textures_[i]);
     }
@@ -310,9 +316,19 @@ class DatabaseBuilder {
       if (textured.texture != Material::no_texture) {
         textured.normals.texture = textures_[textured.texture];
       }
-      conversion_.shading[textured.primitive] = ShadingReference::smooth(writer_.add(textured.normals));
+      conversion_.shading[textured.primitive] = ShadingReference::smooth(add_textured(textured));
     }
     forget(conversion_.textured);
+  }
+
+  Address add_textured(Conversion::Textured& triangle) {
+    if (!options_.for_paths || triangle.facets == Microfacets::no_texture) {
+      return writer_.add(triangle.normals);
+    }
+    expect(triangle.texture != Material::no_texture, "a texture of metal and roughness lies where that of a colour does");
+    ++result_.records_.faceted;
+    triangle.normals.has_facets = 1;
+    return writer_.add(FacetedNormals{.textured = triangle.normals, .facets = textures_[triangle.facets]});
   }
 
   /// Room for the bricks that no page holds together with all that is below them: pages of their own, with the tables.

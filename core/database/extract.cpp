@@ -307,29 +307,35 @@ class Extractor {
   /// A triangle that lies in several bricks keeps one record of normals.
   Address copy_normals(Address from) {
     const auto [copy, is_new] = normals_.find_or_add(from);
-    if (is_new && read<PatchNormals>(at(from)).is_textured()) {
-      auto textured = read<TexturedNormals>(at(from));
-      if (textured.has_texture()) {
-        textured.texture = copy_reference(textured);
-      }
-      copy = writer_.add(textured);
-    } else if (is_new) {
-      copy = writer_.add(read<PatchNormals>(at(from)));
+    if (is_new) {
+      copy = read<PatchNormals>(at(from)).is_textured() ? copy_textured(from) : writer_.add(read<PatchNormals>(at(from)));
     }
     return copy;
   }
 
+  Address copy_textured(Address from) {
+    auto textured = read<TexturedNormals>(at(from));
+    if (textured.has_texture()) {
+      textured.texture = copy_reference(textured, textured.texture);
+    }
+    if (textured.has_facets == 0) {
+      return writer_.add(textured);
+    }
+    const TextureReference facets = copy_reference(textured, read<FacetedNormals>(at(from)).facets);
+    return writer_.add(FacetedNormals{.textured = textured, .facets = facets});
+  }
+
   /// Notes which tiles the triangle needs; they are copied when all are known.
-  TextureReference copy_reference(const TexturedNormals& triangle) {
-    const auto [found, is_new] = textures_.try_emplace(static_cast<std::uint32_t>(triangle.texture.tiles));
+  TextureReference copy_reference(const TexturedNormals& triangle, const TextureReference& from) {
+    const auto [found, is_new] = textures_.try_emplace(static_cast<std::uint32_t>(from.tiles));
     UsedTexture& texture = found->second;
     if (is_new) {
-      const std::size_t entries = tile_entry_count(triangle.texture);
-      texture.from = texture.to = triangle.texture;
+      const std::size_t entries = tile_entry_count(from);
+      texture.from = texture.to = from;
       texture.to.tiles = writer_.allocate_array<Address>(entries);
       texture.needed.resize(entries);
     }
-    for_each_tile(triangle, [&](std::uint32_t tile) { texture.needed[tile] = true; });
+    for_each_tile(triangle, from, [&](std::uint32_t tile) { texture.needed[tile] = true; });
     return texture.to;
   }
 

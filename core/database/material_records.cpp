@@ -31,17 +31,20 @@ FinishRecord finish_of(const Material& from) {
 /// As a FinishRecord, whose place it takes.
 FinishRecord microfacets_of(const Material& from) {
   const Microfacets& facets = from.microfacets;
-  return std::bit_cast<FinishRecord>(MicrofacetRecord{.metallic = static_cast<float>(facets.metallic),
-                                                      .alpha = static_cast<float>(facets.roughness * facets.roughness),
-                                                      .reflectance = static_cast<float>(facets.reflectance),
-                                                      .emission = Color(from.emission),
-                                                      .refraction_index = static_cast<float>(from.refraction_index),
-                                                      .alpha_cutoff = cutoff_of(from)});
+  return std::bit_cast<FinishRecord>(
+      MicrofacetRecord{.metallic = static_cast<float>(facets.metallic),
+                       .alpha = static_cast<float>(facets.roughness * facets.roughness),
+                       .reflectance = static_cast<float>(facets.reflectance),
+                       .emission = Color(from.emission),
+                       .refraction_index = static_cast<float>(from.refraction_index),
+                       .alpha_cutoff = cutoff_of(from),
+                       .has_texture = facets.have_texture() ? std::uint16_t{1} : std::uint16_t{0}});
 }
 
 MaterialRecord base_of(const Material& from) {
   const Microfacets& facets = from.microfacets;
-  const double dielectric = facets.opacity * (1 - facets.metallic), through = facets.transmission;
+  const double metallic = facets.have_texture() ? 0 : facets.metallic;
+  const double dielectric = facets.opacity * (1 - metallic), through = facets.transmission;
   const double mean = (from.color.x + from.color.y + from.color.z) / 3;
   return {Color(from.color),
           static_cast<float>(dielectric * (1 - through)),

@@ -117,11 +117,18 @@ class RegionRecords {
       if (!textured.has_texture()) {
         return;
       }
-      for_each_tile(textured, [&](std::uint32_t tile) {
-        const Address entry = tile_entry_address(textured.texture, tile);
-        (*visit_)(read<Address>(at(entry) + tile_entry_offset(tile)));
-      });
+      visit_tiles(textured, textured.texture);
+      if (textured.has_facets != 0) {
+        visit_tiles(textured, read<FacetedNormals>(normals).facets);
+      }
     }
+  }
+
+  void visit_tiles(const TexturedNormals& triangle, const TextureReference& texture) {
+    for_each_tile(triangle, texture, [&](std::uint32_t tile) {
+      const Address entry = tile_entry_address(texture, tile);
+      (*visit_)(read<Address>(at(entry) + tile_entry_offset(tile)));
+    });
   }
 
   R* records_;

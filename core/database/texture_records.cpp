@@ -97,8 +97,8 @@ void write_tiles(const Texture& texture, const TextureReference& reference, Reco
   writer.write(reference.tiles, 0, std::as_bytes(std::span(table)));
 }
 
-void for_each_tile(const TexturedNormals& triangle, const std::function<void(std::uint32_t)>& take) {
-  const TextureReference& texture = triangle.texture;
+void for_each_tile(const TexturedNormals& triangle, const TextureReference& texture,
+                   const std::function<void(std::uint32_t)>& take) {
   const auto [left, right] = extent_of(triangle, 0);
   const auto [top, bottom] = extent_of(triangle, 1);
   for (std::uint32_t level = 0; level < texture.level_count; ++level) {

@@ -20,8 +20,9 @@ TextureReference reference_to(const Texture& texture, RecordWriter& writer);
 /// and their addresses to the table that `reference` names.
 void write_tiles(const Texture& texture, const TextureReference& reference, RecordWriter& writer);
 
-/// Which tiles of a texture a textured triangle may ask for, whatever the ray: on every level those about the rectangle in which
-/// its corners lie on the texture.
-void for_each_tile(const TexturedNormals& triangle, const std::function<void(std::uint32_t)>& take);
+/// Which tiles of one of its textures a textured triangle may ask for, whatever the ray: on every level those about the rectangle
+/// in which its corners lie on the texture.
+void for_each_tile(const TexturedNormals& triangle, const TextureReference& texture,
+                   const std::function<void(std::uint32_t)>& take);
 
 }  // namespace dmpc::core

@@ -10,6 +10,7 @@ ShadingRecord shading_record_of(const HitState& state) {
     case HitState::Stage::geometry:
       return ShadingRecord::block;
     case HitState::Stage::normals:
+    case HitState::Stage::color_texture:
       return ShadingRecord::normals;
     case HitState::Stage::texture:
       return ShadingRecord::tile;
@@ -25,6 +26,7 @@ Address record_needed(const HitState& state, const DatabaseHeader& header) {
     case HitState::Stage::geometry:
       return state.hit.block;
     case HitState::Stage::normals:
+    case HitState::Stage::color_texture:
       return state.shading.normals();
     case HitState::Stage::texture:
       return record_needed(state.lookup);

@@ -33,6 +33,7 @@ struct HitState {
     geometry,
     normals,
     texture,
+    color_texture,  ///< of a surface whose texture of metal and roughness has been looked up: its normals' record once more
     material,
     textured_material,  ///< whose colour is multiplied by what the look-up, or its corners, gave
     finish,             ///< what the material has beyond NFF
@@ -64,6 +65,11 @@ struct HitState {
     float there = 1;  ///< the share of the surface that is
   };
 
+  /// What a texture of metal and roughness multiplies those of the material by.
+  struct FacetShares {
+    float metallic = 1, roughness = 1;
+  };
+
   HitState() : surface() {}
 
   /// Once the material has been read: in the room of the weights, which nobody asks for any more.
@@ -80,6 +86,16 @@ struct HitState {
     const auto bits = std::bit_cast<std::array<double, 2>>(facets);
     u = bits[0];
     v = bits[1];
+  }
+  /// How wide a probe of the colour's texture will be, in its texels, while that of metal and roughness is looked up: in the room
+  /// of the ray's end.
+  float color_width() const { return ray.t_max; }
+  void set_color_width(double width) { ray.t_max = static_cast<float>(width); }
+  /// Once that has been looked up, until the surface is known: there, and in the room of what says where the hit was found.
+  FacetShares facet_shares() const { return {std::bit_cast<float>(hit.block), ray.t_max}; }
+  void set_facet_shares(const FacetShares& shares) {
+    hit.block = Address{std::bit_cast<std::uint32_t>(shares.metallic)};
+    ray.t_max = shares.roughness;
   }
   /// The surface's own light as far as it is there, once all is known of the surface of a scene where hits glow: in the room of
   /// the ray's end and of what says where the hit was found.

@@ -37,10 +37,8 @@ struct Surface {
   double color, straight, scattered, through;
 };
 
-}  // namespace
-
 /// No density of normals is above that straight ahead, and no visibility times a cosine above 1 / (2 alpha).
-MicrofacetBound bound_of(const Material& material, double texture_max) {
+MicrofacetBound bound_of_one(const Material& material, double texture_max) {
   constexpr int cosines = 64;
   const Surface surface(material, texture_max);
   const double alpha = surface.alpha();
@@ -52,6 +50,32 @@ MicrofacetBound bound_of(const Material& material, double texture_max) {
     bound.passed_on = std::max(bound.passed_on, surface.weight_at(static_cast<double>(i) / cosines) * spare);
   }
   bound.passed_on = std::max(bound.passed_on, 1.0);
+  return bound;
+}
+
+}  // namespace
+
+/// Of a texture the bound of all surfaces that lie between the extremes of its metal and its roughness.
+MicrofacetBound bound_of(const Material& material, double texture_max, const Texture* facets) {
+  if (facets == nullptr) {
+    return bound_of_one(material, texture_max);
+  }
+  constexpr int steps = 8;
+  const auto between = [](double most, float least, int step) {
+    return most * (double{least} + (1.0 - double{least}) * step / steps);
+  };
+  // The smoothest that is no mirror yet shows most of a point light.
+  const double least = std::min(material.microfacets.roughness, std::sqrt(sharpest_alpha) * (1 + 0x1p-20));
+  MicrofacetBound bound;
+  Material one = material;
+  for (int i = 0; i <= steps; ++i) {
+    one.microfacets.metallic = between(material.microfacets.metallic, facets->darkest.z, i);
+    for (int j = 0; j <= steps; ++j) {
+      one.microfacets.roughness = std::max(least, between(material.microfacets.roughness, facets->darkest.y, j));
+      const MicrofacetBound its = bound_of_one(one, texture_max);
+      bound = {std::max(bound.direct, its.direct), std::max(bound.passed_on, its.passed_on)};
+    }
+  }
   return bound;
 }
 

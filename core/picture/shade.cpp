@@ -87,6 +87,15 @@ float cover_by_alpha(HitState& state, std::uint16_t cutoff, float refraction_ind
   return share;
 }
 
+/// Makes a surface's record, which is that of one without metal, what a texture says. What alpha leaves out is no metal.
+void multiply(const HitState::FacetShares& shares, MicrofacetRecord& facets, MaterialRecord& material) {
+  facets.metallic *= std::min(shares.metallic, 1.0F);  // the weights of a look-up add up to 1 but for rounding
+  facets.alpha *= std::min(shares.roughness * shares.roughness, 1.0F);
+  const float dielectric = 1.0F - facets.metallic, absent = 1.0F - material.specular;
+  material.diffuse *= dielectric;
+  material.transmittance = absent + std::max(material.transmittance - absent, 0.0F) * dielectric;
+}
+
 /// Highlight and mirror, the surface's own colour being that of the material.
 HitState::Gloss gloss_of(MaterialRecord& material, const FinishRecord& finish) {
   const Color color = finish.specular + material.color * material.specular;
@@ -96,6 +105,11 @@ HitState::Gloss gloss_of(MaterialRecord& material, const FinishRecord& finish) {
     gloss.tint = {color.x / material.specular, color.y / material.specular, color.z / material.specular};
   }
   return gloss;
+}
+
+/// Where metal and roughness of its material come from, if that is a texture.
+const Texture* facet_texture(const Scene& scene, const Material& material) {
+  return material.microfacets.have_texture() ? &scene.textures[material.microfacets.texture] : nullptr;
 }
 
 /// What a texture multiplies the material's colour by at most.
@@ -121,7 +135,7 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
   }
   for (const Material& material : scene.materials) {
     if (transport.is_by_paths() && material.microfacets.are_there()) {
-      const MicrofacetBound bound = bound_of(material, texture_max(scene, material));
+      const MicrofacetBound bound = bound_of(material, texture_max(scene, material), facet_texture(scene, material));
       const double aimed = emitter * bound.passed_on * (1 + 0x1p-6);
       direct = std::max(direct, light * bound.direct + brightest(material.emission) + aimed);
       passed_on = std::max(passed_on, bound.passed_on);
@@ -194,12 +208,43 @@ void Shader::begin_texture(HitState& state, const std::byte* record) const {
   state.stage = Stage::texture;
 }
 
+/// Metal and roughness are looked up before the colour, of which there is more to keep. Both have the footprint that the ray has
+/// on the finer of their textures.
+void Shader::begin_facets(HitState& state, const FacetedNormals& triangle) const {
+  ++operations_.texture_lookups;
+  const TextureReference &color = triangle.textured.texture, &facets = triangle.facets;
+  const CutEllipse ellipse = options_.pixel_share > 0 ? state.ellipse : CutEllipse{};
+  TexturedNormals finer = triangle.textured;
+  finer.texture = texels_of_other(color, facets) > 1.0 ? facets : color;
+  TextureFootprint footprint = footprint_of(finer, state.u, state.v, ellipse, width_at_hit(state));
+  state.u = footprint.middle.s;
+  state.v = footprint.middle.t;
+  state.set_color_width(footprint.width * texels_of_other(finer.texture, color));
+  state.set_coverage(0.0F);
+  footprint.width *= texels_of_other(finer.texture, facets);
+  std::construct_at(&state.lookup, begin_lookup(facets, footprint));
+  state.stage = Stage::texture;
+}
+
+/// The colour's look-up begins where that of metal and roughness has ended.
+void Shader::turn_to_color(HitState& state, const std::byte* record) const {
+  ++operations_.texture_lookups;
+  const auto textured = read<TexturedNormals>(record);
+  const HitState::FacetShares shares{.metallic = state.lookup.sum.z, .roughness = state.lookup.sum.y};
+  turn_to(state.lookup, textured.texture, double{state.color_width()}, texture_place(state));
+  state.shading = ShadingReference::flat(textured.normals.material());
+  state.set_facet_shares(shares);
+  state.set_coverage(textured.texture.format == TexelFormat::srgb_alpha ? 0.0F : 1.0F);
+  state.stage = Stage::texture;
+}
+
 /// Of a format with alpha the look-up adds up what is there of the light, and of alpha.
 void Shader::step_texture(HitState& state, const std::byte* record) const {
   float alpha = state.coverage();
   core::step(state.lookup, texture_place(state), record, operations_, alpha);
   state.set_coverage(alpha);
-  state.stage = is_finished(state.lookup) ? Stage::textured_material : Stage::texture;
+  const bool is_of_facets = state.lookup.format == TexelFormat::linear;
+  state.stage = !is_finished(state.lookup) ? Stage::texture : is_of_facets ? Stage::color_texture : Stage::textured_material;
   if (is_finished(state.lookup) && state.lookup.format == TexelFormat::srgb_alpha) {
     state.lookup.sum = alpha > 0.0F ? state.lookup.sum * (1.0F / alpha) : Color{};
   }
@@ -234,6 +279,9 @@ void Shader::read_normals(HitState& state, const std::byte* record) const {
     ++operations_.normal_reads;
     const double side = dot(blend, state.normal) < 0.0 ? -1.0 : 1.0;
     state.normal = blend * (side / size);
+  }
+  if (normals.is_textured() && read<TexturedNormals>(record).has_facets != 0) {
+    return begin_facets(state, read<FacetedNormals>(record));
   }
   state.shading = ShadingReference::flat(normals.material());
   state.stage = Stage::material;
@@ -339,7 +387,10 @@ void Shader::read_finish(HitState& state, const std::byte* record) const {
 
 /// No highlight and no mirror is left of the material.
 void Shader::read_microfacets(HitState& state, const std::byte* record) const {
-  const auto facets = read<MicrofacetRecord>(record);
+  auto facets = read<MicrofacetRecord>(record);
+  if (facets.has_texture != 0) {
+    multiply(state.facet_shares(), facets, state.surface.material);
+  }
   const float share = cover_by_alpha(state, facets.alpha_cutoff, facets.refraction_index);
   state.set_microfacets({.metallic = facets.metallic,
                          .alpha = facets.alpha,
@@ -527,6 +578,9 @@ bool Shader::step(HitState& state, const std::byte* record, Ray& child) const {
       return false;
     case Stage::texture:
       step_texture(state, record);
+      return false;
+    case Stage::color_texture:
+      turn_to_color(state, record);
       return false;
     case Stage::material:
     case Stage::textured_material:

@@ -102,6 +102,8 @@ class Shader {
   void read_geometry(HitState& state, const std::byte* record) const;
   void read_normals(HitState& state, const std::byte* record) const;
   void begin_texture(HitState& state, const std::byte* record) const;
+  void begin_facets(HitState& state, const FacetedNormals& triangle) const;
+  void turn_to_color(HitState& state, const std::byte* record) const;
   void step_texture(HitState& state, const std::byte* record) const;
   void read_corners(HitState& state, const std::byte* record) const;
   void read_material(HitState& state, const std::byte* record) const;

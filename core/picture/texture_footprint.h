@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 
@@ -31,6 +32,12 @@ struct TextureFootprint {
 
 /// Probes of a look-up at most. A footprint that is longer has wider ones.
 inline constexpr double probes_max = 15;
+
+/// What is one of a texture's texels wide, in texels of another at the same places.
+inline double texels_of_other(const TextureReference& texture, const TextureReference& other) {
+  const auto count = [](const TextureReference& any) { return static_cast<double>(any.width) * any.height; };
+  return std::sqrt(count(other) / count(texture));
+}
 
 /// The footprint of what is so wide, grid-local, about the point of the triangle with weights u and v. What it covers of the
 /// texture is an ellipse (P. Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989), taken by probes along its

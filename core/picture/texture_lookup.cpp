@@ -216,19 +216,27 @@ void place_probes(TextureLookup& lookup, const TextureFootprint& footprint) {
 }  // namespace
 
 TextureLookup begin_lookup(const TextureReference& texture, const TextureFootprint& footprint) {
-  TextureLookup lookup{.tiles = texture.tiles,
-                       .width = texture.width,
-                       .height = texture.height,
-                       .format = texture.format,
-                       .wrap_s = texture.wrap_s,
-                       .wrap_t = texture.wrap_t};
-  const double detail = footprint.width > 1 ? natural_log(std::min(footprint.width, footprint_width_max)) * octaves_per_e : 0;
+  TextureLookup lookup;
+  place_probes(lookup, footprint);
+  turn_to(lookup, texture, footprint.width, footprint.middle);
+  return lookup;
+}
+
+void turn_to(TextureLookup& lookup, const TextureReference& texture, double width, const TexturePlace& middle) {
+  lookup = TextureLookup{.stride = lookup.stride,
+                         .tiles = texture.tiles,
+                         .width = texture.width,
+                         .height = texture.height,
+                         .end_share = lookup.end_share,
+                         .format = texture.format,
+                         .wrap_s = texture.wrap_s,
+                         .wrap_t = texture.wrap_t,
+                         .ends = lookup.ends};
+  const double detail = width > 1 ? natural_log(std::min(width, footprint_width_max)) * octaves_per_e : 0;
   const double level = floor_of(detail), coarsest = texture.level_count - 1;
   lookup.level = static_cast<std::uint32_t>(std::min(level, coarsest)) & 15U;
   lookup.coarse_share = level < coarsest ? static_cast<std::uint16_t>((detail - level) / share_unit) : std::uint16_t{0};
-  place_probes(lookup, footprint);
-  take(lookup, footprint.middle);
-  return lookup;
+  take(lookup, middle);
 }
 
 Address record_needed(const TextureLookup& lookup) {

@@ -26,7 +26,7 @@ struct TextureLookup {
   std::uint16_t width = 1, height = 1;
   std::uint16_t coarse_share = 0;  ///< of the coarser level, in 1/65536
   std::uint16_t end_share = 0;     ///< what there is of the first and of the last probe, in 1/65536: one more
-  TexelFormat format : 2 = {};
+  TexelFormat format : 3 = {};
   TextureWrap wrap_s : 2 = {}, wrap_t : 2 = {};
   std::uint32_t level : 4 = 0;      ///< the finer one
   std::uint32_t ends : 3 = 0;       ///< the number of probes on either side of the one in the middle
@@ -38,6 +38,10 @@ struct TextureLookup {
 static_assert(sizeof(TextureLookup) == 40 && std::is_trivially_copyable_v<TextureLookup>);
 
 TextureLookup begin_lookup(const TextureReference& texture, const TextureFootprint& footprint);
+
+/// Begins anew on another texture that lies at the same places: along the same line, by probes that are `width` of its texels
+/// wide. `middle` is the footprint's.
+void turn_to(TextureLookup& lookup, const TextureReference& texture, double width, const TexturePlace& middle);
 
 /// All has been read, and `sum` is the colour; of a format with alpha it is what of it is there, which alpha divides.
 inline bool is_finished(const TextureLookup& lookup) { return lookup.is_done != 0; }

@@ -6,7 +6,7 @@
 //   directory   one DirectoryEntry a top cell of the grid
 //   references  of a plain grid, whose top cells are voxels: VoxelReference, the list of each voxel in one piece
 //   bricks      Brick, the primitive blocks that it names, and its bricks in turn (top cells in Morton order)
-//   normals     PatchNormals, TexturedNormals         } shading data, read for final hits only
+//   normals     PatchNormals, TexturedNormals, FacetedNormals } shading data, read for final hits only
 //   materials   MaterialRecord, then FinishRecord     }
 //   lights      LightRecord                           }
 //   emitters    EmitterRecord, then EmitterChoice     } (core/record/emitter.h) where paths aim at what shines
@@ -213,8 +213,9 @@ static_assert(sizeof(PatchNormals) == 40);
 /// How a texel's 32 bits are read. srgb: red, green and blue from the lowest byte up, with the sRGB curve; shared_exponent:
 /// linear, from the lowest bit up three mantissas of 9 bits and an exponent of 5 (OpenGL's RGB9_E5); fine_srgb: red, green and
 /// blue in 10 bits each from the lowest up, with the sRGB curve in 1020 steps, every fourth of which is a byte's; srgb_alpha: as
-/// srgb, with alpha, 255 where all is there, in the highest byte.
-enum class TexelFormat : std::uint8_t { srgb, shared_exponent, fine_srgb, srgb_alpha };
+/// srgb, with alpha, 255 where all is there, in the highest byte; linear: of numbers that are no colours, 255ths from the lowest
+/// byte up.
+enum class TexelFormat : std::uint8_t { srgb, shared_exponent, fine_srgb, srgb_alpha, linear };
 /// What lies beyond a texture's edges: itself again, itself mirrored, or its edge.
 enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
 
@@ -248,13 +249,22 @@ struct TexturedNormals {
   PatchNormals normals;
   TextureReference texture;
   std::array<std::array<float, 2>, 3> place{};  ///< (s, t) of its corners, or the bits of their colours
-  std::uint32_t padding = 0;
+  std::uint32_t has_facets = 0;                 ///< 1: it begins a FacetedNormals
 
   /// Or its corners have colours.
   constexpr bool has_texture() const { return texture.tiles != no_address; }
   CornerColor color(std::size_t corner) const { return std::bit_cast<CornerColor>(place[corner]); }
 };
 static_assert(sizeof(TexturedNormals) == 80 && sizeof(TexturedNormals) <= record_bytes_max);
+
+/// Of a triangle whose metal and roughness come from a texture, too, which lies where that of its colour does: in databases of
+/// pictures by paths.
+struct FacetedNormals {
+  TexturedNormals textured;
+  TextureReference facets;  ///< of TexelFormat::linear
+  std::uint32_t padding = 0;
+};
+static_assert(sizeof(FacetedNormals) == 96 && sizeof(FacetedNormals) <= record_bytes_max);
 
 /// A surface as NFF knows it. Of one that has more, `specular` is the weight of what of its highlight and mirror has its own
 /// colour, and the place of the index, as a number that is none, names its FinishRecord.
@@ -297,7 +307,9 @@ struct MicrofacetRecord {
   Color emission;
   float refraction_index = 1;
   std::uint16_t alpha_cutoff = 0;  ///< as a FinishRecord has it
-  std::uint16_t padding = 0;
+  /// 1: its triangles have FacetedNormals, whose texture's blue `metallic` is multiplied by, and its green the roughness. Then
+  /// the MaterialRecord is that of the surface without any metal.
+  std::uint16_t has_texture = 0;
 };
 static_assert(sizeof(MicrofacetRecord) == sizeof(MaterialRecord));
 

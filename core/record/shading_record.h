@@ -9,14 +9,21 @@
 
 namespace dmpc::core {
 
-/// block: of the primitive that was hit. normals: a PatchNormals or TexturedNormals. tile: a TextureTile.
+/// block: of the primitive that was hit. normals: a PatchNormals, TexturedNormals or FacetedNormals. tile: a TextureTile.
 enum class ShadingRecord : std::uint8_t { block, normals, tile };
 
 /// The most that one takes.
 constexpr std::size_t bytes_max(ShadingRecord kind) {
   return kind == ShadingRecord::block     ? record_bytes_max
-         : kind == ShadingRecord::normals ? sizeof(TexturedNormals)
+         : kind == ShadingRecord::normals ? sizeof(FacetedNormals)
                                           : sizeof(TextureTile);
+}
+
+/// What a PatchNormals takes with all that it begins.
+inline std::size_t bytes_of_normals(const std::byte* record) {
+  return !read<PatchNormals>(record).is_textured()       ? sizeof(PatchNormals)
+         : read<TexturedNormals>(record).has_facets != 0 ? sizeof(FacetedNormals)
+                                                         : sizeof(TexturedNormals);
 }
 
 /// What this one takes.
@@ -25,7 +32,7 @@ inline std::size_t bytes_of(ShadingRecord kind, const std::byte* record) {
     case ShadingRecord::block:
       return block_bytes(read<BlockHeader>(record));
     case ShadingRecord::normals:
-      return read<PatchNormals>(record).is_textured() ? sizeof(TexturedNormals) : sizeof(PatchNormals);
+      return bytes_of_normals(record);
     case ShadingRecord::tile:
       return sizeof(TextureTile);
   }

@@ -99,7 +99,8 @@ std::size_t SceneBuilder::MaterialHash::operator()(const Material& material) con
                              material.microfacets.metallic,
                              material.microfacets.reflectance,
                              material.microfacets.transmission,
-                             material.microfacets.opacity}) {
+                             material.microfacets.opacity,
+                             static_cast<double>(material.microfacets.texture)}) {
     hash = mix(hash, value);
   }
   return hash;
@@ -178,6 +179,9 @@ void SceneBuilder::add(ObjectKind kind, std::size_t first, std::size_t vertex_co
   if (!has_material_) {
     material(Material{});
   }
+  const Microfacets& facets = scene_.materials[material_].microfacets;
+  expect(kind == ObjectKind::textured || !facets.have_texture() || facets.use == FacetTexture::mean,
+         "a texture of metal and roughness is one of textured patches");
   pool_index(scene_.objects.size());
   pool_index(first + vertex_count);
   scene_.objects.push_back(

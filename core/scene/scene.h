@@ -18,6 +18,9 @@ namespace dmpc::core {
 /// the share that is not; or it is there altogether from a cutoff on, and below that not at all.
 enum class AlphaUse : std::uint8_t { none, blend, cut };
 
+/// What a texture of metal and roughness does: it lies where that of the colour does, or its mean is meant.
+enum class FacetTexture : std::uint8_t { placed, mean };
+
 /// A surface of tiny mirrors, as glTF's metallic-roughness has it (core/picture/microfacet_lobes.h). What it scatters or reflects
 /// as a metal has the material's colour; light, index and alpha are the material's, too.
 struct Microfacets {
@@ -26,8 +29,14 @@ struct Microfacets {
   double reflectance = 0.04;  ///< 0 to 1: what is no metal reflects so much straight ahead
   double transmission = 0;    ///< 0 to 1: of what is no metal, the share that lets light through in place of scattering it
   double opacity = 1;         ///< 0 to 1: the share of the surface that is there
+  /// The texture by whose blue `metallic` is multiplied, and by whose green `roughness` is: index into Scene::textures, of
+  /// TexelFormat::linear. Such a material has a texture of its colour, too, and is one of textured patches alone.
+  std::uint32_t texture = no_texture;
+  FacetTexture use = FacetTexture::placed;
 
+  static constexpr std::uint32_t no_texture = 0xffffffffU;
   constexpr bool are_there() const { return roughness >= 0; }
+  constexpr bool have_texture() const { return texture != no_texture; }
   constexpr bool operator==(const Microfacets&) const = default;
 };
 
@@ -51,7 +60,7 @@ struct Material {
   /// it.
   Microfacets microfacets;
 
-  static constexpr std::uint32_t no_texture = 0xffffffffU;
+  static constexpr std::uint32_t no_texture = Microfacets::no_texture;
   bool operator==(const Material&) const = default;
 
   /// Whether NFF cannot say all of it: then the database has a FinishRecord for it.

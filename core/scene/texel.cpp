@@ -70,6 +70,16 @@ std::uint32_t encoded_bytes(const Vec3d& color) {
   return texel;
 }
 
+float share_of(std::uint32_t texel, std::uint32_t channel) { return static_cast<float>(texel >> channel * 8U & 0xffU) / 255.0F; }
+
+std::uint32_t encoded_linear(const Vec3d& numbers) {
+  std::uint32_t texel = 0;
+  for (std::uint32_t channel = 0; channel < 3; ++channel) {
+    texel |= static_cast<std::uint32_t>(bounded(numbers[channel], 1) * 255 + 0.5) << 8 * channel;
+  }
+  return texel;
+}
+
 std::uint32_t encoded_exponent(const Vec3d& color) {
   const double largest_number = std::ldexp(mantissa_max, exponent_max - exponent_bias - mantissa_bits);
   Vec3d channels;
@@ -100,6 +110,9 @@ Color decoded(TexelFormat format, std::uint32_t texel) {
     return {light_of_step[texel & fine_mask], light_of_step[texel >> fine_bits & fine_mask],
             light_of_step[texel >> 2 * fine_bits & fine_mask]};
   }
+  if (format == TexelFormat::linear) {
+    return {share_of(texel, 0), share_of(texel, 1), share_of(texel, 2)};
+  }
   const float unit = std::ldexp(1.0F, static_cast<int>(texel >> 3 * mantissa_bits) - exponent_bias - mantissa_bits);
   return Color{mantissa(texel, 0), mantissa(texel, 1), mantissa(texel, 2)} * unit;
 }
@@ -116,6 +129,8 @@ std::uint32_t encoded(TexelFormat format, const Vec3d& color, double alpha) {
       return encoded_fine(color);
     case TexelFormat::srgb_alpha:
       return encoded_bytes(color) | static_cast<std::uint32_t>(bounded(alpha, 1) * 255 + 0.5) << 24U;
+    case TexelFormat::linear:
+      return encoded_linear(color);
     case TexelFormat::shared_exponent:
       break;
   }

@@ -8,15 +8,15 @@
 
 namespace dmpc::core {
 
-/// Linear light. Exact arithmetic of its own, so the same on every machine.
+/// Linear light, or linear numbers. Exact arithmetic of its own, so the same on every machine.
 Color decoded(TexelFormat format, std::uint32_t texel);
 
 /// What of a texel is there, from 0 to 1; 1 where the format does not say.
 float alpha_of(TexelFormat format, std::uint32_t texel);
 
 /// The texel nearest to `color`, with the alpha nearest to `alpha` where the format has one; what is negative or no number counts
-/// as 0, what is too large as the largest: 1 for those with the sRGB curve, 65,408 for shared_exponent, whose error is up to
-/// 1/512 of the largest channel. With the curve: nearest on its scale.
+/// as 0, what is too large as the largest: 1, but for shared_exponent 65,408, whose error is up to 1/512 of the largest channel.
+/// With the curve: nearest on its scale.
 std::uint32_t encoded(TexelFormat format, const Vec3d& color, double alpha = 1);
 
 }  // namespace dmpc::core

@@ -63,6 +63,16 @@ TextureLevel halved(const TextureLevel& fine, TexelFormat format) {
   return coarse;
 }
 
+/// Of TexelFormat::linear.
+Color darkest_of(const TextureLevel& level) {
+  Color least{1, 1, 1};
+  for (const std::uint32_t texel : level.texels) {
+    const Color numbers = decoded(TexelFormat::linear, texel);
+    least = {std::min(least.x, numbers.x), std::min(least.y, numbers.y), std::min(least.z, numbers.z)};
+  }
+  return least;
+}
+
 }  // namespace
 
 void add_levels(Texture& texture) {
@@ -74,6 +84,7 @@ void add_levels(Texture& texture) {
     const Color color = decoded(texture.format, texel);
     texture.brightest = std::max({texture.brightest, double{color.x}, double{color.y}, double{color.z}});
   }
+  texture.darkest = texture.format == TexelFormat::linear ? darkest_of(finest) : Color{};
   const std::uint32_t count = level_count(finest.width, finest.height);
   texture.levels.reserve(count);
   while (texture.levels.size() < count) {

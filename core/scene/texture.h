@@ -24,6 +24,7 @@ struct Texture {
   TexelFormat format{};
   TextureWrap wrap_s{}, wrap_t{};
   double brightest = 0;  ///< of all channels of all texels
+  Color darkest;         ///< each channel's least of all texels: of TexelFormat::linear alone
   std::vector<TextureLevel> levels;
 };
 

@@ -15,35 +15,6 @@ namespace {
 /// A member that refers to a texture is called so: "normalTexture".
 bool is_texture(const std::string& key) { return key.size() >= 7 && key.compare(key.size() - 7, 7, "Texture") == 0; }
 
-class Writer {
- public:
-  Writer(const Document& document, Images& images)
-      : root_(document.root()),
-        textures_(root_.list("textures")),
-        samplers_(root_.list("samplers")),
-        image_count_(root_.list("images").size()),
-        images_(images) {}
-
-  /// `place` is that of its colour's texture.
-  std::unique_ptr<aiMaterial> material(const Part& source, TexturePlace& place);
-  /// How often a texture was named that names no picture.
-  std::uint64_t without_picture() const { return without_picture_; }
-
- private:
-  void add_texture(const Part& use, aiMaterial& target, aiTextureType type, unsigned number);
-  void add_colour_texture(const Part& use, aiMaterial& target, TexturePlace& place);
-  void add_edges(const Part& texture, aiMaterial& target);
-  /// All but that of the colour, at any depth that makes sense.
-  void add_others(const Part& source, aiMaterial& target, unsigned& number, int level = 0);
-  std::optional<std::size_t> image_of(const Part& texture) const;
-
-  Part root_;
-  std::vector<Part> textures_, samplers_;
-  std::size_t image_count_;
-  Images& images_;
-  std::uint64_t without_picture_ = 0;
-};
-
 void add_number(aiMaterial& target, double value, const char* key, unsigned type, unsigned index) {
   const auto number = static_cast<ai_real>(value);
   target.AddProperty(&number, 1, key, type, index);
@@ -58,7 +29,7 @@ aiTextureMapMode edge_mode(const Part& sampler, const std::string& key) {
 }
 
 /// The transform of KHR_texture_transform: scaled, then turned, then moved.
-TexturePlace place_of(const Part& transform) {
+TexturePlace transformed(const Part& transform) {
   const double angle = transform.number("rotation", 0);
   const std::vector<double> offset = transform.numbers("offset", {0, 0}), scale = transform.numbers("scale", {1, 1});
   if (!(std::abs(angle) <= 1e6)) {
@@ -68,21 +39,66 @@ TexturePlace place_of(const Part& transform) {
   return {{{{cosine * scale[0], sine * scale[1], offset[0]}, {-sine * scale[0], cosine * scale[1], offset[1]}}}};
 }
 
+/// Which coordinates a texture lies by, and how they are transformed.
+struct TextureLayout {
+  unsigned coordinates;
+  TexturePlace place;
+};
+
+TextureLayout layout_of(const Part& use) {
+  const std::uint64_t plain = use.whole("texCoord", 0);
+  const auto transform = use.extension("KHR_texture_transform");
+  const std::uint64_t coordinates = transform ? transform->whole("texCoord", plain) : plain;
+  return {static_cast<unsigned>(std::min<std::uint64_t>(coordinates, AI_MAX_NUMBER_OF_TEXTURECOORDS)),
+          transform ? transformed(*transform) : TexturePlace{}};
+}
+
 /// What is known of materials of specular and glossiness, which came before those of metal and roughness: their colour and their
 /// roughness. So they are no metals.
 struct Base {
   Part colours, roughness;
   const char *color, *texture;
+  const char* facets;  ///< what calls its texture of metal and roughness, if one may say of them
   bool is_glossy;
 };
 
 Base base_of(const Part& source, const Part& empty) {
   if (const auto glossy = source.extension("KHR_materials_pbrSpecularGlossiness")) {
-    return {*glossy, *glossy, "diffuseFactor", "diffuseTexture", true};
+    return {*glossy, *glossy, "diffuseFactor", "diffuseTexture", "", true};
   }
   const Part base = source.find("pbrMetallicRoughness").value_or(empty);
-  return {base, base, "baseColorFactor", "baseColorTexture", false};
+  return {base, base, "baseColorFactor", "baseColorTexture", "metallicRoughnessTexture", false};
 }
+
+class Writer {
+ public:
+  Writer(const Document& document, Images& images)
+      : root_(document.root()),
+        textures_(root_.list("textures")),
+        samplers_(root_.list("samplers")),
+        image_count_(root_.list("images").size()),
+        images_(images) {}
+
+  std::unique_ptr<aiMaterial> material(const Part& source, MaterialTextures& textures);
+  /// How often a texture was named that names no picture.
+  std::uint64_t without_picture() const { return without_picture_; }
+
+ private:
+  void add_texture(const Part& use, aiMaterial& target, aiTextureType type, unsigned number);
+  void add_colour_texture(const Part& use, aiMaterial& target, TexturePlace& place);
+  void add_facet_texture(const Part& use, MaterialTextures& textures);
+  const Part& texture_of(const Part& use) const { return textures_[use.required_index("index", textures_.size(), "textures")]; }
+  std::array<aiTextureMapMode, 2> edges_of(const Part& texture) const;
+  /// All but those of the colour and of what `base` says of metal, at any depth that makes sense.
+  void add_others(const Part& source, const Base& base, aiMaterial& target, unsigned& number, int level = 0);
+  std::optional<std::size_t> image_of(const Part& texture) const;
+
+  Part root_;
+  std::vector<Part> textures_, samplers_;
+  std::size_t image_count_;
+  Images& images_;
+  std::uint64_t without_picture_ = 0;
+};
 
 void add_base(const Base& base, aiMaterial& target) {
   const std::vector<double> color = base.colours.numbers(base.color, {1, 1, 1, 1});
@@ -143,8 +159,7 @@ std::optional<std::size_t> Writer::image_of(const Part& texture) const {
 }
 
 void Writer::add_texture(const Part& use, aiMaterial& target, aiTextureType type, unsigned number) {
-  const Part& texture = textures_[use.required_index("index", textures_.size(), "textures")];
-  const auto image = image_of(texture);
+  const auto image = image_of(texture_of(use));
   without_picture_ += image ? 0 : 1;
   if (image) {
     const aiString name(images_.name_of(*image));
@@ -152,33 +167,45 @@ void Writer::add_texture(const Part& use, aiMaterial& target, aiTextureType type
   }
 }
 
-void Writer::add_edges(const Part& texture, aiMaterial& target) {
+std::array<aiTextureMapMode, 2> Writer::edges_of(const Part& texture) const {
   const auto sampler = texture.index("sampler", samplers_.size(), "samplers");
-  const std::array<int, 2> modes = {sampler ? edge_mode(samplers_[*sampler], "wrapS") : aiTextureMapMode_Wrap,
-                                    sampler ? edge_mode(samplers_[*sampler], "wrapT") : aiTextureMapMode_Wrap};
-  target.AddProperty(&modes[0], 1, AI_MATKEY_MAPPINGMODE_U(aiTextureType_BASE_COLOR, 0));
-  target.AddProperty(&modes[1], 1, AI_MATKEY_MAPPINGMODE_V(aiTextureType_BASE_COLOR, 0));
+  return {sampler ? edge_mode(samplers_[*sampler], "wrapS") : aiTextureMapMode_Wrap,
+          sampler ? edge_mode(samplers_[*sampler], "wrapT") : aiTextureMapMode_Wrap};
 }
 
 void Writer::add_colour_texture(const Part& use, aiMaterial& target, TexturePlace& place) {
   add_texture(use, target, aiTextureType_BASE_COLOR, 0);
-  add_edges(textures_[use.required_index("index", textures_.size(), "textures")], target);
-  std::uint64_t coordinates = use.whole("texCoord", 0);
-  if (const auto transform = use.extension("KHR_texture_transform")) {
-    coordinates = transform->whole("texCoord", coordinates);
-    place = place_of(*transform);
-  }
-  const int set = static_cast<int>(std::min<std::uint64_t>(coordinates, AI_MAX_NUMBER_OF_TEXTURECOORDS));
+  const auto edges = edges_of(texture_of(use));
+  const std::array<int, 2> modes = {edges[0], edges[1]};
+  target.AddProperty(&modes[0], 1, AI_MATKEY_MAPPINGMODE_U(aiTextureType_BASE_COLOR, 0));
+  target.AddProperty(&modes[1], 1, AI_MATKEY_MAPPINGMODE_V(aiTextureType_BASE_COLOR, 0));
+  const TextureLayout layout = layout_of(use);
+  place = layout.place;
+  const int set = static_cast<int>(layout.coordinates);
   target.AddProperty(&set, 1, AI_MATKEY_UVWSRC(aiTextureType_BASE_COLOR, 0));
 }
 
-void Writer::add_others(const Part& source, aiMaterial& target, unsigned& number, int level) {
+void Writer::add_facet_texture(const Part& use, MaterialTextures& textures) {
+  const Part& texture = texture_of(use);
+  const auto image = image_of(texture);
+  without_picture_ += image ? 0 : 1;
+  if (image) {
+    const auto edges = edges_of(texture);
+    const TextureLayout layout = layout_of(use);
+    textures.facets = TextureUse{.path = images_.name_of(*image),
+                                 .coordinates = layout.coordinates,
+                                 .edges = {.s = wrap_of(edges[0]), .t = wrap_of(edges[1])}};
+    textures.facets_place = layout.place;
+  }
+}
+
+void Writer::add_others(const Part& source, const Base& base, aiMaterial& target, unsigned& number, int level) {
   constexpr int levels_max = 16;
   if (level > levels_max) {
     source.fail("extensions within each other more than 16 deep, expected one or two");
   }
   for (const auto& [key, part] : source.members()) {
-    if (key == "baseColorTexture" || key == "diffuseTexture") {
+    if (key == "baseColorTexture" || key == "diffuseTexture" || key == base.facets) {
       continue;
     }
     if (key == "emissiveTexture") {
@@ -187,12 +214,12 @@ void Writer::add_others(const Part& source, aiMaterial& target, unsigned& number
       add_texture(part, target, aiTextureType_UNKNOWN, number);
       ++number;
     } else if (key == "extensions" || key == "pbrMetallicRoughness" || key.substr(0, 4) == "KHR_") {
-      add_others(part, target, number, level + 1);
+      add_others(part, base, target, number, level + 1);
     }
   }
 }
 
-std::unique_ptr<aiMaterial> Writer::material(const Part& source, TexturePlace& place) {
+std::unique_ptr<aiMaterial> Writer::material(const Part& source, MaterialTextures& textures) {
   static const nlohmann::json nothing = nlohmann::json::object();
   auto target = std::make_unique<aiMaterial>();
   const Base base = base_of(source, Part(nothing));
@@ -200,29 +227,32 @@ std::unique_ptr<aiMaterial> Writer::material(const Part& source, TexturePlace& p
   add_look(source, *target);
   add_extensions(source, *target);
   if (const auto texture = base.colours.find(base.texture)) {
-    add_colour_texture(*texture, *target, place);
+    add_colour_texture(*texture, *target, textures.color_place);
+  }
+  if (const auto texture = base.roughness.find(base.facets)) {
+    add_facet_texture(*texture, textures);
   }
   unsigned number = 0;
-  add_others(source, *target, number);
+  add_others(source, base, *target, number);
   return target;
 }
 
 }  // namespace
 
-std::vector<TexturePlace> add_materials(const Document& document, Images& images, aiScene& scene,
-                                        std::vector<std::string>& notes) {
+std::vector<MaterialTextures> add_materials(const Document& document, Images& images, aiScene& scene,
+                                            std::vector<std::string>& notes) {
   static const nlohmann::json nothing = nlohmann::json::object();
   std::vector<Part> sources = document.root().list("materials");
   sources.emplace_back(nothing);
   Writer writer(document, images);
-  std::vector<TexturePlace> places;
+  std::vector<MaterialTextures> textures;
   scene.mMaterials = new aiMaterial*[sources.size()];
   for (const Part& source : sources) {
-    scene.mMaterials[scene.mNumMaterials] = writer.material(source, places.emplace_back()).release();
+    scene.mMaterials[scene.mNumMaterials] = writer.material(source, textures.emplace_back()).release();
     ++scene.mNumMaterials;
   }
   note_count(notes, "textures that name no picture, left out", writer.without_picture());
-  return places;
+  return textures;
 }
 
 }  // namespace dmpc::apps::gltf

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "apps/foreign/gltf/images.h"
-#include "apps/foreign/mesh/texture_place.h"
+#include "apps/foreign/mesh/imported_file.h"
 
 namespace dmpc::apps::gltf {
 
 /// Gives the scene its materials, with the keys that Assimp's own reader uses (apps/foreign/mesh/material.h looks for them), and,
-/// last, that of primitives without one. Returns each one's place on its colour's texture. `notes` gets a sentence for textures
-/// that name no picture. Throws core::InputError, by its place in the document.
-std::vector<TexturePlace> add_materials(const Document& document, Images& images, aiScene& scene,
-                                        std::vector<std::string>& notes);
+/// last, that of primitives without one. Returns what else is known of their textures. `notes` gets a sentence for textures that
+/// name no picture. Throws core::InputError, by its place in the document.
+std::vector<MaterialTextures> add_materials(const Document& document, Images& images, aiScene& scene,
+                                            std::vector<std::string>& notes);
 
 }  // namespace dmpc::apps::gltf

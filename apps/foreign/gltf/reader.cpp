@@ -30,7 +30,7 @@ ImportedFile read_gltf(const Document& document, const OpenNamed& open) {
   Buffers buffers(document, open);
   Accessors accessors(document, buffers);
   Images images(document, buffers);
-  file.texture_places = add_materials(document, images, *file.scene, file.notes);
+  file.textures = add_materials(document, images, *file.scene, file.notes);
   const Meshes meshes = add_meshes(document, buffers, file);
   add_nodes(document, accessors, meshes, file);
   images.give_to(*file.scene);

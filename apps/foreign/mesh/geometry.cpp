@@ -114,6 +114,9 @@ void GeometryWriter::add(PolygonMesh mesh, core::Material material) {
   } else if (material.texture == core::Material::no_texture) {
     mesh.places.clear();
   }
+  if (material.texture == core::Material::no_texture && material.microfacets.have_texture()) {
+    material.microfacets.use = core::FacetTexture::mean;
+  }
   if (material.texture == core::Material::no_texture && mesh.alphas.empty()) {
     material.alpha = core::AlphaUse::none;
     material.alpha_cutoff = 0;

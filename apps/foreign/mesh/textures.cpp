@@ -16,12 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-core::TextureWrap wrap_of(aiTextureMapMode mode) {
-  return mode == aiTextureMapMode_Mirror                                    ? core::TextureWrap::mirror
-         : mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? core::TextureWrap::clamp
-                                                                            : core::TextureWrap::repeat;
-}
-
 std::optional<TextureUse> texture_of(const aiMaterial& source, aiTextureType type) {
   aiString path;
   aiTextureMapping mapping = aiTextureMapping_UV;
@@ -37,6 +31,11 @@ std::optional<TextureUse> texture_of(const aiMaterial& source, aiTextureType typ
   return use;
 }
 
+std::string key_of(const TextureUse& use) {
+  return use.path + '\n' + std::to_string(static_cast<int>(use.edges.s)) + std::to_string(static_cast<int>(use.edges.t)) +
+         std::to_string(static_cast<int>(use.edges.alpha)) + ' ' + std::to_string(use.edges.cutoff);
+}
+
 /// Texels that the file holds ready.
 std::vector<std::uint32_t> texels_of(const aiTexture& source, bool keeps_alpha) {
   std::vector<std::uint32_t> texels;
@@ -48,6 +47,12 @@ std::vector<std::uint32_t> texels_of(const aiTexture& source, bool keeps_alpha) 
 }
 
 }  // namespace
+
+core::TextureWrap wrap_of(aiTextureMapMode mode) {
+  return mode == aiTextureMapMode_Mirror                                    ? core::TextureWrap::mirror
+         : mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? core::TextureWrap::clamp
+                                                                            : core::TextureWrap::repeat;
+}
 
 std::optional<TextureUse> colour_texture(const aiMaterial& source) {
   const auto base = texture_of(source, aiTextureType_BASE_COLOR);
@@ -88,10 +93,11 @@ void TextureReader::read(const TextureUse& use) {
   files_.add_texture({bytes, within->mWidth}, name, within->achFormatHint, use.edges);
 }
 
-std::optional<std::uint32_t> TextureReader::find(const TextureUse& use) {
-  const std::string key = use.path + '\n' + std::to_string(static_cast<int>(use.edges.s)) +
-                          std::to_string(static_cast<int>(use.edges.t)) + std::to_string(static_cast<int>(use.edges.alpha)) +
-                          ' ' + std::to_string(use.edges.cutoff);
+std::optional<std::uint32_t> TextureReader::find(const TextureUse& use) { return find(use, key_of(use)); }
+
+std::optional<std::uint32_t> TextureReader::find_numbers(const TextureUse& use) { return find(use, key_of(use) + " numbers"); }
+
+std::optional<std::uint32_t> TextureReader::find(const TextureUse& use, const std::string& key) {
   const auto [known, is_new] = known_.try_emplace(key);
   if (is_new) {
     try {

@@ -24,6 +24,8 @@ struct TextureUse {
   TextureEdges edges;
 };
 
+core::TextureWrap wrap_of(aiTextureMapMode mode);
+
 /// The base colour's (glTF), else that of diffuse light; nothing if the material has neither, or one that is no picture laid out
 /// by coordinates.
 std::optional<TextureUse> colour_texture(const aiMaterial& source);
@@ -41,6 +43,8 @@ class TextureReader {
 
   /// Its place among the scene's textures; nothing if it cannot be had, which missing() tells.
   std::optional<std::uint32_t> find(const TextureUse& use);
+  /// The same of one whose texels are numbers, no colours: one of the scene's by itself, whatever else shows its picture.
+  std::optional<std::uint32_t> find_numbers(const TextureUse& use);
 
   /// "a.png: ...": what could not be had and why, once each, in the order of their names.
   std::vector<std::string> missing() const { return {missing_.begin(), missing_.end()}; }
@@ -49,6 +53,7 @@ class TextureReader {
   std::vector<std::string> other_names() const { return {other_names_.begin(), other_names_.end()}; }
 
  private:
+  std::optional<std::uint32_t> find(const TextureUse& use, const std::string& key);
   /// As the scene's next texture.
   void read(const TextureUse& use);
   /// That is meant by this name (apps/formats/named_file.h).
@@ -58,7 +63,7 @@ class TextureReader {
   std::filesystem::path path_;
   SceneFiles& files_;
   std::vector<core::Texture>& textures_;
-  std::map<std::string, std::optional<std::uint32_t>> known_;  ///< by path and edges
+  std::map<std::string, std::optional<std::uint32_t>> known_;  ///< by path and edges, and whether they are numbers
   std::set<std::string> missing_, other_names_;
 };
 

@@ -38,8 +38,8 @@ IndexedVertices vertices_of(const core::Scene& scene) {
   return vertices;
 }
 
-/// Through a line and back.
-core::Scene sent(core::Scene scene, IndexedVertices vertices) {
+/// Through a line and back, with so many textures of a texel.
+core::Scene sent(core::Scene scene, IndexedVertices vertices, int textures = 1) {
   auto [mine, its] = make_ends();
   Line sender(std::move(mine)), receiver(std::move(its));
   std::jthread writer([&] {
@@ -47,7 +47,9 @@ core::Scene sent(core::Scene scene, IndexedVertices vertices) {
     sender.send(Saying::done);
   });
   SceneReceiver whole;
-  whole.add({.name = "t", .levels = {}});
+  for (int i = 0; i < textures; ++i) {
+    whole.add({.name = "t", .levels = {{1, 1, {0x808080}}}});
+  }
   while (true) {
     const std::optional<Message> message = receiver.receive(false);
     if (!whole.take(*message)) {
@@ -192,6 +194,7 @@ TEST_CASE("a scene that cannot be is refused, whatever is wrong with it") {
   CHECK(is_refused([](core::Scene& scene) { scene.materials[0].microfacets = {.roughness = 0.5, .opacity = 2}; }));
   CHECK(is_refused(
       [](core::Scene& scene) { scene.materials[0].microfacets.reflectance = std::numeric_limits<double>::quiet_NaN(); }));
+  CHECK(is_refused([](core::Scene& scene) { scene.materials[0].microfacets = {.roughness = 0.5, .transmission = 1.5}; }));
   CHECK(is_refused([](core::Scene& scene) {
     scene.materials[0].specular_color = {1e20, 0, 0}, scene.materials[0].specular = 1e20;
   }));
@@ -203,6 +206,38 @@ TEST_CASE("a scene that cannot be is refused, whatever is wrong with it") {
   CHECK(is_refused([](core::Scene& scene) { scene.lights[0].position.x = 1e31; }));
   CHECK(is_refused([](core::Scene& scene) { scene.view.width = 0; }));
   CHECK(is_refused([](core::Scene& scene) { scene.view.at = scene.view.from; }));
+}
+
+TEST_CASE("a texture of metal and roughness is one by itself, beside that of a colour and of what has places on it, or refused") {
+  using core::FacetTexture;
+  const core::Microfacets good{.roughness = 1, .metallic = 1, .texture = 1};
+  const auto is_refused = [](const core::Microfacets& facets, std::uint32_t material = 1) {
+    core::Scene scene = three_triangles();
+    scene.materials[material].microfacets = facets;
+    try {
+      sent(scene, vertices_of(scene), 2);
+      return false;
+    } catch (const Nonsense&) {
+      return true;
+    }
+  };
+  const auto with = [&good](const auto& change) {
+    core::Microfacets facets = good;
+    change(facets);
+    return facets;
+  };
+  CHECK_FALSE(is_refused(good));
+  CHECK_FALSE(is_refused(with([](auto& facets) { facets.use = FacetTexture::mean; })));
+  CHECK_FALSE(is_refused(with([](auto& facets) { facets.use = FacetTexture::mean; }), 0));
+  CHECK(is_refused(good, 0));                                            // neither a colour's texture nor places
+  CHECK(is_refused(with([](auto& facets) { facets.texture = 2; })));     // which has not come
+  CHECK(is_refused(with([](auto& facets) { facets.texture = 0; })));     // the colour's
+  CHECK(is_refused(with([](auto& facets) { facets.roughness = -1; })));  // of a surface without tiny mirrors
+  CHECK(is_refused(with([](auto& facets) { facets.use = static_cast<FacetTexture>(2); })));
+  core::Scene scene = three_triangles();
+  scene.materials[1].microfacets = good;
+  scene.objects[0].material = 1;  // a polygon
+  CHECK_THROWS_AS(sent(scene, vertices_of(scene), 2), Nonsense);
 }
 
 TEST_CASE("more than was announced, and parts of an entry, are refused") {

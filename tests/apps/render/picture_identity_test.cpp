@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "tests/support/faceted_surfaces.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/text.h"
 
@@ -105,6 +106,19 @@ TEST_CASE("what surfaces of tiny mirrors are is a fact of pictures by paths alon
   CHECK(contains(difference(roughen, by_paths), "metal and roughness of materials"));
   CHECK(!contains(difference({}, by_paths), "roughness"));
   CHECK(difference(roughen).empty());
+}
+
+TEST_CASE("a texture of metal and roughness is part of that fact, and none of colours' or of Whitted's") {
+  core::Scene scene = tests::faceted_surfaces();
+  RenderOptions options;
+  const auto facts = [&] { return identity_of(options, scene).facts; };
+  const auto before = facts();
+  options.picture.transport.kind = core::TransportKind::paths;
+  const auto by_paths = facts();
+  scene.textures[2].levels[0].texels[5] ^= 1U << 9U;
+  CHECK(difference_text(facts(), by_paths) == "other metal and roughness of materials");
+  options.picture.transport.kind = core::TransportKind::whitted;
+  CHECK(difference_text(facts(), before).empty());
 }
 
 TEST_CASE("the computer, the strategy and what is left out are no part of the picture") {

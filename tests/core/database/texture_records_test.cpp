@@ -50,7 +50,7 @@ TEST_CASE("a triangle's tiles are all that any look-up on it asks for") {
         place = {s + size(random), t + size(random)};
       }
       std::set<Address> allowed;
-      for_each_tile(triangle, [&](std::uint32_t tile) { allowed.insert(shown.tile(tile)); });
+      for_each_tile(triangle, triangle.texture, [&](std::uint32_t tile) { allowed.insert(shown.tile(tile)); });
       fewest = std::min(fewest, allowed.size());
       for (const TextureFootprint& footprint : footprints_on(triangle, random)) {
         TextureLookup lookup = begin_lookup(reference, footprint);
@@ -76,7 +76,7 @@ TEST_CASE("a small triangle takes few tiles wherever it lies, on whatever turn r
       TexturedNormals triangle{.texture = shown.reference()};
       triangle.place = {{{turn + 0.45F, 0.45F}, {turn + 0.46F, 0.45F}, {turn + 0.45F, 0.46F}}};
       std::size_t count = 0;
-      for_each_tile(triangle, [&](std::uint32_t) { ++count; });
+      for_each_tile(triangle, triangle.texture, [&](std::uint32_t) { ++count; });
       CHECK(count <= 3 * 4 + 4);  // of 88: at most four on each level but those that are one tile
     }
   }

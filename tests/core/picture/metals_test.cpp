@@ -56,6 +56,26 @@ Scene floor_of(const Material& material, double cosine) {
   return scene;
 }
 
+/// The same floor of gold, whose texture of metal and roughness has these texels side by side.
+Scene textured_floor(std::vector<std::uint32_t> texels, Microfacets facets) {
+  Scene scene;
+  const auto width = static_cast<std::uint32_t>(texels.size());
+  scene.textures = {
+      {.name = "white", .levels = {{1, 1, {0xffffff}}}},
+      {.name = "facets", .format = TexelFormat::linear, .wrap_s = TextureWrap::clamp, .levels = {{width, 1, std::move(texels)}}}};
+  for (Texture& texture : scene.textures) {
+    add_levels(texture);
+  }
+  facets.texture = 1;
+  SceneBuilder builder(scene);
+  builder.background({1, 1, 1});
+  builder.material({.color = gold, .texture = 0, .microfacets = facets});
+  builder.textured({{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}},
+                   {{{}, {0, 1}}, {{}, {1, 1}}, {{}, {1, 0}}, {{}, {0, 0}}});
+  scene.view = {.from = {0, 0, 3}, .at = {0, 0, 0}, .up = {0, 1, 0}, .angle_degrees = 1e-3};
+  return scene;
+}
+
 }  // namespace
 
 TEST_CASE("under a white sky tiny mirrors that reflect all show what one scattering leaves, however often light may bounce") {
@@ -139,6 +159,42 @@ TEST_CASE("a smooth metal aims at nothing: what shines is met in its mirror") {
   const Film film = studio.film(1, 4, paths, 0);
   CHECK(film.radiance(0).x == doctest::Approx(2));
   CHECK(studio.operations.rays[static_cast<std::size_t>(RayKind::shadow)] == 0);
+}
+
+TEST_CASE("where a texture says what is metal, it is, and elsewhere a lacquer shines over the same colour") {
+  Scene scene = textured_floor({0xff0000, 0x000000}, {.roughness = 0, .metallic = 1});  // blue: the left half is metal
+  const auto seen_at = [&scene](double x) {
+    scene.view = {.from = {x, 0, 3}, .at = {x, 0, 0}, .up = {0, 1, 0}, .angle_degrees = 1e-3};
+    return mean_of(film_of(scene, 1, 4096 / static_cast<int>(slowness), white_sky, 0));
+  };
+  CHECK(length(seen_at(-25) - gold) < 1e-5);  // the middles of both texels
+  const Vec3d lacquer = gold * 0.96 + Vec3d{0.04, 0.04, 0.04};
+  CHECK(length(seen_at(25) - lacquer) < 0.01);
+  CHECK(length(seen_at(0) - (gold + lacquer) * 0.5) < 0.01);  // half metal, half not
+}
+
+TEST_CASE("a texture that is alike everywhere is what factors would be") {
+  Scene textured = textured_floor({0xcc8000}, {.roughness = 0.9, .metallic = 0.75, .transmission = 0.5, .opacity = 0.8});
+  Scene plain = textured;
+  plain.materials[0].microfacets.texture = Microfacets::no_texture;
+  plain.materials[0].microfacets.roughness *= 128.0 / 255;
+  plain.materials[0].microfacets.metallic *= 0.8;
+  for (Scene* const scene : {&textured, &plain}) {
+    SceneBuilder builder(*scene);
+    builder.material(grey(0, 2));
+    builder.sphere({-2, 0, 1.5}, 0.5);
+    scene->view.from = {2, 0, 1.5};
+    scene->view.angle_degrees = 40;
+    scene->lights = {{{3, 1, 5}, {1, 1, 1}, true}};
+  }
+  const Film one = film_of(textured, 8, 16, white_sky, 2), other = film_of(plain, 8, 16, white_sky, 2);
+  for (std::uint32_t pixel = 0; pixel < one.pixel_count(); ++pixel) {
+    CHECK(length(one.radiance(pixel) - other.radiance(pixel)) < 1e-4);
+  }
+  CHECK(radiance_bound(textured, 3, white_sky) >= radiance_bound(plain, 3, white_sky) * (1 - 1e-6));
+  CHECK(build_database(textured, {.for_paths = true}).records().faceted == 2);
+  CHECK(build_database(textured, {}).records().faceted == 0);
+  CHECK(build_database(textured, {}).records().texture_tiles == build_database(plain, {}).records().texture_tiles);
 }
 
 TEST_CASE("pictures by Whitted's transport know nothing of them: the records and the film are those that approximate them") {

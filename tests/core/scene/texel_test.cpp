@@ -35,6 +35,14 @@ TEST_CASE("the bytes of an sRGB texel are red, green and blue on the curve, and 
   }
 }
 
+TEST_CASE("a texel of numbers is 255ths, without a curve, and encoding gives them back") {
+  CHECK(decoded(TexelFormat::linear, 0x3300ff) == Color{1, 0, 51 / 255.0F});
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
+    check_kept(TexelFormat::linear, byte | (255 - byte) << 8U | (byte ^ 0x55U) << 16U);
+  }
+  CHECK(encoded(TexelFormat::linear, {-1, 2, std::numeric_limits<double>::quiet_NaN()}) == 0x00ff00);
+}
+
 TEST_CASE("a texel with a shared exponent is what OpenGL says") {
   CHECK(decoded(shared_exponent, 0) == Color{0, 0, 0});
   CHECK(decoded(shared_exponent, 256U | 16U << 27U) == Color{1, 0, 0});  // 256 / 512 * 2^(16 - 15)

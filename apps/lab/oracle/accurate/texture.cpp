@@ -51,6 +51,9 @@ AccurateTexel texel_of(const core::Texture& texture, std::uint32_t texel) {
   if (texture.format == core::TexelFormat::shared_exponent) {
     return {light_of_exponent(texel), 1};
   }
+  if (texture.format == core::TexelFormat::linear) {
+    return {Vec3d{texel % 256 / 255.0, texel / 256 % 256 / 255.0, texel / 65536 % 256 / 255.0}, 1};
+  }
   const double alpha = texture.format == core::TexelFormat::srgb_alpha ? texel / (1U << 24U) / 255.0 : 1;
   return AccurateTexel{Vec3d{light[texel % 256], light[texel / 256 % 256], light[texel / 65536 % 256]} * alpha, alpha};
 }

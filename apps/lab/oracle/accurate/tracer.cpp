@@ -63,8 +63,9 @@ struct AccurateTracer::Touch {
 
   /// By paths, if the material has them.
   bool has_facets = false;
+  core::Microfacets facets_there;  ///< with what a texture makes of them
   AccurateFacets facets() const {
-    const core::Microfacets& facets = material.microfacets;
+    const core::Microfacets& facets = facets_there;
     const double side = dot(ray.direction, surface.normal) > 0 ? -1 : 1;
     return AccurateFacets({.facets = facets,
                            .base = color,
@@ -171,6 +172,36 @@ AccurateTracer::Touch AccurateTracer::touch(const AccurateRay& ray, const Accura
   return result;
 }
 
+/// Where metal and roughness have one, too, and are shown, both have the footprint on the finer of the two.
+AccurateTexel AccurateTracer::look_up(const Touch& touch, const core::Texture& texture) const {
+  const AccurateBody& body = scene_.bodies[touch.body];
+  AccuratePaint paint{.corner = body.place, .place = {}};
+  std::copy_n(scene_.places.begin() + body.first_place, paint.place.size(), paint.place.begin());
+  const auto texels = [](const core::Texture& of) { return static_cast<double>(of.levels[0].width) * of.levels[0].height; };
+  const core::Texture* finer = &scene_.textures[touch.material.texture];
+  if (touch.has_facets && touch.material.microfacets.have_texture()) {
+    const core::Texture& facets = scene_.textures[touch.material.microfacets.texture];
+    finer = texels(facets) > texels(*finer) ? &facets : finer;
+  }
+  AccurateFootprint footprint = footprint_of(paint, *finer, touch.surface.weight, touch.ray.direction, touch.reach);
+  footprint.width *= std::sqrt(texels(texture) / texels(*finer));
+  if (watcher_ != nullptr) {
+    watcher_->look_up(footprint);
+  }
+  return texture_sum(texture, footprint);
+}
+
+/// What metal and roughness are there.
+core::Microfacets AccurateTracer::facets_of(const Touch& touch) const {
+  core::Microfacets facets = touch.material.microfacets;
+  if (touch.has_facets && facets.have_texture()) {
+    const AccurateTexel shares = look_up(touch, scene_.textures[facets.texture]);
+    facets.metallic *= shares.light.z;
+    facets.roughness *= shares.light.y;
+  }
+  return facets;
+}
+
 /// What a texture, or the colours of its corners, give there; alpha is none of the light's.
 AccurateTexel AccurateTracer::paint_of(const Touch& touch) const {
   const AccurateBody& body = scene_.bodies[touch.body];
@@ -184,14 +215,8 @@ AccurateTexel AccurateTracer::paint_of(const Touch& touch) const {
   if (!body.is_textured()) {
     return {{1, 1, 1}, 1};
   }
-  AccuratePaint paint{.corner = body.place, .place = {}};
-  std::copy_n(scene_.places.begin() + body.first_place, paint.place.size(), paint.place.begin());
   const core::Texture& texture = scene_.textures[touch.material.texture];
-  AccurateFootprint footprint = footprint_of(paint, texture, touch.surface.weight, touch.ray.direction, touch.reach);
-  if (watcher_ != nullptr) {
-    watcher_->look_up(footprint);
-  }
-  const AccurateTexel sum = texture_sum(texture, footprint);
+  const AccurateTexel sum = look_up(touch, texture);
   return texture.format != core::TexelFormat::srgb_alpha
              ? AccurateTexel{sum.light, 1}
              : AccurateTexel{sum.light * (sum.alpha > 0 ? 1 / sum.alpha : 0), sum.alpha};
@@ -206,6 +231,8 @@ bool is_cut_away(double alpha, const core::Material& material) {
 /// What the surface does with light there, as far as alpha leaves any of it.
 void AccurateTracer::finish(Touch& touch) const {
   const core::Material& material = touch.material;
+  touch.has_facets = options_.transport.is_by_paths() && material.microfacets.are_there();
+  touch.facets_there = facets_of(touch);
   const AccurateTexel paint = paint_of(touch);
   const double alpha = paint.alpha > 1 - alpha_rounding ? 1 : paint.alpha < alpha_rounding ? 0 : paint.alpha;
   const double there = material.alpha == core::AlphaUse::none    ? 1
@@ -219,7 +246,6 @@ void AccurateTracer::finish(Touch& touch) const {
   touch.emission = material.emission * (there * share_met(touch));
   touch.index = there > 0 ? touch.index : 1;
   touch.there = there;
-  touch.has_facets = options_.transport.is_by_paths() && material.microfacets.are_there();
 }
 
 AccurateRay AccurateTracer::child(const Touch& touch, const Vec3d& towards, RayKind kind) const {

@@ -58,6 +58,8 @@ class AccurateTracer {
   AccurateHit trace(AccurateRay& ray);
   std::vector<AccurateRay> spawned(const Touch& met) const;
   Touch touch(const AccurateRay& ray, const AccurateHit& hit) const;
+  AccurateTexel look_up(const Touch& touch, const core::Texture& texture) const;
+  core::Microfacets facets_of(const Touch& touch) const;
   AccurateTexel paint_of(const Touch& touch) const;
   void finish(Touch& touch) const;
   core::Vec3d glow(const Touch& touch) const;
