@@ -96,7 +96,8 @@ const std::vector<std::string>& explanations_of_paths() {
       "Errors are against the converged picture by our own arithmetic, of other samples than those of all rows; a row whose RMSE "
       "is less than 10 times the reference's own error claims nothing and is on no Pareto front; plots show what is left of it, "
       "hollow, between what is left if that error were twice as large, a tenth at least, and all of it.",
-      "Seconds are those of processors. Fewer bounces are darker, which is an error that no samples take away; roulette is none.",
+      "Seconds are those of processors. Fewer bounces are darker, which is an error that no samples take away; roulette, and "
+      "meeting by chance what shines, are none.",
       "Adaptive sampling is asked for no smaller error than the reference's own.",
       "Ratios at equal RMSE are interpolated in logarithms, after the reference's own error is taken off in squares."};
   return sentences;
@@ -229,7 +230,8 @@ void add_turned_options(OptionSet set, ErrorOptions& options) {
         options.has_tessellation = measure.knobs.contains(Knob::tessellation);
       },
       "What is turned, one at a time: samples, adaptive (sampling), cutoff, depth, tessellation, arithmetic, quality (draft, "
-      "default); adaptive with cutoff or depth together as well. By paths samples, adaptive, bounces and roulette");
+      "default); adaptive with cutoff or depth together as well. By paths samples, adaptive, bounces, roulette and "
+      "emitters (how many of what shines are aimed at)");
   set.add_flag(
       "--quick", measure.is_quick,
       "Fewer positions of each knob, and, where nothing else is said, 192x192 pixels, one round and 16 x 16 rays through "
@@ -276,7 +278,7 @@ void add_options(OptionSet set, ErrorOptions& options) {
       "Examples:\n"
       "  dmpc bench error teapot-12 --quick\n"
       "  dmpc bench error rings-3 balls-3 --knobs=samples,adaptive --plots=plots -o error.md\n"
-      "  dmpc bench error balls-3 --transport=paths --bounces=4 --sky=1 --quick\n"
+      "  dmpc bench error balls-3 --transport=paths --bounces=4 --sky=1 --light-radius=1 --quick\n"
       "  dmpc bench error shells-3 --knobs=depth,cutoff --repeat=1 --pictures=errors --format=csv -o shells.csv\n"
       "With -o on a terminal, plots go to a folder beside the table, here error_plots, unless --plots or --quiet says "
       "otherwise.\n"

@@ -139,6 +139,45 @@ std::string quality_text(const SceneResult& result) {
          fixed(median(draft->seconds) / median(standard->seconds), 3) + " times the seconds).";
 }
 
+/// How many times the seconds of uniform samples with the same error a point takes: `at_least` where one sample has less error.
+struct ChanceRatio {
+  double seconds = 0;
+  bool at_least = false;
+};
+std::optional<ChanceRatio> chance_ratio(const SceneResult& result, Knob knob, const std::string& position) {
+  const Measurement* const turned = measured(result, knob, position);
+  const double error = turned != nullptr ? error_without_reference(result, *turned).value_or(0) : 0;
+  const std::vector<CostPoint> even = curve_of(result, Knob::samples).seconds;
+  if (!(error > 0) || even.empty()) {
+    return std::nullopt;
+  }
+  const double seconds = median(turned->seconds);
+  if (const auto cost = cost_at(even, error)) {
+    return ChanceRatio{seconds / *cost};
+  }
+  const CostPoint worst = std::ranges::max(even, {}, &CostPoint::error);
+  return error > worst.error && worst.cost > 0 ? std::optional(ChanceRatio{seconds / worst.cost, true}) : std::nullopt;
+}
+
+/// "meeting by chance all that shines takes 3.21 times the time for the same RMSE; going on without roulette takes ...".
+std::string chance_text(const SceneResult& result) {
+  if (!result.base.is_by_paths()) {
+    return "";
+  }
+  std::string text;
+  const auto add = [&](const std::string& what, const std::optional<ChanceRatio>& ratio) {
+    if (ratio) {
+      text += (text.empty() ? "" : "; ") + what + " takes " + (ratio->at_least ? "at least " : "") + fixed(ratio->seconds, 2) +
+              " times the time for the same RMSE";
+    }
+  };
+  add("meeting by chance all that shines", chance_ratio(result, Knob::emitters, "none"));
+  add("going on without roulette", chance_ratio(result, Knob::roulette, "never"));
+  const bool has_none = result.emitters == 0;
+  return (text.empty() ? "" : result.scene + ": " + text + "." + (has_none ? " " : "")) +
+         (has_none ? result.scene + ": nothing shines that could be aimed at; --light-radius makes balls of lights." : "");
+}
+
 std::string scientific(double value) {
   std::ostringstream text;
   text.precision(3);
@@ -195,8 +234,8 @@ std::optional<std::size_t> cheapest_point(const SceneResult& result, Knob knob) 
 
 std::vector<std::string> findings_of(const SceneResult& result) {
   std::vector<std::string> sentences;
-  for (std::string text :
-       {gain_text(result), reference_text(result), adaptive_text(result), cheapest_text(result), quality_text(result)}) {
+  for (std::string text : {gain_text(result), reference_text(result), adaptive_text(result), cheapest_text(result),
+                           quality_text(result), chance_text(result)}) {
     if (!text.empty()) {
       sentences.push_back(std::move(text));
     }

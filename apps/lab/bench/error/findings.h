@@ -32,7 +32,7 @@ std::vector<AdaptiveRatio> adaptive_ratios(const SceneResult& result);
 std::optional<std::size_t> cheapest_point(const SceneResult& result, Knob knob);
 
 /// About one scene: what adaptive sampling is worth in time, its reference, what adaptive sampling takes at other errors, the
-/// cheapest cutoff and depth. No line ends.
+/// cheapest cutoff and depth; by paths what chance in place of aiming, and no roulette, take. No line ends.
 std::vector<std::string> findings_of(const SceneResult& result);
 
 /// What one asks first, of all scenes together: what adaptive sampling is worth at an RMSE of 1/255, and how many settings are

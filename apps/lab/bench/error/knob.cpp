@@ -11,13 +11,13 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<const char*, 11> names = {"samples",           "adaptive", "cutoff",  "depth",    "tessellation",
-                                               "arithmetic",        "quality",  "bounces", "roulette", "adaptive and cutoff",
-                                               "adaptive and depth"};
+constexpr std::array<const char*, 12> names = {
+    "samples", "adaptive", "cutoff",   "depth",    "tessellation",        "arithmetic",
+    "quality", "bounces",  "roulette", "emitters", "adaptive and cutoff", "adaptive and depth"};
 /// So many of these the command line knows.
-constexpr std::size_t single_count = 9;
+constexpr std::size_t single_count = 10;
 constexpr const char *whitted_knobs = "samples,adaptive,cutoff,depth,tessellation,arithmetic,quality",
-                     *path_knobs = "samples,adaptive,bounces,roulette";
+                     *path_knobs = "samples,adaptive,bounces,roulette,emitters";
 
 Knob knob_of(const std::string& word, const std::string& text) {
   const auto* const end = names.begin() + single_count;

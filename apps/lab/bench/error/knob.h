@@ -7,7 +7,8 @@
 
 namespace dmpc::apps {
 
-/// The last two turn two knobs together. By paths there are samples, adaptive, bounces and roulette, and else all but the latter.
+/// The last two turn two knobs together. By paths there are samples, adaptive, and the three before those, which are paths'
+/// alone.
 enum class Knob : std::uint8_t {
   samples,
   adaptive,
@@ -18,6 +19,7 @@ enum class Knob : std::uint8_t {
   quality,
   bounces,
   roulette,
+  emitters,
   adaptive_and_cutoff,
   adaptive_and_depth
 };

@@ -32,26 +32,31 @@ PictureOptions picture_of(PictureOptions picture, const Setting& setting) {
   if (setting.is_by_paths()) {
     picture.refinement.kind = core::ErrorKind::noise;
     picture.transport.bounces = *setting.bounces;
+    picture.transport.emitters = setting.emitters;
     picture.depth = picture.transport.depth();
   }
   return picture;
 }
 
-/// The scene in all its tessellations, each built when it is first asked for.
+/// The scene in all its tessellations, and with all numbers of what is aimed at, each built when it is first asked for.
 class Scenes {
  public:
   Scenes(const std::string& name, const MeasureOptions& options)
       : picture_(options.picture), database_(usual_database(options.strategy.strategy)), outputs_(options.outputs) {
     picture_.scene = name;
-    add(0);
+    add(exact_);
   }
 
   struct Built {
     core::Scene scene;
     Subject subject;
   };
-  const Built& of(int tessellation) { return scenes_.contains(tessellation) ? scenes_.at(tessellation) : add(tessellation); }
-  const core::Scene& exact() const { return scenes_.at(0).scene; }
+  const Built& of(const Setting& setting) {
+    const Key key{setting.tessellation, setting.is_by_paths() ? setting.emitters : picture_.transport.emitters};
+    return scenes_.contains(key) ? scenes_.at(key) : add(key);
+  }
+  /// The base point's.
+  const Built& exact() const { return scenes_.at(exact_); }
 
   /// Throws core::UsageError if `picture` falls on a file that the scene was read from, or on another output.
   void check_apart(const NamedFile& picture) const {
@@ -60,10 +65,17 @@ class Scenes {
   }
 
  private:
-  const Built& add(int tessellation) {
-    core::Scene scene = load(tessellation);
-    Subject subject = build_subject(scene, picture_, database_);
-    return scenes_.emplace(tessellation, Built{std::move(scene), std::move(subject)}).first->second;
+  /// Tessellation, and emitters.
+  using Key = std::pair<int, std::uint32_t>;
+
+  /// Of a scene that is there with another number of what is aimed at all has been said.
+  const Built& add(const Key& key) {
+    PictureOptions picture = picture_;
+    picture.transport.emitters = key.second;
+    const bool is_there = key != exact_ && key.first == exact_.first;
+    core::Scene scene = is_there ? exact().scene : load(key.first);
+    Subject subject = is_there ? build_subject_quietly(scene, picture, database_) : build_subject(scene, picture, database_);
+    return scenes_.emplace(key, Built{std::move(scene), std::move(subject)}).first->second;
   }
   core::Scene load(int tessellation) {
     if (tessellation == 0) {
@@ -80,7 +92,8 @@ class Scenes {
   DatabaseOptions database_;
   std::vector<NamedFile> outputs_;
   OpenedFiles opened_;
-  std::map<int, Built> scenes_;
+  Key exact_{0, picture_.transport.emitters};
+  std::map<Key, Built> scenes_;
 };
 
 /// One render that has ended.
@@ -103,7 +116,7 @@ class Bench {
  public:
   Bench(const std::string& scene, const MeasureOptions& options, const Interrupt& interrupt, SceneResult& result)
       : options_(options), interrupt_(interrupt), result_(result), scenes_(scene, options) {
-    const core::View& view = scenes_.exact().view;
+    const core::View& view = scenes_.exact().scene.view;
     const Resolution size = options.picture.resolution.value_or(Resolution{view.width, view.height});
     result_.scene = scene;
     result_.width = size.width;
@@ -111,6 +124,8 @@ class Bench {
     result_.base = {.samples = options.picture.samples, .depth = options.picture.depth};
     if (options.picture.transport.is_by_paths()) {
       result_.base.bounces = options.picture.transport.bounces;
+      result_.base.emitters = options.picture.transport.emitters;
+      result_.emitters = scenes_.exact().subject.settings.header.emitter_count;
     }
     result_.reference_samples_a_side = options.reference.samples_a_side;
   }
@@ -133,7 +148,7 @@ class Bench {
       return;
     }
     constexpr double double_factor = 3.5, quick_renders = 8, renders = 18;
-    const Scenes::Built& built = scenes_.of(0);
+    const Scenes::Built& built = scenes_.exact();
     const core::Database& database = built.subject.database;
     const PictureOptions base = picture_of(options_.picture, result_.base);
     const double picture = picture_seconds(database, render_settings(base, built.scene, database));
@@ -145,7 +160,10 @@ class Bench {
 
   /// An error smaller than the reference's own could not be seen.
   void plan() {
-    SweepOptions options{.knobs = options_.knobs, .is_quick = options_.is_quick, .error_least = result_.reference.own_error};
+    SweepOptions options{.knobs = options_.knobs,
+                         .is_quick = options_.is_quick,
+                         .error_least = result_.reference.own_error,
+                         .emitters = result_.emitters};
     if (options.knobs.contains(Knob::tessellation)) {
       options.tessellations = tessellations_of(result_.scene, options.is_quick);
     }
@@ -176,9 +194,9 @@ class Bench {
     if (result_.base.is_by_paths()) {
       const std::uint32_t side = options_.reference.samples_a_side;
       result_.reference =
-          path_reference(scenes_.of(0).subject.database, settings_of(result_.base), side * side, attendance(progress));
+          path_reference(scenes_.exact().subject.database, settings_of(result_.base), side * side, attendance(progress));
     } else {
-      result_.reference = reference_for(scenes_.exact(), picture, options_.reference, attendance(progress));
+      result_.reference = reference_for(scenes_.exact().scene, picture, options_.reference, attendance(progress));
     }
   }
 
@@ -193,17 +211,16 @@ class Bench {
       return;
     }
     Progress progress(std::cerr, stderr_is_terminal(), result_.scene + " in double precision:", "rows");
-    const AccurateScene scene = accurate_scene(scenes_.exact());
-    const AccurateCamera camera(scenes_.exact().view, result_.width, result_.height, scene.bounds);
+    const AccurateScene scene = accurate_scene(scenes_.exact().scene);
+    const AccurateCamera camera(scenes_.exact().scene.view, result_.width, result_.height, scene.bounds);
     const AccurateFinder finder(scene, camera.start());
     const auto pattern = SamplePattern::of_product(static_cast<std::uint32_t>(result_.base.samples));
-    const core::RenderSettings settings =
-        render_settings(picture_of(options_.picture, result_.base), scenes_.exact(), scenes_.of(0).subject.database);
+    const core::RenderSettings settings = settings_of(result_.base);
     accurate_ = accurate_image(render_accurately(scene, finder, camera, pattern, settings.shade, attendance(progress)));
   }
 
   core::RenderSettings settings_of(const Setting& setting) {
-    const Scenes::Built& built = scenes_.of(setting.tessellation);
+    const Scenes::Built& built = scenes_.of(setting);
     core::RenderSettings settings = render_settings(picture_of(options_.picture, setting), built.scene, built.subject.database);
     settings.shade.transport.roulette_from = static_cast<std::uint8_t>(setting.roulette_from);
     return settings;
@@ -211,7 +228,7 @@ class Bench {
 
   Rendered render(const Setting& setting) {
     const TimedRender one =
-        render_timed(options_.strategy, scenes_.of(setting.tessellation).subject.database, settings_of(setting), interrupt_);
+        render_timed(options_.strategy, scenes_.of(setting).subject.database, settings_of(setting), interrupt_);
     const Account account = account_of(one.report);
     return {.picture = image_of(account.film),
             .seconds = setting.is_by_paths() ? one.times.processor_seconds : one.times.wall_seconds,

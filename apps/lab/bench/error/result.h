@@ -30,7 +30,8 @@ struct SceneResult {
   std::string scene;
   int width = 0, height = 0;
   Setting base;
-  Reference reference;  ///< its picture is empty when the scene is done with
+  std::uint32_t emitters = 0;  ///< that the base point aims at
+  Reference reference;         ///< its picture is empty when the scene is done with
   std::uint32_t reference_samples_a_side = 0;
   std::vector<Point> points;
   std::vector<std::size_t> measurement_of;  ///< by point: its setting's place among the measurements

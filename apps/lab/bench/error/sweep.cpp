@@ -62,6 +62,8 @@ class Sweep {
         return add_bounces();
       case Knob::roulette:
         return add_each(roulettes, [&](const Named& first) { add(Knob::roulette, first.text, ended(base_, first)); });
+      case Knob::emitters:
+        return add_emitters();
       case Knob::adaptive_and_cutoff:
         return add_pairs(std::array{cutoffs[1], cutoffs[3]}, knob, " cutoff ", cut);
       case Knob::adaptive_and_depth:
@@ -154,6 +156,21 @@ class Sweep {
       setting.bounces = bounces;
       add(Knob::bounces, std::to_string(bounces), setting);
     });
+  }
+
+  /// None, some of the most powerful, and all that the base point aims at.
+  void add_emitters() {
+    if (options_.emitters == 0) {
+      return;
+    }
+    Setting setting = base_;
+    setting.emitters = 0;
+    add(Knob::emitters, "none", setting);
+    for (std::uint32_t count = 1; count < options_.emitters && !options_.is_quick; count *= 4) {
+      setting.emitters = count;
+      add(Knob::emitters, std::to_string(count), setting);
+    }
+    add(Knob::emitters, std::to_string(options_.emitters), base_);
   }
 
   void add_tessellations() {

@@ -1,25 +1,28 @@
 // Which settings `bench error` measures: every knob turned by itself about a base point, and some together.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "apps/lab/bench/error/knob.h"
+#include "apps/scene/transport_options.h"
 #include "core/picture/path_step.h"
 
 namespace dmpc::apps {
 
 /// All knobs of one render.
 struct Setting {
-  int samples = 16;                           ///< of every pixel; if they are refined, those of the first pass
-  double error = 0;                           ///< core::RefinementOptions::error; 0: the same samples in all pixels
-  double cutoff = 0;                          ///< core::ShadeOptions::cutoff
-  int depth = 8;                              ///< PictureOptions::depth
-  int tessellation = 0;                       ///< core::SceneName::tessellation
-  std::optional<int> bounces = std::nullopt;  ///< by paths: TransportOptions::bounces, in place of depth and cutoff
-  int roulette_from = core::roulette_from;    ///< by paths: core::Transport::roulette_from
+  int samples = 16;                                      ///< of every pixel; if they are refined, those of the first pass
+  double error = 0;                                      ///< core::RefinementOptions::error; 0: the same samples in all pixels
+  double cutoff = 0;                                     ///< core::ShadeOptions::cutoff
+  int depth = 8;                                         ///< PictureOptions::depth
+  int tessellation = 0;                                  ///< core::SceneName::tessellation
+  std::optional<int> bounces = std::nullopt;             ///< by paths: TransportOptions::bounces, in place of depth and cutoff
+  int roulette_from = core::roulette_from;               ///< by paths: core::Transport::roulette_from
+  std::uint32_t emitters = TransportOptions().emitters;  ///< by paths: the same
 
   bool operator==(const Setting&) const = default;
   bool is_refined() const { return error > 0; }
@@ -38,6 +41,7 @@ struct SweepOptions {
   std::vector<int> tessellations;  ///< positions of that knob beside exact quadrics, above 0
   bool is_quick = false;           ///< fewer positions of each knob
   double error_least = 0;          ///< no refined picture is asked for a smaller error than this
+  std::uint32_t emitters = 0;      ///< that the base point aims at; 0: there is nothing to turn
 };
 
 /// By knob, from the cheapest position of each to the base point's or beyond. `base` is exact: neither refined nor cut off nor

@@ -144,12 +144,14 @@ std::size_t color_of(Knob knob) {
          : knob == Knob::adaptive_and_cutoff ? 5
          : knob == Knob::bounces             ? color_of(Knob::depth)
          : knob == Knob::roulette            ? color_of(Knob::cutoff)
+         : knob == Knob::emitters            ? color_of(Knob::tessellation)
                                              : static_cast<std::size_t>(knob);
 }
 
 /// Two knobs at once are a cloud, and so is what has one point; the others are curves.
 PlotSeries series_of(Knob knob) {
-  const bool is_cloud = knob >= Knob::arithmetic && knob != Knob::bounces && knob != Knob::roulette;
+  const bool is_of_paths = knob == Knob::bounces || knob == Knob::roulette || knob == Knob::emitters;
+  const bool is_cloud = knob >= Knob::arithmetic && !is_of_paths;
   return {name_of(knob), "drawn RMSE", {{"knob", name_of(knob)}}, is_cloud ? PlotMark::points : PlotMark::line, color_of(knob)};
 }
 
@@ -170,7 +172,7 @@ Plot plot_of(const SceneResult& result, const std::string& name, PlotAxis x, con
   constexpr std::array whitted{
       Knob::samples,           Knob::adaptive, Knob::cutoff, Knob::depth, Knob::tessellation, Knob::adaptive_and_cutoff,
       Knob::adaptive_and_depth};
-  constexpr std::array paths{Knob::samples, Knob::adaptive, Knob::bounces, Knob::roulette};
+  constexpr std::array paths{Knob::samples, Knob::adaptive, Knob::bounces, Knob::roulette, Knob::emitters};
   for (const Knob knob : result.base.is_by_paths() ? std::span<const Knob>(paths) : std::span<const Knob>(whitted)) {
     series.push_back(series_of(knob));
     series.push_back(uncertain_series_of(knob));

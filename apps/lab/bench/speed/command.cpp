@@ -63,7 +63,7 @@ constexpr std::array part_rows = {
             "paths: the phase render in processor time, 16 samples a pixel, three bounces, a white sky. The plain path tracer "
             "has the same places in pixels, chances, ways on and roulette, asks Embree (robust, high quality) for one ray at a "
             "time, and emulates nothing; so its picture has our error, and lies from ours as far as rounding leads paths "
-            "elsewhere. Neither aims at what shines, nor shows metal and roughness otherwise than by Whitted."},
+            "elsewhere. Each scene is shown as it is, and with balls of light in place of points and metal in place of mirrors."},
     PartRow{
         .measure = measure_kernel,
         .explanation =

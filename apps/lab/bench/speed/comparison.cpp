@@ -7,6 +7,13 @@
 
 namespace dmpc::apps {
 
+Comparison Comparison::once(double subject_figure, double rival_figure) const {
+  Comparison measured = *this;
+  measured.subject_figures = {subject_figure};
+  measured.rival_figures = {rival_figure};
+  return measured;
+}
+
 std::size_t Comparison::rounds() const { return std::min(subject_figures.size(), rival_figures.size()); }
 
 RatioSpread ratio_of(const Comparison& comparison) {

@@ -24,6 +24,8 @@ struct Comparison {
   std::vector<double> subject_figures = {}, rival_figures = {};
 
   bool is_by_wall_clock() const { return detail == "wall clock"; }
+  /// The same with one round, which has these figures.
+  Comparison once(double subject_figure, double rival_figure) const;
   /// Rounds that have both figures.
   std::size_t rounds() const;
 };

@@ -72,13 +72,6 @@ int default_side(SpeedPart part) {
   return part == SpeedPart::plain || part == SpeedPart::emulation ? 1024 : static_cast<int>(paper_resolution);
 }
 
-/// What the plain path tracer does not know: materials show what they do by Whitted, on both sides.
-void leave_out_microfacets(core::Scene& scene) {
-  for (core::Material& material : scene.materials) {
-    material.microfacets = {};
-  }
-}
-
 }  // namespace
 
 const char* name_of(SpeedPart part) { return names[static_cast<std::size_t>(part)]; }
@@ -132,9 +125,7 @@ PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scen
   picture.resolution = resolution.value_or(Resolution{side, side});
   if (part == SpeedPart::paths) {
     picture.samples = path_samples;
-    // The rival aims at nothing that shines, and so no more do we.
-    picture.transport = {
-        .kind = core::TransportKind::paths, .bounces = path_bounces, .sky = SkyChoice{{1, 1, 1}, {}}, .emitters = 0};
+    picture.transport = {.kind = core::TransportKind::paths, .bounces = path_bounces, .sky = SkyChoice{{1, 1, 1}, {}}};
     picture.depth = picture.transport.depth();
     picture.staging.background = picture.transport.sky->horizon;
   }
@@ -143,11 +134,7 @@ PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scen
 
 Subject SpeedSettings::subject_of(SpeedPart part, const std::string& scene) const {
   const PictureOptions picture = picture_of(part, scene);
-  core::Scene loaded = load(picture);
-  if (part == SpeedPart::paths) {
-    leave_out_microfacets(loaded);
-  }
-  return build_subject(std::move(loaded), picture);
+  return build_subject(load(picture), picture);
 }
 
 core::Scene SpeedSettings::load(const PictureOptions& picture) const { return load_scene_beside(picture, outputs); }

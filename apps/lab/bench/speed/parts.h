@@ -21,8 +21,9 @@ using MeasurePart = void(const SpeedSettings& settings, const Interrupt& interru
 /// cannot be run; core::InternalError if our films are not one or the plain picture is another.
 MeasurePart measure_plain;
 /// Times the phase `render` by PlainPathRenderer on 1 and 2 threads, and of our own replicated on 1 node and by svm on 2, with
-/// the same samples and chances, so to the same error, and compares rays. Leaves out scenes with textures, which it says on
-/// stderr. Throws core::InternalError if our films are not one or the plain picture is not ours within its noise.
+/// the same samples and chances, so to the same error, and compares rays: of each scene as it is, and as light_and_polish() makes
+/// it. Leaves out scenes with textures, which it says on stderr. Throws core::InternalError if our films are not one or the plain
+/// picture is not ours within its noise.
 MeasurePart measure_paths;
 /// Records each scene's rays and lets everybody trace them, class by class, as closest and as any hit, on each number of threads,
 /// all in every round.

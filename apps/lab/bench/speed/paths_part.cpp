@@ -3,11 +3,14 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
 #include "apps/lab/bench/speed/matches.h"
 #include "apps/lab/bench/speed/parts.h"
+#include "apps/lab/bench/speed/path_distance.h"
+#include "apps/lab/bench/speed/path_scene.h"
 #include "apps/lab/bench/speed/plain_path_renderer.h"
 #include "apps/lab/study/engine/timed_render.h"
 #include "apps/run/run_strategy.h"
@@ -23,10 +26,13 @@ struct PathContender {
   Strategy strategy;
   std::uint32_t count;  ///< of nodes, and of the rival's threads
 };
-constexpr std::array<PathContender, 2> contenders{
+constexpr std::array<PathContender, 2> path_contenders{
     {{"replicated on 1 node", Strategy::replicated, 1}, {"svm on 2 nodes", Strategy::svm, 2}}};
 
-std::string rival_name(const PathContender& contender) { return "plain paths on " + counted(contender.count, "thread"); }
+/// Behind the name of a scene that is lit and polished.
+constexpr const char* lit_suffix = " with balls of light and metal";
+
+std::string path_rival_name(const PathContender& contender) { return "plain paths on " + counted(contender.count, "thread"); }
 
 /// The renders of one scene.
 class PathsBench {
@@ -36,10 +42,10 @@ class PathsBench {
 
   void measure(std::size_t rounds) {
     Matches matches(results_);
-    for (const PathContender& contender : contenders) {
+    for (const PathContender& contender : path_contenders) {
       const std::size_t rival = matches.add([&] { return figures_of(render_plain(contender.count)); });
       const std::size_t ours = matches.add([&] { return figures_of(render_ours(contender)); });
-      Comparison comparison = comparison_of("render", contender.name, rival_name(contender), "s");
+      Comparison comparison = comparison_of("render", contender.name, path_rival_name(contender), "s");
       comparison.threads = contender.count;
       comparison.detail = clock_names.back();
       matches.compare(ours, rival, comparison, 1);
@@ -75,14 +81,11 @@ class PathsBench {
   /// After a round.
   void compare_pictures() {
     core::expect(picture_.has_value() && film_.has_value(), "what is compared has been rendered");
-    add("rays", "ours", "plain paths", "rays", static_cast<double>(rays_), static_cast<double>(picture_->rays));
+    results_.push_back(comparison_of("rays", "ours", "plain paths", "rays")
+                           .once(static_cast<double>(rays_), static_cast<double>(picture_->rays)));
     const PathDistance distance = path_distance(*picture_, *film_, scene_);
-    add("distance", "plain paths to ours", "noise", "root mean square", distance.apart, distance.noise);
-  }
-  void add(const char* what, const char* subject, const char* rival, const char* unit, double ours, double theirs) {
-    Comparison& once = results_.emplace_back(comparison_of(what, subject, rival, unit));
-    once.subject_figures = {ours};
-    once.rival_figures = {theirs};
+    results_.push_back(
+        comparison_of("distance", "plain paths to ours", "noise", "root mean square").once(distance.apart, distance.noise));
   }
 
   std::string scene_;
@@ -99,13 +102,20 @@ class PathsBench {
 
 void measure_paths(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
   for (const std::string& scene : settings.scenes_of(SpeedPart::paths)) {
-    interrupt.check();
-    const Subject subject = settings.subject_of(SpeedPart::paths, scene);
-    if (subject.database.records().textured > 0) {
-      std::cerr << "dmpc: " << scene << " has textures, of which the plain path tracer knows nothing: left out of part paths\n";
-    } else {
-      PathsBench(scene, subject, interrupt, results).measure(settings.rounds_of(SpeedPart::paths));
-    }
+    const PictureOptions picture = settings.picture_of(SpeedPart::paths, scene);
+    core::Scene plain = settings.load(picture), lit = plain;
+    light_and_polish(lit);
+    const auto measure = [&](core::Scene shown, const std::string& name) {
+      interrupt.check();
+      const Subject subject = build_subject(std::move(shown), picture);
+      if (subject.database.records().textured > 0) {
+        std::cerr << "dmpc: " << name << " has textures, of which the plain path tracer knows nothing: left out of part paths\n";
+      } else {
+        PathsBench(name, subject, interrupt, results).measure(settings.rounds_of(SpeedPart::paths));
+      }
+    };
+    measure(std::move(plain), scene);
+    measure(std::move(lit), scene + lit_suffix);
   }
 }
 

@@ -57,28 +57,20 @@ PlainSurface PlainAsker::triangle_at(const RTCRayHit& asked, const Vec3f& origin
 }
 
 Color PlainAsker::lights_on(const PlainSurface& surface, const PlainMaterial& material, const Vec3f& direction) {
-  Color sum{};
   const Vec3f mirror = plain_mirrored(direction, surface.normal);
-  for (const core::LightRecord& light : stage_.lights()) {
-    const Vec3f towards = light.position - surface.point;
-    const float cosine = dot(towards, surface.normal);
-    if (!(cosine > 0)) {
-      continue;
-    }
-    const float scale = 1 / length(towards);
-    const Color brought = light.intensity * (material.color * (material.diffuse * cosine * scale) +
-                                             highlight_of(material, dot(mirror, towards) * scale));
-    if (!(brought == Color{}) && !is_blocked(plain_start(surface, towards), light.position)) {
-      sum = sum + brought;
-    }
-  }
-  return sum;
+  return lights_on(surface, [&](const Vec3f& towards, float scale, float cosine) {
+    return material.color * (material.diffuse * cosine) + highlight_of(material, dot(mirror, towards) * scale);
+  });
 }
 
 bool PlainAsker::is_free(const Vec3f& start, const Vec3f& direction) { return !meets(embree::ray_of(start, direction, endless)); }
 
 bool PlainAsker::is_blocked(const Vec3f& start, const Vec3f& light) {
   return meets(embree::ray_of(start, light - start, plain_light_end));
+}
+
+bool PlainAsker::is_hidden(const Vec3f& start, const Vec3f& place) {
+  return meets(embree::ray_of(start, place - start, plain_emitter_end));
 }
 
 bool PlainAsker::meets(RTCRay ray) {

@@ -32,8 +32,14 @@ class PlainAsker {
   std::optional<PlainSurface> surface_along(const core::Vec3f& origin, const core::Vec3f& direction);
   /// What lights show of the surface that a ray met along `direction`, after a shadow ray to each that may show something.
   core::Color lights_on(const PlainSurface& surface, const PlainMaterial& material, const core::Vec3f& direction);
+  /// The same, where `shown(towards, scale, cosine)` tells what the surface makes of light from `towards`, whose length is one
+  /// over `scale` and which falls at this cosine, above 0.
+  template <class Shown>
+  core::Color lights_on(const PlainSurface& surface, const Shown& shown);
   /// Nothing lies that way.
   bool is_free(const core::Vec3f& start, const core::Vec3f& direction);
+  /// Something lies before `place`, on what shines.
+  bool is_hidden(const core::Vec3f& start, const core::Vec3f& place);
 
  private:
   PlainSurface triangle_at(const RTCRayHit& asked, const core::Vec3f& origin, const core::Vec3f& direction) const;
@@ -44,5 +50,23 @@ class PlainAsker {
   embree::Context context_;
   std::uint64_t rays_ = 0;
 };
+
+template <class Shown>
+core::Color PlainAsker::lights_on(const PlainSurface& surface, const Shown& shown) {
+  core::Color sum{};
+  for (const core::LightRecord& light : stage_.lights()) {
+    const core::Vec3f towards = light.position - surface.point;
+    const float across = dot(towards, surface.normal);
+    if (!(across > 0)) {
+      continue;
+    }
+    const float scale = 1 / length(towards);
+    const core::Color brought = light.intensity * shown(towards, scale, across * scale);
+    if (!(brought == core::Color{}) && !is_blocked(plain_start(surface, towards), light.position)) {
+      sum = sum + brought;
+    }
+  }
+  return sum;
+}
 
 }  // namespace dmpc::apps

@@ -75,15 +75,15 @@ class PlainBench {
   }
 
  private:
-  Comparison comparison_of(const char* what, const std::string& subject, const std::string& rival,
-                           std::uint32_t count = 0) const {
+  Comparison comparison_of(const char* what, const std::string& subject, const std::string& rival, std::uint32_t count = 0,
+                           const char* unit = "s") const {
     return {.part = SpeedPart::plain,
             .scene = scene_,
             .what = what,
             .threads = count,
             .subject = subject,
             .rival = rival,
-            .unit = "s"};
+            .unit = unit};
   }
 
   void add_renders(Matches& matches) {
@@ -169,9 +169,7 @@ class PlainBench {
     const std::vector<double> ours = figures_of(timed_.build_times), theirs = figures_of(plain_->build_times());
     for (std::size_t clock = 0; clock < clock_names.size(); ++clock) {
       builds.detail = clock_names[clock];
-      builds.subject_figures = {ours[clock]};
-      builds.rival_figures = {theirs[clock]};
-      results_.push_back(builds);
+      results_.push_back(builds.once(ours[clock], theirs[clock]));
     }
   }
 
@@ -189,10 +187,7 @@ class PlainBench {
   }
 
   void add(const char* what, const char* subject, const char* rival, const char* unit, double ours, double theirs) {
-    Comparison& once = results_.emplace_back(comparison_of(what, subject, rival, 0));
-    once.unit = unit;
-    once.subject_figures = {ours};
-    once.rival_figures = {theirs};
+    results_.push_back(comparison_of(what, subject, rival, 0, unit).once(ours, theirs));
   }
 
   Times render(const PlainContender& contender) {

@@ -32,8 +32,9 @@ std::vector<PlainMaterial> materials_in(const core::LocalRecords& records, const
     if (materials[i].has_finish()) {
       const std::uint32_t place = materials[i].finish();
       count = std::min<std::size_t>(count, place);
-      materials[i].add(
-          core::read<core::FinishRecord>(records.find(core::advance(header.materials, place * sizeof(core::FinishRecord)))));
+      const std::byte* const finish = records.find(core::advance(header.materials, place * sizeof(core::FinishRecord)));
+      materials[i].has_microfacets() ? materials[i].add(core::read<core::MicrofacetRecord>(finish))
+                                     : materials[i].add(core::read<core::FinishRecord>(finish));
     }
   }
   return materials;
@@ -67,6 +68,14 @@ void PlainMaterial::add(const core::FinishRecord& finish) {
   refraction_index = finish.refraction_index;
 }
 
+/// No highlight and no mirror is left of the material.
+void PlainMaterial::add(const core::MicrofacetRecord& finish) {
+  facets = {finish.metallic, finish.alpha, finish.reflectance, specular};
+  highlight = {};
+  emission = finish.emission;
+  refraction_index = finish.refraction_index;
+}
+
 PlainStage::PlainStage(const Subject& subject, EmbreeMode mode)
     : settings_(subject.settings),
       records_(subject.database.bytes()),
@@ -74,7 +83,10 @@ PlainStage::PlainStage(const Subject& subject, EmbreeMode mode)
       places_(subject.database.find_places()),
       camera_(settings_.camera),
       materials_(materials_in(records_, settings_.header)),
-      lights_(records_at<core::LightRecord>(records_, settings_.header.lights, settings_.header.light_count)) {
+      lights_(records_at<core::LightRecord>(records_, settings_.header.lights, settings_.header.light_count)),
+      emitters_(records_at<core::EmitterRecord>(records_, settings_.header.emitters, settings_.header.emitter_count)),
+      choices_(records_at<core::EmitterChoice>(records_, core::choice_address(settings_.header, 0),
+                                               static_cast<std::uint32_t>(emitters_.size()))) {
   shading_.reserve(tree_.shapes().triangles.size());
   for (const std::uint32_t id : tree_.shapes().triangles) {
     core::HitState state;
@@ -100,7 +112,9 @@ PlainSurface PlainStage::curved_at(unsigned curved, const Vec3f& origin, const V
   state.hit.t = t;
   state.hit.lane = place.lane;
   core::read_geometry(state, records_.find(place.block));
-  return {Vec3f(state.point), Vec3f(state.geometric_normal), Vec3f(state.normal), state.shading.material(), state.leaving};
+  return {Vec3f(state.point),  Vec3f(state.geometric_normal),
+          Vec3f(state.normal), state.shading.material(),
+          state.leaving,       static_cast<float>(state.clearance.radius)};
 }
 
 }  // namespace dmpc::apps

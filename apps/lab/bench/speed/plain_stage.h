@@ -1,4 +1,5 @@
-// What plain renderers read of a scene: Embree's tree, and the camera, materials and lights in single precision.
+// What plain renderers read of a scene: Embree's tree, and the camera, materials, lights and what shines in single
+// precision.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +8,15 @@
 #include "apps/lab/bench/speed/embree_tree.h"
 #include "apps/scene/subject.h"
 #include "core/base/vec.h"
+#include "core/record/emitter.h"
 #include "core/record/record.h"
 
 namespace dmpc::apps {
 
 /// As ours (core/picture/shade.cpp): how far beside a surface rays start, and where on their way to a light they end.
 inline constexpr float plain_offset = 0x1p-21F, plain_light_end = 1 - 1e-6F;
+/// Where on their way to what shines, so that it does not hide itself.
+inline constexpr float plain_emitter_end = 1 - 1e-4F;
 /// Threads take tiles of so many pixels' sides.
 inline constexpr int plain_tile_side = 16;
 
@@ -26,15 +30,23 @@ struct PlainCamera {
   core::Vec3f towards(int x, int y) const { return towards(static_cast<float>(x), static_cast<float>(y)); }
 };
 
+/// What a surface of microfacets has in place of highlight and mirror.
+struct PlainFacets {
+  float metallic = 0, alpha = 1, reflectance = 0;
+  float there = 1;  ///< the share of the surface that is
+};
+
 /// A surface with what its finish says of it. Where alpha tells, the picture is textured, and is compared with none.
 struct PlainMaterial : core::MaterialRecord {
   core::Color highlight;  ///< of which `mirror` mirrors
   float mirror = 1;
   core::Color emission;
+  PlainFacets facets;
 
   explicit PlainMaterial(const core::MaterialRecord& record)
       : core::MaterialRecord(record), highlight{specular, specular, specular} {}
   void add(const core::FinishRecord& finish);
+  void add(const core::MicrofacetRecord& finish);
   bool is_glossy() const { return !(highlight == core::Color{}); }
   float inside_index() const { return refraction_index > 0 ? refraction_index : 1; }
 };
@@ -45,6 +57,7 @@ struct PlainSurface {
   core::Vec3f geometric_normal, normal;  ///< of unit length; the latter the one to shade with, on the ray's side
   std::uint32_t material = 0;
   bool is_leaving = false;
+  float radius = 0;  ///< of what is curved
 };
 
 /// Immutable; every call is thread-safe.
@@ -58,6 +71,9 @@ class PlainStage {
   const core::RenderSettings& settings() const { return settings_; }
   const std::vector<PlainMaterial>& materials() const { return materials_; }
   const std::vector<core::LightRecord>& lights() const { return lights_; }
+  /// What paths aim at, and the alias table by which it is drawn.
+  const std::vector<core::EmitterRecord>& emitters() const { return emitters_; }
+  const std::vector<core::EmitterChoice>& choices() const { return choices_; }
   std::size_t triangle_count() const { return shading_.size(); }
   bool is_triangle(unsigned geometry) const { return geometry == 0 && !shading_.empty(); }
   /// Of a triangle, as Embree numbers them: nullptr if it is flat.
@@ -80,6 +96,8 @@ class PlainStage {
   PlainCamera camera_;
   std::vector<PlainMaterial> materials_;
   std::vector<core::LightRecord> lights_;
+  std::vector<core::EmitterRecord> emitters_;
+  std::vector<core::EmitterChoice> choices_;
   std::vector<core::ShadingReference> shading_;  ///< of each triangle
 };
 

@@ -58,11 +58,11 @@ TEST_CASE("bench error prints a row for each point, and what they say") {
   CHECK_FALSE(contains(table, "| tessellation "));
 }
 
-TEST_CASE("bench error turns samples, adaptive samples, bounces and roulette of a picture by paths, and no other knob") {
-  const std::string table = output_of(error_options(
-      {"balls-1", "--transport=paths", "--bounces=2", "--sky=1", "--resolution=12x12", "--quick", "--reference-samples=16"}));
-  CHECK(contains(table, "16 samples a pixel, paths, 2 bounces, sky 1,1,1, convention"));
-  for (const char* part : {"| samples ", "| adaptive ", "| bounces ", "| roulette ", "never",
+TEST_CASE("bench error turns samples, adaptive samples, bounces, roulette and aims of a picture by paths, and no other knob") {
+  const std::string table = output_of(error_options({"balls-1", "--transport=paths", "--bounces=2", "--sky=1", "--light-radius=3",
+                                                     "--resolution=12x12", "--quick", "--reference-samples=16"}));
+  CHECK(contains(table, "16 samples a pixel, paths, 2 bounces, sky 1,1,1, lights of radius 3, convention"));
+  for (const char* part : {"| samples ", "| adaptive ", "| bounces ", "| roulette ", "never", "| emitters ", "none",
                            "the reference has 16x16 samples a pixel, 2 bounces", "Seconds are those of processors"}) {
     CAPTURE(std::string(part));
     CHECK(contains(table, part));
@@ -71,6 +71,13 @@ TEST_CASE("bench error turns samples, adaptive samples, bounces and roulette of 
     CAPTURE(std::string(part));
     CHECK_FALSE(contains(table, part));
   }
+}
+
+TEST_CASE("of a scene in which nothing shines bench error says that there is nothing to aim at") {
+  const std::string table = output_of(error_options({"balls-1", "--transport=paths", "--bounces=1", "--sky=1", "--quick",
+                                                     "--knobs=emitters", "--resolution=8x8", "--reference-samples=4"}));
+  CHECK_FALSE(contains(table, "| emitters "));
+  CHECK(contains(table, "balls-1: nothing shines that could be aimed at"));
 }
 
 TEST_CASE("of pictures by paths bench error has a reference of 2^14 samples, and refuses knobs that are not theirs") {

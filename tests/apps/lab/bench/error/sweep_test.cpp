@@ -58,6 +58,18 @@ TEST_CASE("by paths a sweep turns bounces up to the base point's, and from where
   }
 }
 
+TEST_CASE("by paths a sweep aims at nothing that shines, at some of it and at what the base point aims at, where there is any") {
+  const Setting base{.bounces = 2};
+  const auto points = sweep(base, {.knobs = {Knob::emitters}, .emitters = 20});
+  CHECK(texts(points) == Texts{"none", "1", "4", "16", "20"});
+  CHECK(points[0].setting.emitters == 0);
+  CHECK(points[2].setting.emitters == 4);
+  CHECK(points.back().setting == base);
+  CHECK(texts(sweep(base, {.knobs = {Knob::emitters}, .is_quick = true, .emitters = 20})) == Texts{"none", "20"});
+  CHECK(texts(sweep(base, {.knobs = {Knob::emitters}, .emitters = 1})) == Texts{"none", "1"});
+  CHECK(sweep(base, {.knobs = {Knob::emitters}}).empty());
+}
+
 TEST_CASE("two knobs together leave out what one of them alone has") {
   const auto pairs = sweep({.depth = 4}, {.knobs = {Knob::adaptive_and_depth, Knob::adaptive_and_cutoff}});
   for (const Point& point : pairs) {

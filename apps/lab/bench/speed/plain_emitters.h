@@ -1,0 +1,31 @@
+// How the plain path tracer aims at what shines, in single precision.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "apps/lab/bench/speed/plain_stage.h"
+#include "core/base/vec.h"
+#include "core/picture/sample_pair.h"
+
+namespace dmpc::apps {
+
+/// A place on what shines.
+struct PlainAim {
+  core::Vec3f way;      ///< there
+  core::Vec3f towards;  ///< the same, of unit length
+  core::Color radiance;
+  float density;  ///< of this direction, per steradian
+};
+
+/// From `from`, by our records, alias table and formulas (core/picture/emitter_light.h). Nothing from within a sphere, or where a
+/// triangle is seen edge-on. Requires emitters.
+std::optional<PlainAim> plain_aim(const PlainStage& stage, const core::Vec3f& from, const core::SamplePair& emitter,
+                                  const core::SamplePair& place);
+
+/// How densely such aim from `from` at where a ray along `direction` has met a surface of this radiance that is drawn.
+float plain_density_met(const PlainStage& stage, const PlainSurface& surface, const core::Vec3f& from,
+                        const core::Vec3f& direction, const core::Color& radiance);
+
+}  // namespace dmpc::apps
