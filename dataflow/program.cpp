@@ -512,7 +512,18 @@ void RayProgram<RaysTask, Units>::count_claim(core::RayKind kind) {
 template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::end_miss(const core::Ray& ray) {
   ++counters_.ended;
-  leave_light(ray, constants_->settings.light_of_miss(ray));
+  const core::RenderSettings& settings = constants_->settings;
+  leave_light(ray, settings.asks_sky(ray) ? light_of_sky(ray) : settings.light_of_miss(ray));
+}
+
+/// Every node has all of a sky's picture: rays leave the scene anywhere.
+template <class RaysTask, class Units>
+core::Color RayProgram<RaysTask, Units>::light_of_sky(const core::Ray& ray) {
+  const core::RenderSettings& settings = constants_->settings;
+  const std::byte* const tile = tracer_.find(core::sky_record(ray, settings.header));
+  core::expect(tile != nullptr, "a node has all of the sky's picture");
+  ++operations_.tile_reads;
+  return ray.weight * core::sky_met(ray, settings.header, settings.shade.transport, tile);
 }
 
 template <class RaysTask, class Units>

@@ -142,6 +142,7 @@ class RayProgram final : public NodeProgram {
   void shade_at_finder(const RayMessage& hit);
   void count_claim(core::RayKind kind);
   void end_miss(const core::Ray& ray);
+  core::Color light_of_sky(const core::Ray& ray);
   void dispatch(nodes::NodeId owner, const RayMessage& message);
   void give_back(std::uint32_t account, bool rests);
   void grant_places();

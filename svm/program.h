@@ -59,7 +59,7 @@ class ControlProgram final : public NodeProgram {
         work_(node, plan.work(), settings.skips.idle_nodes),
         film_(node, plan.film()),
         leaves_runs_(!plan.request.computer.machine && !meter && settings.skips.background && settings.background.count() > 0 &&
-                     !settings.shade.transport.has_gradient),
+                     settings.is_beyond_alike()),
         meter_(meter) {
     core::expect(Task::pixels_max == plan.pixels_a_task, "a node's tasks are those of the plan");
     node.grant(host_, control_channel, 1);  // for Done

@@ -16,6 +16,7 @@
 #include "apps/reader/input_file.h"
 #include "core/base/expect.h"
 #include "core/scene/alpha_coverage.h"
+#include "core/scene/sky_texels.h"
 
 namespace dmpc::apps {
 namespace {
@@ -92,9 +93,19 @@ core::Texture PictureReader::read_texture(const PictureFile& file, const Texture
 }
 
 Image PictureReader::read_image(const PictureFile& file) {
+  return read_image(file, [](const Head&) {});
+}
+
+Image PictureReader::read_sky(const PictureFile& file) {
+  return read_image(file, [this](const Head& head) { check_sky(head); });
+}
+
+template <class Check>
+Image PictureReader::read_image(const PictureFile& file, const Check& check) {
   Image image;
   read(file, Saying::read_image, TextureAlpha::ignored, [&] {
     const Head head = receive_head(file);
+    check(head);
     image.width = static_cast<int>(head.width);
     image.height = static_cast<int>(head.height);
     image.rgb = receive_values<float>(std::uint64_t{head.width} * head.height * 3);
@@ -157,12 +168,30 @@ void PictureReader::check_time() const {
 }
 
 void PictureReader::take_room(const Head& head) {
-  const std::uint64_t most =
-      budget_.limits().texture_bytes_max == 0 ? reader_memory_bytes_max() : budget_.limits().texture_bytes_max;
+  const std::uint64_t most = memory_bytes_max();
   texture_bytes_ += std::uint64_t{head.width} * head.height * sizeof(std::uint32_t) * 4 / 3;
   if (texture_bytes_ > most) {
     throw ComputerRoomError("with it the scene's textures take " + mebibytes_text(texture_bytes_) + ", and there is room for " +
                             mebibytes_text(most) + ": make them smaller");
+  }
+}
+
+std::uint64_t PictureReader::memory_bytes_max() const {
+  return budget_.limits().texture_bytes_max == 0 ? reader_memory_bytes_max() : budget_.limits().texture_bytes_max;
+}
+
+/// A texel is three floats, then four bytes, then up to three times that in tiles that are made, and laid out as records.
+void PictureReader::check_sky(const Head& head) const {
+  constexpr std::uint64_t texel_bytes = 3 * sizeof(float) + 4 * sizeof(std::uint32_t);
+  const std::string size = std::to_string(head.width) + "x" + std::to_string(head.height);
+  if (std::max(head.width, head.height) > core::SkyTexels::size_max) {
+    throw core::InputError("a sky of " + size + " texels; there may be " + std::to_string(core::SkyTexels::size_max) +
+                           " along a side: make it smaller");
+  }
+  const std::uint64_t bytes = std::uint64_t{head.width} * head.height * texel_bytes;
+  if (bytes > memory_bytes_max()) {
+    throw ComputerRoomError("a sky of " + size + " texels takes " + mebibytes_text(bytes) + ", and there is room for " +
+                            mebibytes_text(memory_bytes_max()) + ": make it smaller");
   }
 }
 

@@ -45,6 +45,8 @@ class PictureReader {
   std::uint64_t hidden_alphas() const { return hidden_alphas_; }
   /// As apps/picture/image_file.h says.
   Image read_image(const PictureFile& file);
+  /// The same of a sky, which is not too large for a scene and for this computer: that is looked at before there is room for it.
+  Image read_sky(const PictureFile& file);
 
  private:
   struct Head {
@@ -58,6 +60,10 @@ class PictureReader {
   void ask(const PictureFile& file, Saying request, TextureAlpha alpha);
   void check_time() const;
   void take_room(const Head& head);
+  void check_sky(const Head& head) const;
+  template <class Check>
+  Image read_image(const PictureFile& file, const Check& check);
+  std::uint64_t memory_bytes_max() const;
   Head receive_head(const PictureFile& file);
   template <class T>
   std::vector<T> receive_values(std::uint64_t count);

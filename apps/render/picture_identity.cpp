@@ -153,6 +153,20 @@ bool shines(const core::Scene& scene) {
                      [](const core::Material& material) { return !(material.emission == core::Vec3d{}); });
 }
 
+/// Of a picture what it shows, whatever its file is called.
+std::string sky_text(const core::SkyTexels& sky) {
+  Digest digest;
+  digest.add(std::uint64_t{sky.width} << 32U | sky.height);
+  digest.add(sky.scale);
+  digest.add(std::as_bytes(std::span(sky.texels)));
+  return text_of(digest);
+}
+
+/// Of a picture whose texels are all alike the colour, which is the background's.
+std::string sky_text(const SkyChoice& sky, const core::Scene& scene) {
+  return text_of(sky.is_picture() ? SkyChoice{.horizon = scene.background, .zenith = {}} : sky);
+}
+
 /// Pictures by Whitted's transport are told by having none of it, as they were before there was another.
 void add_transport(std::vector<PictureFact>& facts, const TransportOptions& transport, const core::Scene& scene) {
   if (!transport.is_by_paths()) {
@@ -160,7 +174,7 @@ void add_transport(std::vector<PictureFact>& facts, const TransportOptions& tran
   }
   facts.push_back({"transport", name_of(transport.kind)});
   if (transport.sky) {
-    facts.push_back({"sky", text_of(*transport.sky)});
+    facts.push_back({"sky", scene.sky.is_there() ? sky_text(scene.sky) : sky_text(*transport.sky, scene)});
   }
   if (transport.occlusion) {
     facts.push_back({"occlusion", text_of(*transport.occlusion)});
@@ -205,6 +219,9 @@ std::uint64_t scene_digest(const core::Scene& scene) {
   for (const std::string& text :
        {objects_text(scene), materials_text(scene), textures_text(scene), lights_text(scene), view_text(scene.view)}) {
     digest.add(text);
+  }
+  if (scene.sky.is_there()) {
+    digest.add(sky_text(scene.sky));
   }
   return digest.value();
 }

@@ -14,6 +14,7 @@
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/nff_reader.h"
+#include "apps/scene/sky_file.h"
 #include "core/base/expect.h"
 #include "core/database/light_spheres.h"
 #include "core/families/scenes.h"
@@ -160,17 +161,22 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   OpenedFiles read;
   core::Scene scene = load_any(picture.scene, mesh,
                                picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max, notes, read);
-  if (opened != nullptr) {
-    opened->add(read);
-  }
   const SceneKind kind = is_mesh(picture.scene) ? SceneKind::mesh : SceneKind::own;
   const std::string note = apply(picture.staging, scene, kind);
   const bool has_points = !scene.lights.empty();
+  std::string sky_note;
+  if (picture.transport.sky && picture.transport.sky->is_picture()) {
+    read.add(picture.transport.sky->file);
+    sky_note = read_sky(picture.transport.sky->file, picture.staging.mesh.sandbox, scene);
+  }
+  if (opened != nullptr) {
+    opened->add(read);
+  }
   const std::uint64_t points_left =
       picture.transport.light_radius ? core::make_lights_spheres(scene, *picture.transport.light_radius) : 0;
   if (notes == LoadNotes::said) {
     const bool may_be_black = kind == SceneKind::mesh && !picture.transport.is_by_paths();
-    say_once({note, may_be_black ? shadow_note(picture.staging) : "", picture.is_one_path_unasked ? one_path_note : "",
+    say_once({note, sky_note, may_be_black ? shadow_note(picture.staging) : "", picture.is_one_path_unasked ? one_path_note : "",
               picture.transport.light_radius && !has_points ? no_points_note : "", points_text(points_left)});
     say_what_is_missing(scene, picture.transport);
   }

@@ -90,8 +90,23 @@ void refine_paths(PictureOptions& picture) {
   }
 }
 
+/// A mesh that is shown by paths unless something else is said, below a sky that is asked for: what has been said names itself.
+void check_presented(const OptionSet& options, const PictureOptions& picture) {
+  if (!picture.presents_meshes || !is_mesh(picture.scene) || !picture.transport.sky || picture.transport.is_by_paths() ||
+      options.is_given("--transport") || options.is_given("--background")) {
+    return;
+  }
+  for (const char* const name : said_otherwise) {
+    if (options.is_given(name)) {
+      throw core::UsageError(std::string("--sky goes with --transport=paths, which a mesh has by itself only where ") + name +
+                             " is not given: say --transport=paths, too");
+    }
+  }
+}
+
 /// Of paths one number says how deep rays get, and what is seen behind everything is the sky's horizon.
 void settle_transport(const OptionSet& options, PictureOptions& picture) {
+  check_presented(options, picture);
   check(options, picture.transport);
   if (!picture.transport.is_by_paths()) {
     return;
@@ -205,20 +220,21 @@ double radiance_bound(const PictureOptions& options, const core::Scene& scene) {
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
   const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
   const core::Camera camera(scene.view, database.header().frame, size.width, size.height, options.samples);
-  core::RenderSettings settings{
-      .header = database.header(),
-      .camera = camera,
-      .shade = {.convention = options.convention,
-                .depth_max = options.depth,
-                .cutoff = options.cutoff,
-                .radiance_bound = core::radiance_bound(scene, options.depth),
-                .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
-                .first_samples = static_cast<std::uint32_t>(options.samples),
-                .film_scale = film_scale_of(options, scene),
-                .transport = transport_of(options.transport, scene.view, database.header().frame)},
-      .refinement = options.refinement,
-      .skips = options.skips,
-      .background = options.skips.background ? core::find_background(database, camera) : core::BackgroundTiles()};
+  core::RenderSettings settings{.header = database.header(),
+                                .camera = camera,
+                                .shade = {.convention = options.convention,
+                                          .depth_max = options.depth,
+                                          .cutoff = options.cutoff,
+                                          .radiance_bound = core::radiance_bound(scene, options.depth),
+                                          .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
+                                          .first_samples = static_cast<std::uint32_t>(options.samples),
+                                          .film_scale = film_scale_of(options, scene),
+                                          .transport = transport_of(options.transport, scene.view, database.header().frame)},
+                                .refinement = options.refinement,
+                                .skips = options.skips,
+                                .background = options.skips.background && !has_sky_picture(database.header())
+                                                  ? core::find_background(database, camera)
+                                                  : core::BackgroundTiles()};
   settings.shade.one_child_from = options.transport.is_by_paths() ? 0 : core::find_one_child_depth(database, settings);
   return settings;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <string_view>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/option_values.h"
@@ -20,6 +21,9 @@ using core::UsageError;
 
 constexpr double distance_max = 1e30;
 constexpr double light_radius_max = 1e15;
+/// One fewer than below other skies.
+constexpr int bounces_below_picture_max = 253;
+constexpr const char* beside_sky = " does not go with --sky, which is what no ray meets";
 /// Shares of light that are 1 but for rounding.
 constexpr double gain_min = 1 + 1e-6;
 
@@ -57,9 +61,16 @@ void check_paths(const OptionSet& options, const TransportOptions& transport) {
   refuse_each(options, {"--cutoff"}, by_paths + "a path that counts for little goes on by chance, which costs no light");
   refuse_each(options, {"--ambient"}, by_paths + "light from everywhere is a sky, say --sky");
   if (transport.sky) {
-    refuse_each(options, {"--background"}, " does not go with --sky, which is what no ray meets");
+    refuse_each(options, {"--background"}, beside_sky);
+    if (transport.sky->is_picture() && transport.bounces > bounces_below_picture_max) {
+      throw UsageError("--bounces=" + std::to_string(transport.bounces) + ": with a picture for a sky expected at most " +
+                       std::to_string(bounces_below_picture_max) + ", as the last look at it takes a ray that is one deeper");
+    }
   }
 }
+
+/// Whether colours are written with it.
+bool is_of_colours(char letter) { return std::string_view("0123456789+-.,/eE").find(letter) != std::string_view::npos; }
 
 /// In the brightest channel of each way in which it sends light on.
 double share_sent_on(const core::Material& material) {
@@ -76,6 +87,9 @@ double share_sent_on(const core::Material& material) {
 SkyChoice mesh_sky() { return {.horizon = {0.25, 0.27, 0.3}, .zenith = core::Vec3d{1.6, 1.5, 1.4}}; }
 
 SkyChoice parse_sky(const std::string& text) {
+  if (std::any_of(text.begin(), text.end(), [](char c) { return !is_of_colours(c); })) {
+    return {.horizon = {}, .zenith = {}, .file = text};
+  }
   const std::vector<std::string> parts = words_between(text, '/');
   try {
     SkyChoice sky{.horizon = parse_color("--sky", parts.at(0)), .zenith = {}};
@@ -89,10 +103,13 @@ SkyChoice parse_sky(const std::string& text) {
   }
   throw UsageError(
       "--sky=" + text +
-      ": expected a colour such as 1,1,1 or 0.5, of numbers from 0 to 1e30, or HORIZON/ZENITH such as 1,1,1/0.2,0.4,1");
+      ": expected a colour such as 1,1,1 or 0.5, of numbers from 0 to 1e30, HORIZON/ZENITH such as 1,1,1/0.2,0.4,1, or the file "
+      "of a picture");
 }
 
-std::string text_of(const SkyChoice& sky) { return text_of(sky.horizon) + (sky.zenith ? "/" + text_of(*sky.zenith) : ""); }
+std::string text_of(const SkyChoice& sky) {
+  return sky.is_picture() ? sky.file : text_of(sky.horizon) + (sky.zenith ? "/" + text_of(*sky.zenith) : "");
+}
 
 std::string text_of(const TransportOptions& transport) {
   const std::string name = name_of(transport.kind);
@@ -115,9 +132,11 @@ void add_options(OptionSet options, TransportOptions& transport) {
   options.add_number("--bounces", transport.bounces, 0, 254, "8",
                      "By paths: how often light from elsewhere goes on from surface to surface; 0 is what lights show directly");
   options.add_text(
-      "--sky", "R,G,B|GREY[/R,G,B|GREY] [none]", [&transport](const std::string& text) { transport.sky = parse_sky(text); },
+      "--sky", "R,G,B|GREY[/R,G,B|GREY]|FILE [none]", [&transport](const std::string& text) { transport.sky = parse_sky(text); },
       "By paths: what no ray meets is this bright, and lights the scene: everywhere alike, or from the horizon to the zenith, "
-      "which is where the view's up points");
+      "which is where the view's up points, or as a picture (EXR, HDR, ...) shows all directions, twice as wide as high, its "
+      "upper edge the zenith. Its middle lies along z where up is y, along x where up is z, along y where up is x, and its left "
+      "half to the left of who looks there");
   options.add_text(
       "--occlusion", "DISTANCE [none]", [&transport](const std::string& text) { transport.occlusion = parse_distance(text); },
       "By paths: show nothing but which share of its surroundings each place has free so far, white where it is all");
@@ -134,6 +153,9 @@ void add_options(OptionSet options, TransportOptions& transport) {
 void check(const OptionSet& options, const TransportOptions& transport) {
   if (transport.is_by_paths()) {
     return check_paths(options, transport);
+  }
+  if (transport.sky) {
+    refuse_each(options, {"--background"}, beside_sky);
   }
   refuse_each(options, {"--bounces", "--sky", "--occlusion", "--emitters", "--light-radius"}, " goes with --transport=paths");
 }

@@ -13,10 +13,13 @@
 
 namespace dmpc::apps {
 
-/// What --sky says: one colour, or two between which it changes upwards.
+/// What --sky says: one colour, or two between which it changes upwards; or a picture.
 struct SkyChoice {
   core::Vec3d horizon;
   std::optional<core::Vec3d> zenith;
+  std::string file = {};  ///< of a picture; if there is one, the colours are black
+
+  bool is_picture() const { return !file.empty(); }
 };
 
 /// Below which a mesh file is shown that nobody has lit: a studio, warm and bright above, dim and a little blue around and below,
@@ -45,7 +48,8 @@ void add_options(OptionSet options, TransportOptions& transport);
 /// What else goes with them. Throws core::UsageError that says what to do instead.
 void check(const OptionSet& options, const TransportOptions& transport);
 
-/// "0.5,0.5,0.5" or "1,1,1/0,0,1". Throws core::UsageError for anything else, and for colours below 0.
+/// "0.5,0.5,0.5" or "1,1,1/0,0,1"; what has a letter that no number has is a file's path. Throws core::UsageError for anything
+/// else, and for colours below 0.
 SkyChoice parse_sky(const std::string& text);
 /// What parse_sky() reads as these very numbers.
 std::string text_of(const SkyChoice& sky);

@@ -89,6 +89,31 @@ Reduced radians_from_degrees(double quarters, double degrees) {
   return renormalized(quarters, product, std::fma(degrees, radian_per_degree_tail, error));
 }
 
+/// Those of 0/8 to 8/8.
+constexpr std::array<double, 9> arc_tangent_of_eighths = {0x0p+0,
+                                                          0x1.fd5ba9aac2f6ep-4,
+                                                          0x1.f5b75f92c80ddp-3,
+                                                          0x1.6f61941e4def1p-2,
+                                                          0x1.dac670561bb4fp-2,
+                                                          0x1.1e00babdefeb4p-1,
+                                                          0x1.4978fa3269ee1p-1,
+                                                          0x1.700a7c5784634p-1,
+                                                          0x1.921fb54442d18p-1};
+
+/// Of y / x, 0 <= y <= x, x > 0: that of the nearest eighth, and Taylor's series for what the angle is more or less, whose
+/// tangent is at most 1/16: the first term left out is below 1e-19.
+double first_octant(double y, double x) {
+  static constexpr std::array<double, 7> series = {-1 / 15.0, 1 / 13.0, -1 / 11.0, 1 / 9.0, -1 / 7.0, 1 / 5.0, -1 / 3.0};
+  const auto eighth = static_cast<std::size_t>(y / x * 8 + 0.5);
+  const double share = static_cast<double>(eighth) * 0.125, tangent = (y - share * x) / (x + share * y),
+               square = tangent * tangent;
+  double sum = series[0];
+  for (std::size_t i = 1; i < series.size(); ++i) {
+    sum = sum * square + series[i];
+  }
+  return arc_tangent_of_eighths[eighth] + (tangent + tangent * square * sum);
+}
+
 double exponential_of(double x) {
   if (!(x > least_exponent)) {
     return std::isnan(x) ? x : 0;
@@ -171,6 +196,15 @@ double cos_radians(double radians) { return cos_of(reduce_radians(radians)); }
 double tan_radians(double radians) {
   const Reduced angle = reduce_radians(radians);
   return sin_of(angle) / cos_of(angle);
+}
+
+double angle_of(double y, double x) {
+  const double across = std::fabs(x), up = std::fabs(y);
+  if (across == 0 && up == 0) {
+    return 0;
+  }
+  const double octant = up <= across ? first_octant(up, across) : half_pi - first_octant(across, up);
+  return std::copysign(x < 0 ? 2 * half_pi - octant : octant, y);
 }
 
 double sin_degrees(double degrees) {

@@ -17,6 +17,10 @@ double cos_degrees(double degrees);
 /// Relative error below 1e-15; requires an angle whose cosine is not 0.
 double tan_degrees(double degrees);
 
+/// The angle from the positive x-axis to the place (x, y), from -pi to pi, in radians: absolute error below 5e-16. 0 where both
+/// are; neither may be infinite or no number.
+double angle_of(double y, double x);
+
 /// e to the power x, for any x: relative error below 4e-16 where the result is a normal number; 0 below -745.2, infinity above
 /// 709.79.
 double exponential(double x);

@@ -16,6 +16,7 @@
 #include "core/database/material_records.h"
 #include "core/database/parallel.h"
 #include "core/database/record_writer.h"
+#include "core/database/sky_records.h"
 #include "core/database/texture_records.h"
 #include "core/database/top_cells.h"
 #include "core/database/twins.h"
@@ -221,6 +222,7 @@ class DatabaseBuilder {
     write_textures();
     write_normals();
     lists.take_room(conversion_, writer_);
+    write_sky_tiles();
     writer_.make_room();
     lists.count(result_.records_);
     lists.write(conversion_, header().references, writer_);
@@ -250,6 +252,7 @@ class DatabaseBuilder {
     }
     write_materials();
     write_emitters();
+    write_sky_table();
     for (const Texture& texture : scene_.textures) {
       textures_.push_back(is_shown(texture) ? reference_to(texture, writer_) : TextureReference{});
     }
@@ -291,6 +294,31 @@ class DatabaseBuilder {
 
   /// Numbers that are no colours are what pictures by paths show alone.
   bool is_shown(const Texture& texture) const { return options_.for_paths || texture.format != TexelFormat::linear; }
+
+  void write_sky_table() {
+    if (!options_.for_paths || !scene_.sky.is_there()) {
+      return;
+    }
+    const Vec3d up = normalize(scene_.view.up);
+    sky_ = sky_records(scene_.sky, turned(options_.axes, sky_middle(up)), turned(options_.axes, up));
+    sky_.reference.choices = writer_.allocate_array<EmitterChoice>(sky_.choices.size());
+    writer_.write(sky_.reference.choices, 0, std::as_bytes(std::span(sky_.choices)));
+    result_.records_.sky_tiles = sky_.tiles.size();
+    if (expendable_ != nullptr) {
+      forget(expendable_->sky.texels);
+    }
+  }
+
+  /// Behind all other records, in one piece, once these have their room.
+  void write_sky_tiles() {
+    if (!sky_.tiles.empty()) {
+      writer_.begin_page();
+      sky_.reference.tiles = writer_.allocate_array<TextureTile>(sky_.tiles.size());
+      writer_.write(sky_.reference.tiles, 0, std::as_bytes(std::span(sky_.tiles)));
+      header().sky = sky_.reference;
+      forget(sky_.tiles);
+    }
+  }
 
   void write_textures() {
     for (std::size_t i = 0; i < textures_.size(); ++i) {
@@ -366,6 +394,7 @@ class DatabaseBuilder {
       trees[i].count(result_.records_);
       directory[entry].bits = static_cast<std::uint32_t>(trees[i].take_room(writer_));
     }
+    write_sky_tiles();
     writer_.make_room();
     parallel_.for_each(trees.size(), [&](std::size_t i) {
       trees[i].write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_);
@@ -386,6 +415,7 @@ class DatabaseBuilder {
   bool has_looked_for_twins_ = false;
   Conversion conversion_;
   Emitters emitters_;
+  SkyRecords sky_;
   std::vector<TextureReference> textures_;  ///< of the scene's, in order
 };
 

@@ -90,10 +90,11 @@ static_assert(value_count(PrimitiveKind::triangle) < value_count_max);
 struct RecordCounts {
   std::uint64_t bricks = 0;
   std::array<std::uint64_t, primitive_kind_count> blocks{};
-  std::uint64_t normals = 0;           ///< PatchNormals
-  std::uint64_t textured = 0;          ///< TexturedNormals, in all
-  std::uint64_t faceted = 0;           ///< of those, what FacetedNormals begin with
-  std::uint64_t texture_tiles = 0;     ///< of all levels
+  std::uint64_t normals = 0;        ///< PatchNormals
+  std::uint64_t textured = 0;       ///< TexturedNormals, in all
+  std::uint64_t faceted = 0;        ///< of those, what FacetedNormals begin with
+  std::uint64_t texture_tiles = 0;  ///< of all levels
+  std::uint64_t sky_tiles = 0;
   std::uint64_t voxel_references = 0;  ///< the lengths of all lists
   std::uint64_t materials = 0;         ///< without the finishes that stand behind them
   std::uint64_t emitters_met = 0;      ///< primitives that shine by themselves and are not among the header's emitters

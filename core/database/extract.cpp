@@ -17,6 +17,7 @@
 #include "core/database/texture_records.h"
 #include "core/record/directory.h"
 #include "core/record/emitter.h"
+#include "core/record/sky.h"
 #include "core/record/texture_layout.h"
 #include "core/record/voxel_list.h"
 
@@ -57,6 +58,10 @@ class Extractor {
     if (has_emitters(whole_)) {
       header.emitters = copy_array<EmitterRecord>(whole_.emitters, whole_.emitter_count);
       copy_array<EmitterChoice>(choice_address(whole_, 0), whole_.emitter_count);
+    }
+    if (has_sky_picture(whole_)) {
+      header.sky.choices = copy_array<EmitterChoice>(whole_.sky.choices, sky_tile_count(whole_.sky));
+      header.sky.tiles = copy_array<TextureTile>(whole_.sky.tiles, sky_tile_count(whole_.sky));
     }
     whole_.has_voxels() ? copy_voxels() : copy_directory(around);
     copy_textures();

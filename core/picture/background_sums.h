@@ -10,8 +10,8 @@
 namespace dmpc::core {
 
 /// What each of `pixels` pixels of settings.background has, with the samples of the first pass; counted as if a task had rendered
-/// every one. Requires that settings.shows_background() them, and that they are alike: no sky that changes. Thread safety: pure
-/// but for the counts.
+/// every one. Requires that settings.shows_background() them, and that they are alike: settings.is_beyond_alike(). Thread safety:
+/// pure but for the counts.
 inline PixelSums background_sums(std::uint64_t pixels, const RenderSettings& settings, Operations& operations) {
   const SampleRange samples = settings.first_samples();
   PixelSums sums;

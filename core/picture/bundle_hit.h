@@ -23,9 +23,9 @@ concept BundleTracer = requires(T& tracer, RayBundle& bundle, Operations& operat
 
 /// The hits of a bundle's rays, all of one depth, being shaded side by side: all read what they are, then each light sends its
 /// bundle of shadow rays, then the mirrored rays are a bundle, then the refracted ones; by paths those at what hits aim at are
-/// one, and then the rays that go on.
+/// one, those at the sky another, and then the rays that go on.
 struct BundleHit {
-  enum class Phase : std::uint8_t { surface, light, emitter, reflected, refracted, continued, finished };
+  enum class Phase : std::uint8_t { surface, light, emitter, sky, reflected, refracted, continued, finished };
 
   std::array<HitState, bundle_rays_max> hit;
   std::array<std::uint8_t, bundle_rays_max> place;  ///< of the hit's pixel
@@ -49,18 +49,29 @@ struct BundleHit {
     place[count] = static_cast<std::uint8_t>(its_place);
     begin_shading(hit[count++], ray, met);
   }
+  /// The same of a ray that has met nothing below a sky's picture.
+  void add_sky(const Ray& ray, std::size_t its_place) {
+    place[count] = static_cast<std::uint8_t>(its_place);
+    hit[count++] = begin_sky(ray);
+  }
   bool has_any_at(HitState::Stage stage) const {
     return std::any_of(hit.begin(), hit.begin() + count, [stage](const HitState& state) { return state.stage == stage; });
   }
   /// Some hit is to draw an emitter, or has drawn one.
   bool aims() const { return has_any_at(HitState::Stage::emitter_choice) || has_any_at(HitState::Stage::emitter); }
-  /// To the next phase: while hits wait for a light that is theirs, or for an emitter, and then to the first that sends rays on.
+  /// Some hit is to draw a tile of the sky, or has drawn one.
+  bool aims_at_sky() const { return has_any_at(HitState::Stage::sky_choice) || has_any_at(HitState::Stage::sky_aim); }
+  /// To the next phase: while hits wait for a light that is theirs, for an emitter, or for the sky, and then to the first that
+  /// sends rays on.
   void end_phase(Phase first_sending) {
     if (phase == Phase::surface || phase == Phase::light) {
       light += phase == Phase::light ? 1 : 0;
-      phase = has_any_at(HitState::Stage::light) ? Phase::light : aims() ? Phase::emitter : first_sending;
-    } else if (phase == Phase::emitter) {
-      phase = first_sending;
+      phase = has_any_at(HitState::Stage::light) ? Phase::light
+              : aims()                           ? Phase::emitter
+              : aims_at_sky()                    ? Phase::sky
+                                                 : first_sending;
+    } else if (phase == Phase::emitter || phase == Phase::sky) {
+      phase = phase == Phase::emitter && aims_at_sky() ? Phase::sky : first_sending;
     } else {
       phase = phase == Phase::reflected ? Phase::refracted : Phase::finished;
     }
@@ -87,7 +98,9 @@ class BundleShader {
     if ((hits_.phase == Phase::surface && !read_surfaces(absent)) ||
         (hits_.phase == Phase::light && !shoot_at_light(absent, shoot)) ||
         (hits_.phase == Phase::emitter &&
-         !(read_stage(HitState::Stage::emitter_choice, absent, shoot) && read_stage(HitState::Stage::emitter, absent, shoot)))) {
+         !(read_stage(HitState::Stage::emitter_choice, absent, shoot) && read_stage(HitState::Stage::emitter, absent, shoot))) ||
+        (hits_.phase == Phase::sky &&
+         !(read_stage(HitState::Stage::sky_choice, absent, shoot) && read_stage(HitState::Stage::sky_aim, absent, shoot)))) {
       return false;
     }
     if (hits_.phase == Phase::surface && shader_.hits_glow()) {
@@ -155,7 +168,7 @@ bool BundleShader<T>::read_surfaces(Address& absent) {
   return true;
 }
 
-/// The light's record is read once for all hits, on which it falls side by side.
+/// The light's record is read once for all hits, on which it falls side by side; the sky, where rays have met that, is none.
 template <BundleTracer T>
 template <class Shoot>
 bool BundleShader<T>::shoot_at_light(Address& absent, const Shoot& shoot) {
@@ -164,18 +177,23 @@ bool BundleShader<T>::shoot_at_light(Address& absent, const Shoot& shoot) {
   if (record == nullptr) {
     return false;
   }
-  operations_.skipped.bundles += hits_.count - 1;
   const auto light = read<LightRecord>(record);
+  std::array<std::uint32_t, bundle_rays_max> lit;
+  std::uint32_t count = 0;
   LitLanes lanes;
   for (std::uint32_t i = 0; i < hits_.count; ++i) {
-    lanes.add(hits_.hit[i]);
+    if (hits_.hit[i].stage == HitState::Stage::light) {
+      lanes.add(hits_.hit[i]);
+      lit[count++] = i;
+    }
   }
+  operations_.skipped.bundles += count - 1;
   lanes.light(Vec3d(light.position));
-  for (std::uint32_t i = 0; i < hits_.count; ++i) {
-    shoot(i, [&](Ray& child) {
-      const bool shines = shader_.shine(hits_.hit[i], light, lanes.fall(i), lanes.highlight(i), child);
+  for (std::uint32_t lane = 0; lane < count; ++lane) {
+    shoot(lit[lane], [&](Ray& child) {
+      const bool shines = shader_.shine(hits_.hit[lit[lane]], light, lanes.fall(lane), lanes.highlight(lane), child);
       if (shines) {
-        lanes.set_way(i, child);
+        lanes.set_way(lane, child);
       }
       return shines;
     });

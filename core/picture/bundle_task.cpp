@@ -77,7 +77,10 @@ void BundleTask::end_rays(const RenderSettings& settings, Operations& operations
   BundleHit* const hits = is_shadow ? nullptr : &fresh_hits();
   for (std::uint32_t i = 0; i < bundle_.count; ++i) {
     const Ray& ray = bundle_.rays[i];
-    if (const auto light = light_of_ended(ray, (bundle_.found >> i & 1U) != 0, settings, operations)) {
+    const bool is_hit = (bundle_.found >> i & 1U) != 0;
+    if (!is_hit && settings.asks_sky(ray)) {
+      hits->add_sky(ray, place_[i]);
+    } else if (const auto light = light_of_ended(ray, is_hit, settings, operations)) {
       deposit(sums_[place_[i]], ray, *light, settings, operations);
     } else if (!is_shadow) {
       hits->add(ray, bundle_.best.of(i), place_[i]);

@@ -2,8 +2,20 @@
 
 #include "core/base/expect.h"
 #include "core/record/emitter.h"
+#include "core/record/sky.h"
+#include "core/scene/sky_cells.h"
 
 namespace dmpc::core {
+
+HitState begin_sky(const Ray& ray) {
+  HitState state = begin_shading(ray, {});
+  state.stage = HitState::Stage::sky;
+  return state;
+}
+
+Address sky_record(const Ray& ray, const DatabaseHeader& header) {
+  return sky_tile_address(header.sky, sky_place(header.sky, ray.full_direction()).tile);
+}
 
 ShadingRecord shading_record_of(const HitState& state) {
   switch (state.stage) {
@@ -13,6 +25,8 @@ ShadingRecord shading_record_of(const HitState& state) {
     case HitState::Stage::color_texture:
       return ShadingRecord::normals;
     case HitState::Stage::texture:
+    case HitState::Stage::sky:
+    case HitState::Stage::sky_aim:
       return ShadingRecord::tile;
     default:
       break;
@@ -41,6 +55,12 @@ Address record_needed(const HitState& state, const DatabaseHeader& header) {
       return choice_address(header, state.surface.next_light);
     case HitState::Stage::emitter:
       return emitter_address(header, state.surface.next_light);
+    case HitState::Stage::sky:
+      return sky_record(state.ray, header);
+    case HitState::Stage::sky_choice:
+      return sky_choice_address(header.sky, state.surface.next_light);
+    case HitState::Stage::sky_aim:
+      return sky_tile_address(header.sky, state.surface.next_light);
     default:
       return no_address;
   }

@@ -37,9 +37,12 @@ struct HitState {
     material,
     textured_material,  ///< whose colour is multiplied by what the look-up, or its corners, gave
     finish,             ///< what the material has beyond NFF
+    sky,                ///< of a ray that has met nothing: what is there of the sky's picture
     light,
     emitter_choice,  ///< by paths: which emitter is drawn
     emitter,
+    sky_choice,  ///< by paths: which tile of the sky's picture is drawn
+    sky_aim,     ///< and where in it
     reflected,
     refracted,
     continued,  ///< by paths: one ray more, or none
@@ -49,7 +52,7 @@ struct HitState {
   /// What lights fall on.
   struct Surface {
     MaterialRecord material;
-    std::uint32_t next_light = 0;  ///< behind the lights: the emitter's choice, or the emitter
+    std::uint32_t next_light = 0;  ///< behind the lights: the choice of an emitter or of a tile of the sky, or that
     float place = 0;               ///< on that, the first of two numbers: DrawnEmitter::place
   };
 
@@ -156,6 +159,11 @@ inline HitState begin_shading(const Ray& ray, const Hit& hit) {
   begin_shading(state, ray, hit);
   return state;
 }
+
+/// Of a ray that has met nothing below a sky's picture, which it shows as a surface would that shines.
+HitState begin_sky(const Ray& ray);
+/// The record that this reads.
+Address sky_record(const Ray& ray, const DatabaseHeader& header);
 
 /// How many of the first `count` hits of a stack, each a HitState or a bundle of them, stay: the newest leave it as far as they
 /// wait for nothing more, so that what they sent last may have their place.

@@ -42,7 +42,9 @@ void PixelTask::push(const HitState& hit) {
 void PixelTask::end_ray(Traced result, const RenderSettings& settings, Operations& operations) {
   expect(result == Traced::hit || result == Traced::miss, "a pixel's tracer sees the whole scene");
   tracing_ = false;
-  if (const auto light = light_of_ended(ray_, result == Traced::hit, settings, operations)) {
+  if (result == Traced::miss && settings.asks_sky(ray_)) {
+    push(begin_sky(ray_));
+  } else if (const auto light = light_of_ended(ray_, result == Traced::hit, settings, operations)) {
     deposit(sums_, ray_, *light, settings, operations);
   } else if (ray_.kind != RayKind::shadow) {
     push(begin_shading(ray_, cursor_.best));

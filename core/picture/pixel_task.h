@@ -62,8 +62,15 @@ struct RenderSettings {
   Skips skips;
   BackgroundTiles background;  ///< find_background() of the database and the camera, if that is known
 
-  /// Whether the pixel's primary rays are certain to miss, and need not be traced.
-  bool shows_background(std::uint32_t pixel) const { return skips.background && background.has(pixel); }
+  /// Whether what lies behind everything is the same for all rays that meet nothing.
+  bool is_beyond_alike() const { return !shade.transport.has_gradient && !has_sky_picture(header); }
+  /// Whether a ray that meets nothing shows what a record says.
+  bool asks_sky(const Ray& ray) const { return has_sky_picture(header) && ray.kind != RayKind::shadow; }
+  /// Whether the pixel's primary rays are certain to miss, and need not be traced. Below a sky's picture all are, since each asks
+  /// for a record of its own.
+  bool shows_background(std::uint32_t pixel) const {
+    return skips.background && background.has(pixel) && !has_sky_picture(header);
+  }
   /// Settings of this picture for a tracer that is to be asked about every ray.
   RenderSettings with_every_ray_traced() const {
     RenderSettings settings = *this;
@@ -74,7 +81,7 @@ struct RenderSettings {
   FineDetail fine_detail(const Database& database) const {
     return refinement.is_wanted() ? find_fine_detail(database, camera) : FineDetail();
   }
-  /// What a ray finds that meets nothing, and is no shadow ray.
+  /// What a ray finds that meets nothing, and is no shadow ray, and does not ask the sky's picture.
   Color light_beyond(const Ray& ray) const {
     const Transport& transport = shade.transport;
     if (transport.has_sky) {
@@ -101,7 +108,7 @@ inline void deposit(PixelSums& sums, const Ray& ray, const Color& light, const R
 }
 
 /// What a ray that has been traced brings to its pixel. None if it brings nothing: then a shadow ray was blocked, and the hit of
-/// any other is to be shaded.
+/// any other is to be shaded. Requires that it does not ask the sky's picture.
 inline std::optional<Color> light_of_ended(const Ray& ray, bool hit, const RenderSettings& settings, Operations& operations) {
   if (hit) {
     ++(ray.kind == RayKind::shadow    ? operations.shadow_blocked

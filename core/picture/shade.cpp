@@ -117,10 +117,13 @@ double texture_max(const Scene& scene, const Material& material) {
   return material.texture == Material::no_texture ? 1 : scene.textures[material.texture].brightest;
 }
 
+/// Whether the last hit of a path sends a ray of its own to look for light that is found where that ends.
+bool is_met_by_chance(const DatabaseHeader& header) { return header.has_emission != 0 || has_sky_picture(header); }
+
 }  // namespace
 
 int ray_depth_max(const ShadeOptions& options, const DatabaseHeader& header) {
-  const bool looks_for_light = options.transport.is_by_paths() && header.has_emission != 0;
+  const bool looks_for_light = options.transport.is_by_paths() && is_met_by_chance(header);
   return std::min(options.depth_max + (looks_for_light ? 1 : 0), depth_limit);
 }
 
@@ -130,9 +133,11 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
   for (const PointLight& point_light : scene.lights) {
     light += brightest(intensity_of(point_light, scene));
   }
+  const double sky = transport.has_sky ? scene.sky.brightest : 0;
   for (const Material& material : scene.materials) {
     emitter = std::max(emitter, transport.is_by_paths() ? brightest(material.emission) : 0.0);
   }
+  emitter += sky;  // hits aim at both
   for (const Material& material : scene.materials) {
     if (transport.is_by_paths() && material.microfacets.are_there()) {
       const MicrofacetBound bound = bound_of(material, texture_max(scene, material), facet_texture(scene, material));
@@ -153,7 +158,7 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
     passed_on = std::max(passed_on, 1.0);  // who survives roulette counts for others
   }
   const double background =
-      std::max({brightest(scene.background), double{brightest(transport.zenith)}, transport.shows_occlusion() ? 1.0 : 0.0});
+      std::max({brightest(scene.background), double{brightest(transport.zenith)}, sky, transport.shows_occlusion() ? 1.0 : 0.0});
   double bound = std::max(background, direct);
   const int looks = transport.is_by_paths() ? 1 : 0;  // of the last hit, at the sky or what shines
   for (int depth = depth_max + looks; depth > 2; --depth) {
@@ -314,7 +319,7 @@ Stage Shader::after_reflection(const HitState& state) const {
 /// What shines by itself is looked for by a ray of the path's own, as long as a ray can be as deep.
 bool Shader::is_at_last_depth(const HitState& state) const {
   return state.ray.depth >= ray_depth_max(options_, header_) ||
-         (state.ray.depth >= options_.depth_max && header_.has_emission == 0);
+         (state.ray.depth >= options_.depth_max && !is_met_by_chance(header_));
 }
 
 Stage Shader::after_lights_of_path(const HitState& state) const {
@@ -415,12 +420,12 @@ void Shader::come_to_lights(HitState& state, const Color& emission) const {
   }
 }
 
-/// To the emitter that is drawn, if one is, else to what comes behind all lights.
+/// To the emitter that is drawn, if one is, else to what comes behind.
 void Shader::end_point_lights(HitState& state) const {
   if (aims_at_emitter(state)) {
     begin_emitter(state);
   } else {
-    state.stage = after_lights(state);
+    end_emitters(state);
   }
 }
 
@@ -526,6 +531,9 @@ bool Shader::look_around(const HitState& state, Ray& child) const {
 /// A shadow ray without an end brings the sky's light.
 bool Shader::look_at_sky(const HitState& state, const PathStep& step, Ray& child) const {
   child = continued_ray(state, step.towards, RayKind::shadow, state.ray.weight * step.weight);
+  if (has_sky_picture(header_)) {
+    return false;  // beyond the last depth that rays can have
+  }
   child.weight = child.weight * sky_light(options_.transport, header_.background, child.direction);
   return !leaves_out(true, child.weight);
 }
@@ -548,7 +556,7 @@ bool Shader::send_on(HitState& state, Ray& child) const {
     return false;
   }
   child = continued_ray(state, step->towards, kind, state.ray.weight * step->weight);
-  child.density = has_emitters(header_) ? density_bits(step->density) : std::uint16_t{0};
+  child.density = has_emitters(header_) || has_sky_picture(header_) ? density_bits(step->density) : std::uint16_t{0};
   widen(state, child);
   return true;
 }
@@ -589,6 +597,9 @@ bool Shader::step(HitState& state, const std::byte* record, Ray& child) const {
     case Stage::finish:
       read_finish(state, record);
       return false;
+    case Stage::sky:
+      read_sky(state, record);
+      return false;
     case Stage::light:
       return read_light(state, record, child);
     case Stage::emitter_choice:
@@ -596,6 +607,11 @@ bool Shader::step(HitState& state, const std::byte* record, Ray& child) const {
       return false;
     case Stage::emitter:
       return read_emitter(state, record, child);
+    case Stage::sky_choice:
+      read_sky_choice(state, record);
+      return false;
+    case Stage::sky_aim:
+      return read_sky_aim(state, record, child);
     case Stage::reflected:
     case Stage::refracted:
       return send_alone(state, child);

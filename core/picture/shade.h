@@ -14,6 +14,7 @@
 #include "core/picture/transport.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
+#include "core/record/sky.h"
 #include "core/scene/scene.h"
 #include "core/trace/operations.h"
 #include "core/trace/skips.h"
@@ -63,13 +64,20 @@ double sample_spacing(std::uint32_t sample, std::uint32_t first_samples);
 /// a ray of the next depth finds. By paths it passes on what it scatters, too.
 double radiance_bound(const Scene& scene, int depth_max, const Transport& transport = {});
 
-/// Whether hits send light by themselves, without a ray: what they reflect of an ambient light, or their own.
-inline bool hits_glow(const DatabaseHeader& header) { return header.has_emission != 0 || !(header.ambient == Color{}); }
+/// Whether hits send light by themselves, without a ray: what they reflect of an ambient light, or their own; or what rays that
+/// met nothing do in their place, of a sky's picture.
+inline bool hits_glow(const DatabaseHeader& header) {
+  return header.has_emission != 0 || !(header.ambient == Color{}) || has_sky_picture(header);
+}
 
 /// Whether a ray that a path goes on with can find any light: of what lights show, of what hits send by themselves, or of what
 /// lies beyond the scene, which a scattered ray sees if that is a sky. Where it cannot, its children cannot either, since they
 /// are scattered if it is.
 bool may_find_light(const DatabaseHeader& header, const Transport& transport, RayKind kind);
+
+/// What a ray that has met nothing finds of a sky's picture, whose record of its direction `tile` is: what hits that aim there
+/// leave of it.
+Color sky_met(const Ray& ray, const DatabaseHeader& header, const Transport& transport, const std::byte* tile);
 
 /// Shades hits, one record a step. What it is made from outlives it.
 class Shader {
@@ -114,11 +122,19 @@ class Shader {
   bool read_light(HitState& state, const std::byte* record, Ray& child) const;
   // In shade_emitters.cpp:
   bool aims_at_emitter(const HitState& state) const;
+  void begin_choice(HitState& state, std::uint32_t count) const;
+  static void draw(HitState& state, const std::byte* choice);
   void begin_emitter(HitState& state) const;
   void read_choice(HitState& state, const std::byte* record) const;
   bool read_emitter(HitState& state, const std::byte* record, Ray& child) const;
   /// Of what a surface shines with that the state's ray has met: the rest comes to the hit before by aiming at it.
   float share_met(const HitState& state, const Color& radiance) const;
+  // In shade_sky.cpp:
+  void read_sky(HitState& state, const std::byte* record) const;
+  bool aims_at_sky(const HitState& state) const;
+  void read_sky_choice(HitState& state, const std::byte* record) const;
+  bool read_sky_aim(HitState& state, const std::byte* record, Ray& child) const;
+  void end_emitters(HitState& state) const;
 
   bool send_alone(HitState& state, Ray& child) const;
   bool is_for_nothing(RayKind kind) const;

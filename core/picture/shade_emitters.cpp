@@ -47,27 +47,35 @@ bool Shader::aims_at_emitter(const HitState& state) const {
 }
 
 /// The place's number has more digits than one of a pair, since a table may have many choices.
-void Shader::begin_emitter(HitState& state) const {
+void Shader::begin_choice(HitState& state, std::uint32_t count) const {
   const double number =
-      pair_of(state.ray, Purpose::place).x + (header_.emitter_count > 1 ? pair_of(state.ray, Purpose::emitter).x * 0x1p-32 : 0.0);
-  const DrawnEmitter drawn = choice_of(number, header_.emitter_count);
+      pair_of(state.ray, Purpose::place).x + (count > 1 ? pair_of(state.ray, Purpose::emitter).x * 0x1p-32 : 0.0);
+  const DrawnEmitter drawn = choice_of(number, count);
   state.surface.next_light = drawn.index;
   state.surface.place = drawn.place;
+}
+
+void Shader::begin_emitter(HitState& state) const {
+  begin_choice(state, header_.emitter_count);
   state.stage = header_.emitter_count > 1 ? Stage::emitter_choice : Stage::emitter;
 }
 
-void Shader::read_choice(HitState& state, const std::byte* record) const {
-  const DrawnEmitter drawn = drawn_by(read<EmitterChoice>(record), {state.surface.next_light, state.surface.place});
+void Shader::draw(HitState& state, const std::byte* choice) {
+  const DrawnEmitter drawn = drawn_by(read<EmitterChoice>(choice), {state.surface.next_light, state.surface.place});
   state.surface.next_light = drawn.index;
   state.surface.place = drawn.place;
+}
+
+void Shader::read_choice(HitState& state, const std::byte* record) const {
+  draw(state, record);
   state.stage = Stage::emitter;
 }
 
 bool Shader::read_emitter(HitState& state, const std::byte* record, Ray& child) const {
-  state.stage = after_lights(state);
   const auto emitter = read<EmitterRecord>(record);
   const std::optional<AimedPlace> place =
       aim_at(emitter, state.point, {double{state.surface.place}, pair_of(state.ray, Purpose::place).y});
+  end_emitters(state);
   if (!place) {
     return false;
   }

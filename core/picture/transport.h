@@ -21,6 +21,7 @@ struct Transport {
   bool has_sky = false;
   /// For tests alone: emitters that hits aim at count in full there, and not where paths meet them.
   bool only_aims = false;
+  bool never_aims = false;    ///< for tests alone: the sky's picture counts in full where paths meet it, and nobody aims at it
   bool has_gradient = false;  ///< the sky changes from the header's background at the horizon, and below, to `zenith`
   /// From the hit of this number on, the eye's being the first, paths may end by roulette.
   std::uint8_t roulette_from = 3;
@@ -35,8 +36,8 @@ struct Transport {
 };
 static_assert(std::is_trivially_copyable_v<Transport>);
 
-/// What comes from the sky along the unit direction, where its horizon has the colour `horizon`: in proportion to the sine of how
-/// high that points.
+/// What comes from a sky that is no picture along the unit direction, where its horizon has the colour `horizon`: in proportion
+/// to the sine of how high that points.
 inline Color sky_light(const Transport& transport, const Color& horizon, const Vec3f& direction) {
   const float height = transport.has_gradient ? std::clamp(dot(direction, transport.up), 0.0F, 1.0F) : 0.0F;
   return height > 0.0F ? horizon * (1.0F - height) + transport.zenith * height : horizon;

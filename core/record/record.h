@@ -11,6 +11,7 @@
 //   lights      LightRecord                           }
 //   emitters    EmitterRecord, then EmitterChoice     } (core/record/emitter.h) where paths aim at what shines
 //   textures    tables of addresses, and every TextureTile that they name: read where a final hit is textured
+//   sky         of a picture: EmitterChoice with the tables, TextureTile behind all (core/record/sky.h)
 #pragma once
 
 #include <array>
@@ -359,6 +360,16 @@ constexpr std::array<std::int32_t, 3> top_cells(const GridFrame& frame) {
           ceil_divide(frame.resolution[2], cells_per_top)};
 }
 
+/// A sky's picture as its users know it (core/record/sky.h).
+struct SkyReference {
+  Address tiles = no_address;             ///< TextureTile, row by row; no_address: there is no picture
+  Address choices = no_address;           ///< an EmitterChoice for each tile
+  std::uint16_t width = 0, height = 0;    ///< texels
+  float scale = 1;                        ///< what texels are multiplied by, a power of two
+  float density = 0, least_strength = 0;  ///< SkyCells says how likely a place is aimed at by them
+  Vec3d middle, up;                       ///< where its middle and its upper edge lie, grid-local, unit, at right angles
+};
+
 /// The database's table of contents, by value in every node.
 struct DatabaseHeader {
   GridFrame frame;
@@ -380,6 +391,7 @@ struct DatabaseHeader {
   std::uint32_t emitter_count = 0;              ///< that hits draw: 0 unless paths were to aim at some, and there are such
   std::uint32_t drawn_materials = 0xffffffffU;  ///< from this one on materials are those of emitters that are drawn
   float emitter_density = 0;  ///< one over the sum of all drawn emitters' areas, grid-local, times their strength_of()
+  SkyReference sky;           ///< of paths under a picture
 
   /// Whether top cells are voxels with lists.
   constexpr bool has_voxels() const { return references != no_address; }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/vec.h"
+#include "core/scene/sky_texels.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::core {
@@ -137,6 +138,7 @@ struct Scene {
   std::vector<Sphere> spheres;
   std::vector<Cone> cones;
   std::vector<Texture> textures;
+  SkyTexels sky;  ///< by paths, what no ray meets, if it is there
   /// What the file's coordinates have lost of those that were meant, as a share of them: 0x1p-25 where it keeps them in single
   /// precision. So much does not tell two planes apart.
   double coordinate_rounding = 0;

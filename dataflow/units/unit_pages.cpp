@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/record/emitter.h"
+#include "core/record/sky.h"
 
 namespace dmpc::dataflow {
 
@@ -26,6 +27,10 @@ std::vector<std::uint32_t> pages_of(const core::Database& database, std::span<co
   if (core::has_emitters(header)) {
     need_all(header.emitters, header.emitter_count, sizeof(core::EmitterRecord));
     need_all(core::choice_address(header, 0), header.emitter_count, sizeof(core::EmitterChoice));
+  }
+  if (core::has_sky_picture(header)) {
+    need_all(header.sky.choices, core::sky_tile_count(header.sky), sizeof(core::EmitterChoice));
+    need_all(header.sky.tiles, core::sky_tile_count(header.sky), sizeof(core::TextureTile));
   }
   std::vector<std::uint32_t> pages;
   for (std::uint32_t page = 0; page < is_needed.size(); ++page) {

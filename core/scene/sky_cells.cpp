@@ -1,0 +1,116 @@
+#include "core/scene/sky_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/elementary.h"
+#include "core/scene/texel.h"
+
+namespace dmpc::core {
+namespace {
+
+using std::numbers::pi;
+
+Color texel_of(const std::byte* tile, std::uint32_t column, std::uint32_t row) {
+  return decoded(TexelFormat::shared_exponent, read<std::uint32_t>(tile + (row * tile_side + column) * sizeof(std::uint32_t)));
+}
+
+Vec3d left_of(const SkyReference& sky) { return cross(sky.up, sky.middle); }
+
+/// Of the cell's corners.
+double mean_of(double top_left, double top_right, double bottom_left, double bottom_right) {
+  return ((top_left + top_right) + (bottom_left + bottom_right)) * 0.25;
+}
+
+/// Where a row of cells begins, as an angle from the upper pole.
+double angle_above(const SkyReference& sky, std::uint32_t row) {
+  return pi * std::clamp(row - 0.5, 0.0, static_cast<double>(sky.height)) / sky.height;
+}
+
+/// A number of whole cells and the rest, of something from 0 to less than `count`, but for rounding.
+struct Split {
+  std::uint32_t cell;
+  double rest;
+
+  Split(double place, std::uint32_t count)
+      : cell(std::min(static_cast<std::uint32_t>(std::max(place, 0.0)), count - 1)), rest(std::clamp(place - cell, 0.0, 1.0)) {}
+};
+
+}  // namespace
+
+SkyPlace sky_place(const SkyReference& sky, const Vec3d& direction) {
+  const double ahead = dot(direction, sky.middle), left = dot(direction, left_of(sky)), up = dot(direction, sky.up);
+  const double turn = 0.5 - angle_of(left, ahead) / (2 * pi), across = turn * sky.width - 0.5;
+  const Split column(across < 0 ? across + sky.width : across, sky.width);
+  const double from_pole = angle_of(std::sqrt(ahead * ahead + left * left), up);
+  const Split row(from_pole / pi * sky.height + 0.5, std::uint32_t{sky.height} + 1);
+  return {row.cell / sky_tile_cells * sky_tile_columns(sky) + column.cell / sky_tile_cells, column.cell % sky_tile_cells,
+          row.cell % sky_tile_cells, column.rest, row.rest};
+}
+
+SkyLight sky_light(const SkyReference& sky, const std::byte* tile, const SkyPlace& place) {
+  const auto corner = [&](std::uint32_t right, std::uint32_t below) {
+    return texel_of(tile, place.column + right, place.row + below);
+  };
+  const std::array<Color, 4> corners{corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)};
+  const Vec3d above = Vec3d(corners[0]) * (1 - place.across) + Vec3d(corners[1]) * place.across;
+  const Vec3d below = Vec3d(corners[2]) * (1 - place.across) + Vec3d(corners[3]) * place.across;
+  const double mean = mean_of(strength_of(corners[0]), strength_of(corners[1]), strength_of(corners[2]), strength_of(corners[3]));
+  return {Color((above * (1 - place.down) + below * place.down) * double{sky.scale}),
+          double{sky.density} * (mean + double{sky.least_strength})};
+}
+
+SkyCells::SkyCells(const SkyReference& sky, std::uint32_t tile, const std::byte* record)
+    : sky_(sky), tile_(tile), least_(double{sky.least_strength}) {
+  std::array<std::array<double, tile_side>, tile_side> strength;
+  for (std::uint32_t row = 0; row < tile_side; ++row) {
+    for (std::uint32_t column = 0; column < tile_side; ++column) {
+      strength[row][column] = strength_of(texel_of(record, column, row));
+    }
+  }
+  const std::uint32_t columns = sky_tile_columns(sky), first_row = tile / columns * sky_tile_cells,
+                      first_column = tile % columns * sky_tile_cells;
+  const std::uint32_t rows = std::min(sky_tile_cells, sky.height + 1 - first_row);
+  const std::uint32_t cells = std::min(sky_tile_cells, sky.width - first_column);
+  double above = angle_above(sky, first_row);
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    const double below = angle_above(sky, first_row + row + 1);
+    Row& its = row_[row];
+    its.top = row > 0 ? row_[row - 1].bottom : cos_radians(above);
+    its.bottom = cos_radians(below);
+    its.angle = 2 * pi / sky.width * 2 * sin_radians((above + below) * 0.5) * sin_radians((below - above) * 0.5);
+    its.count = cells;
+    for (std::uint32_t cell = 0; cell < cells; ++cell) {
+      cell_[row][cell] =
+          mean_of(strength[row][cell], strength[row][cell + 1], strength[row + 1][cell], strength[row + 1][cell + 1]);
+      its.strength += cell_[row][cell];
+    }
+    strength_ += its.strength * its.angle;
+    solid_angle_ += its.count * its.angle;
+    above = below;
+  }
+}
+
+SkyCells::Drawn SkyCells::draw(double x, double y) const {
+  double left = x * all();
+  std::uint32_t row = 0;
+  for (; row + 1 < sky_tile_cells && row_[row + 1].count > 0 && left >= weight_of(row); ++row) {
+    left -= weight_of(row);
+  }
+  const Row& its = row_[row];
+  left /= its.angle;
+  std::uint32_t cell = 0;
+  for (; cell + 1 < static_cast<std::uint32_t>(its.count) && left >= cell_[row][cell] + least_; ++cell) {
+    left -= cell_[row][cell] + least_;
+  }
+  const double across = std::clamp(left / (cell_[row][cell] + least_), 0.0, 1.0);
+  const std::uint32_t columns = sky_tile_columns(sky_);
+  const double turn = (tile_ % columns * sky_tile_cells + cell + across + 0.5) / sky_.width, angle = 2 * pi * (0.5 - turn);
+  const double height = its.top + y * (its.bottom - its.top), out = std::sqrt(std::max(0.0, 1 - height * height));
+  const double from_top = angle_of(out, height) / pi * sky_.height + 0.5 - (tile_ / columns * sky_tile_cells + row);
+  return {{tile_, cell, row, across, std::clamp(from_top, 0.0, 1.0)},
+          sky_.up * height + (sky_.middle * cos_radians(angle) + left_of(sky_) * sin_radians(angle)) * out};
+}
+
+}  // namespace dmpc::core
