@@ -5,8 +5,7 @@
 #include "apps/edge/line/amount.h"
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/run/time_parts.h"
-#include "apps/edge/show/trace/chrome.h"
-#include "apps/edge/show/trace/paje.h"
+#include "apps/edge/show/trace/format.h"
 #include "apps/edge/show/trace/view.h"
 #include "core/base/counts.h"
 #include "core/base/expect.h"
@@ -155,17 +154,17 @@ void write_trace(const ProgramRecord& record, std::ostream& output) {
   for (const NamedOperation& operation : vocabulary.operations) {
     operation_names[operation.charge] = operation.name.c_str();
   }
-  const std::uint64_t lost = record.trace->events_lost;
+  const bool is_whole = record.trace->events_lost == 0;
   const TraceView view = {.trace = *record.trace,
                           .kind_names = kind_names,
                           .has_pages = vocabulary.has_pages(),
                           .clock = record.options.is_modelled() ? "virtual time" : "wall clock",
                           .remarks = {{"program", record.name},
                                       {"computer", computer_text(record.options)},
-                                      {"lost", lost == 0 ? "nothing" : counted(lost, "event") + ": the trace is full"}},
+                                      {"lost", is_whole ? "nothing" : lost_text(*record.trace)}},
                           .activity_names = vocabulary.has_pages() ? task_activity_names : activity_names,
                           .operation_names = operation_names};
-  record.options.trace->extension() == ".paje" ? write_paje(view, output) : write_chrome(view, output);
+  write_trace(view, trace_file_of(*record.options.trace).value().format, output);
 }
 
 }  // namespace dmpc::apps

@@ -73,6 +73,7 @@ std::string bytes_of(const WatchOrder& order) {
     flat.put_all(order.trace->nodes);
     flat.put(order.trace->every);
     flat.put(order.trace->events_max);
+    flat.put(order.trace->keep);
   }
   flat.put(order.has_profile);
   flat.put(order.fetches);
@@ -95,6 +96,7 @@ WatchOrder watch_order_from(std::string_view bytes) {
     trace.nodes = flat.take_all<bool>();
     trace.every = flat.take<std::uint32_t>();
     trace.events_max = flat.take<std::uint64_t>();
+    trace.keep = flat.take<nodes::TraceKeep>();
   }
   order.has_profile = flat.take<bool>();
   order.fetches = flat.take<std::optional<svm::PageHomes>>();

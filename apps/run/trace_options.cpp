@@ -4,6 +4,7 @@
 
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/line/parsed_number.h"
+#include "apps/edge/show/trace/format.h"
 #include "core/base/expect.h"
 #include "nodes/watch/trace.h"
 
@@ -82,8 +83,8 @@ TraceNodes parse_trace_nodes(const std::string& text) {
 void add_options(OptionSet options, TraceOptions& trace) {
   options.add_path(
       "--trace", "FILE", trace.path,
-      "Write what each node did when, its messages and how full it was: FILE.json for Perfetto or Chrome, FILE.paje for "
-      "readers of Paje");
+      "Write what each node did when, its messages and how full it was: FILE.pftrace for Perfetto, FILE.json for it or "
+      "Chrome, FILE.paje for readers of Paje; .gz behind it packs");
   options.add_text(
       "--trace-window", "FROM,TO", [&trace](const std::string& text) { trace.window = parse_trace_window(text); },
       "Only this time, in milliseconds since the start of the run; FROM, lasts until its end");
@@ -93,17 +94,24 @@ void add_options(OptionSet options, TraceOptions& trace) {
   options.add_number("--trace-every", trace.every, 1, 1'000'000'000, "1",
                      "Only one of so many pixels: the quanta that work on it, and what follows from the messages that they send");
   options.add_number("--trace-events", trace.events_max, 1, 100'000'000, "1000000",
-                     "The most events to keep, each in about 110 bytes of the real computer; what comes later is lost");
+                     "The most events to keep, each in about 110 bytes of the real computer");
+  options.add_choice<nodes::TraceKeep>(
+      "--trace-keep", trace.keep,
+      {{"spread", nodes::TraceKeep::spread}, {"last", nodes::TraceKeep::last}, {"first", nodes::TraceKeep::first}}, "spread",
+      "Of more events than that, how the run begins and ends and parts of all times between, what each node did last, or what "
+      "comes first");
 }
 
 void check_trace(const OptionSet& options, const TraceOptions& trace, std::uint32_t node_count) {
-  for (const std::string option : {"--trace-window", "--trace-nodes", "--trace-every", "--trace-events"}) {
+  for (const std::string option : {"--trace-window", "--trace-nodes", "--trace-every", "--trace-events", "--trace-keep"}) {
     if (!trace.path && options.is_given(option)) {
       throw UsageError(option + " chooses what --trace records: give --trace=FILE too");
     }
   }
-  if (trace.path && trace.path->extension() != ".json" && trace.path->extension() != ".paje") {
-    throw UsageError("--trace=" + trace.path->string() + ": expected a file with the ending .json (Perfetto, Chrome) or .paje");
+  if (trace.path && !trace_file_of(*trace.path)) {
+    throw UsageError("--trace=" + trace.path->string() +
+                     ": expected a file with the ending .pftrace (Perfetto), .json (Perfetto, "
+                     "Chrome) or .paje, or one of these and .gz");
   }
   for (const auto& [first, last] : trace.nodes.value_or(TraceNodes{}).rows) {
     if (last >= node_count) {
@@ -113,7 +121,7 @@ void check_trace(const OptionSet& options, const TraceOptions& trace, std::uint3
 }
 
 nodes::TraceChoice trace_choice(const TraceOptions& trace, std::uint32_t node_count) {
-  nodes::TraceChoice choice{.every = trace.every, .events_max = trace.events_max};
+  nodes::TraceChoice choice{.every = trace.every, .events_max = trace.events_max, .keep = trace.keep};
   if (trace.window) {
     choice.from_ns = trace.window->from_ns;
     choice.to_ns = trace.window->to_ns.value_or(choice.to_ns);

@@ -12,7 +12,8 @@
 
 namespace dmpc::nodes {
 struct TraceChoice;
-}
+enum class TraceKeep : std::uint8_t;
+}  // namespace dmpc::nodes
 
 namespace dmpc::apps {
 
@@ -29,11 +30,12 @@ struct TraceNodes {
 };
 
 struct TraceOptions {
-  std::optional<std::filesystem::path> path;  ///< .json or .paje; without it nothing is recorded
+  std::optional<std::filesystem::path> path;  ///< as trace_file_of() says; without it nothing is recorded
   std::optional<TraceWindow> window;
   std::optional<TraceNodes> nodes;
   std::uint32_t every = 1;               ///< pixels of which one is recorded
   std::uint32_t events_max = 1'000'000;  ///< that are kept
+  nodes::TraceKeep keep = {};            ///< of more than these: by default of the whole run
 };
 
 /// "FROM,TO" in milliseconds; either may be left out. Throws core::UsageError for anything else, or an empty window.

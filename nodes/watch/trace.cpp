@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <iterator>
+#include <limits>
 #include <tuple>
 #include <unordered_map>
 #include <unordered_set>
@@ -106,11 +108,64 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
   std::array<std::uint64_t, Levels::count_max> levels{};
   TraceSpan current;                ///< of the call under way: what it has worked on
   bool is_last_call_wanted = true;  ///< but for interrupts
+  std::uint64_t room = 0;           ///< events that may be kept
+  std::uint64_t lost = 0;           ///< events
   std::uint64_t lost_from_ns = std::numeric_limits<std::uint64_t>::max();
+  std::optional<RecordedTimes> times;  ///< if something was forgotten
 
-  bool is_empty() const {
-    return node.spans.empty() && node.levels.empty() && sent.kept.empty() && received.kept.empty() &&
-           lost_from_ns == std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t count() const { return node.spans.size() + node.levels.size() + sent.kept.size() + received.kept.size(); }
+  bool is_empty() const { return count() == 0 && lost == 0; }
+  /// When the event is that so many are before.
+  std::uint64_t time_of(std::uint64_t rank) const {
+    std::vector<std::uint64_t> times_ns;
+    times_ns.reserve(count());
+    const auto add = [&times_ns](const auto& events, auto time_ns) {
+      std::transform(events.begin(), events.end(), std::back_inserter(times_ns),
+                     [&](const auto& event) { return event.*time_ns; });
+    };
+    add(node.spans, &TraceSpan::begin_ns);
+    add(node.levels, &TraceLevel::time_ns);
+    add(sent.kept, &End::time_ns);
+    add(received.kept, &End::time_ns);
+    std::nth_element(times_ns.begin(), times_ns.begin() + static_cast<std::ptrdiff_t>(rank), times_ns.end());
+    return times_ns[rank];
+  }
+  /// Forgets what is of other times.
+  void leave(const RecordedTimes& left) {
+    const std::uint64_t before = count();
+    std::erase_if(node.spans, [&left](const TraceSpan& span) { return !left.has(span.begin_ns); });
+    for (Ends* const ends : {&sent, &received}) {
+      std::erase_if(ends->kept, [&left](const End& end) { return !left.has(end.time_ns); });
+    }
+    leave_levels(left);
+    lost += before - count();
+  }
+  /// A level that is had when what is left begins again is told then.
+  void leave_levels(const RecordedTimes& left) {
+    std::array<std::optional<TraceLevel>, Levels::count_max> passed;
+    std::vector<TraceLevel> kept;
+    std::uint64_t next_ns = 0;
+    const auto tell_passed = [&] {
+      for (std::optional<TraceLevel>& level : passed) {
+        if (level) {
+          kept.push_back({next_ns, level->value, level->number});
+          level.reset();
+        }
+      }
+    };
+    for (const TraceLevel& level : node.levels) {
+      if (level.time_ns >= next_ns) {
+        tell_passed();
+      }
+      if (left.has(level.time_ns)) {
+        kept.push_back(level);
+      } else {
+        passed[level.number] = level;
+        next_ns = left.next(level.time_ns);
+      }
+    }
+    tell_passed();
+    node.levels = std::move(kept);
   }
   void put(FlatWriter& flat) const {
     flat.put_all(node.spans);
@@ -121,7 +176,9 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
     flat.put_all(node.levels);
     flat.put_all(sent.kept);
     flat.put_all(received.kept);
+    flat.put(lost);
     flat.put(lost_from_ns);
+    flat.put(times);
   }
   void take(FlatReader& flat) {
     node.spans = flat.take_all<TraceSpan>();
@@ -131,7 +188,9 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
     node.levels = flat.take_all<TraceLevel>();
     sent.kept = flat.take_all<End>();
     received.kept = flat.take_all<End>();
+    lost = flat.take<std::uint64_t>();
     lost_from_ns = flat.take<std::uint64_t>();
+    times = flat.take<std::optional<RecordedTimes>>();
   }
   /// From the clock of the node's rank to that of rank 0.
   void correct(const ClockDrift& clock) {
@@ -147,6 +206,10 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
         end.time_ns = clock.corrected(end.time_ns);
       }
     }
+    if (times) {  // but for its parts: near their edges an event may be missing
+      times->whole_until_ns = clock.corrected(times->whole_until_ns);
+      times->whole_from_ns = clock.corrected(times->whole_from_ns);
+    }
   }
 };
 
@@ -160,8 +223,11 @@ bool is_own_call(Activity activity) { return activity == Activity::work || activ
 TraceRecorder::TraceRecorder(std::uint32_t peer_count, const TraceChoice& choice) : choice_(choice) {
   core::expect(choice.nodes.empty() || choice.nodes.size() == peer_count, "a choice of nodes has all of them and the host");
   core::expect(choice.every > 0, "one of at least one item is recorded");
+  const std::uint64_t own_room = choice.keep == TraceKeep::first ? 0 : choice.events_max / 2 / peer_count;
+  shared_room_ = choice.events_max - own_room * peer_count;
   for (std::uint32_t i = 0; i < peer_count; ++i) {
     logs_.push_back(std::make_unique<Log>());
+    logs_.back()->room = own_room;
   }
 }
 
@@ -169,13 +235,58 @@ TraceRecorder::~TraceRecorder() = default;
 
 bool TraceRecorder::is_chosen_item(std::uint32_t item) const { return core::mix(item) % choice_.every == 0; }
 
-/// Whether there is room for an event more.
+bool TraceRecorder::gets_more_room() { return taken_.fetch_add(1, std::memory_order_relaxed) < shared_room_; }
+
+/// Whether there is room for an event more, which may be made.
 bool TraceRecorder::admit(Log& log, std::uint64_t time_ns) {
-  if (events_.fetch_add(1, std::memory_order_relaxed) < choice_.events_max) {
+  if (log.count() < log.room) {
     return true;
   }
+  if (gets_more_room()) {
+    ++log.room;
+    return true;
+  }
+  make_room(log, time_ns);
+  if (log.count() < log.room) {
+    return true;
+  }
+  ++log.lost;
   log.lost_from_ns = std::min(log.lost_from_ns, time_ns);
   return false;
+}
+
+void TraceRecorder::make_room(Log& log, std::uint64_t now_ns) {
+  if (choice_.keep == TraceKeep::first) {
+    return;
+  }
+  if (log.room == 0) {
+    log.times = RecordedTimes{.whole_from_ns = now_ns + 1};
+    return;
+  }
+  if (choice_.keep == TraceKeep::spread) {
+    thin(log, now_ns);
+  }
+  if (log.count() >= log.room - log.room / 8) {  // of a spread trace only where nearly all happens at one time
+    log.times = RecordedTimes{.whole_from_ns = std::max(log.time_of(log.count() / 2), log.time_of(0) + 1)};
+    log.leave(*log.times);
+  }
+}
+
+/// An eighth of the room is for how the run begins, another for what is newest, which forgets nothing until it is older.
+void TraceRecorder::thin(Log& log, std::uint64_t now_ns) {
+  const std::uint64_t count = log.count();
+  if (!log.times) {
+    std::uint32_t period = 0;  // that everybody has
+    const std::uint32_t here = RecordedTimes::period_bits_at(now_ns) + 1;
+    period = period_.compare_exchange_strong(period, here, std::memory_order_relaxed) ? here : period;
+    log.times = RecordedTimes::begin(log.time_of(count / 8) + 1, period - 1);
+  }
+  log.times->whole_from_ns = log.time_of(count - count / 8 - 1);
+  log.leave(*log.times);
+  for (int i = 0; i < std::numeric_limits<std::uint64_t>::digits && log.count() > log.room - log.room / 4; ++i) {
+    log.times->thin(now_ns);
+    log.leave(*log.times);
+  }
 }
 
 void TraceRecorder::worked(const Worked& worked) {
@@ -336,7 +447,6 @@ std::vector<TraceMessage> TraceRecorder::join() const {
 
 std::string TraceRecorder::bytes() const {
   FlatWriter flat;
-  flat.put(events_lost());
   for (std::uint32_t index = 0; index < logs_.size(); ++index) {
     if (!logs_[index]->is_empty()) {
       flat.put(index);
@@ -348,7 +458,6 @@ std::string TraceRecorder::bytes() const {
 
 void TraceRecorder::add(std::string_view bytes, const ClockDrift& clock) {
   FlatReader flat(bytes);
-  lost_elsewhere_ += flat.take<std::uint64_t>();
   while (!flat.is_at_end()) {
     Log& log = *logs_.at(flat.take<std::uint32_t>());
     core::expect(log.is_empty(), "a node is on one rank");
@@ -357,10 +466,31 @@ void TraceRecorder::add(std::string_view bytes, const ClockDrift& clock) {
   }
 }
 
-/// Here.
+/// Of those that are here, or have been added.
 std::uint64_t TraceRecorder::events_lost() const {
-  const std::uint64_t events = events_.load(std::memory_order_relaxed);
-  return events - std::min(events, choice_.events_max);
+  std::uint64_t lost = 0;
+  for (const auto& log : logs_) {
+    lost += log->lost;
+  }
+  return lost;
+}
+
+/// What all have in common; nothing if nobody has forgotten anything. In a spread trace all nodes then have the same times.
+std::optional<RecordedTimes> TraceRecorder::settle_times() {
+  std::optional<RecordedTimes> times;
+  for (const auto& log : logs_) {
+    if (log->times && times) {
+      times->meet(*log->times);
+    } else if (log->times) {
+      times = log->times;
+    }
+  }
+  if (times && choice_.keep == TraceKeep::spread) {
+    for (const auto& log : logs_) {
+      log->leave(*times);
+    }
+  }
+  return times;
 }
 
 namespace {
@@ -379,11 +509,12 @@ void move_early(Trace& trace) {
 }  // namespace
 
 Trace TraceRecorder::take() {
-  Trace trace{.messages = join()};
+  const std::optional<RecordedTimes> times = settle_times();
+  Trace trace{.messages = join(), .times = times};
   move_early(trace);
   std::stable_sort(trace.messages.begin(), trace.messages.end(),
                    [](const TraceMessage& a, const TraceMessage& b) { return a.sent_ns < b.sent_ns; });
-  trace.events_lost = events_lost() + lost_elsewhere_;
+  trace.events_lost = events_lost();
   trace.lost_from_ns = choice_.to_ns;
   for (const auto& log : logs_) {
     trace.lost_from_ns = std::min(trace.lost_from_ns, log->lost_from_ns);

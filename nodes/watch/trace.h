@@ -7,14 +7,23 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "nodes/observer.h"
 #include "nodes/ranks/clock_drift.h"
+#include "nodes/watch/recorded_times.h"
 
 namespace dmpc::nodes {
+
+/// What a trace keeps that has no room for all.
+enum class TraceKeep : std::uint8_t {
+  spread,  ///< how the run begins and ends, and in between the same part of each period, at all nodes
+  last,    ///< of each node what it did last
+  first    ///< what comes first
+};
 
 /// What of a run is recorded.
 struct TraceChoice {
@@ -25,6 +34,7 @@ struct TraceChoice {
   /// these send; levels only after such calls. 1: everything.
   std::uint32_t every = 1;
   std::uint64_t events_max = 1'000'000;  ///< spans, ends of messages and levels that are kept
+  TraceKeep keep = TraceKeep::spread;    ///< of more than these
 };
 
 /// A Span, cut where the window ends.
@@ -71,13 +81,17 @@ struct Trace {
   std::vector<TraceNode> nodes;  ///< by number, the host last
   std::vector<TraceMessage> messages;
   std::uint64_t events_lost = 0;   ///< beyond TraceChoice::events_max
-  std::uint64_t lost_from_ns = 0;  ///< since when, if there are any
+  std::uint64_t lost_from_ns = 0;  ///< since when, if there are any, and the first were kept
+  /// Else, if there are any: when nothing was lost. Of the last that were kept some nodes may have earlier ones.
+  std::optional<RecordedTimes> times;
   /// On ranks, whose clocks are not quite alike: messages that seemed to be received before they were sent, and by how much at
   /// most. They are received when they are sent.
   std::uint64_t messages_moved = 0, moved_ns_max = 0;
 };
 
-/// Records. Thread safety: as an Observer; take() when the run is over.
+/// Records. Half of the room for events is shared out evenly among the nodes, the other half is theirs who need it first; with
+/// TraceKeep::first all of it. A node whose room is full forgets some of what it has itself, so nobody waits for anybody.
+/// Thread safety: as an Observer; take() when the run is over.
 class TraceRecorder final : public Observer {
  public:
   /// `peer_count` = nodes + host.
@@ -111,6 +125,10 @@ class TraceRecorder final : public Observer {
   TraceSpan cut(Log& log, const Span& span) const;
   bool is_in_window(std::uint64_t time_ns) const { return choice_.from_ns <= time_ns && time_ns < choice_.to_ns; }
   bool admit(Log& log, std::uint64_t time_ns);
+  bool gets_more_room();
+  void make_room(Log& log, std::uint64_t now_ns);
+  void thin(Log& log, std::uint64_t now_ns);
+  std::optional<RecordedTimes> settle_times();
   void note_levels(Log& log, const Program& program, std::uint64_t time_ns);
   void note_end(Log& log, Ends& ends, const Passing& packet, std::uint64_t time_ns);
   std::vector<TraceMessage> join() const;
@@ -118,8 +136,9 @@ class TraceRecorder final : public Observer {
 
   TraceChoice choice_;
   std::vector<std::unique_ptr<Log>> logs_;
-  std::atomic<std::uint64_t> events_{0};
-  std::uint64_t lost_elsewhere_ = 0;  ///< events, on other ranks
+  std::uint64_t shared_room_ = 0;         ///< events, for whoever comes first
+  std::atomic<std::uint64_t> taken_{0};   ///< of them, and what was asked for in vain
+  std::atomic<std::uint32_t> period_{0};  ///< bits of the first to be thinned, and 1
 };
 
 }  // namespace dmpc::nodes

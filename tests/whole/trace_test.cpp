@@ -151,6 +151,24 @@ std::uint64_t count_of(const Trace& trace, const std::set<std::uint32_t>& pixels
   return count;
 }
 
+std::uint64_t end_of(const Trace& trace) {
+  std::uint64_t end_ns = 0;
+  for (const nodes::TraceNode& node : trace.nodes) {
+    for (const TraceSpan& span : node.spans) {
+      end_ns = std::max(end_ns, span.end_ns);
+    }
+  }
+  return end_ns;
+}
+
+/// Whether a node does something from a time to another.
+bool has_between(const Trace& trace, std::uint64_t from_ns, std::uint64_t to_ns) {
+  return std::any_of(trace.nodes.begin(), trace.nodes.end(), [&](const nodes::TraceNode& node) {
+    return std::any_of(node.spans.begin(), node.spans.end(),
+                       [&](const TraceSpan& span) { return span.begin_ns < to_ns && from_ns <= span.end_ns; });
+  });
+}
+
 constexpr Way all_ways[] = {Way::pages, Way::rays, Way::copies};
 
 }  // namespace
@@ -230,6 +248,26 @@ TEST_CASE("a trace of one pixel in so many has the quanta that work on these pix
     CHECK(count_of(all, pixels) == count_of(some, pixels));
     CHECK(!some.messages.empty());
     CHECK(some.messages.size() < all.messages.size());
+  }
+}
+
+TEST_CASE("a trace with room for a part of a run has its first and its last percent, by either clock") {
+  const Subject small = traced();
+  for (const Way way : all_ways) {
+    for (const auto& machine : {std::optional<nodes::Machine>(), std::optional(priced_machine())}) {
+      const auto [counted, trace] = traced(small, way, machine, {.events_max = 200});
+      REQUIRE(trace.times);
+      CHECK(trace.events_lost > 0);
+      for (const nodes::TraceNode& node : trace.nodes) {
+        for (const TraceSpan& span : node.spans) {
+          CHECK(trace.times->has(span.begin_ns));
+        }
+      }
+      const std::uint64_t end_ns = end_of(trace);
+      CHECK((!machine || end_ns == end_of(traced(small, way, machine).trace)));
+      CHECK(has_between(trace, 0, end_ns / 100));
+      CHECK(has_between(trace, end_ns - end_ns / 100, end_ns));
+    }
   }
 }
 

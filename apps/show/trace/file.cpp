@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
-#include "apps/edge/show/trace/chrome.h"
-#include "apps/edge/show/trace/paje.h"
+#include "apps/edge/show/trace/format.h"
 #include "apps/edge/show/trace/view.h"
+#include "apps/show/trace/gzip_stream.h"
 #include "core/base/expect.h"
 #include "nodes/watch/trace.h"
 
@@ -22,8 +22,6 @@ std::string line_of(std::string text) {
   return text;
 }
 
-std::string milliseconds(std::uint64_t time_ns) { return thousandths(time_ns / 1000); }
-
 std::string window_text(const std::optional<TraceWindow>& window) {
   return window ? milliseconds(window->from_ns) + " to " + (window->to_ns ? milliseconds(*window->to_ns) : "the end") : "all";
 }
@@ -36,8 +34,6 @@ std::string nodes_text(const std::optional<TraceNodes>& nodes) {
   return !nodes ? "all" : !nodes->has_host ? text : text.empty() ? "host" : text + ", host";
 }
 
-std::string microseconds(std::uint64_t time_ns) { return thousandths(time_ns) + " us"; }
-
 /// How far times of different ranks may be compared.
 std::string clocks_text(const std::vector<nodes::RankFigures>& ranks, const nodes::Trace& trace) {
   std::uint64_t error_ns = 0;
@@ -45,10 +41,11 @@ std::string clocks_text(const std::vector<nodes::RankFigures>& ranks, const node
     error_ns = std::max(error_ns, rank.clock.error_ns());
   }
   std::string text = "of " + counted(ranks.size(), "rank") +
-                     ", compared with that of rank 0 before and after the run: wrong by " + microseconds(error_ns) + " at most";
+                     ", compared with that of rank 0 before and after the run: wrong by " + thousandths(error_ns) + " us" +
+                     " at most";
   if (trace.messages_moved > 0) {
     text += "; of " + counted(trace.messages.size(), "message") + " " + std::to_string(trace.messages_moved) +
-            " seemed to be received up to " + microseconds(trace.moved_ns_max) +
+            " seemed to be received up to " + thousandths(trace.moved_ns_max) + " us" +
             " before they were sent, and are shown as received when they were sent";
   }
   return text;
@@ -91,15 +88,20 @@ TraceView view_of(const RenderRecord& record) {
 void write_trace(const RenderRecord& record, std::ostream& stream) {
   core::expect(record.trace != nullptr, "a trace that is written was recorded");
   const TraceView view = view_of(record);
-  record.options.trace.path->extension() == ".paje" ? write_paje(view, stream) : write_chrome(view, stream);
+  const TraceFile file = trace_file_of(*record.options.trace.path).value();
+  if (!file.is_packed) {
+    return write_trace(view, file.format, stream);
+  }
+  GzipStream packing(stream);
+  write_trace(view, file.format, packing);
+  packing.finish();
 }
 
 std::string loss_note(const nodes::Trace& trace, const TraceOptions& options) {
   if (trace.events_lost == 0) {
     return "";
   }
-  return "the trace is full: " + counted(trace.events_lost, "event") + " from " + milliseconds(trace.lost_from_ns) +
-         " ms on were not recorded; " +
+  return "the trace is full: " + lost_text(trace) + "; " +
          (options.every > 1 ? "--trace-window or --trace-nodes leave" : "--trace-window, --trace-nodes or --trace-every leave") +
          " room, --trace-events makes some";
 }

@@ -133,7 +133,7 @@ TEST_CASE("counters add up: by packet, by node and by piece of memory") {
 
 TEST_CASE("a trace calls packets and operations as the program does, and what has none computing") {
   const TemporaryFolder folder;
-  for (const std::string name : {"trace.json", "trace.paje"}) {
+  for (const std::string name : {"trace.json", "trace.paje", "trace.pftrace"}) {
     const std::string file = folder / name;
     REQUIRE(run_with(asker(10), {"--nodes=2", "--runner=virtual", "--trace=" + file}).status == 0);
     const std::string text = file_text(file);
@@ -156,7 +156,8 @@ TEST_CASE("options that do not go together, or are none, are refused with a hint
   CHECK(complaint({"--runner=virtual", "--pool-threads=2"}).find("--pool-threads does not go with --runner=virtual") !=
         std::string::npos);
   CHECK(complaint({"--chaos=1", "--runner=virtual"}).find("chaos disturbs threads only") != std::string::npos);
-  CHECK(complaint({"--trace=a.txt"}).find("--trace=a.txt: expected a file with the ending .json") != std::string::npos);
+  CHECK(complaint({"--trace=a.txt"}).find("--trace=a.txt: expected a file with the ending .pftrace") != std::string::npos);
+  CHECK(complaint({"--trace=a.json.gz"}).find("gzip packs it") != std::string::npos);
   CHECK(complaint({"--node=3"}).find("Try: asker --help") != std::string::npos);
   CHECK(complaint({"word"}).find("expected asker") != std::string::npos);
   CHECK(run_with(asker(1), {"--runner=virtual", "--machine=none"}).status == 1);

@@ -140,6 +140,11 @@ TEST_CASE("a trace stands beside the picture, or nothing does, and says what it 
   CHECK(contains(render(trace, "--trace-events=5").errors, "the trace is full: "));
   CHECK(contains(file_text(trace), "\"lost\":\"the trace is full: "));
   CHECK(folder.entry_count() == 2);
+  const std::string packed = folder / "a.json.gz";
+  CHECK(render(packed, "--trace-keep=last").errors.empty());
+  ChildProcess gzip({"/bin/gzip", "-dc", packed});
+  CHECK(gzip.status() == 0);
+  CHECK(contains(gzip.output(), "\"lost\":\"nothing\""));
 }
 
 TEST_CASE("what references that a render writes tell of a cache is what the run faulted, for each policy") {

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -77,7 +78,8 @@ apps::RenderOptions storage_options(const TemporaryFolder& folder, std::uint64_t
     options.heat_maps = {{core::HeatKind::rays, folder / "picture/h.png"}, {core::HeatKind::time, folder / "picture/h.exr"}};
   }
   if (seed % 4 == 2) {
-    options.trace.path = folder / (seed % 8 == 2 ? "picture/t.json" : "picture/t.paje");
+    constexpr std::array<const char*, 4> names = {"t.json", "t.paje", "t.pftrace", "t.json.gz"};
+    options.trace.path = folder / "picture" / names[seed / 4 % names.size()];
   }
   if (seed % 50 == 3) {
     options.report = folder / "picture/r.html";
@@ -93,6 +95,8 @@ void cover(const apps::RenderOptions& options, Coverage& covered) {
   covered.count("heat maps", !options.heat_maps.empty());
   covered.count("a trace in JSON", options.trace.path && options.trace.path->extension() == ".json");
   covered.count("a trace for Paje", options.trace.path && options.trace.path->extension() == ".paje");
+  covered.count("a trace for Perfetto", options.trace.path && options.trace.path->extension() == ".pftrace");
+  covered.count("a trace that is packed", options.trace.path && options.trace.path->extension() == ".gz");
   covered.count("a page", options.report.has_value());
 }
 

@@ -66,16 +66,23 @@ TEST_CASE("a trace's nodes are numbers, rows of them and the host") {
 TEST_CASE("one pixel in so many and the most events are whole numbers above 0") {
   CHECK(choice({"--trace-every=100"}).every == 100);
   CHECK(choice({"--trace-events=5"}).events_max == 5);
+  CHECK(choice({}).keep == nodes::TraceKeep::spread);
+  CHECK(choice({"--trace-keep=first"}).keep == nodes::TraceKeep::first);
   CHECK_FALSE(render_usage_complaint({"--trace=a.json", "--trace-every=0"}).empty());
   CHECK_FALSE(render_usage_complaint({"--trace=a.json", "--trace-events=0"}).empty());
 }
 
-TEST_CASE("a trace has one of two formats, and what chooses from it needs one") {
+TEST_CASE("a trace has one of three formats, packed or not, and what chooses from it needs one") {
   CHECK(render_usage_complaint({"--trace=a.json"}).empty());
   CHECK(render_usage_complaint({"--trace=a.paje"}).empty());
+  CHECK(render_usage_complaint({"--trace=a.pftrace"}).empty());
+  CHECK(render_usage_complaint({"--trace=a.b.pftrace.gz"}).empty());
+  CHECK(contains(render_usage_complaint({"--trace=a.gz"}), ".pftrace"));
+  CHECK(contains(render_usage_complaint({"--trace=a.png.gz"}), ".pftrace"));
   CHECK(contains(render_usage_complaint({"--trace=a.png"}), ".paje"));
   CHECK(contains(render_usage_complaint({"--trace=json"}), ".paje"));
-  for (const std::string option : {"--trace-window=0,1", "--trace-nodes=0", "--trace-every=2", "--trace-events=9"}) {
+  for (const std::string option :
+       {"--trace-window=0,1", "--trace-nodes=0", "--trace-every=2", "--trace-events=9", "--trace-keep=last"}) {
     CHECK_MESSAGE(contains(render_usage_complaint({option}), "give --trace=FILE"), option);
   }
 }

@@ -258,7 +258,7 @@ TEST_CASE("of one item in four there is nothing that the others bring about") {
 }
 
 TEST_CASE("of one item in four what the others do takes no room") {
-  Told told({.every = 4, .events_max = 6});
+  Told told({.every = 4, .events_max = 6, .keep = TraceKeep::first});
   for (std::uint32_t call = 1; call < 9; ++call) {
     told.gauge.height = call;
     told.recorder.worked({NodeId{0}, item(call == 8), 1});
@@ -293,8 +293,8 @@ TEST_CASE("of one item in four a call that is interrupted keeps its message, and
   CHECK(trace.nodes[0].spans.size() == 2);
 }
 
-TEST_CASE("a full trace keeps what came first and counts the rest") {
-  Told told({.events_max = 4});
+TEST_CASE("a full trace that is to keep what came first counts the rest") {
+  Told told({.events_max = 4, .keep = TraceKeep::first});
   told.span(0, 0, 1);  // and two levels
   told.span(0, 1, 2);
   told.span(0, 2, 3);
@@ -364,7 +364,8 @@ TEST_CASE("a message that another rank's clock has received too early is receive
 }
 
 TEST_CASE("what a full recorder on another rank has lost is counted with what is lost here") {
-  Told here({.events_max = 2}), elsewhere({.events_max = 2});
+  const TraceChoice choice = {.events_max = 2, .keep = TraceKeep::first};
+  Told here(choice), elsewhere(choice);
   for (std::uint64_t time = 0; time < 50; time += 10) {
     here.span(0, time + 5, time + 6);
     elsewhere.span(1, time, time + 1);
@@ -375,6 +376,120 @@ TEST_CASE("what a full recorder on another rank has lost is counted with what is
   CHECK(trace.nodes[1].spans.size() + trace.nodes[1].levels.size() == 2);
   CHECK(trace.events_lost == 2 * (5 + 2 - 2));  // quanta, and the two levels that are written once
   CHECK(trace.lost_from_ns < 20);
+}
+
+TEST_CASE("a full trace that is to keep the last has of each node what it did last, and what joins") {
+  Told told({.events_max = 60, .keep = TraceKeep::last});
+  told.span(2, 0, 1);  // and two levels
+  for (std::uint64_t call = 1; call <= 1000; ++call) {
+    told.sends(0, 1, 10 * call, call);
+    told.receives(1, 0, 10 * call + 5, call);
+    told.span(0, 10 * call, 10 * call + 1, Activity::work, call);
+    told.span(1, 10 * call + 5, 10 * call + 6, Activity::receive, call);
+  }
+  const Trace trace = told.recorder.take();
+  CHECK(trace.nodes[2].spans.size() == 1);
+  REQUIRE(trace.times);
+  CHECK(trace.times->whole_from_ns > 9000);
+  CHECK(trace.times->whole_from_ns < 10'000);
+  CHECK(trace.nodes[0].spans.back().call == 1000);
+  CHECK(trace.nodes[1].spans.back().call == 1000);
+  CHECK(trace.messages.back().received_call == 1000);
+  for (const TraceMessage& message : trace.messages) {
+    CHECK(message.sent_call == message.received_call);
+  }
+  const std::size_t kept = trace.nodes[0].spans.size() + trace.nodes[1].spans.size() + 2 * trace.messages.size();
+  CHECK(kept > 20);
+  CHECK(kept <= 60);
+  CHECK(trace.events_lost > 3900);
+}
+
+TEST_CASE("a full trace that is spread has the beginning, the end, and at all nodes the same parts of what is between") {
+  Told told({.events_max = 3000, .keep = TraceKeep::spread});
+  for (std::uint64_t call = 1; call <= 50'000; ++call) {
+    told.sends(0, 1, 16 * call, call);
+    told.receives(1, 0, 16 * call + 1, call);
+    told.span(0, 16 * call, 16 * call + 1, Activity::work, call);
+    if (call % 8 == 0) {
+      told.span(1, 16 * call + 1, 16 * call + 2, Activity::receive, call);
+    }
+  }
+  const Trace trace = told.recorder.take();
+  REQUIRE(trace.times);
+  const RecordedTimes& times = *trace.times;
+  CHECK(times.has_parts);
+  CHECK(times.whole_until_ns > 16);
+  CHECK(times.whole_from_ns < 800'000);
+  CHECK(times.period_ns() <= 8000);  // a percent of the run
+  const std::vector<TraceSpan>& spans = trace.nodes[0].spans;
+  CHECK(spans.front().call == 1);
+  CHECK(spans.back().call == 50'000);
+  CHECK(spans.size() > 400);
+  CHECK(spans.size() + trace.nodes[1].spans.size() + 2 * trace.messages.size() <= 3000);
+  std::uint64_t expected = 0;
+  for (std::uint64_t call = 1; call <= 50'000; ++call) {
+    expected += times.has(16 * call) ? 1 : 0;
+  }
+  CHECK(spans.size() == expected);
+  for (const TraceNode& node : trace.nodes) {
+    for (const TraceSpan& span : node.spans) {
+      CHECK(times.has(span.begin_ns));
+    }
+  }
+}
+
+TEST_CASE("a level that is told in a part that is left out is told again where the next begins") {
+  Told told({.events_max = 1200, .keep = TraceKeep::spread});
+  for (std::uint64_t call = 1; call <= 10'000; ++call) {
+    told.gauge.height = call / 100;
+    told.span(0, 16 * call, 16 * call + 1, Activity::work, call);
+  }
+  const Trace trace = told.recorder.take();
+  REQUIRE(trace.times);
+  CHECK(trace.times->has_parts);
+  std::uint64_t height = 0;
+  auto level = trace.nodes[0].levels.begin();
+  for (const TraceSpan& span : trace.nodes[0].spans) {
+    for (; level != trace.nodes[0].levels.end() && level->time_ns <= span.end_ns; ++level) {
+      height = level->number == 0 ? level->value : height;
+    }
+    CHECK(height == span.call / 100);
+  }
+}
+
+TEST_CASE("a trace is never longer than it may be, however much happens at one time") {
+  for (const TraceKeep keep : {TraceKeep::spread, TraceKeep::last, TraceKeep::first}) {
+    for (const std::uint64_t events_max : {1U, 2U, 7U, 100U}) {
+      Told told({.events_max = events_max, .keep = keep});
+      for (std::uint64_t call = 1; call <= 2000; ++call) {
+        told.span(static_cast<std::uint32_t>(call % 3), call / 1000, call / 1000, Activity::work, call);
+      }
+      const Trace trace = told.recorder.take();
+      std::uint64_t count = 0;
+      for (const TraceNode& node : trace.nodes) {
+        count += node.spans.size() + node.levels.size();
+      }
+      CHECK(count <= events_max);
+      CHECK(count + trace.events_lost == 2000 + 3 * 2);
+    }
+  }
+}
+
+TEST_CASE("what was spread on two ranks has what both have in common") {
+  Told here({.events_max = 600}), elsewhere({.events_max = 600});
+  for (std::uint64_t call = 1; call <= 4000; ++call) {
+    here.span(0, 16 * call, 16 * call + 1, Activity::work, call);
+    elsewhere.span(1, 64 * call, 64 * call + 1, Activity::work, call);
+  }
+  here.recorder.add(elsewhere.recorder.bytes(), {});
+  const Trace trace = here.recorder.take();
+  REQUIRE(trace.times);
+  CHECK(trace.nodes[1].spans.back().call == 4000);
+  for (const TraceNode& node : trace.nodes) {
+    for (const TraceSpan& span : node.spans) {
+      CHECK(trace.times->has(span.begin_ns));
+    }
+  }
 }
 
 TEST_CASE("a node that has told something on two ranks is an error") {

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <ostream>
-#include <span>
 #include <tuple>
-#include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
-#include "core/base/expect.h"
+#include "apps/edge/show/trace/causal_order.h"
 
 namespace dmpc::apps {
 
@@ -21,53 +18,6 @@ std::string quoted(const std::string& name) { return "\"" + name + "\""; }
 /// Any text as a string of JSON; what is no UTF-8, as the name of a file may be, is replaced.
 std::string json_of(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-/// Where each node's items begin among some in order of node; the last first.
-std::vector<std::size_t> beginnings(std::span<const TraceItem> items) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = items.size(); i-- > 0;) {
-    if (i == 0 || items[i - 1].node != items[i].node) {
-      found.push_back(i);
-    }
-  }
-  return found;
-}
-
-/// Orders items of one time by node: each node's stay in their order, but it stops before the end of a message until
-/// another node has come to its beginning.
-void order_causally(std::span<TraceItem> items) {
-  std::unordered_set<std::uint32_t> unsent;
-  for (const TraceItem& item : items) {
-    if (item.moment == TraceMoment::sent) {
-      unsent.insert(item.index);
-    }
-  }
-  if (unsent.empty()) {
-    return;
-  }
-  const std::vector<TraceItem> all(items.begin(), items.end());
-  std::vector<std::size_t> ready = beginnings(all);        // where nodes go on, the next last
-  std::unordered_map<std::uint32_t, std::size_t> stopped;  // where one has, by message
-  auto place = items.begin();
-  while (!ready.empty()) {
-    std::size_t at = ready.back();
-    ready.pop_back();
-    for (const std::uint32_t node = all[at].node; at < all.size() && all[at].node == node; ++at) {
-      const TraceItem& item = all[at];
-      if (item.moment == TraceMoment::received && unsent.contains(item.index)) {
-        stopped[item.index] = at;
-        break;
-      }
-      *place++ = item;
-      if (item.moment == TraceMoment::sent && unsent.erase(item.index) > 0) {
-        if (const auto waiting = stopped.extract(item.index)) {
-          ready.push_back(waiting.mapped());
-        }
-      }
-    }
-  }
-  core::expect(place == items.end(), "no message is received before it is sent");
 }
 
 std::string key(const char* name, const std::string& value) { return std::string("\"") + name + "\":" + value; }
@@ -83,8 +33,9 @@ class ChromeWriter {
     }
     output_ << "},\n\"traceEvents\":[\n";
     for (std::uint32_t node = 0; node < view_.trace.nodes.size(); ++node) {
-      write_names(node);
+      write_names(node, node_name(view_, node));
     }
+    write_stretches();
     for (const TraceItem& item : items()) {
       write(item);
     }
@@ -97,11 +48,7 @@ class ChromeWriter {
     std::sort(items.begin(), items.end(), [](const TraceItem& a, const TraceItem& b) {
       return std::tie(a.time_ns, a.node, a.call, a.moment, a.index) < std::tie(b.time_ns, b.node, b.call, b.moment, b.index);
     });
-    for (auto begin = items.begin(); begin != items.end();) {
-      const auto end = std::find_if(begin, items.end(), [&](const TraceItem& item) { return item.time_ns != begin->time_ns; });
-      order_causally({begin, end});
-      begin = end;
-    }
+    order_causally(items);
     return items;
   }
 
@@ -114,8 +61,23 @@ class ChromeWriter {
   void add(const char* name, const std::string& value) { output_ << "," << key(name, value); }
   void end() { output_ << "}"; }
 
-  void write_names(std::uint32_t node) {
-    const std::string name = node_name(view_, node);
+  /// When all was recorded, as a process behind the nodes, if something was forgotten.
+  void write_stretches() {
+    const std::vector<TraceStretch> stretches = recorded_stretches(view_.trace);
+    const auto number = static_cast<std::uint32_t>(view_.trace.nodes.size());
+    if (!stretches.empty()) {
+      write_names(number, "recorded");
+    }
+    for (const TraceStretch& stretch : stretches) {
+      begin("X", number);
+      add("ts", thousandths(stretch.begin_ns));
+      add("dur", thousandths(stretch.end_ns - stretch.begin_ns));
+      add("name", quoted("recorded"));
+      end();
+    }
+  }
+
+  void write_names(std::uint32_t node, const std::string& name) {
     const std::pair<const char*, std::string> all[] = {{"process_name", key("name", quoted(name))},
                                                        {"process_sort_index", key("sort_index", std::to_string(node))},
                                                        {"thread_name", key("name", quoted(name))}};

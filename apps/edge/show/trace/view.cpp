@@ -1,7 +1,9 @@
 #include "apps/edge/show/trace/view.h"
 
+#include <algorithm>
 #include <map>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/edge/run/work.h"
 #include "svm/pages/packets.h"
 
@@ -54,6 +56,15 @@ std::size_t TraceView::text_number(const nodes::TraceSpan& span) const {
   return static_cast<std::size_t>(name_of(span));
 }
 
+namespace {
+
+/// Whether nothing was forgotten from a recorded time to another.
+bool lie_together(const nodes::Trace& trace, std::uint64_t begin_ns, std::uint64_t end_ns) {
+  return !trace.times || end_ns <= trace.times->end_of_stretch(begin_ns);
+}
+
+}  // namespace
+
 std::vector<PageWait> page_waits(const TraceView& view) {
   std::vector<PageWait> waits;
   if (!view.has_pages) {
@@ -66,7 +77,9 @@ std::vector<PageWait> page_waits(const TraceView& view) {
     } else if (message.kind == svm::number_of(svm::Kind::page_reply)) {
       const std::uint32_t node = nodes::index_of(message.target);
       if (const auto found = open.find({node, message.first_word}); found != open.end()) {
-        waits.push_back({node, message.first_word, found->second, message.received_ns});
+        if (lie_together(view.trace, found->second, message.received_ns)) {
+          waits.push_back({node, message.first_word, found->second, message.received_ns});
+        }
         open.erase(found);
       }
     }
@@ -102,9 +115,53 @@ std::vector<TraceItem> items_of(const nodes::Trace& trace, std::span<const PageW
   return items;
 }
 
+std::uint64_t end_ns(const nodes::Trace& trace) {
+  std::uint64_t end = 0;
+  for (const nodes::TraceNode& node : trace.nodes) {
+    for (const nodes::TraceSpan& span : node.spans) {
+      end = std::max(end, span.end_ns);
+    }
+  }
+  for (const nodes::TraceMessage& message : trace.messages) {
+    end = std::max(end, message.received_ns);
+  }
+  return end;
+}
+
+std::vector<TraceStretch> recorded_stretches(const nodes::Trace& trace) {
+  std::vector<TraceStretch> stretches;
+  if (!trace.times) {
+    return stretches;
+  }
+  const nodes::RecordedTimes& times = *trace.times;
+  const std::uint64_t last_ns = end_ns(trace);
+  for (std::uint64_t at = times.has(0) ? 0 : times.next(0); at < last_ns;) {
+    const std::uint64_t end = std::min(last_ns, times.end_of_stretch(at));
+    stretches.push_back({at, end});
+    at = times.has(end) ? end : times.next(end);
+  }
+  return stretches;
+}
+
 std::string thousandths(std::uint64_t value) {
   const std::string rest = std::to_string(value % 1000);
   return std::to_string(value / 1000) + "." + std::string(3 - rest.size(), '0') + rest;
+}
+
+std::string milliseconds(std::uint64_t time_ns) { return thousandths(time_ns / 1000); }
+
+std::string lost_text(const nodes::Trace& trace) {
+  const std::string events = counted(trace.events_lost, "event");
+  if (!trace.times) {
+    return events + " from " + milliseconds(trace.lost_from_ns) + " ms on were not recorded";
+  }
+  const nodes::RecordedTimes& times = *trace.times;
+  if (!times.has_parts) {
+    return "all is there from " + milliseconds(times.whole_from_ns) + " ms on, and " + events + " before were forgotten";
+  }
+  return "all is there until " + milliseconds(times.whole_until_ns) + " ms and from " + milliseconds(times.whole_from_ns) +
+         " ms on, in between of each " + thousandths(times.period_ns()) + " us the first " + thousandths(times.part_ns()) +
+         " us, and " + events + " were forgotten";
 }
 
 }  // namespace dmpc::apps

@@ -48,11 +48,24 @@ struct PageWait {
   std::uint32_t node = 0, page = 0;
   std::uint64_t begin_ns = 0, end_ns = 0;
 };
-/// In the order in which they end. Empty unless pages travel.
+/// In the order in which they end, but for those during which something was forgotten. Empty unless pages travel.
 std::vector<PageWait> page_waits(const TraceView& view);
+
+/// From a time to another.
+struct TraceStretch {
+  std::uint64_t begin_ns = 0, end_ns = 0;
+};
+/// When all was recorded, if something was forgotten, until the last event; else nothing.
+std::vector<TraceStretch> recorded_stretches(const nodes::Trace& trace);
+/// When the last thing is over that was recorded.
+std::uint64_t end_ns(const nodes::Trace& trace);
 
 /// "1234.567": a thousandth of a number of nanoseconds, without rounding.
 std::string thousandths(std::uint64_t value);
+/// Of a time in nanoseconds, so many, to the microsecond.
+std::string milliseconds(std::uint64_t time_ns);
+/// What was lost of a trace, and so what is there. Requires that something was.
+std::string lost_text(const nodes::Trace& trace);
 
 /// What a writer says at a time; in the order in which it goes at one time in one call of one node.
 enum class TraceMoment : std::uint8_t { span_end, received, span_begin, sent, wait_begin, wait_end, level };

@@ -49,4 +49,13 @@ TEST_CASE("what was lost is said with its count and its time") {
   CHECK_FALSE(contains(loss_note({.events_lost = 1}, {.every = 2}), "--trace-every"));
 }
 
+TEST_CASE("of a trace that is spread, or has the last, it is said what is there") {
+  nodes::Trace trace{.events_lost = 1234, .times = nodes::RecordedTimes{.whole_from_ns = 2'500'000}};
+  CHECK(contains(loss_note(trace, {}), "all is there from 2.500 ms on, and 1,234 events before were forgotten; --trace-window"));
+  trace.times = {.whole_until_ns = 1'000'000, .whole_from_ns = 9'000'000, .part_bits = 10, .period_bits = 14, .has_parts = true};
+  CHECK(contains(loss_note(trace, {}),
+                 "all is there until 1.000 ms and from 9.000 ms on, in between of each 16.384 us the first 1.024 us, and 1,234 "
+                 "events were forgotten"));
+}
+
 }  // namespace dmpc::apps::file_test
