@@ -12,6 +12,7 @@
 #include "nodes/charge.h"
 #include "nodes/node_id.h"
 #include "nodes/packet.h"
+#include "nodes/virtual/path_times.h"
 
 namespace dmpc::nodes {
 
@@ -74,6 +75,20 @@ struct Worked {
   std::uint32_t depth = 1;  ///< how deep in it the call got last, by the program's reckoning
 };
 
+/// A node had nothing to do until a message came that gave it something. Told before whatever it does with that.
+struct Waited {
+  NodeId node{};
+  NodeId peer{};        ///< who sent the message
+  PacketKind kind = 0;  ///< of the message
+  std::uint64_t begin_ns = 0, end_ns = 0;
+  std::uint64_t own_ns = 0;  ///< without what was served to others meanwhile
+
+  // Where paths are followed (modelled machines, Observer::follows_paths()), else 0.
+  std::uint64_t left_ns = 0;               ///< the message's sender was done with it
+  std::optional<PacketKind> request = {};  ///< the message answers one of this kind, by an interrupt
+  ProgramPoint from;                       ///< what led to the end of the wait: nothing but messages lies between
+};
+
 /// Looks on. What a call sends, receives and works on is told before its span, which is told when it ends. Thread safety: what
 /// one node tells comes one after the other; with threads, several nodes tell at a time.
 class Observer {
@@ -84,8 +99,13 @@ class Observer {
   virtual void ended(const Span& span, const Program& program) = 0;
   virtual void sent(const Passing& packet) = 0;
   virtual void received(const Passing& packet) = 0;
+  virtual void waited(const Waited& /*wait*/) {}
   /// From a program with a meter.
   virtual void worked(const Worked& worked) = 0;
+
+  /// Whether a modelled machine is to say what led to the end of each wait, and to that of the run
+  /// (VirtualReport::critical_path). Asked once, before the run.
+  virtual bool follows_paths() const { return false; }
 };
 
 }  // namespace dmpc::nodes

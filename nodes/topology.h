@@ -42,6 +42,8 @@ class Topology {
 
   TopologyKind kind() const { return kind_; }
   std::uint32_t node_count() const { return node_count_; }
+  /// Of a mesh or torus, whose places are numbered row by row; else 1.
+  std::uint32_t columns() const { return width_; }
   /// Nodes, unused places and switches: the places that a Link can name are below this.
   std::uint32_t place_count() const { return place_count_; }
 

@@ -275,11 +275,22 @@ bool NodeThreads::work_observed(ThreadProcessor& self) {
   Span span = begin_span(self, Activity::work, 0);
   const bool has_more = self.program->work();
   end_span(self, span);
+  if (self.is_waiting && !has_more) {
+    self.lent_ns += span.own_ns;
+  } else if (!has_more) {
+    self.waits_since_ns = span.end_ns;
+    self.lent_ns = 0;
+  }
+  self.is_waiting = !has_more;
   return has_more;
 }
 
 void NodeThreads::receive_observed(ThreadProcessor& self, const Packet& packet) {
   Span span = begin_span(self, Activity::receive, packet.kind);
+  const bool is_urgent = (self.interrupt_kinds >> packet.kind & 1U) != 0;
+  if (self.is_waiting && !is_urgent) {
+    end_wait(self, packet, span.begin_ns);
+  }
   observer_->received({.node = self.node.id(),
                        .peer = packet.source,
                        .kind = packet.kind,
@@ -288,6 +299,18 @@ void NodeThreads::receive_observed(ThreadProcessor& self, const Packet& packet) 
                        .times = {.received_ns = span.begin_ns}});
   self.program->receive(packet);
   end_span(self, span);
+  self.lent_ns += self.is_waiting ? span.own_ns : 0;
+}
+
+/// What it does for others ends no wait, as on a modelled machine.
+void NodeThreads::end_wait(ThreadProcessor& self, const Packet& packet, std::uint64_t end_ns) const {
+  self.is_waiting = false;
+  observer_->waited({.node = self.node.id(),
+                     .peer = packet.source,
+                     .kind = packet.kind,
+                     .begin_ns = self.waits_since_ns,
+                     .end_ns = end_ns,
+                     .own_ns = end_ns - self.waits_since_ns - self.lent_ns});
 }
 
 Span NodeThreads::begin_span(ThreadProcessor& self, Activity activity, PacketKind packet) const {

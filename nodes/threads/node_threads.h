@@ -121,6 +121,7 @@ class NodeThreads final : public Network {
   std::uint64_t since_start_ns() const;
   bool work_observed(ThreadProcessor& self);
   void receive_observed(ThreadProcessor& self, const Packet& packet);
+  void end_wait(ThreadProcessor& self, const Packet& packet, std::uint64_t end_ns) const;
   Span begin_span(ThreadProcessor& self, Activity activity, PacketKind packet) const;
   void end_span(ThreadProcessor& self, Span& span) const;
   void rest(ThreadProcessor& self);

@@ -81,7 +81,8 @@ struct alignas(cache_line_bytes) ThreadProcessor {
         held(held_packets_of(computer.chaos, specification, id, memory, computer.network)),
         patience(specification.patience),
         looks(looks_before_sleep(computer.peer_count, computer.core_count), computer.core_count),
-        node(id, computer.peer_count, memory, way_out(computer)) {
+        node(id, computer.peer_count, memory, way_out(computer)),
+        interrupt_kinds(specification.interrupt_kinds) {
     core::expect(specification.plan[Category::reserve] >= thread_stack_bytes_min, "a plan reserves room for the thread's stack");
     if (computer.chaos) {
       pauses.emplace(*computer.chaos, id);
@@ -140,10 +141,13 @@ struct alignas(cache_line_bytes) ThreadProcessor {
   std::unique_ptr<Program> program;
   std::optional<ChaosPauses> pauses;
   std::uint32_t quanta_idle = 0;
-  std::uint64_t call = 0;           ///< number of the program's call, if somebody looks on
-  Charges charged;                  ///< until the last one's end, likewise
-  std::uint32_t quanta_to_run = 0;  ///< this many quanta from now the node runs one
-  bool is_asleep = false;           ///< of a driver's: its mailbox's word was made ASLEEP
+  std::uint64_t call = 0;                         ///< number of the program's call, if somebody looks on
+  Charges charged;                                ///< until the last one's end, likewise
+  std::uint32_t interrupt_kinds;                  ///< which end no wait
+  bool is_waiting = false;                        ///< it has nothing to do, if somebody looks on
+  std::uint64_t waits_since_ns = 0, lent_ns = 0;  ///< likewise; what it did for others meanwhile
+  std::uint32_t quanta_to_run = 0;                ///< this many quanta from now the node runs one
+  bool is_asleep = false;                         ///< of a driver's: its mailbox's word was made ASLEEP
   std::uint64_t asleep_since_ns = 0;
   Thread thread;  ///< not of a driver's
 };

@@ -1,6 +1,7 @@
 #include "nodes/virtual/virtual_runner.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "nodes/standstill.h"
 #include "nodes/virtual/event_queue.h"
 #include "nodes/virtual/links.h"
+#include "nodes/virtual/path_finder.h"
 #include "nodes/virtual/virtual_processor.h"
 
 namespace dmpc::nodes {
@@ -37,6 +39,9 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
         observer(looking_on),
         links(model, static_cast<std::uint32_t>(std::max<std::size_t>(specifications.size(), 2) - 1)) {
     core::expect(!specifications.empty(), "a computer has at least the host");
+    if (is_watched && observer->follows_paths()) {
+      paths.emplace(specifications.size());
+    }
     const auto peer_count = static_cast<std::uint32_t>(specifications.size());
     for (std::uint32_t i = 0; i < peer_count; ++i) {
       computer.processors.push_back(std::make_unique<VirtualProcessor>(specifications[i], NodeId{i}, peer_count, computer));
@@ -115,6 +120,9 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
       times.entered_ns = events.now_ns();
       times.links_ns = links.traffic().wait_ns - waited_ns;
       times.arrived_ns = arrives_ns;
+      if (paths) {
+        paths->travels(number, message.header.kind, arrives_ns - times.left_ns, times.links_ns);
+      }
     }
     post(sender, Event::Kind::arrives, arrives_ns, number);
   }
@@ -131,17 +139,25 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     target.inbox.push(computer.messages, number);
     if (target.is_occupied) {
       target.occupied_until_ns += receive_ns;
+      follow_receiving(target, message.header.kind, receive_ns);
     } else {
-      const std::uint64_t begin_ns = end_wait(target, message.header.kind);
+      const std::uint64_t begin_ns = end_wait(target, number);
+      follow_receiving(target, message.header.kind, receive_ns);
       begin(target, target.span, Activity::take_over, message.header.kind, begin_ns, receive_ns);
       occupy(target, begin_ns + receive_ns);
     }
   }
 
   /// From having nothing to do to having something, once the services that have been asked for are over: returns when.
-  std::uint64_t end_wait(VirtualProcessor& self, PacketKind kind) const {
+  std::uint64_t end_wait(VirtualProcessor& self, std::uint32_t number) {
     const std::uint64_t begin_ns = std::max(events.now_ns(), self.served_until_ns);
-    self.times.waiting_ns[kind] += begin_ns - self.idle_since_ns - (self.times.lent_ns - self.lent_before_ns);
+    const std::uint64_t own_ns = begin_ns - self.idle_since_ns - (self.times.lent_ns - self.lent_before_ns);
+    self.times.waiting_ns[computer.messages[number].header.kind] += own_ns;
+    if constexpr (is_watched) {
+      if (begin_ns > self.idle_since_ns) {
+        tell_wait(self, number, begin_ns, own_ns);
+      }
+    }
     return begin_ns;
   }
 
@@ -150,10 +166,17 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     const std::uint64_t receive_ns = machine.cost_of_message(computer.messages[number].bytes()).receive_ns;
     const std::uint64_t start_ns = std::max(events.now_ns(), self.served_until_ns);
     begin(self, self.service, Activity::serve, computer.messages[number].header.kind, start_ns);
+    [[maybe_unused]] const PacketKind kind = computer.messages[number].header.kind;
     receive(self, number, self.service);
     std::uint64_t service_ns = receive_ns + machine.service_ns + charge(self);
+    follow_service(self, number, kind, start_ns > events.now_ns(), service_ns);
     for (const std::uint32_t reply : self.sent) {
-      service_ns += machine.cost_of_message(computer.messages[reply].bytes()).send_ns;
+      const Message& message = computer.messages[reply];
+      const std::uint64_t send_ns = machine.cost_of_message(message.bytes()).send_ns;
+      service_ns += send_ns;
+      if (is_watched && paths) {
+        paths->answers(self.id, reply, message.header.kind, send_ns);
+      }
       leave(self, reply, start_ns + service_ns, self.service.call);
     }
     self.sent.clear();
@@ -163,6 +186,9 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     if (self.is_occupied) {
       self.occupied_until_ns += service_ns;
       self.times.stolen_ns += service_ns;
+      if (is_watched && paths) {
+        paths->loses(self.id, service_ns);
+      }
     } else {
       self.times.lent_ns += service_ns;
     }
@@ -174,7 +200,12 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     const bool sends = !self.outgoing.empty();
     std::uint64_t sent_ns = events.now_ns();
     for (const std::uint32_t number : self.outgoing) {
-      sent_ns += machine.cost_of_message(computer.messages[number].bytes()).send_ns;
+      const Message& message = computer.messages[number];
+      const std::uint64_t send_ns = machine.cost_of_message(message.bytes()).send_ns;
+      sent_ns += send_ns;
+      if (is_watched && paths) {
+        paths->sends(self.id, number, message.header.kind, send_ns, sent_ns);
+      }
       leave(self, number, sent_ns, self.span.call);
     }
     self.outgoing.clear();
@@ -208,6 +239,9 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     const std::uint64_t computing_ns = charge(self);
     self.times.computing_ns += computing_ns;
     charged(self, self.span, computing_ns);
+    if (is_watched && paths) {
+      paths->computes(self.id, computing_ns);
+    }
     occupy(self, now_ns + computing_ns);
   }
 
@@ -280,6 +314,37 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     observer->sent(passing(message, NodeId{message.header.source}, message.target, call));
   }
 
+  /// Of a node that a message wakes, which has come or comes when a service is over.
+  void tell_wait(VirtualProcessor& self, std::uint32_t number, std::uint64_t end_ns, std::uint64_t own_ns) {
+    const Message& message = computer.messages[number];
+    Waited wait{.node = self.id,
+                .peer = NodeId{message.header.source},
+                .kind = message.header.kind,
+                .begin_ns = self.idle_since_ns,
+                .end_ns = end_ns,
+                .own_ns = own_ns};
+    if (paths) {
+      paths->is_woken(self.id, number, end_ns > events.now_ns());
+      wait.left_ns = message.times.left_ns;
+      paths->describe(wait);
+    }
+    observer->waited(wait);
+  }
+
+  void follow_receiving(const VirtualProcessor& self, PacketKind kind, std::uint64_t receive_ns) {
+    if (is_watched && paths) {
+      paths->receives(self.id, kind, receive_ns);
+    }
+  }
+
+  /// A service that begins, and takes so long until it answers.
+  void follow_service(const VirtualProcessor& self, std::uint32_t number, PacketKind kind, bool is_queued, std::uint64_t ns) {
+    if (is_watched && paths) {
+      paths->begins_service(self.id, number, kind, is_queued);
+      paths->serves(self.id, kind, ns);
+    }
+  }
+
   static Passing passing(const Message& message, NodeId node, NodeId peer, std::uint64_t call) {
     return {node, peer, message.header.kind, call, message.payload, message.times, message.lasting.size()};
   }
@@ -303,6 +368,9 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
       core::expect(times.total_ns() == result.total_ns, "the parts of a node's time add up to the run's");
       result.nodes.push_back(times);
     }
+    if (is_watched && paths) {
+      result.critical_path = paths->path_to(result.total_ns);
+    }
     result.machine_digest = machine.digest();
     links.expect_sums();
     result.links = links.traffic();
@@ -318,7 +386,8 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   Machine machine;
-  Observer* observer;  ///< none unless is_watched
+  Observer* observer;               ///< none unless is_watched
+  std::optional<PathFinder> paths;  ///< if the observer follows them
   Links links;
   EventQueue events;
   bool is_started = false;

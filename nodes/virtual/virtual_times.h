@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "core/base/sampling.h"
 #include "nodes/packet.h"
 #include "nodes/virtual/links.h"
+#include "nodes/virtual/path_times.h"
 
 namespace dmpc::nodes {
 
@@ -42,9 +44,10 @@ struct VirtualReport {
   std::uint64_t hash = 0;
   std::uint64_t machine_digest = 0;  ///< Machine::digest()
   LinkTraffic links;
-  std::size_t links_used = 0;          ///< that carried anything, memory ports included
-  std::vector<LinkUse> busiest_links;  ///< as Links::busiest(), at most busiest_links_max
-  std::vector<VirtualTimes> nodes;     ///< in order, the host last
+  std::size_t links_used = 0;                      ///< that carried anything, memory ports included
+  std::vector<LinkUse> busiest_links;              ///< as Links::busiest(), at most busiest_links_max
+  std::vector<VirtualTimes> nodes;                 ///< in order, the host last
+  std::optional<CriticalPath> critical_path = {};  ///< if somebody followed paths; adds up to total_ns
 
   /// A digest of a whole run: its events, its machine and what it has produced (a hash of it). Equal runs, equal hashes, on any
   /// computer and in every build type.

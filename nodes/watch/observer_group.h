@@ -1,6 +1,7 @@
 // Several who look on at one run.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -29,10 +30,18 @@ class ObserverGroup final : public Observer {
       member->received(packet);
     }
   }
+  void waited(const Waited& wait) override {
+    for (Observer* const member : members_) {
+      member->waited(wait);
+    }
+  }
   void worked(const Worked& worked) override {
     for (Observer* const member : members_) {
       member->worked(worked);
     }
+  }
+  bool follows_paths() const override {
+    return std::any_of(members_.begin(), members_.end(), [](const Observer* member) { return member->follows_paths(); });
   }
 
  private:

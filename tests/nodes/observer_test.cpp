@@ -18,15 +18,18 @@ using namespace nodes;
 /// Writes down what it is told; each node's on its own, since several may tell at a time.
 class Scribe final : public Observer {
  public:
-  explicit Scribe(std::size_t peer_count) : spans(peer_count), sent_by(peer_count), received_by(peer_count) {}
+  explicit Scribe(std::size_t peer_count)
+      : spans(peer_count), sent_by(peer_count), received_by(peer_count), waits_of(peer_count) {}
 
   void ended(const Span& span, const Program& /*program*/) override { spans[index_of(span.node)].push_back(span); }
   void sent(const Passing& packet) override { sent_by[index_of(packet.node)].push_back(packet); }
   void received(const Passing& packet) override { received_by[index_of(packet.node)].push_back(packet); }
   void worked(const Worked& /*worked*/) override {}
+  void waited(const Waited& wait) override { waits_of[index_of(wait.node)].push_back(wait); }
 
   std::vector<std::vector<Span>> spans;
   std::vector<std::vector<Passing>> sent_by, received_by;  ///< whose payloads are gone
+  std::vector<std::vector<Waited>> waits_of;
 };
 
 /// Node 0 computes for 2 us, then sends `letter` to node 1, which computes for `busy` us from the start.
@@ -126,6 +129,37 @@ TEST_CASE("an observer of threads sees each call after what it sends and receive
   for (const std::vector<Span>& spans : scribe.spans) {
     CHECK(std::is_sorted(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.end_ns < b.begin_ns; }));
   }
+}
+
+TEST_CASE("an observer sees how long a node has nothing to do, and the packet that ends it") {
+  const std::vector<Waited> waits = watch(one_letter({1, ping, short_bytes}, 0)).waits_of[1];
+  REQUIRE(waits.size() == 1);
+  CHECK(waits[0].peer == NodeId{0});
+  CHECK(waits[0].kind == ping);
+  CHECK(waits[0].begin_ns == 0);
+  CHECK(waits[0].end_ns == 2193);
+  CHECK(waits[0].own_ns == 2193);
+}
+
+TEST_CASE("an observer of threads sees waits between a node's calls, which urgent packets do not end") {
+  const std::vector<Script> scripts = {
+      {.quanta = {{0, {{1, urgent}}}}, .reactions = {{pong, {0, {{1, ping}}}}}, .packets_awaited = 1},
+      {.reactions = {{urgent, {0, {{0, pong}}}}}, .packets_awaited = 2},
+      {}};
+  Scribe scribe(scripts.size());
+  ThreadsRunner runner(specifications_of(scripts), std::nullopt, &scribe);
+  CHECK(runner.run({}) == RunEnd::finished);
+  for (const Waited& wait : scribe.waits_of[1]) {
+    CHECK(wait.kind == ping);
+    CHECK(wait.peer == NodeId{0});
+    CHECK(wait.own_ns <= wait.end_ns - wait.begin_ns);
+    const std::vector<Span>& at = scribe.spans[1];
+    CHECK(std::any_of(at.begin(), at.end(), [&](const Span& span) { return span.end_ns == wait.begin_ns; }));
+    CHECK(std::any_of(at.begin(), at.end(), [&](const Span& span) {
+      return span.begin_ns == wait.end_ns && span.activity == Activity::receive && span.packet == ping;
+    }));
+  }
+  CHECK(scribe.waits_of[1].size() <= 1);
 }
 
 TEST_CASE("an observer of threads sees a packet when its program sends it, however long chaos holds it back") {

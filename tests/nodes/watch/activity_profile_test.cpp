@@ -25,9 +25,16 @@ constexpr std::size_t other = 1, received = work_count - 1;
 
 std::size_t work_of_span(const Span& span) { return span.activity == Activity::receive ? received : other; }
 
+/// Waits for packets of kind 2 are numbered 3, others 0.
+WaitOf wait_numbers() {
+  WaitOf numbers{};
+  numbers[2] = 3;
+  return numbers;
+}
+
 /// Two nodes and a host that tell a profile what the test says.
 struct ProfiledNodes {
-  explicit ProfiledNodes(std::size_t step_count_max = 128) : profile(3, work_of_span, step_count_max) {}
+  explicit ProfiledNodes(std::size_t step_count_max = 128) : profile(3, work_of_span, wait_numbers(), step_count_max) {}
 
   void span(std::uint32_t node, std::uint64_t begin_ns, std::uint64_t end_ns, std::uint64_t own_ns,
             Activity activity = Activity::work) {
@@ -111,6 +118,35 @@ TEST_CASE("what a profile on another rank has seen is taken over, in steps of on
   CHECK(sum_of_steps(steps, 0) == 1000);
   CHECK(sum_of_steps(steps, 1) == 800);
   CHECK(steps.nodes[1].at(3)[other] == 200);
+}
+
+TEST_CASE("a wait is spread over its steps by the packet that ends it, without what was served meanwhile") {
+  ProfiledNodes told;
+  told.profile.waited({.node = NodeId{0}, .kind = 2, .begin_ns = 512, .end_ns = 2560, .own_ns = 1000});
+  told.profile.waited({.node = NodeId{0}, .kind = 5, .begin_ns = 2560, .end_ns = 2570, .own_ns = 10});
+  const ActivitySteps steps = told.profile.take();
+  REQUIRE(steps.waits[0].size() == 3);
+  CHECK(steps.waits[0][0][3] == 250);
+  CHECK(steps.waits[0][1][3] == 500);
+  CHECK(steps.waits[0][2][3] == 250);
+  CHECK(steps.waits[0][2][0] == 10);
+  CHECK(sum_of_steps(steps, 0) == 0);
+  CHECK(steps.nodes[0].size() == 3);
+  CHECK(steps.waits[1].size() == 3);
+}
+
+TEST_CASE("what ranks saw of waits is put together") {
+  ProfiledNodes here, there;
+  here.span(0, 0, 100, 100);
+  there.profile.waited({.node = NodeId{1}, .kind = 2, .begin_ns = 0, .end_ns = 500'000, .own_ns = 77});
+  here.profile.add(there.profile.bytes());
+  const ActivitySteps steps = here.profile.take();
+  CHECK(steps.step_ns * 128 >= 500'000);
+  std::uint64_t sum_ns = 0;
+  for (const WaitTimes& times : steps.waits[1]) {
+    sum_ns += times[3];
+  }
+  CHECK(sum_ns == 77);
 }
 
 }  // namespace dmpc::nodes::activity_profile_test
