@@ -32,6 +32,9 @@ class BasicAwakeCount {
   /// Takes a raise() back: another thread was faster. The caller is counted itself, so this never reaches zero.
   void withdraw() { count_.fetch_sub(1, std::memory_order_relaxed); }
 
+  /// All `count` nodes are awake again, before another run; while none has a thread.
+  void begin_again(std::uint32_t count) { count_.store(count, std::memory_order_relaxed); }
+
   /// For the thread that brings packets from elsewhere: whether all nodes sleep, and will until it wakes one. If so it may read
   /// what every node wrote.
   bool is_zero() const { return count_.load(std::memory_order_acquire) == 0; }

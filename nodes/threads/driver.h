@@ -41,6 +41,13 @@ struct alignas(cache_line_bytes) Driver {
     return most;
   }
 
+  /// Another run begins: all nodes, which sleep, are awake and in line by number. Before the thread starts.
+  void begin_again() {
+    for (const auto& node : nodes) {
+      node->mailbox.rouse();
+    }
+    awake_nodes.take_woken([this](std::uint32_t number) { nodes[number]->is_asleep = false; });
+  }
   /// Begins or goes on after a sleep.
   void begin_turns() { times.begin(nanoseconds(CLOCK_MONOTONIC), nanoseconds(CLOCK_THREAD_CPUTIME_ID)); }
   /// A turn of this node is over.

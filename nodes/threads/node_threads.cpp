@@ -139,6 +139,19 @@ void NodeThreads::start(std::uint64_t start_ns) {
   }
 }
 
+void NodeThreads::begin_again() {
+  core::expect(ending() == Ending::finished, "another run begins where one has ended regularly");
+  ending_.store(Ending::none, std::memory_order_relaxed);  // no thread is there to see it
+  starts_.clear();
+  for (const auto& processor : processors_) {
+    processor->begin_again();
+  }
+  for (const auto& driver : drivers_) {
+    driver->begin_again();
+  }
+  awake_.begin_again(static_cast<std::uint32_t>(drivers_.empty() ? processors_.size() : drivers_.size()));
+}
+
 void NodeThreads::start_threads() {
   starts_.reserve(processors_.size());
   for (const auto& driver : drivers_) {

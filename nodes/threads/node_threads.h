@@ -50,6 +50,8 @@ class NodeThreads final : public Network {
 
   /// Starts them; what keeps one from starting is a failure. `start_ns`: when the run began, by CLOCK_MONOTONIC.
   void start(std::uint64_t start_ns);
+  /// After a regular end, and join(): all nodes are awake again, and start() begins another run, counted from zero.
+  void begin_again();
   /// Waits until all have left.
   void join();
 

@@ -111,13 +111,19 @@ struct alignas(cache_line_bytes) ThreadProcessor {
     return quanta_to_run > 0;
   }
 
+  /// Another run begins, which is counted from zero.
+  void begin_again() {
+    node.counters() = {};
+    held_before = held ? held->count() : 0;
+  }
+
   /// Hands on the packets whose time has come; returns whether others are still held back.
   bool holds_packets() {
     if (!held) {
       return false;
     }
     held->pass_quantum();
-    node.counters().held = held->count();
+    node.counters().held = held->count() - held_before;
     return !held->empty();
   }
 
@@ -140,6 +146,7 @@ struct alignas(cache_line_bytes) ThreadProcessor {
   Node node;
   std::unique_ptr<Program> program;
   std::optional<ChaosPauses> pauses;
+  std::uint64_t held_before = 0;  ///< packets held back in earlier runs
   std::uint32_t quanta_idle = 0;
   std::uint64_t call = 0;                         ///< number of the program's call, if somebody looks on
   Charges charged;                                ///< until the last one's end, likewise

@@ -42,9 +42,10 @@ ThreadsRunner::ThreadsRunner(std::span<const NodeSpecification> specifications, 
 ThreadsRunner::~ThreadsRunner() = default;
 
 RunEnd ThreadsRunner::run(std::stop_token stop) {
-  core::expect(!implementation_->started, "a runner runs once");
-  implementation_->started = true;
   NodeThreads& nodes = implementation_->nodes;
+  if (std::exchange(implementation_->started, true)) {
+    nodes.begin_again();
+  }
   {
     const std::stop_callback on_stop(std::move(stop), [&nodes] { nodes.end(Ending::interrupted); });
     nodes.start(nanoseconds(CLOCK_MONOTONIC));

@@ -134,6 +134,17 @@ struct alignas(64) VirtualProcessor final : Network {
 
   ~VirtualProcessor() override { program.reset(); }  // which has what memory holds
 
+  /// Another run begins, for a program whose charges so far have this price.
+  void begin_again(std::uint64_t price_ps) {
+    sequence = occupied_until_ns = remainder_ps = served_until_ns = idle_since_ns = lent_before_ns = calls = 0;
+    charged_ps = price_ps;
+    charged = program->charges();
+    has_more = true;
+    times = {};
+    std::fill(ways.begin(), ways.end(), Way{});
+    node.counters() = {};
+  }
+
   /// Lets the program receive a message of its mailbox.
   void receive(std::uint32_t number) {
     const Message& message = computer.messages[number];

@@ -49,7 +49,9 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   }
 
   RunEnd run(const std::stop_token& stop) override {
-    core::expect(!std::exchange(is_started, true), "a runner runs once");
+    if (std::exchange(is_started, true)) {
+      begin_again();
+    }
     for (const auto& processor : computer.processors) {
       go_on(*processor);
     }
@@ -60,7 +62,20 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
       happen(events.pop());
     }
     finish();
+    is_finished = true;
     return RunEnd::finished;
+  }
+
+  /// The machine is at rest, and so it is as new: its links are free, and its time begins.
+  void begin_again() {
+    core::expect(is_finished, "another run begins where one has ended regularly");
+    is_finished = false;
+    links = Links(machine, std::max<std::uint32_t>(static_cast<std::uint32_t>(computer.processors.size()), 2) - 1);
+    events = {};
+    result = {};
+    for (const auto& processor : computer.processors) {
+      processor->begin_again(machine.price_ps(processor->program->charges()));
+    }
   }
 
   // ---- Events ------------------------------------------------------------------------------------------------------------
@@ -390,7 +405,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   std::optional<PathFinder> paths;  ///< if the observer follows them
   Links links;
   EventQueue events;
-  bool is_started = false;
+  bool is_started = false, is_finished = false;
 };
 
 VirtualRunner::VirtualRunner(std::span<const NodeSpecification> specifications, const Machine& machine, Observer* observer) {

@@ -1,6 +1,7 @@
 // Programs for tests of runners: they ask each other, send all to one, wait in vain, work for ever.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -38,12 +39,17 @@ class Asker : public ToyProgram {
             .bulk_payload_bytes = sizeof(Answer)};
   }
 
-  Asker(nodes::Node& node, std::uint32_t count, std::uint32_t window) : ToyProgram(node), left_(node.peer_count(), count) {
-    left_[index()] = 0;
+  Asker(nodes::Node& node, std::uint32_t count, std::uint32_t window) : ToyProgram(node), left_(node.peer_count()) {
     for (std::uint32_t i = 0; i < node.peer_count(); ++i) {
       node.grant(nodes::NodeId{i}, requests, window);
     }
-    unanswered_ = std::uint64_t{count} * (node.peer_count() - 1);
+    ask(count);
+  }
+  /// So many questions more, between two runs.
+  void ask(std::uint32_t count) {
+    std::fill(left_.begin(), left_.end(), count);
+    left_[index()] = 0;
+    unanswered_ = std::uint64_t{count} * (node().peer_count() - 1);
   }
 
   void receive(const nodes::Packet& packet) override { packet.kind == request ? answer(packet) : take(packet); }

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
@@ -319,9 +320,31 @@ TEST_CASE("a memory is sealed before the run begins") {
   CHECK(runner.node(0).memory().used()[Category::queues] == MemoryPlan(credit_table(2)).total());
 }
 
-TEST_CASE("a runner runs once") {
+TEST_CASE("a runner runs again, with what its programs have to do by then, and counts each run from zero") {
+  constexpr std::uint32_t peers = 5, window = 2;
+  for (const auto pool_threads : {std::optional<std::uint32_t>(), std::optional<std::uint32_t>(2)}) {
+    ThreadsRunner runner(equal_nodes(peers, Asker::mailbox(peers, window), making<Asker>(7U, window)), std::nullopt, nullptr,
+                         pool_threads);
+    for (const std::uint32_t count : {7U, 0U, 30U, 1U}) {
+      for (std::uint32_t i = 0; i < peers; ++i) {
+        program_of<Asker>(runner, i).ask(count);
+      }
+      CHECK(runner.run({}) == RunEnd::finished);
+      for (std::uint32_t i = 0; i < peers; ++i) {
+        CHECK(runner.program(i).finished());
+        CHECK(program_of<Asker>(runner, i).all_right());
+        CHECK(runner.node(i).counters().sent[request].packets == std::uint64_t{count} * (peers - 1));
+        CHECK(runner.node(i).counters().received[request].packets == std::uint64_t{count} * (peers - 1));
+      }
+    }
+  }
+}
+
+TEST_CASE("a run that was interrupted is not followed by another") {
   ThreadsRunner runner(equal_nodes(1, {}, making<ToyProgram>()));
-  CHECK(runner.run({}) == RunEnd::finished);
+  std::stop_source stop;
+  stop.request_stop();
+  CHECK(runner.run(stop.get_token()) == RunEnd::interrupted);
   CHECK_THROWS_AS(runner.run({}), core::InternalError);
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "tests/nodes/scripted_machine.h"
+#include "tests/nodes/toy_programs.h"
 
 namespace dmpc::tests::virtual_runner_test {
 namespace {
@@ -196,11 +197,31 @@ TEST_CASE("a node that puts work off, in case a packet comes, does it in virtual
   CHECK(runner.run({}) == RunEnd::finished);
 }
 
-TEST_CASE("a virtual computer of nothing and a second run are refused") {
+TEST_CASE("a virtual computer of nothing, and a run after one that was interrupted, are refused") {
   CHECK_THROWS_AS(VirtualRunner({}, toy_model()), core::InternalError);
-  VirtualRunner runner(equal_nodes(1, {}, making<ToyProgram>()), toy_model());
-  runner.run({});
+  std::stop_source stop;
+  VirtualRunner runner(equal_nodes(1, {}, making<EndlessWorker>(&stop)), toy_model());
+  CHECK(runner.run(stop.get_token()) == RunEnd::interrupted);
   CHECK_THROWS_AS(runner.run({}), core::InternalError);
+}
+
+TEST_CASE("another virtual run begins at time 0 on a machine as new: programs that do the same again have the same events") {
+  constexpr std::uint32_t peers = 5, window = 2, count = 9;
+  VirtualRunner runner(equal_nodes(peers, Asker::mailbox(peers, window), making<Asker>(count, window)), toy_model());
+  runner.run({});
+  const VirtualReport first = *runner.virtual_report();
+  CHECK(first.total_ns > 0);
+  for (std::uint32_t i = 0; i < peers; ++i) {
+    program_of<Asker>(runner, i).ask(count);
+  }
+  CHECK(runner.run({}) == RunEnd::finished);
+  const VirtualReport again = *runner.virtual_report();
+  CHECK(again.hash == first.hash);
+  CHECK(again.total_ns == first.total_ns);
+  CHECK(again.events == first.events);
+  CHECK(again.links.bytes == first.links.bytes);
+  CHECK(again.nodes.at(2).total_ns() == first.nodes.at(2).total_ns());
+  CHECK(runner.node(1).counters().sent[request].packets == std::uint64_t{count} * (peers - 1));
 }
 
 TEST_CASE("a memory is sealed before a virtual run begins, and as full as on threads") {
