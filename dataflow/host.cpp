@@ -23,7 +23,9 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
       progress_(std::move(progress)),
       deal_(std::move(deal)),
       continuation_(continuation),
-      refinement_(plan.request.refinement, plan.request.first_samples, film.width(), film.height(), detail, film.scale()),
+      wanted_(plan.request.refinement),
+      first_samples_(plan.request.first_samples),
+      refinement_(wanted_, first_samples_, film.width(), film.height(), detail, film.scale()),
       undealt_(plan.node_count(), plan.request.is_dealt_on_the_way ? run_rays_max : ~std::uint64_t{0}),
       kept_(plan.node_count(), plan.tested_objects()),
       termination_(Termination::initiator({plan.node_count()})),
@@ -41,6 +43,16 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
   if (plan.request.is_dealt_on_the_way) {
     begin_first_pass();
   }
+}
+
+void HostProgram::begin_frame(const core::FineDetail* detail) {
+  core::expect(stopped_, "a frame begins when the one before has ended");
+  refinement_ = core::Refinement(wanted_, first_samples_, film_->width(), film_->height(), detail, film_->scale());
+  continuation_.start = nullptr;  // of the first frame
+  finishing_ = stopped_ = false;
+  termination_.begin_again();
+  below_ = {};
+  begin_first_pass();
 }
 
 /// Finds whose the rays are that are missing; work() deals them.

@@ -55,6 +55,11 @@ class HostProgram final : public nodes::Program {
   /// What the constructor takes of the local memory.
   static nodes::Layout<std::byte, std::uint64_t> layout(const Plan& plan);
 
+  /// The run of the picture before has ended: another one follows, on the same film, which is as new. Whose its primary rays are
+  /// `deal` tells. `detail` is its own, as the constructor's was the first one's. What is counted goes on. Call it only while the
+  /// program is not running, where the plan says that the host deals all primary rays.
+  void begin_frame(const core::FineDetail* detail);
+
   void receive(const nodes::Packet& packet) override;
   bool work() override;
   bool finished() const override { return stopped_; }
@@ -88,6 +93,8 @@ class HostProgram final : public nodes::Program {
   nodes::Progress progress_;
   DealPrimaries deal_;
   core::Continuation continuation_;
+  core::RefinementOptions wanted_;
+  std::uint32_t first_samples_;
   core::Refinement refinement_;
   Undealt undealt_;
   KeptRays kept_;

@@ -681,6 +681,15 @@ ProgramReport RayProgram<RaysTask, Units>::report() const {
   return report;
 }
 
+template <class RaysTask, class Units>
+void RayProgram<RaysTask, Units>::begin_frame(const core::RenderSettings& settings) {
+  core::expect(stopped_ && !has_primaries(), "a frame begins when the one before has ended");
+  const core::DatabaseHeader part = constants_->settings.header;
+  constants_->settings = settings;
+  constants_->settings.header = part;
+  stopped_ = false;
+}
+
 template class RayProgram<RayTask>;
 template class RayProgram<BundleTask>;
 template class RayProgram<RayTask, MovingUnits>;

@@ -79,6 +79,10 @@ class NodeProgram : public nodes::Program {
   static nodes::MemoryPlan layout(const Plan& plan, std::uint32_t index);
   /// Call it only while the program is not running.
   virtual ProgramReport report() const = 0;
+  /// The run of the picture before has ended: another one follows, of the same size and samples, from another place. The node
+  /// keeps its regions, and what it counts goes on. Of `settings` the header is the whole database's. Call it only while the
+  /// program is not running, where the host deals all primary rays.
+  virtual void begin_frame(const core::RenderSettings& settings) = 0;
 
  protected:
   /// What never changes but for whose the regions are, in local memory.
@@ -105,6 +109,7 @@ class RayProgram final : public NodeProgram {
   nodes::Levels levels() const override;
   std::string describe() const override;
   ProgramReport report() const override;
+  void begin_frame(const core::RenderSettings& settings) override;
 
  private:
   /// What is known of the ray that was started, taken up or made last; `sample`: that of the primary ray started last.

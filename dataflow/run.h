@@ -40,6 +40,8 @@ struct RunOptions {
   /// Where the picture is begun, and what of it is kept on the way: at points to which the host brings the run by dealing no more
   /// primary rays until none is left. So with any of it the host deals all of them after the start.
   core::Continuation continuation = {};
+  /// Several pictures follow each other (dataflow/frames.h): then, too, the host deals all primary rays after the start.
+  bool are_frames = false;
 };
 
 struct NodeReport : nodes::NodeFigures {

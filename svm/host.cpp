@@ -24,7 +24,9 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
       film_(&film),
       progress_(std::move(progress)),
       continuation_(continuation),
-      refinement_(shape.refinement, shape.first_samples, film.width(), film.height(), shape.detail, film.scale()),
+      wanted_(shape.refinement),
+      first_samples_(shape.first_samples),
+      refinement_(wanted_, first_samples_, film.width(), film.height(), shape.detail, film.scale()),
       arrived_(own_layout(shape).in(node.memory())),
       pixels_sent_(shape.refinement.is_wanted() ? shape.node_count : 0),
       node_count_(shape.node_count),
@@ -48,6 +50,21 @@ HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& 
   if (shape.pages) {
     home_.emplace(HomePages(node, *shape.pages, shape.database), PageServer(node, *shape.pages));
   }
+  start_dealing();
+}
+
+void HostProgram::begin_frame(const core::FineDetail* detail) {
+  core::expect(stopped_, "a frame begins when the one before has ended");
+  for (std::uint32_t i = 0; i < node_count_; ++i) {
+    node_->grant(nodes::NodeId{i}, control_channel, 1);  // for Stop
+  }
+  refinement_ = core::Refinement(wanted_, first_samples_, film_->width(), film_->height(), detail, film_->scale());
+  std::fill(arrived_.begin(), arrived_.end(), 0);
+  std::fill(pixels_sent_.begin(), pixels_sent_.end(), 0);
+  served_before_ = home_ ? home_->server.served() : 0;
+  items_given_ = pixels_announced_ = pixels_of_old_passes_ = deposits_saturated_ = 0;
+  nodes_masked_ = pixels_done_ = pixels_found_done_ = nodes_done_ = 0;
+  stopped_ = false;
   start_dealing();
 }
 

@@ -53,6 +53,10 @@ class HostProgram final : public nodes::Program {
   /// What the constructor takes.
   static nodes::MemoryPlan layout(const HostShape& shape);
 
+  /// The run of the picture before has ended: another one follows, on the same film, which is as new. `detail` is its own, as
+  /// shape.detail was the first one's. What is reported is of this one. Call it only while the program is not running.
+  void begin_frame(const core::FineDetail* detail);
+
   void receive(const nodes::Packet& packet) override;
   bool work() override { return false; }
   bool finished() const override { return stopped_; }
@@ -64,7 +68,7 @@ class HostProgram final : public nodes::Program {
   /// Keeps what has arrived, if that is wanted: for when the run has been interrupted.
   void keep() const;
   /// Replies to requests for pages.
-  std::uint64_t pages_served() const { return home_ ? home_->server.served() : 0; }
+  std::uint64_t pages_served() const { return home_ ? home_->server.served() - served_before_ : 0; }
   /// Work items dealt, over all passes.
   std::uint64_t items_given() const { return items_given_; }
   /// By this run, over all passes.
@@ -98,6 +102,8 @@ class HostProgram final : public nodes::Program {
   core::Film* film_;
   nodes::Progress progress_;
   core::Continuation continuation_;
+  core::RefinementOptions wanted_;
+  std::uint32_t first_samples_;
   core::Refinement refinement_;
   std::span<std::uint64_t> arrived_;        ///< a bit a pixel
   std::vector<std::uint32_t> pixels_sent_;  ///< of the mask, to each node; empty unless the picture is refined
@@ -106,6 +112,7 @@ class HostProgram final : public nodes::Program {
   bool is_masked_;
   WorkItems items_;  ///< not dealt yet
   std::optional<Home> home_;
+  std::uint64_t served_before_ = 0;  ///< pages, for earlier pictures
   std::uint64_t items_given_ = 0;
   std::uint32_t nodes_masked_ = 0;  ///< how many have their whole mask
   std::uint32_t pixels_done_ = 0;

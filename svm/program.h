@@ -41,16 +41,26 @@
 
 namespace dmpc::svm {
 
+/// A node program that renders pictures of one scene, one after another.
+class PictureProgram : public NodeProgram {
+ public:
+  /// The run of the picture before has ended: another one follows, of the same size and samples, from another place. What the
+  /// node has of the scene it keeps, and what it counts goes on. `settings` outlive the picture. Call it only while the program
+  /// is not running.
+  virtual void begin_frame(const core::RenderSettings& settings) = 0;
+};
+
 /// `Records` is what PlainRecords describes; `Tracer` reads them; `Task` is core::PixelTask, core::BundleTask, or a test's.
 template <class Records, class Tracer, class Task = core::PixelTask>
-class ControlProgram final : public NodeProgram {
+class ControlProgram final : public PictureProgram {
  public:
   /// Takes all its memory from `node`, which keeps `settings` and `database` (nodes/lasting_pieces.h). make_tracer(Records&)
   /// returns the tracer. `meter` is there where somebody wants to know what is done for which pixel.
   template <class MakeTracer>
   ControlProgram(nodes::Node& node, const Plan& plan, const core::RenderSettings& settings, const nodes::ByteSource& database,
                  const MakeTracer& make_tracer, const std::optional<nodes::Meter>& meter = std::nullopt)
-      : settings_(kept(node, settings)),
+      : settings_room_(node.memory(), core::MemoryUse::constants, sizeof(settings), sizeof(settings)),
+        settings_(keep(settings)),
         node_(&node),
         host_(nodes::NodeId{plan.request.computer.node_count}),
         records_(node, plan.pages(), database),
@@ -58,11 +68,18 @@ class ControlProgram final : public NodeProgram {
         slots_(node.memory(), plan.task_count(), static_cast<std::uint32_t>(plan.request.waiting_hits_max)),
         work_(node, plan.work(), settings.skips.idle_nodes),
         film_(node, plan.film()),
-        leaves_runs_(!plan.request.computer.machine && !meter && settings.skips.background && settings.background.count() > 0 &&
-                     settings.is_beyond_alike()),
+        may_leave_runs_(!plan.request.computer.machine && !meter),
         meter_(meter) {
     core::expect(Task::pixels_max == plan.pixels_a_task, "a node's tasks are those of the plan");
     node.grant(host_, control_channel, 1);  // for Done
+  }
+
+  void begin_frame(const core::RenderSettings& settings) override {
+    core::expect(stopped_, "a frame begins when the one before has ended");
+    settings_ = keep(settings);
+    work_.begin_frame();
+    node_->grant(host_, control_channel);  // for Done
+    done_ = stopped_ = false;
   }
 
   /// Packets about records come first: most are. The first pixel that goes on with what a packet brings is charged for it.
@@ -140,7 +157,7 @@ class ControlProgram final : public NodeProgram {
   // What records, and they alone, call to go on with the pixels that they serve.
 
   Task& task(std::uint32_t slot) { return slots_.task(slot); }
-  const core::RenderSettings& settings() const { return settings_; }
+  const core::RenderSettings& settings() const { return *settings_; }
   /// What the node does is counted there, for other nodes' pixels, too.
   core::Operations& operations() { return operations_; }
   /// Runs the pixel, or those of the task, until a ray or bundle has ended, all is finished, or something is absent.
@@ -151,10 +168,14 @@ class ControlProgram final : public NodeProgram {
   }
 
  private:
-  static const core::RenderSettings& kept(nodes::Node& node, const core::RenderSettings& settings) {
+  const core::RenderSettings* keep(const core::RenderSettings& settings) {
     static_assert(std::is_trivially_copyable_v<core::RenderSettings>);
-    return *reinterpret_cast<const core::RenderSettings*>(
-        nodes::kept(node.memory(), core::MemoryUse::constants, std::as_bytes(std::span(&settings, 1))).data());
+    settings_room_.put(0, std::as_bytes(std::span(&settings, 1)));
+    return reinterpret_cast<const core::RenderSettings*>(settings_room_.at(0));
+  }
+
+  bool leaves_runs() const {
+    return may_leave_runs_ && settings_->skips.background && settings_->background.count() > 0 && settings_->is_beyond_alike();
   }
 
   bool can_start() const {
@@ -165,15 +186,15 @@ class ControlProgram final : public NodeProgram {
   /// maps each is a pixel like others.
   bool leave_background() {
     const PixelRectangle pixels =
-        leaves_runs_ ? work_.take_background(settings_.background, film_.room_left() - pixels_in_flight_) : PixelRectangle{};
+        leaves_runs() ? work_.take_background(settings_->background, film_.room_left() - pixels_in_flight_) : PixelRectangle{};
     if (pixels.width == 0) {
       return false;
     }
-    const core::PixelSums sums = core::background_sums(pixels.pixel_count(), settings_, operations_);
+    const core::PixelSums sums = core::background_sums(pixels.pixel_count(), *settings_, operations_);
     for (std::uint32_t row = 0; row < pixels.height; ++row) {
       film_.add(pixels.pixel(0, row, work_.image_width()), sums, pixels.width);
     }
-    rays_ended_ += pixels.pixel_count() * settings_.first_samples().count;
+    rays_ended_ += pixels.pixel_count() * settings_->first_samples().count;
     pixels_rendered_ += pixels.pixel_count();
     return true;
   }
@@ -189,7 +210,7 @@ class ControlProgram final : public NodeProgram {
       pixels[count++] = work_.next_pixel();
     } while (count < Task::pixels_max && work_.stays_in_tile());
     slots_.task(slot).start(std::span<const std::uint32_t>(pixels).first(count),
-                            std::span<const core::SampleStep>(steps).first(count), settings_, operations_);
+                            std::span<const core::SampleStep>(steps).first(count), *settings_, operations_);
     pixels_in_flight_ += count;
     records_.select(slot);
     records_.forget();
@@ -197,7 +218,7 @@ class ControlProgram final : public NodeProgram {
   }
 
   void run(std::uint32_t slot) {
-    switch (slots_.task(slot).run(tracer_, settings_, operations_)) {
+    switch (slots_.task(slot).run(tracer_, *settings_, operations_)) {
       case core::TaskState::more:
         rays_ended_ += slots_.task(slot).rays_ended();
         return slots_.make_runnable(slot);
@@ -279,7 +300,8 @@ class ControlProgram final : public NodeProgram {
     stopped_ = true;
   }
 
-  const core::RenderSettings& settings_;
+  nodes::LastingPieces settings_room_;
+  const core::RenderSettings* settings_;
   nodes::Node* node_;
   nodes::NodeId host_;
   Records records_;
@@ -293,7 +315,7 @@ class ControlProgram final : public NodeProgram {
   std::uint32_t pixels_in_flight_ = 0;
   bool done_ = false;
   bool stopped_ = false;
-  const bool leaves_runs_;  ///< of background
+  const bool may_leave_runs_;  ///< of background
   std::optional<nodes::Meter> meter_;
 };
 

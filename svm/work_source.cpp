@@ -93,6 +93,11 @@ void WorkSource::begin_pass() {
   skip_unwanted();
 }
 
+void WorkSource::begin_frame() {
+  std::fill(mask_.begin(), mask_.end(), core::SampleStep::first());
+  begin_pass();
+}
+
 /// The steps of an item of the share.
 ItemSteps WorkSource::steps_of(const PixelRectangle& item) const {
   ItemSteps steps;

@@ -76,6 +76,8 @@ class WorkSource {
   void take_mask(const MaskPart& part);
   /// Starts with the whole share again, as far as the mask wants it.
   void begin_pass();
+  /// The first pass of another picture. Requires exhausted().
+  void begin_frame();
 
   /// No pixel is left here, and none anywhere else.
   bool exhausted() const { return !has_pixel() && no_more_; }

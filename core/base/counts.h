@@ -34,6 +34,18 @@ T& add_counts(T& sum, const T& more) {
   return sum = std::bit_cast<T>(numbers);
 }
 
+/// Each count of `now` less the same one of `before`.
+template <MadeOfCounts T>
+T counts_since(const T& now, const T& before) {
+  using Numbers = std::array<std::uint64_t, sizeof(T) / sizeof(std::uint64_t)>;
+  auto numbers = std::bit_cast<Numbers>(now);
+  const auto others = std::bit_cast<Numbers>(before);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    numbers[i] -= others[i];
+  }
+  return std::bit_cast<T>(numbers);
+}
+
 /// The sum of of(item), which are counts, over all items.
 template <class Items, class Of>
 auto total_of(const Items& items, const Of& of) {

@@ -36,6 +36,12 @@ void HeatMap::set(HeatNumber kind, std::uint32_t item, std::uint64_t value) {
   }
 }
 
+void HeatMap::clear() {
+  for (std::vector<std::uint64_t>& values : values_) {
+    std::fill(values.begin(), values.end(), 0);
+  }
+}
+
 std::uint64_t HeatMap::sum(HeatNumber kind) const {
   const std::span<const std::uint64_t> all = values(kind);
   return std::accumulate(all.begin(), all.end(), std::uint64_t{0});

@@ -65,6 +65,9 @@ class HeatMap {
   HeatNumber depth() const { return depth_; }
   HeatNumber done() const { return done_; }
 
+  /// All zero again.
+  void clear();
+
   // These do nothing with a kind that is not recorded. They require item < item_count().
   void add(HeatNumber kind, std::uint32_t item, std::uint64_t amount);
   /// To `value` at least.

@@ -1,0 +1,232 @@
+#include "dataflow/frames.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/base/expect.h"
+#include "dataflow/packets.h"
+#include "dataflow/ranks.h"
+#include "nodes/gathering.h"
+
+namespace dmpc::dataflow {
+namespace {
+
+using nodes::TrafficByKind;
+
+/// Where a node's regions lie.
+void report_regions(NodeReport& report, const Regions& regions, const std::vector<std::uint32_t>& indices) {
+  const auto volume = [](const core::Region& box) {
+    double product = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      product *= box.high[axis] - box.low[axis];
+    }
+    return product;
+  };
+  double cells = 0;
+  report.region = regions.region_at(indices.front());
+  report.region_count = static_cast<std::uint32_t>(indices.size());
+  for (const std::uint32_t index : indices) {
+    const core::Region box = regions.region_at(index);
+    cells += volume(box);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      report.region.low[axis] = std::min(report.region.low[axis], box.low[axis]);
+      report.region.high[axis] = std::max(report.region.high[axis], box.high[axis]);
+    }
+  }
+  report.region_share = cells / volume({.high = regions.grid_size()});
+}
+
+/// Whether every credit of a node, or of the host, is back where it started.
+bool has_its_credits(const nodes::Node& node, const Plan& plan) {
+  const std::uint32_t host = plan.node_count(), self = nodes::index_of(node.id());
+  for (std::uint32_t peer = 0; peer <= host; ++peer) {
+    const bool with_host = self == host || peer == host;
+    const std::uint32_t planned = self == peer ? 0 : with_host ? plan.host_credits : plan.ray_credits;
+    const bool deals = self == host && peer < host;
+    if (node.credits(nodes::NodeId{peer}, ray_channel) != planned ||
+        (deals && node.credits(nodes::NodeId{peer}, film_channel) != plan.dealing_credits())) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Adds what the node was dealt.
+void report_share(NodeReport& report, const Distribution& distribution, std::uint32_t index, const Share& share) {
+  report.part_bytes = share.part_bytes;
+  report.primitive_copies = distribution.parts[index].primitive_copies;
+  for (const PrimaryRun& run : distribution.primaries[index]) {
+    report.primary_rays += run.count;
+  }
+}
+
+void check_rays(const Report& report) {
+  const RayCounters rays = report.rays();
+  const core::Operations operations = report.operations();
+  core::expect(operations.ray_count() == rays.ended, "every ray shot has ended");
+  core::expect(rays.in == rays.out, "every ray sent was received, of every kind");
+  core::expect(operations.shadings == operations.primary_hits + operations.secondary_hits, "each hit was claimed by one node");
+  core::expect(report.host_rays.rays_in == report.gathers().rays_overflowed, "every ray that overflowed came to the host");
+  core::expect(report.host_rays.rays_in == report.host_rays.rays_out, "every ray that overflowed was forwarded");
+  core::expect(
+      report.film.samples() - report.samples_found_done == operations.rays[static_cast<std::size_t>(core::RayKind::primary)],
+      "every primary ray was shot");
+}
+
+/// Every unit that was handed over was taken, and each is one node's.
+void check_units(const Report& report) {
+  const MovementCounters sum = report.movement();
+  core::expect(sum.units_given == sum.units_taken, "every unit that was handed over was taken");
+  core::expect(sum.primaries_given == sum.primaries_taken, "every primary ray that was handed over was taken");
+  core::expect(sum.asks == sum.refusals + sum.units_taken, "every question was answered, by a unit or a refusal");
+  core::expect(sum.units == report.plan.unit_count(), "every unit is one node's");
+}
+
+void check_packets(const Report& report) {
+  const TrafficByKind sent = report.sent(), received = report.received();
+  for (std::size_t kind = 0; kind < sent.size(); ++kind) {
+    core::expect(sent[kind].packets == received[kind].packets, "every packet sent was received, of every kind");
+  }
+  core::expect(sent[number_of(Kind::film)].packets == sent[number_of(Kind::film_acknowledgement)].packets,
+               "every film packet was acknowledged");
+  nodes::expect_nothing_lost(report.ranks);
+}
+
+/// What is counted, and not the most or the latest of something, is that of the frame.
+ProgramReport since(const ProgramReport& now, const ProgramReport& before) {
+  ProgramReport report = now;
+  report.operations = core::counts_since(now.operations, before.operations);
+  report.rays = core::counts_since(now.rays, before.rays);
+  report.gather = core::counts_since(now.gather, before.gather);
+  report.gather.queue_high_water = now.gather.queue_high_water;
+  report.film = core::counts_since(now.film, before.film);
+  report.movement = core::counts_since(now.movement, before.movement);
+  report.movement.units = now.movement.units;
+  for (std::size_t i = 0; i < before.pairs.size(); ++i) {
+    report.pairs[i] = core::counts_since(now.pairs[i], before.pairs[i]);
+  }
+  return report;
+}
+
+HostCounters since(const HostCounters& now, const HostCounters& before) {
+  HostCounters counters = core::counts_since(now, before);
+  counters.rays_kept_max = now.rays_kept_max;
+  counters.kept_bytes_max = now.kept_bytes_max;
+  return counters;
+}
+
+core::Film film_of(const core::RenderSettings& settings) {
+  return core::Film(settings.camera.width(), settings.camera.height(), settings.shade.film_scale,
+                    core::planes_for(settings.first_samples().count));
+}
+
+}  // namespace
+
+Frames::Frames(const Prepared& prepared, const core::RenderSettings& first, const RunOptions& options,
+               const std::stop_token& stop)
+    : prepared_(prepared),
+      options_(options),
+      settings_(first),
+      detail_(prepared.detail),
+      plan_(prepared.plan),
+      film_(options.continuation.start != nullptr ? options.continuation.start->film : film_of(first)) {
+  core::expect(film_.pixel_count() == first.camera.pixel_count(), "what is gone on with is of the same picture");
+  core::expect(options_.watching.heat == nullptr || options_.watching.heat->item_count() == film_.pixel_count(),
+               "a heat map is of the picture's size");
+  before_.nodes.resize(plan_.node_count());
+  if (options_.computer.ranks != nullptr) {
+    hand_out(plan_, prepared_.distribution, settings_, options_.watching.elsewhere.order, *options_.computer.ranks);
+  }
+  runner_ = nodes::make_runner(specifications_of(plan_, prepared_.distribution, settings_, film_, options_, stop, &detail_),
+                               options_.computer, options_.watching.observer);
+  if (options_.watching.distributed) {
+    options_.watching.distributed();
+  }
+}
+
+HostProgram& Frames::host() const { return dynamic_cast<HostProgram&>(runner_->program(plan_.node_count())); }
+
+Frames::Before Frames::counted() const {
+  Before counted{.nodes = {}, .host = host().report()};
+  for (std::uint32_t i = 0; i < plan_.node_count(); ++i) {
+    counted.nodes.push_back(dynamic_cast<const NodeProgram&>(runner_->program(i)).report());
+  }
+  return counted;
+}
+
+Report Frames::render(const core::RenderSettings& settings, const core::FineDetail& detail, std::stop_token stop) {
+  core::expect(options_.are_frames, "several frames are said to be several");
+  before_ = counted();
+  options_.continuation.start = nullptr;  // of the first frame
+  settings_ = settings;
+  detail_ = detail;
+  film_ = film_of(settings_);
+  for (std::uint32_t i = 0; i < plan_.node_count(); ++i) {
+    dynamic_cast<NodeProgram&>(runner_->program(i)).begin_frame(settings_);
+  }
+  host().begin_frame(&detail_);
+  return render(std::move(stop));
+}
+
+Report Frames::render(std::stop_token stop) {
+  const core::PartialPicture* const start = options_.continuation.start;
+  const nodes::RunEnd end = runner_->run(std::move(stop));
+  Report report{.film = std::move(film_),
+                .samples_found_done = start != nullptr ? start->samples_done() : 0,
+                .end = end,
+                .plan = plan_,
+                .regions = prepared_.distribution.regions,
+                .predicted = prepared_.predicted,
+                .duplication = prepared_.duplication};
+  fill(report);
+  return report;
+}
+
+/// What nodes and host tell.
+void Frames::fill(Report& report) const {
+  const Distribution& distribution = prepared_.distribution;
+  GatheredReports gathered = gather_reports(*runner_, plan_);
+  report.ranks = nodes::gather_rank_figures(*runner_, plan_, options_.computer.ranks, options_.watching.elsewhere.adds());
+  const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();
+  report.nodes = std::move(gathered.nodes);
+  for (std::uint32_t i = 0; i < plan_.node_count(); ++i) {
+    report.nodes[i].program = since(report.nodes[i].program, before_.nodes[i]);
+    report_share(report.nodes[i], distribution, i, plan_.request.shares[i]);
+    report_regions(report.nodes[i], distribution.regions, regions[i]);
+  }
+  report.host = runner_->node(plan_.node_count()).counters();
+  report.host_rays = since(host().report(), before_.host);
+  report.refinement = host().refinement().result();
+  if (report.end == nodes::RunEnd::finished) {
+    check_rays(report);
+    check_units(report);
+    check_packets(report);
+    core::expect(gathered.are_credits_back, "every credit has come back, and every packet of primary rays was worked off");
+    report.virtual_time = runner_->virtual_report();
+  }
+}
+
+GatheredReports gather_reports(nodes::Runner& runner, const Plan& plan) {
+  const std::uint32_t host = plan.node_count();
+  GatheredReports gathered{.are_credits_back = !runner.is_here(host) || has_its_credits(runner.node(host), plan)};
+  nodes::gather_nodes(
+      runner, host,
+      [&](std::size_t index, nodes::FlatWriter& told) {
+        const ProgramReport program = dynamic_cast<const NodeProgram&>(runner.program(index)).report();
+        told.put(static_cast<const ProgramCounts&>(program));
+        told.put_all(program.pairs);
+        told.put(nodes::figures_of(runner.node(index)));
+        told.put(has_its_credits(runner.node(index), plan));
+      },
+      [&](std::size_t, nodes::FlatReader& told) {
+        NodeReport& report = gathered.nodes.emplace_back();
+        static_cast<ProgramCounts&>(report.program) = told.take<ProgramCounts>();
+        report.program.pairs = told.take_all<PairCounters>();
+        static_cast<nodes::NodeFigures&>(report) = told.take<nodes::NodeFigures>();
+        gathered.are_credits_back = told.take<bool>() && gathered.are_credits_back;
+      });
+  return gathered;
+}
+
+}  // namespace dmpc::dataflow

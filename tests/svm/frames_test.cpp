@@ -1,0 +1,131 @@
+#include "svm/frames.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "core/picture/frame_settings.h"
+#include "svm/forest/strategy.h"
+#include "tests/support/built_scene.h"
+
+namespace svm_frames_test {
+
+using namespace dmpc;
+using tests::BuiltScene;
+
+namespace {
+
+/// Pictures of a scene, of which each is seen from a little farther to the right.
+struct Walk {
+  Walk(const char* name, int side, core::BuildOptions build = {.page_size_bytes = 512})
+      : scene(core::built_in_scene(core::parse_scene_name(name))), database(core::build_database(scene, build)) {
+    const core::RenderSettings own{database.header(), camera(scene.view, side), {}};
+    for (int step = 0; step < 3; ++step) {
+      core::View view = scene.view;
+      view.from.x += 0.02 * step;
+      frames.push_back(core::seen_by(camera(view, side), own, database));
+    }
+  }
+
+  core::Camera camera(const core::View& view, int side) const { return {view, database.header().frame, side, side, 1}; }
+  svm::Report alone(const svm::Strategy& strategy, std::size_t frame, const svm::RunOptions& options) const {
+    return svm::run_by(strategy, database, frames[frame], options, {});
+  }
+
+  core::Scene scene;
+  core::Database database;
+  std::vector<core::RenderSettings> frames;
+};
+
+svm::RunOptions one_by_one(std::uint32_t node_count, std::optional<nodes::Machine> machine = std::nullopt) {
+  return {.computer = {.node_count = node_count, .machine = std::move(machine)},
+          .pages = {.cache_pages = 40, .in_flight = 1, .work_item_side = 0}};
+}
+
+}  // namespace
+
+TEST_CASE("each frame has the film of a run of it alone, by pages, copies and questions, on threads, a pool and a machine") {
+  const Walk walk("teapot-4", 24);
+  const Walk tree("teapot-4", 24, {.page_size_bytes = 512, .structure = core::Structure::extents});
+  const std::vector<const svm::Strategy*> strategies = {svm::svm_strategy(), svm::replicated_strategy(), svm::forest_strategy()};
+  for (const svm::Strategy* const strategy : strategies) {
+    const Walk& of = strategy == svm::forest_strategy() ? tree : walk;
+    for (const int way : {0, 1, 2, 3}) {
+      svm::RunOptions options{.computer = {.node_count = 3}};
+      options.computer.pool_threads = way == 1 ? std::optional(2U) : std::nullopt;
+      options.computer.machine = way == 2 ? std::optional(nodes::Machine{}) : std::nullopt;
+      options.computer.chaos = way == 3 ? std::optional(nodes::chaos_of(7)) : std::nullopt;
+      svm::Frames frames(*strategy, of.database, of.frames[0], options, {});
+      for (std::size_t i = 0; i < of.frames.size(); ++i) {
+        CAPTURE(strategy->name());
+        CAPTURE(way);
+        CAPTURE(i);
+        const svm::Report report = frames.render(of.frames[i], {});
+        CHECK(report.film.hash() == of.alone(*strategy, i, {.computer = {.node_count = 2}}).film.hash());
+        CHECK(report.pixels_done == 24U * 24U);
+      }
+    }
+  }
+}
+
+TEST_CASE("the first frame of several is the run of it alone, to the last event") {
+  const Walk walk("teapot-4", 24);
+  const svm::RunOptions options = one_by_one(4, nodes::Machine{});
+  const svm::Report alone = walk.alone(*svm::svm_strategy(), 0, options);
+  const svm::Report first =
+      svm::Frames(*svm::svm_strategy(), walk.database, walk.frames[0], options, {}).render(walk.frames[0], {});
+  CHECK(first.virtual_time->hash == alone.virtual_time->hash);
+  CHECK(first.virtual_time->total_ns == alone.virtual_time->total_ns);
+}
+
+TEST_CASE("nodes that keep nothing but what they had do the same again for the same frame, to the last event") {
+  const Walk walk("teapot-4", 24);
+  const svm::RunOptions options = one_by_one(4, nodes::Machine{});
+  svm::Frames frames(*svm::replicated_strategy(), walk.database, walk.frames[0], options, {});
+  const svm::Report first = frames.render(walk.frames[0], {});
+  const svm::Report again = frames.render(walk.frames[0], {});
+  CHECK(again.virtual_time->hash == first.virtual_time->hash);
+  CHECK(again.virtual_time->total_ns == first.virtual_time->total_ns);
+  CHECK(again.operations().ray_count() == first.operations().ray_count());
+  CHECK(nodes::total(again.sent()).packets == nodes::total(first.sent()).packets);
+}
+
+TEST_CASE("what a node has fetched it does not fetch again where its cache has room for all: a still frame has no fault") {
+  const Walk walk("teapot-4", 24);
+  svm::RunOptions options = one_by_one(4);
+  options.pages.cache_pages = 1U << 20U;
+  svm::Frames frames(*svm::svm_strategy(), walk.database, walk.frames[0], options, {});
+  const svm::Report cold = frames.render(walk.frames[0], {});
+  const svm::Report still = frames.render(walk.frames[0], {});
+  const svm::Report moved = frames.render(walk.frames[1], {});
+  CHECK(cold.pages().faults > 100);
+  CHECK(still.pages().faults == 0);
+  CHECK(still.pages().references == cold.pages().references);
+  CHECK(moved.pages().faults > 0);
+  CHECK(moved.pages().faults < cold.pages().faults / 4);
+}
+
+TEST_CASE("frames that are refined choose their samples as alone, and the host that has all pages serves each") {
+  Walk walk("teapot-4", 16);
+  for (core::RenderSettings& settings : walk.frames) {
+    settings.camera = core::Camera(walk.scene.view, walk.database.header().frame, 16, 16, 2);
+    settings.refinement = {.error = 0.02, .samples_max = 64};
+  }
+  const svm::RunOptions options{
+      .computer = {.node_count = 3},
+      .pages = {.cache_pages = 9, .homes = svm::PageHomes::host, .work_item_side = 2, .work_giver = svm::WorkGiver::host}};
+  const svm::Report alone = walk.alone(*svm::svm_strategy(), 0, {.computer = {.node_count = 2}});
+  svm::Frames frames(*svm::svm_strategy(), walk.database, walk.frames[0], options, {});
+  for (int i = 0; i < 3; ++i) {
+    const svm::Report report = frames.render(walk.frames[0], {});
+    CHECK(report.film.hash() == alone.film.hash());
+    CHECK(report.refinement.passes == alone.refinement.passes);
+    CHECK(report.refinement.passes > 1);
+    CHECK(report.pages().faults == report.host_pages_served);
+  }
+}
+
+}  // namespace svm_frames_test
