@@ -34,7 +34,12 @@ Duration duration_of(double seconds) {
   const auto in = [seconds](double unit_seconds, const char* unit) {
     return Duration{fixed(coarse(seconds / unit_seconds), 0), unit};
   };
-  return seconds < 90 ? in(1, " seconds") : seconds < 90 * 60 ? in(60, " minutes") : in(3600, " hours");
+  constexpr double day = 86'400, year = 365 * day;
+  return seconds < 90        ? in(1, " seconds")
+         : seconds < 90 * 60 ? in(60, " minutes")
+         : seconds < 4 * day ? in(3600, " hours")
+         : seconds < year    ? in(day, " days")
+                             : in(year, " years");
 }
 
 /// "2 to 8 minutes", "45 seconds to 3 minutes".

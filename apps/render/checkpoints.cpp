@@ -49,6 +49,13 @@ Checkpoints::Checkpoints(const CheckpointOptions& options, PictureIdentity ident
   }
 }
 
+void Checkpoints::begin(PictureIdentity identity) {
+  identity_ = std::move(identity);
+  start_.reset();
+  has_one_ = false;
+  wait_for_next();
+}
+
 core::Continuation Checkpoints::continuation() {
   wait_for_next();
   return {start(), [this] { return Clock::now() >= next_; },
@@ -74,6 +81,19 @@ void Checkpoints::finish() const {
     files_.remove(file_);
     files_.remove(next_name(file_));  // of a process that was killed
   }
+}
+
+void remove_checkpoint_of(const PictureIdentity& identity, const CheckpointOptions& options, Files& files) {
+  const fs::path file = file_behind(*options.file);
+  try {
+    if (!options.resumes || !is_there(file)) {
+      return;
+    }
+    read_checkpoint(file, identity, files);
+  } catch (const core::InputError&) {
+    return;  // whoever goes on from it says what is wrong
+  }
+  files.remove(file);
 }
 
 std::optional<FileLock> claim_checkpoint(const CheckpointOptions& options) {

@@ -22,6 +22,9 @@ class Checkpoints {
   Checkpoints(const CheckpointOptions& options, PictureIdentity identity, std::ostream& messages, bool is_quiet,
               std::stop_token stop = {}, Files& files = real_files());
 
+  /// The picture is written, and another one is next, which begins at nothing.
+  void begin(PictureIdentity identity);
+
   /// For a run, which it outlives. What cannot be written is a warning on `messages`; the last checkpoint stays.
   core::Continuation continuation();
   /// What the file had; nullptr without.
@@ -49,6 +52,9 @@ class Checkpoints {
   bool has_one_ = false;
   Clock::time_point next_;
 };
+
+/// Removes the file if it is one of this picture.
+void remove_checkpoint_of(const PictureIdentity& identity, const CheckpointOptions& options, Files& files = real_files());
 
 /// To be held as long as the file may be read, written or removed; nothing without one. Throws core::InputError unless the
 /// options can be followed: the file can be written, it is no pipe or device, no other process has its checkpoint there, and it

@@ -4,15 +4,19 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/edge/ranks/rank_group.h"
 #include "apps/edge/system/attempts.h"
 #include "apps/edge/system/output_file.h"
@@ -23,6 +27,7 @@
 #include "apps/picture/film_image.h"
 #include "apps/render/checkpoints.h"
 #include "apps/render/film_notes.h"
+#include "apps/render/frame_files.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/outputs.h"
 #include "apps/render/pass_progress.h"
@@ -31,12 +36,15 @@
 #include "apps/render/self_test.h"
 #include "apps/render/unseen_note.h"
 #include "apps/run/run_strategy.h"
+#include "apps/scene/camera_path.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
+#include "apps/show/frame_line.h"
 #include "apps/show/stats/stats.h"
 #include "apps/show/summary.h"
 #include "apps/show/trace/file.h"
 #include "core/database/conversion.h"
+#include "core/picture/frame_settings.h"
 #include "core/picture/refinement.h"
 #include "nodes/ranks/life_signs.h"
 
@@ -67,20 +75,24 @@ std::unique_ptr<Preview> make_preview(const RenderOptions& options, const core::
                             camera.height(), start, stop);
 }
 
-/// What an interruption of the run means.
-const char* consequence_of(const Checkpoints& checkpoints) {
+/// What an interruption of the run means; where there are several frames, of the one under way.
+const char* consequence_of(const Checkpoints& checkpoints, bool are_frames) {
+  if (are_frames) {
+    return checkpoints.has_one() ? "this frame was not written, those before it were; --resume goes on from the checkpoint"
+                                 : "this frame was not written, those before it were; --resume leaves them out";
+  }
   return checkpoints.has_one() ? "no picture was written; --resume goes on from the checkpoint" : "no picture was written";
 }
 
-core::Continuation continuation_of(Checkpoints* checkpoints, Preview* preview, Interrupt& interrupt) {
+core::Continuation continuation_of(Checkpoints* checkpoints, bool are_frames, Preview* preview, Interrupt& interrupt) {
   core::Continuation continuation;
   if (checkpoints != nullptr) {
     continuation = checkpoints->continuation();
     continuation.is_due = [is_due = continuation.is_due, &interrupt] { return interrupt.take_keep_request() || is_due(); };
-    continuation.keep = [keep = continuation.keep, checkpoints, &interrupt](const core::Film& film, const core::Refinement& pass,
-                                                                            const core::PixelMask& done) {
+    continuation.keep = [keep = continuation.keep, checkpoints, are_frames, &interrupt](
+                            const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
       keep(film, pass, done);
-      interrupt.set_consequence(consequence_of(*checkpoints));
+      interrupt.set_consequence(consequence_of(*checkpoints, are_frames));
     };
   }
   if (preview != nullptr) {
@@ -95,15 +107,23 @@ core::Continuation continuation_of(Checkpoints* checkpoints, Preview* preview, I
 class Rendering {
  public:
   Rendering(const RenderOptions& options, Interrupt& interrupt, std::ostream& output, Files& files)
-      : options_(options), interrupt_(interrupt), output_(output), files_(files) {}
+      : asked_(options), options_(options), interrupt_(interrupt), output_(output), files_(files) {}
 
   int run() {
+    if (asked_.frames.range && !claim_frames()) {
+      return 0;
+    }
     claim();
     apart([this] { load(); });
     look_on();
     apart([this] { plan(); });
     render();
-    return apart([this] { return write(); });
+    int status = apart([this] { return write(); });
+    while (status == 0 && next_frame()) {
+      render();
+      status = write();
+    }
+    return status;
   }
 
  private:
@@ -111,6 +131,77 @@ class Rendering {
   template <class Work>
   std::invoke_result_t<const Work&> apart(const Work& work) {
     return options_.computer.ranks == nullptr ? work() : nodes::with_life_signs(*options_.computer.ranks, work);
+  }
+
+  /// Which frames there are to do; false if none is left.
+  bool claim_frames() {
+    check_frame_names(asked_);
+    path_.emplace(camera_path_of(asked_.frames));
+    frames_there_ = frames_there(asked_);
+    if (!frames_there_.empty() && !asked_.checkpoint.resumes) {
+      throw core::InputError("-o " + options_of(asked_, *frames_there_.begin()).image.string() + ": the picture of this frame" +
+                             (frames_there_.size() == 1 ? " is" : ", and of " + grouped(frames_there_.size() - 1) + " more, is") +
+                             " there already: --resume leaves out what is there, or remove it, or give another name");
+    }
+    if (!frames_there_.empty()) {
+      say({counted(frames_there_.size(), "frame") + " of " + grouped(asked_.frames.range->count()) +
+           (frames_there_.size() == 1 ? " is there and stays as it is" : " are there and stay as they are")});
+    }
+    frame_ = missing_from(asked_.frames.range->first);
+    if (frame_) {
+      options_ = options_of(asked_, *frame_);
+      outputs_ = outputs_of(options_);
+    }
+    return frame_.has_value();
+  }
+
+  /// The next to do. Another process may have the others.
+  std::optional<std::uint64_t> missing_from(std::uint64_t frame) const {
+    while (frame <= asked_.frames.range->last && (frames_there_.contains(frame) || is_there_by_now(frame))) {
+      ++frame;
+    }
+    return frame <= asked_.frames.range->last ? std::optional(frame) : std::nullopt;
+  }
+
+  bool is_there_by_now(std::uint64_t frame) const {
+    const std::filesystem::path picture = options_of(asked_, frame).image;
+    std::error_code error;
+    const bool is_there = picture != asked_.image && std::filesystem::exists(picture, error);
+    if (is_there && !asked_.checkpoint.resumes) {
+      throw core::InputError("-o " + picture.string() +
+                             ": the picture of this frame has come there meanwhile: --resume goes on " +
+                             "with those that are missing");
+    }
+    return is_there;
+  }
+
+  std::uint64_t frames_left() const { return asked_.frames.range->count() - frames_there_.size(); }
+
+  /// Makes all ready for the next frame that is missing, on the same nodes; false if none is.
+  bool next_frame() {
+    frame_ = asked_.frames.range ? missing_from(*frame_ + 1) : std::nullopt;
+    if (!frame_) {
+      return false;
+    }
+    interrupt_.check();
+    options_ = options_of(asked_, *frame_);
+    outputs_ = outputs_of(options_);
+    check_outputs(options_, outputs_);
+    settings_ = frame_settings();
+    if (checkpoints_) {
+      checkpoints_->begin(identity_from(view(), *own_identity_));
+    }
+    onlookers_->begin_again();
+    return true;
+  }
+
+  /// Of the frame under way, or the scene's own.
+  core::View view() const { return frame_ ? path_->view(*frame_) : own_view_; }
+
+  core::RenderSettings frame_settings() const {
+    const core::RenderSettings& own = subject_->settings;
+    const core::Camera camera(view(), own.header.frame, own.camera.width(), own.camera.height(), own.camera.samples());
+    return core::seen_by(camera, own, subject_->database);
   }
 
   /// What can be seen before the scene is: paths, libraries, the machine.
@@ -122,7 +213,8 @@ class Rendering {
     if (std::optional<FileLock> lock = claim_checkpoint(options_.checkpoint)) {
       lock_.emplace(std::move(*lock));
     }
-    choose_machine(options_);
+    choose_machine(asked_);
+    options_ = frame_ ? options_of(asked_, *frame_) : asked_;
   }
 
   /// Reads and builds; a signal ends the process here and now.
@@ -132,11 +224,18 @@ class Rendering {
     OpenedFiles opened;
     core::Scene scene = load_scene(options_.picture, options_.quiet ? LoadNotes::silent : LoadNotes::said, &opened);
     check_not_read(opened, files_of(outputs_.names()));
-    if (options_.checkpoint.file) {
-      checkpoints_.emplace(options_.checkpoint, identity_of(options_, scene), std::cerr, options_.quiet, interrupt_.token(),
-                           files_);
-    }
+    own_view_ = scene.view;
     bounds_ = core::bounds_of(scene, core::world_axes, core::Parallel(0));
+    if (path_) {
+      path_->set_scene(own_view_, bounds_);
+      path_->check(asked_.frames.range->first, asked_.frames.range->last);
+    }
+    if (options_.checkpoint.file) {
+      own_identity_ = identity_of(options_, scene);
+      remove_old_checkpoint();
+      checkpoints_.emplace(options_.checkpoint, frame_ ? identity_from(view(), *own_identity_) : *own_identity_, std::cerr,
+                           options_.quiet, interrupt_.token(), files_);
+    }
     up_ = is_mesh(options_.picture.scene) ? options_.picture.staging.mesh.up.value_or(UpAxis{}) : up_of(scene.view);
     scene_digest_ = options_.report ? std::optional(scene_digest(scene)) : std::nullopt;
     seconds_.load = stopwatch.lap();
@@ -144,7 +243,15 @@ class Rendering {
     if (options_.tracer != TracerChoice::embree) {
       subject_->database.forget_primitives();
     }
+    settings_ = frame_ ? frame_settings() : subject_->settings;
     seconds_.build = stopwatch.lap();
+  }
+
+  /// Of the frame before, where a process was killed when that was written.
+  void remove_old_checkpoint() const {
+    if (frame_ && *frame_ > path_->first() && frames_there_.contains(*frame_ - 1)) {
+      remove_checkpoint_of(identity_from(path_->view(*frame_ - 1), *own_identity_), options_.checkpoint, files_);
+    }
   }
 
   void look_on() {
@@ -152,7 +259,8 @@ class Rendering {
     onlookers_.emplace(watch_order(options_, static_cast<std::uint32_t>(subject_->database.page_count()), camera.pixel_count()));
     options_.pages.reference_logs = onlookers_->reference_logs();
     preview_ = make_preview(options_, camera, checkpoints_ ? checkpoints_->start() : nullptr, interrupt_.token());
-    continuation_ = continuation_of(checkpoints_ ? &*checkpoints_ : nullptr, preview_.get(), interrupt_);
+    continuation_ =
+        continuation_of(checkpoints_ ? &*checkpoints_ : nullptr, asked_.frames.are_several(), preview_.get(), interrupt_);
   }
 
   /// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
@@ -160,11 +268,16 @@ class Rendering {
     announce_long();
     const Interrupt::EndAtOnce end_at_once(interrupt_);
     nodes::Watching watching = onlookers_->watching();
-    watching.distributed = [this] { subject_->database.forget_records(); };  // the nodes have theirs
+    if (!asked_.frames.are_several()) {  // of which each looks at the database for where it shows nothing
+      watching.distributed = [this] { subject_->database.forget_records(); };  // the nodes have theirs
+    }
     Stopwatch stopwatch;
-    ready_ = make_ready(options_, subject_->database, subject_->settings, {}, watching, continuation_);
+    ready_ = make_ready(options_, subject_->database, *settings_, {}, watching, continuation_);
     seconds_.prepare = stopwatch.lap();
     say(ready_.notes);
+    if (frame_) {
+      say({disk_note(asked_, frames_left(), settings_->camera.pixel_count())});
+    }
   }
 
   /// How long a long render will take, where somebody waits; without what is done already.
@@ -176,24 +289,31 @@ class Rendering {
     const double samples = static_cast<double>(subject_->settings.camera.pixel_count()) * options_.picture.samples;
     Effort effort = render_effort(options_, *subject_);
     effort.seconds *= std::max(0.0, 1 - static_cast<double>(samples_found_done()) / samples);
+    effort.seconds *= frame_ ? static_cast<double>(frames_left()) : 1;
     if (is_long(effort)) {
-      announce("render " + options_.picture.scene + (options_.picture.is_refined ? ", at least" : ""), effort, options_.quiet,
-               std::cerr);
+      announce("render " + options_.picture.scene + (frame_ ? ", " + counted(frames_left(), "frame") : "") +
+                   (options_.picture.is_refined ? ", at least" : ""),
+               effort, options_.quiet, std::cerr);
     }
   }
 
   void render() {
     if (checkpoints_) {
-      interrupt_.set_consequence(consequence_of(*checkpoints_));
+      interrupt_.set_consequence(consequence_of(*checkpoints_, asked_.frames.are_several()));
+    } else if (asked_.frames.are_several()) {
+      interrupt_.set_consequence("this frame was not written, those before it were; --resume leaves them out");
     }
     Stopwatch stopwatch;
     const ProcessorTime before = processor_time();
     Progress progress(std::cerr, !options_.quiet && stderr_is_terminal());
     PassProgress passes(progress, continuation_.start != nullptr ? continuation_.start->passes : 1, core::passes_max);
-    const auto update = [this, &progress, &passes](std::uint32_t done, std::uint32_t total) {
+    update_ = [this, &progress, &passes](std::uint32_t done, std::uint32_t total) {
       options_.picture.is_refined ? passes.update(done, total) : progress.update(done, total);
     };
-    report_.emplace(ready_.start(update, interrupt_.token()));
+    report_.emplace(is_started_ ? ready_.go_on(*settings_, interrupt_.token())
+                                : ready_.start([this](std::uint32_t done, std::uint32_t total) { update_(done, total); },
+                                               interrupt_.token()));
+    is_started_ = true;
     if (account_of(*report_).end != nodes::RunEnd::finished) {  // else the picture is done, and a signal comes too late for it
       interrupt_.check();
       core::expect(options_.computer.ranks != nullptr, "a run that nobody stopped is finished");
@@ -294,7 +414,7 @@ class Rendering {
       output_ << stats_json(record);
     }
     if (!options_.quiet) {
-      print_summary(output_, record);
+      asked_.frames.are_several() ? print_frame(output_, *frame_, record) : print_summary(output_, record);
     }
     finish_output(output_, "what follows the picture");
   }
@@ -310,11 +430,17 @@ class Rendering {
 
   std::uint64_t samples_found_done() const { return checkpoints_ ? checkpoints_->samples_found_done() : 0; }
 
-  RenderOptions options_;  ///< with the machine, once it is read, and where references are noted
+  RenderOptions asked_;    ///< with names for all frames
+  RenderOptions options_;  ///< of the frame; with where references are noted
   Interrupt& interrupt_;
   std::ostream& output_;
   Files& files_;
-  const OutputSet<RenderRecord> outputs_ = outputs_of(options_);
+  OutputSet<RenderRecord> outputs_ = outputs_of(options_);
+  std::optional<CameraPath> path_;               ///< of frames
+  std::set<std::uint64_t> frames_there_;         ///< those asked for that were done before
+  std::optional<std::uint64_t> frame_;           ///< under way
+  core::View own_view_;                          ///< the scene's
+  std::optional<PictureIdentity> own_identity_;  ///< that of its picture, where there is a checkpoint
   Seconds seconds_;
   std::optional<FileLock> lock_;
   std::optional<Checkpoints> checkpoints_;
@@ -322,10 +448,13 @@ class Rendering {
   core::Box bounds_;                           ///< of the scene
   UpAxis up_;                                  ///< of the scene, where a camera is advised
   std::optional<Subject> subject_;
+  std::optional<core::RenderSettings> settings_;  ///< of the frame
   std::optional<Onlookers> onlookers_;
   std::unique_ptr<Preview> preview_;
   core::Continuation continuation_;
   ReadyRun ready_;
+  nodes::Progress update_;  ///< of the frame under way
+  bool is_started_ = false;
   std::optional<Report> report_;
 };
 

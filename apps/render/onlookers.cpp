@@ -48,6 +48,13 @@ nodes::Watching Onlookers::watching() {
   return watching;
 }
 
+void Onlookers::begin_again() {
+  core::expect(!recorder_ && !profile_ && !fetches_ && reference_logs_.empty(), "of several runs heat maps alone are made");
+  if (heat_) {
+    heat_->clear();
+  }
+}
+
 std::string Onlookers::seen() const {
   nodes::FlatWriter flat;
   if (heat_) {

@@ -44,6 +44,9 @@ class Onlookers {
   /// Adds what was seen on another rank.
   void add(std::string_view seen, const nodes::ClockDrift& clock);
 
+  /// Another run begins, for heat maps alone: what was seen is forgotten.
+  void begin_again();
+
   /// Nothing if nobody wants to know it.
   const nodes::HeatMap* heat() const { return heat_ ? &*heat_ : nullptr; }
   /// What else was seen; call it once.

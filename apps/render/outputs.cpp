@@ -22,6 +22,9 @@ namespace {
 std::vector<NamedFile> inputs_of(const RenderOptions& options) {
   std::vector<NamedFile> inputs;
   add_scene_file(options.picture.scene, inputs);
+  if (options.frames.camera_path) {
+    inputs.push_back({"--camera-path", *options.frames.camera_path});
+  }
   if (options.runner.kind == RunnerKind::virtual_time && find_machine_preset(options.runner.machine_name) == nullptr) {
     inputs.push_back({"--machine", options.runner.machine_name});
   }

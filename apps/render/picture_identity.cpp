@@ -14,6 +14,8 @@ namespace dmpc::apps {
 
 namespace {
 
+constexpr const char* view_fact = "view";
+
 void add(Digest& digest, const core::Vec3d& vector) {
   digest.add(vector.x);
   digest.add(vector.y);
@@ -196,7 +198,7 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
            {"materials", materials_text(scene)},
            {"textures", textures_text(scene)},
            {"lights or background", lights_text(scene)},
-           {"view", view_text(scene.view)},
+           {view_fact, view_text(scene.view)},
            picture.transport.is_by_paths() ? PictureFact{"bounces", std::to_string(picture.depth - 1)}
                                            : PictureFact{"depth", std::to_string(picture.depth)},
            {"cutoff", text_of(picture.cutoff)},
@@ -212,6 +214,15 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
                     film_scale_of(picture, scene)};
   facts.push_back({film_scale_fact, apps::text_of(identity.terms.film_scale)});
   return identity;
+}
+
+PictureIdentity identity_from(const core::View& view, PictureIdentity own) {
+  const auto fact =
+      std::find_if(own.facts.begin(), own.facts.end(), [](const PictureFact& one) { return one.name == view_fact; });
+  core::expect(fact != own.facts.end(), "a picture has a view");
+  const PictureFact scenes = {"scene's own view", std::exchange(fact->value, view_text(view))};
+  own.facts.insert(fact + 1, scenes);
+  return own;
 }
 
 std::uint64_t scene_digest(const core::Scene& scene) {

@@ -23,6 +23,9 @@ struct PictureIdentity {
 /// `scene` as it is rendered: staged, and not yet built from.
 PictureIdentity identity_of(const RenderOptions& options, const core::Scene& scene);
 
+/// That of a frame: the picture from `view`, in a scene whose own view, which the sky and lights go by, is another one.
+PictureIdentity identity_from(const core::View& view, PictureIdentity own);
+
 /// A digest of all that the scene is: equal scenes, equal digests, whatever file or name they come from.
 std::uint64_t scene_digest(const core::Scene& scene);
 

@@ -1,6 +1,7 @@
 #include "apps/run/checkpoint_options.h"
 
 #include <string>
+#include <string_view>
 
 #include "apps/edge/line/option_values.h"
 #include "core/base/expect.h"
@@ -35,11 +36,12 @@ void add_options(OptionSet options, CheckpointOptions& checkpoint) {
       "How long to wait from one checkpoint to the next");
   options.add_flag("--resume", checkpoint.resumes,
                    "Go on from what --checkpoint=FILE has, whatever computer and strategy made it; from the start if there is "
-                   "no such file yet");
+                   "no such file yet. Of --frames those are left out whose picture is there");
   options.add_flag("--keep-checkpoint", checkpoint.stays, "Do not remove the checkpoint when the picture is there");
   options.check_in_the_end([options, &checkpoint] {
     for (const char* option : {"--checkpoint-every", "--resume", "--keep-checkpoint"}) {
-      if (!checkpoint.file && options.is_given(option)) {
+      const bool is_of_frames = options.is_given("--frames") && std::string_view(option) == "--resume";
+      if (!checkpoint.file && options.is_given(option) && !is_of_frames) {
         throw UsageError(std::string(option) + " goes with --checkpoint=FILE");
       }
     }

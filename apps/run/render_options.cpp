@@ -137,6 +137,32 @@ void check_references(const RenderOptions& render) {
   }
 }
 
+/// What sees one run, or keeps it from being gone on with.
+void check_frames(const OptionSet& options, const RenderOptions& render) {
+  if (!render.frames.range) {
+    return;
+  }
+  if (render.database.axes == AxesChoice::screen) {
+    throw UsageError("--frames does not go with --grid-axes=screen: the screen turns from frame to frame, and the grid stays");
+  }
+  if (!render.frames.are_several()) {
+    return;
+  }
+  const std::string alone = ": give it with one of the frames, such as --frames=3..3, which is the same picture";
+  for (const char* option : {"--trace", "--report", "--references", "--preview", "--keep-checkpoint"}) {
+    if (options.is_given(option)) {
+      throw UsageError(std::string(option) + " does not go with several frames" + alone);
+    }
+  }
+  if (render.tracer == TracerChoice::embree) {
+    throw UsageError("--tracer=embree does not go with several frames" + alone);
+  }
+  if (render.runner.kind == RunnerKind::mpi) {
+    throw UsageError("--runner=mpi does not go with several frames: what nodes of other processes have is not kept for the next" +
+                     alone);
+  }
+}
+
 void check(const OptionSet& options, const RenderOptions& render) {
   check_together(options, render);
   check_tracer(render);
@@ -144,6 +170,7 @@ void check(const OptionSet& options, const RenderOptions& render) {
   check_heat(render.heat_maps, render.strategy);
   check_trace(options, render.trace, render.computer.node_count);
   check_references(render);
+  check_frames(options, render);
   if (render.pages.count_pages && !render.stats) {
     throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
   }
@@ -177,6 +204,7 @@ void add_options(OptionSet options, RenderOptions& render) {
   add_ray_options(options, render.rays);
   add_topology_option(options, *render.rays.topology);
   add_study_options(options, render);
+  add_options(options, render.frames);
   add_options(options, render.checkpoint);
   options.check_in_the_end([options, &render] {
     if (render.system) {
@@ -184,6 +212,7 @@ void add_options(OptionSet options, RenderOptions& render) {
     }
     settle_database(options, render.strategy, render.database);
     render.is_node_count_given = options.is_given("--nodes");
+    render.has_several_frames = render.frames.are_several();
     check(options, render);
     choose_pool(render.runner.kind, render.computer);
   });
@@ -202,6 +231,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render teapot-12 --transport=paths --light-radius=0.5 --samples=64 -o teapot.png\n"
       "  dmpc render teapot-12 --nodes=64 --runner=virtual --machine=ipsc860 --stats=teapot.json -o teapot.png\n"
       "  mpirun -n 4 dmpc render tetra-10 --runner=mpi --nodes=28 -o tetra.exr\n"
+      "  dmpc render rings-4-t1 --frames=90 --turntable=1 -o rings.####.png\n"
       "  dmpc render balls-6 --samples=256 --checkpoint=balls.checkpoint --resume -o balls.exr\n"
       "  dmpc render my.nff --strategy=replicated --tracer=embree --resolution=1024x768 -o my.tif\n"
       "The picture does not depend on the computer's options, to the last bit: the film_hash of --stats says so. Only\n"

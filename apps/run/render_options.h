@@ -8,6 +8,7 @@
 
 #include "apps/edge/line/command_line.h"
 #include "apps/run/checkpoint_options.h"
+#include "apps/run/frame_options.h"
 #include "apps/run/heat_options.h"
 #include "apps/run/strategy_options.h"
 #include "apps/run/systems.h"
@@ -22,6 +23,7 @@ struct RenderOptions : StrategyOptions {
   bool is_node_count_given = false;  ///< else, on ranks, it follows from their processors
   PictureOptions picture;
   DatabaseOptions database;
+  FrameOptions frames;
   std::filesystem::path image;                      ///< where the picture goes
   std::optional<std::filesystem::path> stats;       ///< where the counters go, as JSON
   std::optional<std::filesystem::path> report;      ///< where the page goes that shows all of it

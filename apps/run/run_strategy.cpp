@@ -11,8 +11,10 @@
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "core/record/records.h"
+#include "dataflow/frames.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/ranks/rank_memory.h"
+#include "svm/frames.h"
 
 namespace dmpc::apps {
 
@@ -70,24 +72,33 @@ ReadyRun ready_with_pages(const svm::Strategy& strategy, const StrategyOptions& 
   svm::RunOptions run{.computer = options.computer, .pages = options.pages, .watching = watching, .continuation = continuation};
   run.pages.in_flight = in_flight(options);
   run.tracer_is_own = by_embree;
-  const auto start = [&database, &settings, &strategy, run, by_embree](const nodes::Progress& progress,
-                                                                       std::stop_token stop) -> Report {
+  const auto frames = std::make_shared<std::optional<svm::Frames>>();
+  const bool are_several = options.has_several_frames;
+  const auto start = [&database, &settings, &strategy, run, by_embree, are_several, frames](const nodes::Progress& progress,
+                                                                                            std::stop_token stop) -> Report {
     svm::RunOptions watched = run;
     watched.watching.progress = progress;
     if (by_embree) {
       return run_with_embree(database, settings, watched, std::move(stop));
     }
-    return svm::run_by(strategy, database, settings, watched, std::move(stop));
+    if (!are_several) {
+      return svm::run_by(strategy, database, settings, watched, std::move(stop));
+    }
+    return frames->emplace(strategy, database, settings, watched, stop).render(settings, stop);
+  };
+  const auto go_on = [frames](const core::RenderSettings& next, std::stop_token stop) -> Report {
+    return (*frames)->render(next, std::move(stop));
   };
   const svm::Plan plan = with_options_named(strategy_words(), [&] { return svm::plan_of(strategy, database, settings, run); });
   check_room_for(plan);
-  return {notes_of(plan), start};
+  return {notes_of(plan), start, go_on};
 }
 
 ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,
                          const std::stop_token& stop, const nodes::Watching& watching, const core::Continuation& continuation) {
   dataflow::RunOptions run{
       .computer = options.computer, .rays = options.rays, .watching = watching, .continuation = continuation};
+  run.are_frames = options.has_several_frames;
   const auto prepared = std::make_shared<dataflow::Prepared>(
       with_options_named(strategy_words(), [&] { return dataflow::prepare(database, settings, run, stop); }));
   check_room_for(prepared->plan);
@@ -95,12 +106,19 @@ ReadyRun ready_with_rays(const StrategyOptions& options, const core::Database& d
     watching.distributed();
     run.watching.distributed = [prepared] { prepared->distribution.forget_records(); };
   }
-  const auto start = [&settings, run, prepared](const nodes::Progress& progress, std::stop_token stop_run) -> Report {
+  const auto frames = std::make_shared<std::optional<dataflow::Frames>>();
+  const auto start = [&settings, run, prepared, frames](const nodes::Progress& progress, std::stop_token stop_run) -> Report {
     dataflow::RunOptions watched = run;
     watched.watching.progress = progress;
-    return dataflow::run_prepared(*prepared, settings, watched, std::move(stop_run));
+    if (!run.are_frames) {
+      return dataflow::run_prepared(*prepared, settings, watched, std::move(stop_run));
+    }
+    return frames->emplace(*prepared, settings, watched, stop_run).render(std::move(stop_run));
   };
-  return {notes_of(prepared->plan), start};
+  const auto go_on = [&database, prepared, frames](const core::RenderSettings& next, std::stop_token stop_run) -> Report {
+    return (*frames)->render(next, next.fine_detail(database), std::move(stop_run));
+  };
+  return {notes_of(prepared->plan), start, go_on};
 }
 
 }  // namespace

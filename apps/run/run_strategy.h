@@ -21,6 +21,10 @@ struct ReadyRun {
   /// Renders. Throws core::InputError if the real computer has too little memory or too few threads, and core::InternalError if a
   /// law of conservation is broken.
   std::function<Report(const nodes::Progress&, std::stop_token)> start;
+  /// After start(), where the options say that there are several frames: renders the next on the same nodes, and says how far it
+  /// is as start() was told. `settings` differ from those of the first in the camera, and what follows from it, alone. Throws as
+  /// start() does. Empty with a tracer other than our own.
+  std::function<Report(const core::RenderSettings& settings, std::stop_token)> go_on;
 };
 
 /// Reads the machine that is to be modelled, if one is: with its links and ports as asked for, and its topology as that onto

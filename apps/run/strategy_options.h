@@ -43,6 +43,7 @@ struct StrategyOptions {
   svm::PageOptions pages;
   dataflow::RayOptions rays = {.topology = nodes::TopologyKind::hypercube};
   TracerChoice tracer = TracerChoice::grid;
+  bool has_several_frames = false;  ///< pictures of the scene follow each other on the same nodes
 };
 
 /// Declares --strategy.

@@ -10,9 +10,8 @@
 #include "apps/edge/line/parsed_number.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
-#include "core/picture/background.h"
 #include "core/picture/film_scale.h"
-#include "core/picture/ray_crowd.h"
+#include "core/picture/frame_settings.h"
 
 namespace dmpc::apps {
 
@@ -220,23 +219,20 @@ double radiance_bound(const PictureOptions& options, const core::Scene& scene) {
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
   const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
   const core::Camera camera(scene.view, database.header().frame, size.width, size.height, options.samples);
-  core::RenderSettings settings{.header = database.header(),
-                                .camera = camera,
-                                .shade = {.convention = options.convention,
-                                          .depth_max = options.depth,
-                                          .cutoff = options.cutoff,
-                                          .radiance_bound = core::radiance_bound(scene, options.depth),
-                                          .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
-                                          .first_samples = static_cast<std::uint32_t>(options.samples),
-                                          .film_scale = film_scale_of(options, scene),
-                                          .transport = transport_of(options.transport, scene.view, database.header().frame)},
-                                .refinement = options.refinement,
-                                .skips = options.skips,
-                                .background = options.skips.background && !has_sky_picture(database.header())
-                                                  ? core::find_background(database, camera)
-                                                  : core::BackgroundTiles()};
-  settings.shade.one_child_from = options.transport.is_by_paths() ? 0 : core::find_one_child_depth(database, settings);
-  return settings;
+  const core::RenderSettings settings{
+      .header = database.header(),
+      .camera = camera,
+      .shade = {.convention = options.convention,
+                .depth_max = options.depth,
+                .cutoff = options.cutoff,
+                .radiance_bound = core::radiance_bound(scene, options.depth),
+                .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
+                .first_samples = static_cast<std::uint32_t>(options.samples),
+                .film_scale = film_scale_of(options, scene),
+                .transport = transport_of(options.transport, scene.view, database.header().frame)},
+      .refinement = options.refinement,
+      .skips = options.skips};
+  return core::seen_by(camera, settings, database);
 }
 
 Resolution parse_resolution(std::string_view text) {

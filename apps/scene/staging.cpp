@@ -150,14 +150,14 @@ Vec3d parse_color(const std::string& option, const std::string& text) {
   return *color;
 }
 
-CameraChoice parse_camera(const std::string& text) {
+CameraChoice parse_camera(const std::string& text, const std::string& option) {
   const std::vector<std::string> parts = words_between(text, '/');
   const auto vector = [&](std::size_t i) {
     const auto read = i < parts.size() ? parse_vector(parts[i]) : std::nullopt;
-    return read ? *read : (refuse("--camera", text, camera_form), Vec3d{});
+    return read ? *read : (refuse(option, text, camera_form), Vec3d{});
   };
   if (parts.size() > 4) {
-    refuse("--camera", text, camera_form);
+    refuse(option, text, camera_form);
   }
   CameraChoice camera{.from = vector(0), .at = vector(1)};
   if (parts.size() > 2) {
@@ -167,7 +167,7 @@ CameraChoice parse_camera(const std::string& text) {
     camera.degrees = finite_number(parts[3]);
   }
   if (const auto fault = fault_of(view_of(camera))) {
-    refuse("--camera", text, expected_instead(*fault));
+    refuse(option, text, expected_instead(*fault));
   }
   return camera;
 }

@@ -34,8 +34,9 @@ struct Staging {
 /// Declares --camera, --light, --fill, --ambient, --background, --scale, --up, --smooth, --missing, --files and --sandbox.
 void add_options(OptionSet options, Staging& staging);
 
-/// "FROM/AT[/UP[/DEGREES]]", "1,2,3/0,0,0/0,1,0/45". Throws core::UsageError for anything else, or for a view that shows nothing.
-CameraChoice parse_camera(const std::string& text);
+/// "FROM/AT[/UP[/DEGREES]]", "1,2,3/0,0,0/0,1,0/45". Throws core::UsageError, naming `option`, for anything else, or for a view
+/// that shows nothing.
+CameraChoice parse_camera(const std::string& text, const std::string& option = "--camera");
 /// "X,Y,Z[/R,G,B]". Throws core::UsageError for anything else, or for a colour below 0.
 core::PointLight parse_light(const std::string& text);
 

@@ -20,7 +20,8 @@ constexpr std::size_t runs_max = 10'000;
 constexpr const char* unsweepable[] = {
     "--help",         "--output",      "--stats",      "--report",      "--heatmap",          "--trace",
     "--trace-window", "--trace-nodes", "--preview",    "--trace-every", "--trace-events",     "--trace-keep",
-    "--quiet",        "--references",  "--checkpoint", "--resume",      "--checkpoint-every", "--keep-checkpoint"};
+    "--quiet",        "--references",  "--checkpoint", "--resume",      "--checkpoint-every", "--keep-checkpoint",
+    "--frames",       "--turntable",   "--camera-path"};
 
 /// `render` alone, for one line.
 class RenderLine {

@@ -1,0 +1,40 @@
+// The options of frames: how many pictures of one scene, and how the camera moves from one to the next.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "apps/edge/line/command_line.h"
+#include "apps/scene/camera_path.h"
+
+namespace dmpc::apps {
+
+/// Frames of a path, one after the other on the same nodes.
+struct FrameRange {
+  std::uint64_t first = 1, last = 1;
+
+  std::uint64_t count() const { return last - first + 1; }
+};
+
+struct FrameOptions {
+  std::optional<FrameRange> range;                   ///< nothing: one picture, of the scene's own view
+  std::optional<double> turntable_degrees;           ///< from frame to frame
+  std::optional<std::filesystem::path> camera_path;  ///< or a file of keyframes
+
+  /// More than one, that follow each other.
+  bool are_several() const { return range && range->count() > 1; }
+};
+
+/// "24", which are frames 1 to 24, or "3..7". Throws core::UsageError for anything else, and for frames that there are not.
+FrameRange parse_frames(const std::string& text);
+
+/// Declares --frames, --turntable and --camera-path, of which one goes with frames.
+void add_options(OptionSet options, FrameOptions& frames);
+
+/// Reads the path's file, if it is one. Requires frames. Throws core::InputError as read_camera_path() does, or if the path lacks
+/// one of the frames.
+CameraPath camera_path_of(const FrameOptions& frames);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,63 @@
+// How a camera moves from frame to frame.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "apps/scene/staging.h"
+#include "core/base/box.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+/// Frames are numbered from 1 on, up to this.
+inline constexpr std::uint64_t frame_max = 1'000'000'000;
+
+/// Where the camera is at a frame; what it leaves open is the scene's.
+struct Keyframe {
+  std::uint64_t frame = 1;
+  CameraChoice camera;
+};
+
+/// Frame k's view depends on k, the scene's own view and its bounds alone, by + - * / sqrt, so that a frame is the same on every
+/// computer, alone or in a sequence.
+class CameraPath {
+ public:
+  /// Goes round the scene: about that point before the camera, on its line of sight, which is nearest to the middle of the
+  /// scene's bounds, or else what it looks at, and round the view's up, anticlockwise as seen from above, by so many degrees from
+  /// each frame to the next; frame 1 is the scene's own view. Requires |degrees| <= 360.
+  static CameraPath turntable(double degrees);
+  /// At each keyframe as it says, between them on a spline through all of them (E. Catmull, R. Rom, "A Class of Local
+  /// Interpolating Splines", 1974), whose slope at a keyframe is that from the one before to the one behind. Requires keyframes
+  /// with frames that ascend.
+  explicit CameraPath(std::vector<Keyframe> keyframes);
+
+  /// The frames that there are.
+  std::uint64_t first() const { return keyframes_.empty() ? 1 : keyframes_.front().frame; }
+  std::uint64_t last() const { return keyframes_.empty() ? frame_max : keyframes_.back().frame; }
+  /// The scene's own view and, in the world's coordinates, its bounds: before a view is asked for.
+  void set_scene(const core::View& own, const core::Box& bounds);
+  /// Requires one of them.
+  core::View view(std::uint64_t frame) const;
+  /// Throws core::InputError, naming the frame, unless each of these shows something.
+  void check(std::uint64_t first, std::uint64_t last) const;
+
+ private:
+  CameraPath() = default;
+
+  core::View between(const Keyframe& key, const Keyframe& next, std::uint64_t frame) const;
+  core::View turned(std::uint64_t frame) const;
+
+  core::View own_;
+  core::Vec3d pivot_;
+  double degrees_ = 0;
+  std::vector<Keyframe> keyframes_;  ///< none: a turntable
+};
+
+/// Reads a file of lines "FRAME CAMERA", such as "1 4,3,5/0,0,0/0,1,0/45", the camera as --camera takes it; blank lines and what
+/// stands behind # are left out. Throws core::InputError with file and line for anything else, no keyframe, frames that do not
+/// ascend, and what cannot be read.
+CameraPath read_camera_path(const std::filesystem::path& file);
+
+}  // namespace dmpc::apps

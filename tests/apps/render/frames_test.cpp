@@ -1,0 +1,165 @@
+// Frames by the program itself: files, what is there already, and what is refused.
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/child_process.h"
+#include "tests/support/shell.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
+
+namespace dmpc::tests::render_frames_test {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A render of a small picture, with its files in the folder.
+std::vector<std::string> line(const TemporaryFolder& folder, const std::vector<std::string>& words) {
+  std::vector<std::string> command = {DMPC_PROGRAM, "render", "balls-2", "--resolution=16x16", "--nodes=3", "--cache-pages=4"};
+  for (std::string word : words) {
+    const std::size_t place = word.find('@');
+    command.push_back(place == std::string::npos ? word : word.replace(place, 1, folder.path().string() + "/"));
+  }
+  return command;
+}
+
+Said render(const TemporaryFolder& folder, const std::vector<std::string>& words) { return run(line(folder, words)); }
+
+}  // namespace
+
+TEST_CASE("frames leave a picture each, and each is, byte by byte, the picture of the frame alone") {
+  const TemporaryFolder folder;
+  const Said all = render(folder, {"--frames=4", "--turntable=10", "-o", "@a.####.png", "--stats=@a.%d.json"});
+  REQUIRE_MESSAGE(all.status == 0, all.errors);
+  CHECK(folder.entry_count() == 8);
+  CHECK(contains(all.output, "frame 4  "));
+  for (const std::string strategy : {"svm", "dataflow", "forest", "replicated"}) {
+    const Said part = render(folder, {"--frames=2..3", "--turntable=10", "--strategy=" + strategy, "-o", "@b.####.png"});
+    REQUIRE_MESSAGE(part.status == 0, part.errors);
+    CHECK(file_text(folder / "b.0002.png") == file_text(folder / "a.0002.png"));
+    CHECK(file_text(folder / "b.0003.png") == file_text(folder / "a.0003.png"));
+    fs::remove(folder / "b.0002.png");
+    fs::remove(folder / "b.0003.png");
+  }
+  REQUIRE(render(folder, {"--frames=3..3", "--turntable=10", "-o", "@alone.png"}).status == 0);
+  CHECK(file_text(folder / "alone.png") == file_text(folder / "a.0003.png"));
+  REQUIRE(render(folder, {"-o", "@own.png"}).status == 0);
+  CHECK(file_text(folder / "own.png") == file_text(folder / "a.0001.png"));
+  CHECK(file_text(folder / "a.0001.png") != file_text(folder / "a.0002.png"));
+}
+
+TEST_CASE("a keyframe's picture is that of --camera") {
+  const TemporaryFolder folder;
+  write_text(folder / "path", "2 4,1,3/0,0,0/0,0,1/30\n9 1,4,3/0,0,0/0,0,1/30\n");
+  const Said said = render(folder, {"--frames=8..9", "--camera-path=@path", "-o", "@a#.exr"});
+  REQUIRE_MESSAGE(said.status == 0, said.errors);
+  REQUIRE(render(folder, {"--camera=1,4,3/0,0,0/0,0,1/30", "-o", "@b.exr"}).status == 0);
+  CHECK(file_text(folder / "b.exr") == file_text(folder / "a9.exr"));
+}
+
+TEST_CASE("a frame whose picture is there is never written over: it is an error, or with --resume left as it is") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.02.png", "precious");
+  const std::vector<std::string> words = {"--frames=3", "--turntable=1", "-o", "@a.##.png"};
+  const Said refused = render(folder, words);
+  CHECK(refused.status == 1);
+  CHECK(contains(refused.errors, "a.02.png: the picture of this frame is there already: --resume leaves out what is there"));
+  CHECK(folder.entry_count() == 1);
+  std::vector<std::string> resumed = words;
+  resumed.push_back("--resume");
+  const Said done = render(folder, resumed);
+  CHECK_MESSAGE(done.status == 0, done.errors);
+  CHECK(contains(done.errors, "1 frame of 3 is there and stays as it is"));
+  CHECK(folder.entry_count() == 3);
+  CHECK(file_text(folder / "a.02.png") == "precious");
+  CHECK(render(folder, resumed).status == 0);
+}
+
+TEST_CASE("frames on a modelled machine tell virtual time and run hash, the first one those of the frame alone") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> machine = {"--runner=virtual", "--turntable=2", "--frames=2", "--stats=@a.#.json", "-o",
+                                            "@a.#.png"};
+  REQUIRE(render(folder, machine).status == 0);
+  std::vector<std::string> alone = machine;
+  alone[2] = "--frames=1..1";
+  alone[3] = "--stats=@b.#.json";
+  alone[5] = "@b.#.png";
+  REQUIRE(render(folder, alone).status == 0);
+  const auto run_hash = [&](const char* file) {
+    const std::string json = file_text(folder / file);
+    const std::size_t place = json.find("\"run_hash\"");
+    return json.substr(place, 40);
+  };
+  CHECK(run_hash("a.1.json") == run_hash("b.1.json"));
+  CHECK(run_hash("a.2.json") != run_hash("b.1.json"));
+}
+
+TEST_CASE("what frames cannot do is refused, and says what can be done") {
+  const TemporaryFolder folder;
+  struct Refusal {
+    std::vector<std::string> words;
+    const char* says;
+  };
+  const std::vector<std::string> three = {"--frames=3", "--turntable=1", "-o", "@a.#.png"};
+  const auto with = [&](const std::string& word) {
+    std::vector<std::string> words = three;
+    words.push_back(word);
+    return words;
+  };
+  const std::vector<Refusal> refusals = {
+      {{"--frames=3", "--turntable=1", "-o", "@a.png"}, "of several frames expected a place for the frame's number"},
+      {{"--frames=0", "--turntable=1", "-o", "@a.#.png"}, "--frames=0: expected how many frames"},
+      {{"--frames=3", "-o", "@a.#.png"}, "expected --turntable=DEGREES or --camera-path=FILE"},
+      {{"--turntable=3", "-o", "@a.png"}, "--turntable goes with --frames"},
+      {{"--frames=3", "--turntable=1", "--camera-path=@p", "-o", "@a.#.png"}, "the camera moves in one way"},
+      {with("--stats=@a.json"), "--stats="},
+      {with("--report=@a.html"), "--report does not go with several frames"},
+      {with("--trace=@a.json"), "--trace does not go with several frames"},
+      {with("--grid-axes=screen"), "--frames does not go with --grid-axes=screen"},
+      {with("--runner=mpi"), "--runner=mpi does not go with several frames"},
+      {with("--turntable=361"), "expected degrees"}};
+  for (const Refusal& refusal : refusals) {
+    const Said said = render(folder, refusal.words);
+    CHECK_MESSAGE(said.status == 2, refusal.says << " " << said.errors);
+    CHECK_MESSAGE(contains(said.errors, refusal.says), said.errors);
+  }
+  CHECK(folder.entry_count() == 0);
+}
+
+TEST_CASE("more frames than the disk holds are told beforehand, and begun") {
+  const TemporaryFolder folder;
+  ChildProcess process(line(folder, {"--frames=1000000000", "--turntable=0.001", "--resolution=64x64", "-o", "@a.#.png"}));
+  for (int tries = 0; tries < 6000 && !fs::exists(folder / "a.2.png"); ++tries) {
+    ::usleep(10'000);
+  }
+  process.send(SIGTERM);
+  CHECK(process.status() == 130);
+  CHECK(contains(process.errors(), "pictures of 1,000,000,000 frames take up to"));
+  CHECK(contains(process.errors(), "this frame was not written, those before it were; --resume leaves them out"));
+  CHECK(fs::exists(folder / "a.2.png"));
+}
+
+TEST_CASE("frames that are killed again and again are those of one run, whole or not there") {
+  const TemporaryFolder folder;
+  REQUIRE(render(folder, {"--frames=5", "--turntable=7", "--samples=16", "-o", "@whole.#.exr"}).status == 0);
+  int status = -1;
+  for (int tries = 0; tries < 40 && status != 0; ++tries) {
+    ChildProcess process(line(folder, {"--frames=5", "--turntable=7", "--samples=16", "--checkpoint=@c", "--resume",
+                                       "--checkpoint-every=0.001", "-o", "@part.#.exr"}));
+    ::usleep(static_cast<useconds_t>(40'000 + 20'000 * tries));
+    process.send(SIGKILL);
+    status = process.status();
+  }
+  for (int frame = 1; frame <= 5; ++frame) {
+    const std::string ending = std::to_string(frame) + ".exr";
+    CHECK(file_text(folder / ("part." + ending)) == file_text(folder / ("whole." + ending)));
+  }
+  CHECK_FALSE(fs::exists(folder / "c"));
+}
+
+}  // namespace dmpc::tests::render_frames_test
