@@ -28,6 +28,7 @@ void declare_all(Commands& commands) {
   commands.add(CacheStudy::name, CacheStudy::description, StudyOptions{.study = CacheStudy()}, study_command);
   commands.add(SpeedupStudy::name, SpeedupStudy::description, StudyOptions{.study = SpeedupStudy()}, study_command);
   commands.add(SystemsStudy::name, SystemsStudy::description, StudyOptions{.study = SystemsStudy()}, study_command);
+  commands.add(FramesStudy::name, FramesStudy::description, StudyOptions{.study = FramesStudy()}, study_command);
   commands.add("paper", "Regenerate the tables and claims of the 1994 article", PaperStudyOptions(), study_paper_command);
   commands.add("references", "How often pages are missed of references that a file has", ReferencesOptions(),
                study_references_command);

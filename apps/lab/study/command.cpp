@@ -22,6 +22,7 @@
 #include "apps/run/render_record.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
+#include "core/database/conversion.h"
 #include "core/families/scenes.h"
 
 namespace dmpc::apps {
@@ -46,6 +47,8 @@ struct Loaded {
   Subject subject;
   std::optional<std::uint64_t> scene_digest;
   std::optional<core::Scene> scene;  ///< for a study that builds other databases of it
+  core::View view;                   ///< the scene's own
+  core::Box bounds;                  ///< in the world's coordinates
 };
 
 /// A signal ends the process here and now.
@@ -56,7 +59,9 @@ Loaded load(const StudyOptions& options, const TableFiles& files, Interrupt& int
   check_not_read(opened, files.names());
   const auto digest = options.table.report ? std::optional(scene_digest(scene)) : std::nullopt;
   auto kept = std::holds_alternative<SystemsStudy>(options.study) ? std::optional(scene) : std::nullopt;
-  return {build_subject(std::move(scene), options.picture, options.database, true), digest, std::move(kept)};
+  const core::View view = scene.view;
+  const core::Box bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0));
+  return {build_subject(std::move(scene), options.picture, options.database, true), digest, std::move(kept), view, bounds};
 }
 
 std::string samples_text(const PictureOptions& picture) {
@@ -169,9 +174,12 @@ void give_scene(SystemsStudy& study, const core::Scene& scene, const StudyOption
 /// Returns the exit status.
 template <class OneStudy>
 int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& files, Interrupt& interrupt, std::ostream& output) {
-  const auto [subject, digest, scene] = load(options, files, interrupt);
+  const auto [subject, digest, scene, view, bounds] = load(options, files, interrupt);
   if constexpr (std::is_same_v<OneStudy, SystemsStudy>) {
     give_scene(study, *scene, options);
+  } else if constexpr (std::is_same_v<OneStudy, FramesStudy>) {
+    study.own_view = view;
+    study.bounds = bounds;
   }
   announce_effort(study, options, subject, interrupt);
   Table table = empty_table(study, options, subject);

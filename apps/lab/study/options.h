@@ -8,6 +8,7 @@
 #include "apps/edge/table/table_options.h"
 #include "apps/lab/study/balance.h"
 #include "apps/lab/study/cache.h"
+#include "apps/lab/study/frames.h"
 #include "apps/lab/study/speedup.h"
 #include "apps/lab/study/systems.h"
 #include "apps/lab/study/traffic.h"
@@ -21,7 +22,7 @@ namespace dmpc::apps {
 /// table; notes() say what the columns mean, and what the 1994 article found if the scene, as on the command line, is one of its
 /// own; conclusion() is a sentence or two on a table, computed from its rows, empty if they tell too little. measure() adds row
 /// after row to a table that has columns(), as the runs end, and throws as StudyRuns does.
-using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy, SpeedupStudy, SystemsStudy>;
+using Study = std::variant<BalanceStudy, TrafficStudy, CacheStudy, SpeedupStudy, SystemsStudy, FramesStudy>;
 
 struct StudyOptions {
   Study study;

@@ -159,8 +159,14 @@ std::string in_flight_text(Strategy strategy) {
                                             counted(svm::forest_in_flight_most, "pixel");
 }
 
-void StudyRuns::compare(const core::Film& film) {
-  const std::uint64_t hash = film.hash();
+void StudyRuns::compare(const core::Film& film) { compare_hash(film.hash()); }
+
+void StudyRuns::take(std::uint64_t film_hash) {
+  compare_hash(film_hash);
+  ++count_;
+}
+
+void StudyRuns::compare_hash(std::uint64_t hash) {
   core::expect(hash == film_hash_.value_or(hash), "every run of a study gives the same film");
   film_hash_ = hash;
 }

@@ -93,6 +93,8 @@ class StudyRuns {
 
   /// Throws core::InternalError unless `film` equals those that came before: every run's film is held against the first's.
   void compare(const core::Film& film);
+  /// A run by somebody else has ended, with a film of this hash: compares, and counts.
+  void take(std::uint64_t film_hash);
 
   /// Runs that have ended.
   std::uint32_t count() const { return count_; }
@@ -101,6 +103,7 @@ class StudyRuns {
 
  private:
   std::string numbers(std::size_t run_count) const;
+  void compare_hash(std::uint64_t hash);
   template <class Options, class Render>
   auto run_shown(const std::string& computer, const core::RenderSettings& settings, Options options, const Render& render);
   std::optional<StudyOutcome> outcome_of(const StudyRun& run,

@@ -183,8 +183,8 @@ TEST_CASE("a table may lie in the folder of its pictures, but not in place of on
 
 TEST_CASE("every study's pictures show columns that its table has, under names of their own") {
   const apps::CacheStudy timed{.machine = nodes::Machine()};
-  const std::vector<apps::Study> studies = {apps::BalanceStudy(), apps::TrafficStudy(), timed, apps::SpeedupStudy(),
-                                            apps::SystemsStudy()};
+  const std::vector<apps::Study> studies = {apps::BalanceStudy(), apps::TrafficStudy(), timed,
+                                            apps::SpeedupStudy(), apps::SystemsStudy(), apps::FramesStudy()};
   std::set<std::string> names;
   for (const apps::Study& study : studies) {
     const auto [columns, plots] = std::visit([](const auto& one) { return std::pair(one.columns(), one.plots()); }, study);
