@@ -24,7 +24,8 @@ struct PixelPast {
   float expected = -1;  ///< its square error then, if it looked even; less than 0: it did not
   float evidence = 0;   ///< what it has shown of error unseen by pixels that look even, times spread(samples)
   float weight = 0;     ///< of the evidence: 1 at first, half as much after each pass
-  /// The square of what the mean of all of its samples differs by from that of the first half, times spread(samples).
+  /// The square of what the mean of all of its samples differs by from that of the first half, times spread(samples); of noise
+  /// with what its changes before that lead to expect.
   float change = 0;
   /// Sums over passes that brought three quarters of its samples: of the same then, and of that of the first quarter.
   float told_change = 0, told_quarter_change = 0;
@@ -84,6 +85,7 @@ class ErrorEstimate {
   bool has_detail(std::uint32_t pixel) const { return detail_ != nullptr && detail_->has(pixel); }
   void note_evidence(const Film& film, const Pass& pass, std::uint32_t pixel);
   void note_changes(const Film& film, const Pass& pass, std::uint32_t pixel);
+  double expected_growth(std::uint32_t pixel, std::uint32_t before, std::uint32_t now) const;
   void find_falls();
   double told_limit(bool detail) const;
   double fall(std::uint32_t pixel) const { return fall_[has_detail(pixel) ? 1 : 0]; }

@@ -16,13 +16,13 @@ namespace {
 
 using namespace core;
 
-constexpr int side = 32;
 constexpr Transport under_sky{.kind = TransportKind::paths, .has_sky = true};
 
 struct PathScene {
   Scene scene;
   Transport transport = under_sky;
   int bounces = 3;
+  int side = 32;
 };
 
 /// A picture by so many samples of each pixel, or by as many as the error asks for.
@@ -32,10 +32,11 @@ svm::Report rendered(const PathScene& subject, int samples, double error) {
                            .first_samples = static_cast<std::uint32_t>(samples),
                            .film_scale = {},
                            .transport = subject.transport};
-  const RenderSettings settings{.header = database.header(),
-                                .camera = Camera(subject.scene.view, database.header().frame, side, side, samples),
-                                .shade = shade,
-                                .refinement = {.error = error, .kind = ErrorKind::noise}};
+  const RenderSettings settings{
+      .header = database.header(),
+      .camera = Camera(subject.scene.view, database.header().frame, subject.side, subject.side, samples),
+      .shade = shade,
+      .refinement = {.error = error, .kind = ErrorKind::noise}};
   return svm::run_replicated(database, settings, {.computer = {.node_count = 1}}, {});
 }
 
@@ -93,6 +94,9 @@ TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its erro
 }
 TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: mountains, one bounce") {
   check_error({white_background(tests::built_in("mount-4")), under_sky, 1}, 4.0 / 255);
+}
+TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: mountains, one bounce, few pixels") {
+  check_error({white_background(tests::built_in("mount-4")), under_sky, 1, 24}, 4.0 / 255);
 }
 TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: a small ball lights a room") {
   check_error({furnace(), {.kind = TransportKind::paths}, 4}, 8.0 / 255);
