@@ -147,6 +147,9 @@ void add_samples(std::vector<PictureFact>& facts, const PictureOptions& picture)
   if (picture.is_refined) {
     facts.push_back({"error", text_of(picture.refinement.error)});
     facts.push_back({"samples-max", std::to_string(picture.refinement.samples_max)});
+    if (picture.refinement.kind == core::ErrorKind::noise) {
+      facts.push_back({"estimate of noise", "by former changes, too"});  // by the last ones alone before there was this fact
+    }
   }
 }
 

@@ -75,6 +75,11 @@ TEST_CASE("a picture that is refined has an error and a bound more") {
   CHECK(difference_by_options(refine) ==
         "samples is auto, here 1; error is 0.5, here there is none; samples-max is 4096, here there is none");
   CHECK(difference_text({}, {{"error", "0.5"}}) == "no error");
+  CHECK(contains(difference_by_options([&](RenderOptions& options) {
+                   refine(options);
+                   options.picture.refinement.kind = core::ErrorKind::noise;
+                 }),
+                 "estimate of noise is by former changes, too, here there is none"));
 }
 
 TEST_CASE("a picture by paths is told from Whitted's, which has the facts that it had before there were paths") {
