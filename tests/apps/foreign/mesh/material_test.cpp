@@ -152,6 +152,43 @@ TEST_CASE("glTF: for pictures by paths a surface of tiny mirrors is as the file 
   CHECK(from_mtl("Kd 0.5 0.25 0.125\nPr 0.5\nPm 1\n").microfacets.metallic == 1);
 }
 
+TEST_CASE("glTF: what is blended is there as far as its alpha says, what is a mask or opaque is there altogether") {
+  const auto opacity = [](const std::string& mode) {
+    return from_gltf(R"({"alphaMode":")" + mode + R"(","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.75]}})")
+        .microfacets.opacity;
+  };
+  CHECK(opacity("BLEND") == Approx(0.75));
+  CHECK(opacity("MASK") == 1);
+  CHECK(opacity("OPAQUE") == 1);
+}
+
+TEST_CASE("MTL: Pr or Pm makes tiny mirrors, rough and no metal unless said, whose index is Ni") {
+  const core::Microfacets metal = from_mtl("Kd 0.5 0.5 0.5\nPm 0.75\n").microfacets;
+  CHECK(metal.metallic == Approx(0.75));
+  CHECK(metal.roughness == 1);
+  const core::Microfacets smooth = from_mtl("Kd 0.5 0.5 0.5\nPr 0.25\nNi 2\nd 0.5\n").microfacets;
+  CHECK(smooth.metallic == 0);
+  CHECK(smooth.roughness == Approx(0.25));
+  CHECK(smooth.reflectance == Approx(1.0 / 9));
+  CHECK(smooth.opacity == Approx(0.5));
+  const core::Microfacets beyond = from_mtl("Kd 0.5 0.5 0.5\nPr 7\nPm -1\n").microfacets;
+  CHECK(beyond.roughness == 1);
+  CHECK(beyond.metallic == 0);
+}
+
+TEST_CASE("formats that say nothing of metal and roughness have no tiny mirrors") {
+  for (const auto& [name, text] : {std::pair{"a.ply", tests::triangle_ply},
+                                   {"a.obj", tests::triangle_obj},
+                                   {"a.dae", tests::collada("<phong><shininess><float>20</float></shininess></phong>")}}) {
+    CAPTURE(name);
+    const tests::TemporaryFolder folder;
+    tests::write_text(folder / name, text);
+    for (const Material& material : read_mesh_file(folder / name).scene.materials) {
+      CHECK(material.microfacets == core::Microfacets{});
+    }
+  }
+}
+
 TEST_CASE("glTF: a factor, and its strength, is light of the surface's own, unless a texture has its say") {
   const std::string factor = R"({"emissiveFactor":[0.5,0.25,1])";
   CHECK(near(from_gltf(factor + "}").emission, {0.5, 0.25, 1}));
