@@ -2,12 +2,14 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
+#include <utility>
 
 #include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "core/scene/scene.h"
 #include "svm/run.h"
 #include "tests/support/film_error.h"
+#include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
 
 namespace dmpc::refined_paths_test {
@@ -15,14 +17,20 @@ namespace dmpc::refined_paths_test {
 namespace {
 
 using namespace core;
+using tests::scaled_edge, tests::slowness;
 
+constexpr int side = scaled_edge(32);
+/// Of those that errors are against: the pictures that are refined have some forty, of which these take next to nothing.
+constexpr int true_samples = 512;
+/// Bounds of the estimate over the error. Few pixels tell little of either.
+constexpr double least_estimate = slowness == 1 ? 0.8 : 0.5, most_estimate = slowness == 1 ? 1.25 : 2.0;
 constexpr Transport under_sky{.kind = TransportKind::paths, .has_sky = true};
 
 struct PathScene {
   Scene scene;
   Transport transport = under_sky;
   int bounces = 3;
-  int side = 32;
+  int side = refined_paths_test::side;
 };
 
 /// A picture by so many samples of each pixel, or by as many as the error asks for.
@@ -52,17 +60,21 @@ double mean_of(const Film& film) {
   return sum / static_cast<double>(film.pixel_count());
 }
 
-void check_error(const PathScene& subject, double asked) {
-  const Film truth = rendered(subject, 2048, 0).film;
-  const svm::Report report = refined(subject, asked);
+/// Returns the refined picture.
+Film check_error(const PathScene& subject, const Film& truth, double asked) {
+  svm::Report report = refined(subject, asked);
   const double error = tests::root_mean_square(report.film, truth);
   CAPTURE(error);
   CAPTURE(report.refinement.error);
   CAPTURE(report.refinement.passes);
-  CHECK(report.refinement.error > 0.8 * error);
-  CHECK(report.refinement.error < 1.25 * error);
+  CHECK(report.refinement.error > least_estimate * error);
+  CHECK(report.refinement.error < most_estimate * error);
+  CHECK(report.refinement.passes > 1);
   CHECK(report.refinement.passes < passes_max);
+  return std::move(report.film);
 }
+
+void check_error(const PathScene& subject, double asked) { check_error(subject, rendered(subject, true_samples, 0).film, asked); }
 
 Scene white_background(Scene scene) {
   scene.background = {1, 1, 1};
@@ -84,22 +96,26 @@ Scene furnace() {
 }  // namespace
 
 TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: balls under a white sky") {
-  check_error({white_background(tests::built_in("balls-2"))}, 4.0 / 255);
+  check_error({white_background(tests::built_in("balls-2"))}, 8.0 / 255);
 }
 TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: rings under a sky that changes upwards") {
   Transport transport = under_sky;
   transport.has_gradient = true;
   transport.zenith = {0.1F, 0.3F, 2.0F};
-  check_error({white_background(tests::built_in("rings-2")), transport}, 4.0 / 255);
+  check_error({white_background(tests::built_in("rings-2")), transport}, 8.0 / 255);
 }
 TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: mountains, one bounce") {
   check_error({white_background(tests::built_in("mount-4")), under_sky, 1}, 4.0 / 255);
 }
 TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: mountains, one bounce, few pixels") {
-  check_error({white_background(tests::built_in("mount-4")), under_sky, 1, 24}, 4.0 / 255);
+  check_error({white_background(tests::built_in("mount-4")), under_sky, 1, side * 3 / 4}, 4.0 / 255);
 }
-TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: a small ball lights a room") {
-  check_error({furnace(), {.kind = TransportKind::paths}, 4}, 8.0 / 255);
+TEST_CASE("the estimate of a room that a small ball lights is that good, too, and it stays as bright as it is, as far as 1.5 %") {
+  const PathScene subject{furnace(), {.kind = TransportKind::paths}, 4};
+  // The picture has some of its samples in common with this one, and takes hundreds where the ball is not seen.
+  const Film truth = rendered(subject, 4 * true_samples, 0).film;
+  const double mean = mean_of(truth), share = slowness == 1 ? 0.015 : 0.06;
+  CHECK(mean_of(check_error(subject, truth, 8.0 / 255)) == doctest::Approx(mean).epsilon(share));
 }
 
 TEST_CASE("a closed room that shines with 1 has its exact mean, as far as 1.5 %, when it is refined") {
@@ -109,12 +125,6 @@ TEST_CASE("a closed room that shines with 1 has its exact mean, as far as 1.5 %,
     const svm::Report report = refined({scene, {.kind = TransportKind::paths}, 4}, asked);
     CHECK(mean_of(report.film) == doctest::Approx(2 * (1 - 0x1p-6)).epsilon(0.015));
   }
-}
-
-TEST_CASE("a room that a small ball lights stays as bright as it is, as far as 1.5 %, when it is refined") {
-  const PathScene subject{furnace(), {.kind = TransportKind::paths}, 4};
-  const double mean = mean_of(rendered(subject, 2048, 0).film);
-  CHECK(mean_of(refined(subject, 8.0 / 255).film) == doctest::Approx(mean).epsilon(0.015));
 }
 
 }  // namespace dmpc::refined_paths_test
