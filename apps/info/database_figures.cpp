@@ -101,6 +101,10 @@ std::vector<RecordFigures> records_of(const core::Database& database, const Scen
     records.push_back(figures_for<core::EmitterRecord>("emitters", header.emitter_count));
     records.push_back(figures_for<core::EmitterChoice>("choices of emitters", header.emitter_count));
   }
+  if (has_sky_picture(header)) {
+    records.push_back(figures_for<core::EmitterChoice>("choices of tiles of the sky", counts.sky_tiles));
+    records.push_back(figures_for<core::TextureTile>("tiles of the sky", counts.sky_tiles));
+  }
   return records;
 }
 

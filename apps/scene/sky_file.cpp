@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/picture/picture_reader.h"
@@ -59,7 +61,9 @@ Image checked_image(const std::string& path, Sandbox sandbox) {
     return image_at(path, sandbox);
   } catch (const core::InputError& error) {
     const std::string text = error.what();
-    throw core::InputError("--sky=" + path + (text.starts_with(path + ": ") ? text.substr(path.size()) : ": " + text));
+    std::error_code none;
+    throw core::InputError("--sky=" + path + (text.starts_with(path + ": ") ? text.substr(path.size()) : ": " + text) +
+                           (std::filesystem::exists(path, none) ? "" : "; expected a picture's file, or a colour such as 1,1,1"));
   }
 }
 

@@ -69,8 +69,16 @@ void check_paths(const OptionSet& options, const TransportOptions& transport) {
   }
 }
 
-/// Whether colours are written with it.
-bool is_of_colours(char letter) { return std::string_view("0123456789+-.,/eE").find(letter) != std::string_view::npos; }
+/// Whether it can be nothing but colours, well written or not: so what else there is is a file.
+bool is_of_numbers(const std::string& text) {
+  std::string rest = text;
+  for (const std::string_view word : {"nan", "inf"}) {
+    for (std::size_t at = rest.find(word); at != std::string::npos; at = rest.find(word)) {
+      rest.erase(at, word.size());
+    }
+  }
+  return rest.find_first_not_of("0123456789+-.,/eE") == std::string::npos;
+}
 
 /// In the brightest channel of each way in which it sends light on.
 double share_sent_on(const core::Material& material) {
@@ -87,7 +95,7 @@ double share_sent_on(const core::Material& material) {
 SkyChoice mesh_sky() { return {.horizon = {0.25, 0.27, 0.3}, .zenith = core::Vec3d{1.6, 1.5, 1.4}}; }
 
 SkyChoice parse_sky(const std::string& text) {
-  if (std::any_of(text.begin(), text.end(), [](char c) { return !is_of_colours(c); })) {
+  if (!is_of_numbers(text)) {
     return {.horizon = {}, .zenith = {}, .file = text};
   }
   const std::vector<std::string> parts = words_between(text, '/');

@@ -300,7 +300,8 @@ Json database_json(const core::Database& database) {
           {"texture_tiles", records.texture_tiles},
           {"materials", records.materials},
           {"lights", database.header().light_count},
-          {"emitters", database.header().emitter_count}};
+          {"emitters", database.header().emitter_count},
+          {"sky_tiles", records.sky_tiles}};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "tests/support/faceted_surfaces.h"
 #include "tests/support/small_scenes.h"
@@ -95,6 +96,21 @@ TEST_CASE("a picture by paths is told from Whitted's, which has the facts that i
                    options.picture.transport.occlusion = 0.5;
                  }),
                  "occlusion is 0.5, here there is none"));
+}
+
+TEST_CASE("a picture below a sky's picture is told by what that shows, whatever its file is called") {
+  const auto facts = [](float light, const char* file) {
+    RenderOptions options;
+    options.picture.transport = {.kind = core::TransportKind::paths, .sky = SkyChoice{{}, {}, file}};
+    core::Scene scene = mirrors_and_glass();
+    if (light > 0) {
+      scene.sky = core::sky_texels(2, 1, std::vector<float>{light, light, light, 0, 0, 0});
+    }
+    return identity_of(options, scene).facts;
+  };
+  CHECK(difference_text(facts(1, "a.hdr"), facts(1, "b.hdr")).empty());
+  CHECK(difference_text(facts(2, "a.hdr"), facts(1, "a.hdr")) == "other sky");
+  CHECK(difference_text(facts(0, "a.hdr"), facts(0, "b.hdr")).empty());  // of one colour, the background's
 }
 
 TEST_CASE("how many emitters paths aim at is a fact of a scene in which something shines") {

@@ -648,6 +648,26 @@ TEST_CASE("paths have bounces in place of a depth, and a sky in place of a backg
   const PictureOptions sky = render({"--transport=paths", "--sky=1,0.5,0.25/0.5", "--samples=64"}).picture;
   CHECK(sky.staging.background == Vec3d{1, 0.5, 0.25});
   CHECK(sky.transport.sky->zenith == Vec3d{0.5, 0.5, 0.5});
+  const PictureOptions picture = render({"--transport=paths", "--sky=skies/noon.exr", "--bounces=253"}).picture;
+  CHECK(picture.transport.sky->file == "skies/noon.exr");
+  CHECK(picture.staging.background == Vec3d{});
+}
+
+TEST_CASE("a mesh below a sky that is asked for names what keeps it from being shown by paths") {
+  const auto complaint = [](const char* said) -> std::string {
+    try {
+      mesh({"--sky=1", said});
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(contains(complaint("--background=1"), "--background does not go with --sky"));
+  CHECK(
+      contains(complaint("--samples=4"), "which a mesh has by itself only where --samples is not given: say --transport=paths"));
+  CHECK(contains(complaint("--light=1,2,3"), "only where --light is not given"));
+  CHECK(contains(complaint("--transport=whitted"), "--sky goes with --transport=paths"));
+  CHECK(mesh({"--sky=noon.hdr"}).transport.sky->is_picture());
 }
 
 TEST_CASE("by paths samples are refined from 16 on, in two passes, and a quality has no cutoff") {
@@ -676,6 +696,8 @@ TEST_CASE("what does not go with paths, or without, is refused, and what to do i
   CHECK(contains(by_paths({"--ambient=0.1"}), "--ambient does not go with --transport=paths: light from everywhere is a sky"));
   CHECK(contains(by_paths({"--samples=auto", "--samples-max=15"}), "--samples-max=15: by paths expected at least 16"));
   CHECK(contains(by_paths({"--sky=1", "--background=0.5"}), "--background does not go with --sky"));
+  CHECK(contains(render_complaint({"--sky=a.hdr", "--background=0.5"}), "--background does not go with --sky"));
+  CHECK(contains(by_paths({"--sky=a.hdr", "--bounces=254"}), "--bounces=254: with a picture for a sky expected at most 253"));
   CHECK(contains(by_paths({"--occlusion=1", "--sky=1"}), "--sky does not go with --occlusion"));
   CHECK(contains(by_paths({"--occlusion=1", "--light=1,2,3"}), "--light does not go with --occlusion"));
   CHECK(contains(by_paths({"--occlusion=1", "--ambient=1"}), "--ambient does not go with --occlusion"));

@@ -17,6 +17,14 @@ TEST_CASE("a sky is one colour or two, as it is told") {
   CHECK(text_of(parse_sky("0.5/1")) == "0.5,0.5,0.5/1,1,1");
 }
 
+TEST_CASE("what has letters that no colour has is the file of a sky's picture") {
+  for (const char* const text : {"noon.exr", "skies/1.hdr", "blue", "information"}) {
+    CHECK(text_of(parse_sky(text)) == text);
+    CHECK(parse_sky(text).is_picture());
+  }
+  CHECK_FALSE(parse_sky("1e3").is_picture());
+}
+
 TEST_CASE("nodes have the zenith where the view's up points, of length 1, and distances in the grid's units") {
   core::Scene scene = tests::mirrors_and_glass();
   scene.view.up = {0, 0, 4};

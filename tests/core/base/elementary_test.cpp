@@ -55,6 +55,26 @@ TEST_CASE("sine, cosine and tangent of radians keep their stated errors") {
   }
 }
 
+TEST_CASE("the angle to a place keeps its stated error all round, and axes and diagonals have theirs") {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> range(-1, 1);
+  long double worst = 0;
+  for (int i = 0; i < trials; ++i) {
+    const double x = range(random), y = range(random) * (i % 2 == 0 ? 1 : 1e-9);
+    worst = std::max(worst, std::abs(static_cast<long double>(angle_of(y, x)) - std::atan2(static_cast<long double>(y), x)));
+  }
+  CHECK(worst < 5e-16L);
+  constexpr double pi = std::numbers::pi;
+  CHECK(angle_of(0, 1) == 0);
+  CHECK(angle_of(1, 0) == pi / 2);
+  CHECK(angle_of(0, -1) == pi);
+  CHECK(angle_of(-2, 0) == -pi / 2);
+  CHECK(angle_of(3, 3) == pi / 4);
+  CHECK(angle_of(-3, -3) == -3 * pi / 4);
+  CHECK(angle_of(0, 0) == 0);
+  CHECK(angle_of(1e-300, 1e300) >= 0);
+}
+
 TEST_CASE("sine and tangent are their argument near zero, and the sign of zero stays") {
   CHECK(sin_radians(1e-300) == 1e-300);
   CHECK(tan_radians(-1e-9) == doctest::Approx(-1e-9).epsilon(1e-15));
