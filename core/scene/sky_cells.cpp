@@ -66,7 +66,7 @@ SkyCells::SkyCells(const SkyReference& sky, std::uint32_t tile, const std::byte*
   std::array<std::array<double, tile_side>, tile_side> strength;
   for (std::uint32_t row = 0; row < tile_side; ++row) {
     for (std::uint32_t column = 0; column < tile_side; ++column) {
-      strength[row][column] = strength_of(texel_of(record, column, row));
+      strength[row][column] = sum_of_channels(read<std::uint32_t>(record + (row * tile_side + column) * sizeof(std::uint32_t)));
     }
   }
   const std::uint32_t columns = sky_tile_columns(sky), first_row = tile / columns * sky_tile_cells,

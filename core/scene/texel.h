@@ -1,6 +1,7 @@
 // Texels: colours in 32 bits.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "core/base/vec.h"
@@ -10,6 +11,14 @@ namespace dmpc::core {
 
 /// Linear light, or linear numbers. Exact arithmetic of its own, so the same on every machine.
 Color decoded(TexelFormat format, std::uint32_t texel);
+
+/// The sum of the channels of decoded(TexelFormat::shared_exponent, texel), exact.
+inline double sum_of_channels(std::uint32_t texel) {
+  constexpr std::uint32_t channel_mask = 511;
+  constexpr std::uint64_t bias = 1023 - 15 - 9, mantissa_bits = 52;
+  const std::uint32_t sum = (texel & channel_mask) + (texel >> 9U & channel_mask) + (texel >> 18U & channel_mask);
+  return sum * std::bit_cast<double>((std::uint64_t{texel >> 27U} + bias) << mantissa_bits);
+}
 
 /// What of a texel is there, from 0 to 1; 1 where the format does not say.
 float alpha_of(TexelFormat format, std::uint32_t texel);

@@ -14,6 +14,7 @@
 #include "core/database/sky_records.h"
 #include "core/record/sky.h"
 #include "core/scene/sky_texels.h"
+#include "core/scene/texel.h"
 #include "tests/support/sky_pictures.h"
 
 namespace sky_cells_test {
@@ -104,6 +105,13 @@ TEST_CASE("texels keep what they are to 1 in 512, whatever the light's strength,
   const Sky column(sky_texels(1, 2, std::vector<float>{1, 1, 1, 3, 3, 3}));
   CHECK(column.towards({0, 1, 0}).radiance.x == doctest::Approx(2));
   CHECK(column.towards({0, 0, 1}).radiance.x == 1);
+}
+
+TEST_CASE("the strength of a texel is that of its colour, exactly") {
+  for (std::uint64_t key = 0; key < 10'000; ++key) {
+    const auto texel = static_cast<std::uint32_t>(mix(key + 1));
+    CHECK(sum_of_channels(texel) == strength_of(decoded(TexelFormat::shared_exponent, texel)));
+  }
 }
 
 TEST_CASE("cells are all directions, once each, and chances to draw them add up to 1") {
