@@ -115,8 +115,8 @@ Color decoded(TexelFormat format, std::uint32_t texel) {
     return {share_of(texel, 0), share_of(texel, 1), share_of(texel, 2)};
   }
   constexpr std::uint32_t float_bias = 127, float_mantissa_bits = 23;  // 2 to a power that is no denormal's
-  const auto unit = std::bit_cast<float>(((texel >> 3 * mantissa_bits) + float_bias - exponent_bias - mantissa_bits)
-                                         << float_mantissa_bits);
+  const auto unit =
+      std::bit_cast<float>(((texel >> 3 * mantissa_bits) + float_bias - exponent_bias - mantissa_bits) << float_mantissa_bits);
   return Color{mantissa(texel, 0), mantissa(texel, 1), mantissa(texel, 2)} * unit;
 }
 
