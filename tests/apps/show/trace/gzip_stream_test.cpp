@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdint>
 #include <sstream>
 #include <string>
 
@@ -43,7 +44,7 @@ struct Full final : std::streambuf {
 
 TEST_CASE("gzip unpacks what was packed, none, one byte, or more than is kept at a time") {
   std::string much;
-  for (int i = 0; i < 60'000; ++i) {
+  for (std::uint64_t i = 0; i < 60'000; ++i) {
     much += std::to_string(i * i % 7919) + ",";
   }
   for (const std::string& text : {std::string(), std::string("a"), much}) {

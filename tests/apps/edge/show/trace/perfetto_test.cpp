@@ -37,10 +37,10 @@ std::string decoded(const std::string& bytes) {
   return shell.output();
 }
 
-/// What stands behind each occurrence of a field's name, to the end of the line.
-std::vector<std::string> values(const std::string& text, const std::string& field) {
+/// What stands behind each occurrence of a field's name, to the end of the line; with `indentation` in front as it is written.
+std::vector<std::string> values(const std::string& text, const std::string& field, const std::string& indentation = " ") {
   std::vector<std::string> found;
-  const std::string beginning = " " + field + ": ";
+  const std::string beginning = indentation + field + ": ";
   for (std::size_t at = text.find(beginning); at != std::string::npos; at = text.find(beginning, at + 1)) {
     const std::size_t begin = at + beginning.size();
     found.push_back(text.substr(begin, text.find('\n', begin) - begin));
@@ -48,8 +48,8 @@ std::vector<std::string> values(const std::string& text, const std::string& fiel
   return found;
 }
 
-std::string value(const std::string& text, const std::string& field) {
-  const std::vector<std::string> all = values(text, field);
+std::string value(const std::string& text, const std::string& field, const std::string& indentation = " ") {
+  const std::vector<std::string> all = values(text, field, indentation);
   return all.empty() ? "" : all.front();
 }
 
@@ -71,6 +71,9 @@ std::vector<std::string> events(const std::vector<std::string>& packets, const s
   return found;
 }
 
+/// In front of an event's own fields, and not of its arguments'.
+constexpr const char* of_event = "\n    ";
+
 /// How long the slices last of each name's number, together; each ends before what it lies on.
 std::map<std::string, std::uint64_t> durations(const std::vector<std::string>& packets) {
   std::map<std::string, std::vector<std::pair<std::string, std::uint64_t>>> open;  // names and beginnings, by track
@@ -78,7 +81,8 @@ std::map<std::string, std::uint64_t> durations(const std::vector<std::string>& p
   for (const std::string& packet : packets) {
     const std::string type = value(packet, "type");
     if (type == "TYPE_SLICE_BEGIN") {
-      open[value(packet, "track_uuid")].emplace_back(value(packet, "name_iid"), std::stoull(value(packet, "timestamp")));
+      open[value(packet, "track_uuid")].emplace_back(value(packet, "name_iid", of_event),
+                                                     std::stoull(value(packet, "timestamp")));
     } else if (type == "TYPE_SLICE_END") {
       auto& stack = open[value(packet, "track_uuid")];
       REQUIRE_FALSE(stack.empty());
@@ -202,7 +206,7 @@ TEST_CASE("a slice of a Perfetto trace says when, of which packet and for which 
   CHECK(contains(flat, "debug_annotation_string_values{iid:2str:\"page_reply\"}"));
   CHECK(contains(flat, "timestamp:1234567"));
   CHECK(contains(flat, "timestamp:2000000"));
-  CHECK(contains(flat, "type:TYPE_SLICE_BEGINtrack_uuid:2name_iid:2"));
+  CHECK(contains(flat, "type:TYPE_SLICE_BEGINname_iid:2track_uuid:2"));
   for (const char* const argument : {"name_iid:1uint_value:5}", "name_iid:2string_value_iid:2}", "name_iid:3uint_value:2}",
                                      "name_iid:4uint_value:4}", "name_iid:5uint_value:300}", "name_iid:6bool_value:true}"}) {
     CHECK_MESSAGE(contains(flat, std::string("debug_annotations{") + argument), argument);
