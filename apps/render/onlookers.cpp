@@ -1,5 +1,6 @@
 #include "apps/render/onlookers.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "apps/edge/run/work.h"
@@ -7,6 +8,13 @@
 #include "nodes/flat_bytes.h"
 
 namespace dmpc::apps {
+
+namespace {
+
+// Waits that are kept: of all nodes while a run goes on, 9 MB, but of each so many; and at its end, for a page.
+constexpr std::size_t waits_max = std::size_t{1} << 17U, waits_of_node_least = 64, waits_shown_max = 8192;
+
+}  // namespace
 
 Onlookers::Onlookers(const WatchOrder& order) : order_(order) {
   std::vector<nodes::Observer*> members;
@@ -22,8 +30,16 @@ Onlookers::Onlookers(const WatchOrder& order) : order_(order) {
     members.push_back(recorder_.get());
   }
   if (order.has_profile) {
-    profile_ = std::make_unique<nodes::ActivityProfile>(order.node_count + 1, work_of);
+    profile_ = std::make_unique<nodes::ActivityProfile>(order.node_count + 1, work_of, order.wait_of);
     members.push_back(profile_.get());
+  }
+  if (order.follows_paths) {
+    waits_ =
+        std::make_unique<nodes::WaitLog>(order.node_count + 1, std::max(waits_of_node_least, waits_max / (order.node_count + 1)));
+    members.push_back(waits_.get());
+  }
+  if (order.exchange) {
+    members.push_back(&exchange_.emplace(*order.exchange));
   }
   if (order.fetches) {
     fetches_ = std::make_unique<svm::FetchWatch>(order.node_count, order.page_count, svm::fetch_sample_max, *order.fetches);
@@ -98,6 +114,12 @@ Sights Onlookers::take() {
   }
   if (profile_) {
     sights.view.emplace().steps = profile_->take();
+  }
+  if (waits_) {
+    sights.view->waits = waits_->take(waits_shown_max);
+  }
+  if (exchange_) {
+    sights.view->exchange = std::move(exchange_);
   }
   if (fetches_) {
     sights.view->fetches = fetches_->take();

@@ -58,6 +58,8 @@ class Onlookers {
   std::unique_ptr<nodes::TraceRecorder> recorder_;
   std::unique_ptr<nodes::DoneWatch> done_;
   std::unique_ptr<nodes::ActivityProfile> profile_;
+  std::unique_ptr<nodes::WaitLog> waits_;
+  std::optional<nodes::ExchangeProfile> exchange_;
   std::unique_ptr<svm::FetchWatch> fetches_;
   std::vector<svm::ReferenceLog> reference_logs_;
   std::optional<nodes::ObserverGroup> group_;

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "apps/edge/run/time_parts.h"
+#include "apps/run/report.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
+#include "dataflow/packets.h"
 #include "nodes/flat_bytes.h"
 #include "nodes/ranks/rank_links.h"
+#include "svm/pages/packets.h"
 
 namespace dmpc::apps {
 
@@ -14,6 +18,18 @@ namespace {
 
 std::uint32_t rank_count_of(const RenderOptions& options) {
   return options.computer.ranks == nullptr ? 1 : options.computer.ranks->rank_count();
+}
+
+/// The packets of which a page says who got how many from whom.
+std::uint32_t pair_kinds(Strategy strategy) {
+  switch (strategy) {
+    case Strategy::svm:
+      return 1U << number_of(svm::Kind::page_reply);
+    case Strategy::dataflow:
+      return 1U << number_of(dataflow::Kind::rays) | 1U << number_of(dataflow::Kind::forwarded);
+    default:
+      return 0;
+  }
 }
 
 /// Those that files ask for, and those that a page plays, all of which cost little. Different pages are not among them: they
@@ -42,7 +58,17 @@ WatchOrder watch_order(const RenderOptions& options, std::uint32_t page_count, s
                    .page_count = page_count,
                    .pixel_count = pixel_count,
                    .heat_kinds = heat_kinds_of(options),
-                   .has_profile = options.report.has_value()};
+                   .has_profile = options.report.has_value(),
+                   .wait_of = wait_of(wait_kinds(options.strategy)),
+                   .follows_paths = options.report && options.computer.machine};
+  if (options.report && options.computer.machine) {
+    const nodes::Machine& machine = *options.computer.machine;
+    order.exchange = {.node_count = node_count,
+                      .topology = machine.topology,
+                      .uplinks = machine.uplinks,
+                      .pair_kinds = pair_kinds(options.strategy),
+                      .number_count = options.strategy == Strategy::svm ? page_count : 0};
+  }
   if (options.trace.path) {
     order.trace = trace_choice(options.trace, node_count);
     order.trace->events_max = std::max<std::uint64_t>(1, order.trace->events_max / rank_count_of(options));
@@ -76,6 +102,7 @@ std::string bytes_of(const WatchOrder& order) {
     flat.put(order.trace->keep);
   }
   flat.put(order.has_profile);
+  flat.put(order.wait_of);
   flat.put(order.fetches);
   flat.put(order.references_max);
   flat.put(order.has_all_references);
@@ -99,6 +126,7 @@ WatchOrder watch_order_from(std::string_view bytes) {
     trace.keep = flat.take<nodes::TraceKeep>();
   }
   order.has_profile = flat.take<bool>();
+  order.wait_of = flat.take<nodes::WaitOf>();
   order.fetches = flat.take<std::optional<svm::PageHomes>>();
   order.references_max = flat.take<std::optional<std::size_t>>();
   order.has_all_references = flat.take<bool>();

@@ -11,6 +11,8 @@
 #include "apps/edge/run/miss_estimate.h"
 #include "apps/run/render_options.h"
 #include "core/picture/heat_kind.h"
+#include "nodes/watch/activity_profile.h"
+#include "nodes/watch/exchange_profile.h"
 #include "nodes/watch/trace.h"
 #include "svm/pages/home.h"
 
@@ -21,6 +23,10 @@ struct WatchOrder {
   std::vector<core::HeatKind> heat_kinds = {};                    ///< empty: no heat map
   std::optional<nodes::TraceChoice> trace = {};                   ///< of one rank: a share of the events
   bool has_profile = false;
+  nodes::WaitOf wait_of = {};  ///< for the profile
+  // Of modelled machines, which have no ranks: not told to others.
+  bool follows_paths = false;  ///< what led to the end of each wait
+  std::optional<nodes::ExchangeChoice> exchange = {};
   std::optional<svm::PageHomes> fetches = {};      ///< where pages are at home that are fetched
   std::optional<std::size_t> references_max = {};  ///< of one node
   bool has_all_references = false;                 ///< for a file: none is left out

@@ -25,16 +25,16 @@ std::uint32_t bits_of(std::initializer_list<Kind> kinds) {
   return bits;
 }
 
-WaitKinds waits_of(const svm::Report& report) {
+WaitKinds svm_waits(bool asks) {
   using svm::Kind;
-  const bool asks = report.plan.request.strategy == svm::forest_strategy();
   return {.data = asks ? "answer" : "page",
           .data_kinds = asks ? bits_of({Kind::questions, Kind::answers}) : bits_of({Kind::page_reply}),
           .work_kinds = bits_of({Kind::work_request, Kind::work_reply, Kind::mask_part, Kind::begin_pass}),
           .film_kinds = bits_of({Kind::film_acknowledgement, Kind::mask_acknowledgement}),
           .end_kinds = bits_of({Kind::stop})};
 }
-WaitKinds waits_of(const dataflow::Report&) {
+
+WaitKinds dataflow_waits() {
   using dataflow::Kind;
   return {.data = "ray",
           .data_kinds = bits_of({Kind::rays, Kind::forwarded}),
@@ -44,6 +44,9 @@ WaitKinds waits_of(const dataflow::Report&) {
           .film_kinds = bits_of({Kind::film_acknowledgement}),
           .end_kinds = bits_of({Kind::finish, Kind::done, Kind::stop})};
 }
+
+WaitKinds waits_of(const svm::Report& report) { return svm_waits(report.plan.request.strategy == svm::forest_strategy()); }
+WaitKinds waits_of(const dataflow::Report&) { return dataflow_waits(); }
 
 template <class StrategyReport>
 Account account_of_strategy(const StrategyReport& report) {
@@ -68,6 +71,10 @@ Account account_of_strategy(const StrategyReport& report) {
 }
 
 }  // namespace
+
+WaitKinds wait_kinds(Strategy strategy) {
+  return strategy == Strategy::dataflow ? dataflow_waits() : svm_waits(strategy == Strategy::forest);
+}
 
 Account account_of(const Report& report) {
   return std::visit([](const auto& of_strategy) { return account_of_strategy(of_strategy); }, report);

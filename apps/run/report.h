@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/edge/run/time_parts.h"
+#include "apps/run/strategy_options.h"
 #include "core/picture/film.h"
 #include "core/trace/operations.h"
 #include "dataflow/run.h"
@@ -20,6 +21,9 @@ namespace dmpc::apps {
 
 /// svm and replicated report alike.
 using Report = std::variant<svm::Report, dataflow::Report>;
+
+/// Of the packets of a strategy.
+WaitKinds wait_kinds(Strategy strategy);
 
 /// What every strategy says of a node. A view.
 struct NodeAccount {

@@ -4,20 +4,16 @@
 #include <cstddef>
 #include <string_view>
 
+#include "apps/edge/picture/packed_runs.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
 
-/// The most bytes of a block that is stored as it is (RFC 1951).
-constexpr std::size_t stored_block_max = 65535;
-
 std::string big_endian(std::uint32_t number) {
   return {static_cast<char>(number >> 24U), static_cast<char>(number >> 16U), static_cast<char>(number >> 8U),
           static_cast<char>(number)};
 }
-
-std::string little_endian_16(std::size_t number) { return {static_cast<char>(number), static_cast<char>(number >> 8U)}; }
 
 /// CRC-32 of ISO 3309.
 std::uint32_t cyclic_sum(std::string_view bytes) {
@@ -47,17 +43,9 @@ std::string chunk(std::string_view type, std::string_view data) {
   return big_endian(static_cast<std::uint32_t>(data.size())) + content + big_endian(cyclic_sum(content));
 }
 
-/// As zlib's format has what it does not pack (RFC 1950).
-std::string stored(std::string_view bytes) {
-  std::string stream("\x78\x01", 2);
-  for (std::size_t at = 0; at < bytes.size(); at += stored_block_max) {
-    const std::string_view block = bytes.substr(at, stored_block_max);
-    const bool is_last = at + block.size() == bytes.size();
-    stream += static_cast<char>(is_last ? 1 : 0);
-    stream += little_endian_16(block.size()) + little_endian_16(~block.size());
-    stream += block;
-  }
-  return stream + big_endian(adler_sum(bytes));
+/// As zlib's format has it (RFC 1950).
+std::string packed(std::string_view bytes, std::size_t row_bytes) {
+  return std::string("\x78\x01", 2) + packed_runs(bytes, row_bytes) + big_endian(adler_sum(bytes));
 }
 
 /// Each row behind a zero, which says that its bytes are the pixels themselves.
@@ -73,10 +61,12 @@ std::string unfiltered(std::size_t width, std::span<const std::uint8_t> indices)
 }  // namespace
 
 std::string indexed_png(int width, int height, std::span<const std::uint8_t> indices, std::span<const PaletteColor> palette) {
-  core::expect(width > 0 && height > 0 && indices.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+  core::expect(width > 0 && width < 32'768 && height > 0 &&
+                   indices.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
                "a picture has a number for each of its pixels");
   core::expect(!palette.empty() && palette.size() <= 256 && *std::max_element(indices.begin(), indices.end()) < palette.size(),
                "each pixel has one of up to 256 colours");
+  const auto columns = static_cast<std::size_t>(width);
   std::string colors;
   for (const PaletteColor& color : palette) {
     colors.append(color.begin(), color.end());
@@ -85,7 +75,7 @@ std::string indexed_png(int width, int height, std::span<const std::uint8_t> ind
   return "\x89PNG\r\n\x1a\n" +
          chunk("IHDR", big_endian(static_cast<std::uint32_t>(width)) + big_endian(static_cast<std::uint32_t>(height)) +
                            eight_bits_by_palette) +
-         chunk("PLTE", colors) + chunk("IDAT", stored(unfiltered(static_cast<std::size_t>(width), indices))) + chunk("IEND", "");
+         chunk("PLTE", colors) + chunk("IDAT", packed(unfiltered(columns, indices), columns + 1)) + chunk("IEND", "");
 }
 
 }  // namespace dmpc::apps

@@ -5,6 +5,8 @@
 
 #include "apps/edge/run/miss_estimate.h"
 #include "nodes/watch/activity_profile.h"
+#include "nodes/watch/exchange_profile.h"
+#include "nodes/watch/wait_log.h"
 #include "svm/pages/watch/fetch_watch.h"
 
 namespace dmpc::apps {
@@ -12,8 +14,10 @@ namespace dmpc::apps {
 /// All of it is kept outside the nodes' memories.
 struct RunView {
   nodes::ActivitySteps steps;
-  std::optional<svm::Fetches> fetches;  ///< of svm
-  std::optional<MissEstimate> misses;   ///< of svm, unless it counts different pages
+  std::optional<nodes::WaitRecord> waits;          ///< on modelled machines
+  std::optional<nodes::ExchangeProfile> exchange;  ///< likewise
+  std::optional<svm::Fetches> fetches;             ///< of svm
+  std::optional<MissEstimate> misses;              ///< of svm, unless it counts different pages
 };
 
 }  // namespace dmpc::apps

@@ -23,6 +23,15 @@ TimePart wait_part(std::size_t kind, const WaitKinds& waits) {
 
 }  // namespace
 
+nodes::WaitOf wait_of(const WaitKinds& waits) {
+  nodes::WaitOf numbers{};
+  for (std::size_t kind = 0; kind < numbers.size(); ++kind) {
+    const auto* const at = std::find(wait_parts.begin(), wait_parts.end(), wait_part(kind, waits));
+    numbers[kind] = static_cast<std::uint8_t>(at - wait_parts.begin());
+  }
+  return numbers;
+}
+
 std::string words_of(TimePart part, const WaitKinds& waits) {
   switch (part) {
     case TimePart::data_wait:

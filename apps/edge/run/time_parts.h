@@ -7,6 +7,7 @@
 #include <string>
 
 #include "nodes/virtual/virtual_times.h"
+#include "nodes/watch/activity_profile.h"
 
 namespace dmpc::apps {
 
@@ -40,6 +41,12 @@ inline constexpr std::size_t time_part_count = 11;
 inline constexpr std::array<const char*, time_part_count> time_part_names = {
     "computing",  "data_wait", "work_wait", "token_wait", "credit_wait", "film_wait",
     "other_wait", "stolen",    "lent",      "messages",   "idle_at_end"};
+
+/// The waits among them, in the order in which a nodes::ActivityProfile numbers them for wait_of().
+inline constexpr std::array<TimePart, nodes::wait_count> wait_parts = {
+    TimePart::data_wait, TimePart::work_wait,  TimePart::token_wait, TimePart::credit_wait,
+    TimePart::film_wait, TimePart::other_wait, TimePart::idle_at_end};
+nodes::WaitOf wait_of(const WaitKinds& waits);
 
 /// A time by TimePart. Thread-safe like any value.
 struct TimeParts {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@
 #include "apps/edge/run/work.h"
 #include "apps/run/report.h"
 #include "apps/show/heat/field.h"
+#include "apps/show/page/path_table.h"
 #include "apps/show/page/play_cells.h"
 #include "apps/show/page/typed_array.h"
 #include "core/base/expect.h"
@@ -27,7 +29,8 @@ using core::HeatKind;
 using nlohmann::json;
 using Counts = std::vector<std::uint64_t>;
 
-constexpr std::size_t pages_max = 256;  ///< the hottest that are listed
+constexpr std::size_t pages_max = 256;          ///< the hottest that are listed
+constexpr std::size_t over_time_side_max = 96;  ///< of pairs, of which there are 295,000 values then
 
 std::uint64_t largest(std::span<const std::uint64_t> values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
@@ -99,34 +102,96 @@ json fields_of(const RenderRecord& record, const PlayCells& cells) {
 }
 
 /// What a node did in each step, in 255ths of it; what is rounded off comes to the next step.
-void append_shares(Counts& shares, const std::vector<nodes::WorkTimes>& steps, std::size_t work, std::uint64_t step_ns) {
+template <class Times>
+void append_shares(Counts& shares, const std::vector<Times>& steps, std::size_t kind, std::uint64_t step_ns) {
   double due = 0;
-  for (const nodes::WorkTimes& times : steps) {
-    due += 255 * static_cast<double>(times[work]) / static_cast<double>(step_ns);
+  for (const Times& times : steps) {
+    due += 255 * static_cast<double>(times[kind]) / static_cast<double>(step_ns);
     const double given = std::clamp(std::round(due), 0.0, 255.0);
     shares.push_back(static_cast<std::uint64_t>(given));
     due -= given;
   }
 }
 
-/// The host, which is the last, is left out.
-json works_of(const nodes::ActivitySteps& steps) {
-  json works = json::array();
-  const std::span all(steps.nodes.data(), steps.nodes.size() - 1);
-  for (std::size_t work = 0; work < work_names.size(); ++work) {
+/// Of kinds of works or waits, those that are not nothing. The host, which is the last, is left out.
+template <class Times, class NameOf>
+json shares_of(const std::vector<std::vector<Times>>& nodes, std::uint64_t step_ns, const NameOf& name_of) {
+  json all = json::array();
+  for (std::size_t kind = 0; kind < Times{}.size(); ++kind) {
     Counts shares;
     std::uint64_t ns = 0;
-    for (const std::vector<nodes::WorkTimes>& node : all) {
-      append_shares(shares, node, work, steps.step_ns);
-      for (const nodes::WorkTimes& times : node) {
-        ns += times[work];
+    for (const std::vector<Times>& node : std::span(nodes.data(), nodes.size() - 1)) {
+      append_shares(shares, node, kind, step_ns);
+      for (const Times& times : node) {
+        ns += times[kind];
       }
     }
     if (ns > 0) {
-      works.push_back({{"name", work_names[work]}, {"ns", ns}, {"shares", typed_array(shares)}});
+      all.push_back({{"name", name_of(kind)}, {"ns", ns}, {"shares", typed_array(shares)}});
     }
   }
-  return works;
+  return all;
+}
+
+template <class ValueOf>
+json column_of(const std::vector<nodes::Waited>& waits, const ValueOf& value_of) {
+  Counts values;
+  std::transform(waits.begin(), waits.end(), std::back_inserter(values), value_of);
+  return typed_array(values);
+}
+
+json causes_of(const nodes::WaitRecord& record, std::span<const char* const> kind_names) {
+  using nodes::Waited;
+  json kinds = json::array();
+  for (const char* const name : kind_names) {
+    kinds.push_back(packet_text(name));
+  }
+  const auto column = [&record](const auto& value_of) { return column_of(record.waits, value_of); };
+  return {{"kinds", std::move(kinds)},
+          {"count", record.count},
+          {"left_out_ns", record.left_out_ns_max},
+          {"node", column([](const Waited& wait) { return index_of(wait.node); })},
+          {"begin", column([](const Waited& wait) { return wait.begin_ns; })},
+          {"length", column([](const Waited& wait) { return wait.end_ns - wait.begin_ns; })},
+          {"kind", column([](const Waited& wait) { return wait.kind; })},
+          {"peer", column([](const Waited& wait) { return index_of(wait.peer); })},
+          {"left", column([](const Waited& wait) { return wait.end_ns - wait.left_ns; })},
+          {"request", column([&](const Waited& wait) { return wait.request ? std::size_t{*wait.request} : kind_names.size(); })},
+          {"from", column([](const Waited& wait) { return index_of(wait.from.node); })},
+          {"at", column([](const Waited& wait) { return wait.end_ns - wait.from.time_ns; })}};
+}
+
+json path_of(const nodes::CriticalPath& critical, std::span<const char* const> kind_names) {
+  const nodes::PathTimes& path = critical.times;
+  json parts = json::array(), kinds = json::array();
+  for (const auto& [name, ns] : path_parts(path)) {
+    parts.push_back({{"name", name}, {"ns", ns}});
+  }
+  for (std::size_t kind = 0; kind < kind_names.size(); ++kind) {
+    if (path.by_kind_ns[kind] > 0) {
+      kinds.push_back({{"name", packet_text(kind_names[kind])}, {"ns", path.by_kind_ns[kind]}});
+    }
+  }
+  return {{"messages", path.messages},
+          {"node", index_of(critical.from.node)},
+          {"from_ns", critical.from.time_ns},
+          {"parts", std::move(parts)},
+          {"kinds", std::move(kinds)}};
+}
+
+void add_causes(json& head, const RunView& view, const Account& account) {
+  if (view.waits) {
+    head["causes"] = causes_of(*view.waits, account.kind_names);
+  }
+  if (account.virtual_time && account.virtual_time->critical_path) {
+    head["path"] = path_of(*account.virtual_time->critical_path, account.kind_names);
+  }
+}
+
+/// How nodes are placed, as far as a drawing goes.
+json topology_of(const nodes::Machine& machine, std::uint32_t node_count) {
+  const nodes::Topology topology(machine.topology, node_count, machine.uplinks);
+  return {{"kind", name_of(machine.topology)}, {"columns", topology.columns()}, {"uplinks", machine.uplinks}};
 }
 
 /// All counts, or where they are not 0 and what they are there, whichever takes less.
@@ -174,6 +239,70 @@ json pages_of(const svm::Fetches& fetches) {
   return pages;
 }
 
+/// Rows of steps, in 255ths of the largest of all: 255 is `most`.
+json steps_of(const nodes::StepCounts& counts, const std::vector<std::span<const std::uint64_t>>& rows, std::uint64_t total) {
+  const std::size_t steps = std::min<std::size_t>(counts.step_count_max(), (total + counts.step_ns() - 1) / counts.step_ns());
+  std::uint64_t most = 1;
+  for (const std::span<const std::uint64_t> row : rows) {
+    most = std::max(most, largest(row));
+  }
+  Counts values;
+  for (const std::span<const std::uint64_t> row : rows) {
+    for (std::size_t step = 0; step < steps; ++step) {
+      values.push_back(row.empty() ? 0 : most < 256 ? row[step] : (row[step] * 255 + most - 1) / most);  // what is there is not 0
+    }
+  }
+  return {{"step_ns", counts.step_ns()},
+          {"steps", steps},
+          {"most", std::max<std::uint64_t>(most, 255)},
+          {"values", typed_array(values)}};
+}
+
+json link_steps(const nodes::ExchangeProfile& exchange, const nodes::VirtualReport& report) {
+  std::vector<std::span<const std::uint64_t>> rows;
+  for (const nodes::LinkUse& link : report.busiest_links) {
+    rows.push_back(exchange.link_bytes(link.from, link.to));
+  }
+  return steps_of(exchange.links(), rows, report.total_ns);
+}
+
+/// Of the first `side` of so many nodes and a host.
+json pair_steps(const nodes::ExchangeProfile& exchange, std::size_t peer_count, std::size_t side, std::uint64_t total) {
+  std::vector<std::span<const std::uint64_t>> rows;
+  for (std::size_t i = 0; i < side * side; ++i) {
+    rows.push_back(exchange.pairs().row(static_cast<std::uint32_t>(i / side * peer_count + i % side)));
+  }
+  return steps_of(exchange.pairs(), rows, total);
+}
+
+json level_steps(const nodes::ExchangeProfile& exchange, std::uint64_t total) {
+  json levels = json::array();
+  for (std::size_t level = 0; level < exchange.level_names().size(); ++level) {
+    const Counts sums = exchange.level_sums(level);
+    json steps = steps_of(exchange.levels(), {sums}, total);
+    steps["name"] = exchange.level_names()[level];
+    levels.push_back(std::move(steps));
+  }
+  return levels;
+}
+
+/// `head` has pairs and pages, if there are any.
+void add_over_time(json& head, const nodes::ExchangeProfile& exchange, const nodes::VirtualReport& report) {
+  json over = {{"links", link_steps(exchange, report)}, {"levels", level_steps(exchange, report.total_ns)}};
+  if (head.contains("pairs") && exchange.pairs().is_complete() && head["pairs"]["side"] <= over_time_side_max) {
+    over["pairs"] = pair_steps(exchange, report.nodes.size(), head["pairs"]["side"], report.total_ns);
+    over["pairs"]["what"] = head["pairs"]["what"] == "pages" ? "pages" : "packets of rays";
+  }
+  if (!head["pages"].empty()) {
+    std::vector<std::span<const std::uint64_t>> rows;
+    for (const json& page : head["pages"]) {
+      rows.push_back(exchange.numbers().row(page[0]));
+    }
+    over["pages"] = steps_of(exchange.numbers(), rows, report.total_ns);
+  }
+  head["over"] = std::move(over);
+}
+
 void add_exchange(json& head, const RenderRecord& record) {
   if (const auto& fetches = record.view->fetches) {
     head["pairs"] = pairs_of(fetches->by_pair, {{"what", "pages"}, {"row", "node that asks"}, {"column", "home of the page"}});
@@ -210,10 +339,19 @@ std::string play_data(const RenderRecord& record, const Origin& origin) {
                {"high", cells.high()},
                {"done", typed_array(parts_of_run(cells.largest(record.heat->values(HeatKind::done)), total))},
                {"fields", fields_of(record, cells)},
-               {"works", works_of(steps)},
+               {"works", shares_of(steps.nodes, steps.step_ns, [](std::size_t work) { return work_names[work]; })},
+               {"waits", shares_of(steps.waits, steps.step_ns,
+                                   [&](std::size_t wait) { return words_of(wait_parts.at(wait), account.waits); })},
                {"links", links_of(account)},
                {"pages", json::array()}};
+  if (const auto& machine = record.options.computer.machine) {
+    head["topology"] = topology_of(*machine, static_cast<std::uint32_t>(account.nodes.size()));
+  }
+  add_causes(head, *record.view, account);
   add_exchange(head, record);
+  if (record.view->exchange) {
+    add_over_time(head, *record.view->exchange, *account.virtual_time);
+  }
   return head.dump(-1, ' ', true, json::error_handler_t::replace);
 }
 

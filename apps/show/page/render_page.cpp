@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <variant>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "apps/show/heat/field.h"
 #include "apps/show/heat/picture.h"
 #include "apps/show/page/conclusions.h"
+#include "apps/show/page/path_table.h"
 #include "apps/show/page/pictures.h"
 #include "apps/show/page/play_data.h"
 #include "apps/show/page/play_parts.h"
@@ -79,16 +81,19 @@ void add_pictures(Page& page, const RenderRecord& record, const Account& account
   }
 }
 
-void add_time(Page& page, const RunView& view) {
+void add_time(Page& page, const RunView& view, const WaitKinds& waits) {
   if (view.steps.nodes.front().empty()) {
     return;
   }
   page.begin_section("Over time");
-  page.add_conclusion(time_conclusion(view.steps));
   const std::vector<std::string> names(work_names.begin(), work_names.end());
-  Table table = step_table(view.steps, names);
+  std::vector<std::string> wait_names;
+  std::transform(wait_parts.begin(), wait_parts.end(), std::back_inserter(wait_names),
+                 [&waits](TimePart part) { return words_of(part, waits); });
+  page.add_conclusion(time_conclusion(view.steps, wait_names));
+  Table table = step_table(view.steps, names, wait_names);
   table.add_note("The host is left out.");
-  page.add_plot(step_plot(view.steps, names), table);
+  page.add_plot(step_plot(view.steps, names, wait_names), table);
   page.add_map(step_map(view.steps), "Each row is a node, each column a step of time: the darker, the less it did.");
   page.add_table(table);
 }
@@ -155,6 +160,11 @@ void add_losses(Page& page, const Account& account) {
   const Table table = loss_table(losses);
   add_node_plot(page, loss_plot(losses), table);
   page.add_table(table);
+  if (account.virtual_time && account.virtual_time->critical_path) {
+    const nodes::PathTimes& path = account.virtual_time->critical_path->times;
+    page.add_conclusion(path_conclusion(path, account.kind_names));
+    page.add_table(path_table(path, account.kind_names));
+  }
 }
 
 void add_traffic(Page& page, const Account& account) {
@@ -199,7 +209,7 @@ std::string render_page(const RenderRecord& record, const Origin& origin, std::o
   add_pictures(page, record, account);
   add_losses(page, account);
   if (record.view != nullptr) {
-    add_time(page, *record.view);
+    add_time(page, *record.view, account.waits);
   }
   if (record.view != nullptr && record.view->fetches) {
     add_pages(page, record, *record.view->fetches);

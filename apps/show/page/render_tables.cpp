@@ -12,6 +12,7 @@
 #include "apps/edge/show/page/node_table.h"
 #include "apps/run/memory_categories.h"
 #include "apps/show/counters.h"
+#include "apps/show/page/path_table.h"
 
 namespace dmpc::apps::html {
 
@@ -122,9 +123,7 @@ Plot memory_plot(const Account& account) {
 std::vector<PacketKindTraffic> packets_of(const Account& account) {
   std::vector<PacketKindTraffic> packets;
   for (std::size_t kind = 0; kind < account.kind_names.size(); ++kind) {
-    std::string name = account.kind_names[kind];
-    std::replace(name.begin(), name.end(), '_', ' ');
-    packets.push_back({std::move(name), account.sent[kind]});
+    packets.push_back({packet_text(account.kind_names[kind]), account.sent[kind]});
   }
   return packets;
 }

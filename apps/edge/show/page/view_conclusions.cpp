@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <vector>
@@ -41,9 +42,27 @@ std::size_t tail_of(std::span<const double> shares) {
   return static_cast<std::size_t>(last_busy - shares.rbegin());
 }
 
+/// What most of the waits of all nodes but the host, which is the last, were for; empty where nothing was waited for.
+std::string wait_sentence(const nodes::ActivitySteps& steps, std::span<const std::string> names) {
+  nodes::WaitTimes sums{};
+  double whole_ns = 0;
+  for (std::size_t node = 0; node + 1 < steps.waits.size(); ++node) {
+    for (const nodes::WaitTimes& times : steps.waits[node]) {
+      std::transform(sums.begin(), sums.end(), times.begin(), sums.begin(), std::plus());
+      whole_ns += static_cast<double>(steps.step_ns);
+    }
+  }
+  const auto most = static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+  if (names.empty() || sums.at(most) == 0) {
+    return "";
+  }
+  return " Most of what they waited was \"" + names[most] + "\", " + share_text(static_cast<double>(sums.at(most)) / whole_ns) +
+         " of their time.";
+}
+
 }  // namespace
 
-std::string time_conclusion(const nodes::ActivitySteps& steps) {
+std::string time_conclusion(const nodes::ActivitySteps& steps, std::span<const std::string> wait_names) {
   const std::vector<double> shares = busy_shares(steps);
   if (shares.empty()) {
     return "";
@@ -53,10 +72,11 @@ std::string time_conclusion(const nodes::ActivitySteps& steps) {
   const std::size_t tail = tail_of(shares);
   const double tail_share = static_cast<double>(tail) / count;
   if (tail == shares.size()) {
-    return text + ", and never half of them at a time.";
+    text += ", and never half of them at a time.";
+  } else {
+    text += tail_share >= tail_share_min ? "; in the last " + share_text(tail_share) + " of the run it was less than half." : ".";
   }
-  return text +
-         (tail_share >= tail_share_min ? "; in the last " + share_text(tail_share) + " of the run it was less than half." : ".");
+  return text + wait_sentence(steps, wait_names);
 }
 
 std::string page_conclusion(const svm::PageCounters& pages, const svm::Fetches& fetches) {

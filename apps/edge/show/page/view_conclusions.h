@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "apps/edge/run/run_view.h"
@@ -10,7 +11,8 @@
 
 namespace dmpc::apps::html {
 
-std::string time_conclusion(const nodes::ActivitySteps& steps);
+/// Names the largest of the waits, too, if they have names.
+std::string time_conclusion(const nodes::ActivitySteps& steps, std::span<const std::string> wait_names = {});
 std::string page_conclusion(const svm::PageCounters& pages, const svm::Fetches& fetches);
 std::string fetch_conclusion(const svm::Fetches& fetches);
 std::string cache_conclusion(const MissEstimate& misses, std::uint32_t cache_pages, std::uint32_t page_count);

@@ -26,13 +26,26 @@ double microseconds(double ns) { return ns / 1000; }
 std::size_t node_count_of(const nodes::ActivitySteps& steps) { return steps.nodes.size() - 1; }  // the host is the last
 std::size_t step_count_of(const nodes::ActivitySteps& steps) { return steps.nodes.front().size(); }
 
-/// The time of all nodes but the host with work of one kind.
-std::uint64_t busy_ns(const nodes::ActivitySteps& steps, std::size_t step, std::size_t work) {
-  std::uint64_t sum_ns = 0;
-  for (std::size_t node = 0; node < node_count_of(steps); ++node) {
-    sum_ns += steps.nodes[node][step][work];
+/// The time of all nodes but the host, which is the last, with work or waits of one kind.
+template <class Times>
+std::uint64_t sum_ns(const std::vector<std::vector<Times>>& nodes, std::size_t step, std::size_t kind) {
+  return std::accumulate(nodes.begin(), nodes.end() - 1, std::uint64_t{0},
+                         [&](std::uint64_t sum, const std::vector<Times>& node) { return sum + node[step][kind]; });
+}
+
+/// The kinds, of those that have names, of which there are any.
+template <class Times>
+std::vector<std::size_t> kinds_found(const std::vector<std::vector<Times>>& nodes, std::span<const std::string> names) {
+  std::vector<std::size_t> found;
+  for (std::size_t kind = 0; kind < names.size(); ++kind) {
+    for (std::size_t step = 0; step < nodes.front().size(); ++step) {
+      if (sum_ns(nodes, step, kind) > 0) {
+        found.push_back(kind);
+        break;
+      }
+    }
   }
-  return sum_ns;
+  return found;
 }
 
 /// As columns and series: the parts of which any fetch has some.
@@ -121,32 +134,48 @@ double total_fetches(const Fetches& fetches) {
 
 }  // namespace
 
-Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string> work_names) {
+Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string> work_names,
+                 std::span<const std::string> wait_names) {
+  const std::vector<std::size_t> waits = kinds_found(steps.waits, wait_names);
   const int digits = steps.step_ns < 10'000 ? 3 : steps.step_ns < 100'000 ? 2 : steps.step_ns < 1'000'000 ? 1 : 0;
   std::vector<Column> columns = {{"since the start", "ms", digits}};
   for (const std::string& name : work_names) {
     columns.push_back({name, "%", 1});
+  }
+  for (const std::size_t wait : waits) {
+    columns.push_back({wait_names[wait], "%", 1});
   }
   Table table("What the nodes were busy with over time", std::move(columns));
   const double whole_ns = static_cast<double>(steps.step_ns) * static_cast<double>(node_count_of(steps));
   for (std::size_t step = 0; step < step_count_of(steps); ++step) {
     std::vector<Cell> row = {static_cast<double>(step * steps.step_ns) / 1e6};
     for (std::size_t work = 0; work < work_names.size(); ++work) {
-      row.emplace_back(percent_of(static_cast<double>(busy_ns(steps, step, work)), whole_ns));
+      row.emplace_back(percent_of(static_cast<double>(sum_ns(steps.nodes, step, work)), whole_ns));
+    }
+    for (const std::size_t wait : waits) {
+      row.emplace_back(percent_of(static_cast<double>(sum_ns(steps.waits, step, wait)), whole_ns));
     }
     table.add_row(std::move(row));
   }
   table.add_note(
-      "Of all nodes' time. What is left they waited. With threads a call counts as long as it took by the wall clock, even where "
-      "it waited for a core.");
+      "Of all nodes' time. What is left " +
+      std::string(wait_names.empty() ? "they waited." : "they were idle at the end, or on threads waiting for a core.") +
+      " With threads a call counts as long as it took by the wall clock, even where it waited for a core.");
   return table;
 }
 
-Plot step_plot(const nodes::ActivitySteps& steps, std::span<const std::string> work_names) {
+Plot step_plot(const nodes::ActivitySteps& steps, std::span<const std::string> work_names,
+               std::span<const std::string> wait_names) {
   Plot plot = curves("steps", "What the nodes were busy with over time", "since the start", {.label = "since the start"},
                      {.label = "of the nodes' time (%)", .least = 0}, {});
-  for (const std::string& name : work_names) {
+  const auto add = [&plot](const std::string& name) {
     plot.series.push_back({name, name, {}, PlotMark::bars, plot.series.size()});
+  };
+  for (const std::size_t work : kinds_found(steps.nodes, work_names)) {
+    add(work_names[work]);
+  }
+  for (const std::size_t wait : kinds_found(steps.waits, wait_names)) {
+    add(wait_names[wait]);
   }
   plot.bar_width = static_cast<double>(steps.step_ns) / 1e6;
   plot.is_stacked = true;

@@ -14,9 +14,11 @@
 namespace dmpc::apps::html {
 
 /// A row for each step of time: what all nodes but the host were busy with, in percent of their time. Kinds of work have these
-/// names; there are no others.
-Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string> work_names);
-Plot step_plot(const nodes::ActivitySteps& steps, std::span<const std::string> work_names);
+/// names; there are no others. Likewise what they waited for, if waits have names: those of which there are any.
+Table step_table(const nodes::ActivitySteps& steps, std::span<const std::string> work_names,
+                 std::span<const std::string> wait_names = {});
+Plot step_plot(const nodes::ActivitySteps& steps, std::span<const std::string> work_names,
+               std::span<const std::string> wait_names = {});
 /// A row for each node but the host, a column for each step: its share of the time in which it was busy.
 NumberMap step_map(const nodes::ActivitySteps& steps);
 

@@ -6,34 +6,74 @@ const label = (pen, align) => {
 };
 const linkNames = (link) => data.links[link].slice(0, 2);
 
-// The machine: nodes in a ring or, if there are many, in rows; links as thick and as red as they were held
+// The machine by its topology: a grid, a hypercube by Gray code, a tree in levels, else a ring or, of many nodes, rows; links as thick
+// and as red as they were held, one way and the other apart
 
 const startMachine = (box) => {
   const beside = (number, step, count) => (Math.max(number, step > 0 ? -1 : 0) + step + count) % count;
   machine.canvas = makeCanvas("machine", "Nodes by how much they compute, and links by how long they were held. The tables of nodes and links below say the same.", box,
     partAt, (right, down) => right || !data.links.length ? {node: beside(state.node, right || down, data.nodes)} : {link: beside(state.link, down, data.links.length)});
 };
-/// Middles of nodes and switches, 0 to 1 each way.
-const placeMachine = () => {
-  const {places} = machine, inner = new Set();
-  for (const link of data.links) for (const name of link.slice(0, 2)) if (!/^(node|memory)/.test(name)) inner.add(name);
-  const rings = data.nodes <= barsMax, columns = Math.ceil(Math.sqrt(data.nodes));
-  for (let node = 0; node < data.nodes; ++node) {
-    const turn = 2 * Math.PI * node / data.nodes - Math.PI / 2;
-    places.set("node " + node, rings ? [0.5 + 0.44 * Math.cos(turn), 0.5 + 0.44 * Math.sin(turn)] :
-      [(node % columns + 0.5) / columns, 0.12 + 0.88 * (Math.floor(node / columns) + 0.5) / columns]);
-  }
-  [...inner].sort((a, b) => a.localeCompare(b, "en", {numeric: true})).forEach((name, i) => {
-    const turn = 2 * Math.PI * (i + 0.5) / inner.size - Math.PI / 2;
-    places.set(name, rings ? [0.5 + 0.24 * Math.cos(turn), 0.5 + 0.24 * Math.sin(turn)] : [(i + 0.5) / inner.size, 0.08]);
-  });
+/// The number whose Gray code this is.
+const fromGray = (code) => {
+  let number = 0;
+  for (; code; code >>= 1) number ^= code;
+  return number;
 };
-const nodeRadius = () => data.nodes <= barsMax ? Math.min(0.045, 1.1 / Math.max(8, data.nodes)) : 0.4 / Math.ceil(Math.sqrt(data.nodes));
+/// Middles of nodes and of places without one, 0 to 1 each way, by number.
+const placer = () => {
+  const {nodes} = data, {kind, columns} = data.topology || {}, half = Math.ceil(Math.ceil(Math.log2(nodes)) / 2);
+  const cells = (wide, cellOf) => {
+    const high = Math.ceil((kind === "hypercube" ? 2 ** Math.ceil(Math.log2(nodes)) : nodes) / wide);
+    machine.cell = 1 / Math.max(wide, high);
+    return (number) => {
+      const [column, row] = cellOf ? cellOf(number) : [number % wide, Math.floor(number / wide)];
+      return [(column + 0.5) / wide, 0.08 + 0.92 * (row + 0.5) / high];
+    };
+  };
+  if (kind === "hypercube") return cells(2 ** half, (number) => [fromGray(number % 2 ** half), fromGray(number >> half)]);
+  if (kind === "mesh" || kind === "torus") return cells(columns);
+  if (kind === "fat-tree") {
+    const deep = nodes <= barsMax ? 1 : 4, wide = Math.ceil(nodes / deep);
+    machine.cell = 1 / wide;
+    return (number) => [(Math.floor(number / deep) + 0.5) / wide, 0.96 - 0.03 * (deep - 1 - number % deep)];
+  }
+  if (nodes > barsMax) return cells(Math.ceil(Math.sqrt(nodes)));
+  machine.cell = Math.min(0.15, 2.75 / Math.max(8, nodes));
+  return (number) => [0.5 + 0.42 * Math.sin(2 * Math.PI * number / nodes), 0.52 - 0.42 * Math.cos(2 * Math.PI * number / nodes)];
+};
+/// Each level's switches stand in the order of the nodes below them, those with the same nodes beside each other.
+const switchPlace = (number) => {
+  const levels = [];
+  for (let first = 0, count = data.nodes, copies = 1; count > 1; copies *= data.topology.uplinks) {
+    count = Math.ceil(count / 4);
+    levels.push({first, count, copies});
+    first += count * copies;
+  }
+  const level = levels.findLastIndex(({first}) => first <= number), {first, count, copies} = levels[level], at = number - first;
+  return [(Math.floor(at / copies) + (at % copies + 0.5) / copies) / count, 0.88 - 0.76 * (level + 1) / levels.length];
+};
+const placeMachine = () => {
+  const {places} = machine, placeOf = placer();
+  for (let node = 0; node < data.nodes; ++node) places.set("node " + node, placeOf(node));
+  for (const link of data.links) for (const name of link.slice(0, 2)) {
+    const [what, number] = name.split(" ");
+    if (!places.has(name) && what !== "memory") places.set(name, what === "host" ? [0.02, 0.04] : what === "switch" ? switchPlace(+number) : placeOf(+number));
+  }
+};
+const nodeRadius = () => 0.3 * machine.cell;
+/// A link's two ends and what its curve bends to, more where it passes others.
+const bowOf = (link) => {
+  const [from, to] = linkNames(link).map((name) => machine.places.get(name));
+  if (!from || !to) return null;
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]], bend = data.topology.kind !== "fat-tree" && Math.hypot(dx, dy) > 1.6 * machine.cell && data.nodes > 2 ? 0.2 : 0.06;
+  return [from, [(from[0] + to[0]) / 2 + bend * dy, (from[1] + to[1]) / 2 - bend * dx], to];
+};
 /// Of more nodes than can be told apart only links that are chosen.
 const linksShown = (choice, bright) => data.links.map((link, i) => i).filter((i) =>
   data.nodes <= barsMax || i === choice.link || linkNames(i).some((name) => bright.has(nodeOf(name))));
 const partAt = (x, y) => {
-  let best = {}, nearest = nodeRadius() * 1.3;
+  let best = {}, nearest = Math.max(nodeRadius() * 1.3, 0.006);
   for (let node = 0; node < data.nodes; ++node) {
     const [a, b] = machine.places.get("node " + node), far = Math.hypot(a - x, b - y);
     if (far < nearest) [best, nearest] = [{node}, far];
@@ -41,11 +81,13 @@ const partAt = (x, y) => {
   if ("node" in best) return best;
   nearest = 0.015;
   for (const link of linksShown(state, brightNodes(state))) {
-    const [from, to] = linkNames(link).map((name) => machine.places.get(name));
-    if (!from || !to) continue;
-    const [dx, dy] = [to[0] - from[0], to[1] - from[1]], length = dx * dx + dy * dy || 1;
-    const along = Math.max(0, Math.min(1, ((x - from[0]) * dx + (y - from[1]) * dy) / length));
-    const far = Math.hypot(from[0] + along * dx - x, from[1] + along * dy - y);
+    const bow = bowOf(link);
+    if (!bow) continue;
+    let far = 1;
+    for (let i = 0; i <= 16; ++i) {
+      const t = i / 16, [px, py] = [0, 1].map((k) => (1 - t) ** 2 * bow[0][k] + 2 * t * (1 - t) * bow[1][k] + t * t * bow[2][k]);
+      far = Math.min(far, Math.hypot(px - x, py - y));
+    }
     if (far < nearest) [best, nearest] = [{link}, far];
   }
   return best;
@@ -54,14 +96,15 @@ const drawMachine = () => {
   const choice = chosen(), bright = brightNodes(choice), [first, last] = stepsShown(), [pen, size] = square(machine.canvas);
   const dims = hasChoice(choice), radius = nodeRadius() * size;
   for (const i of linksShown(choice, bright)) {
-    const [from, to] = linkNames(i).map((name) => machine.places.get(name)), held = Math.min(1, data.links[i][4] / data.total_ns);
-    if (!from || !to) continue;
+    const bow = bowOf(i), held = over.links ? over.links.share(i) : data.links[i][4] / data.total_ns;
+    if (!bow) continue;
     pen.globalAlpha = !dims || i === choice.link || (choice.link < 0 && linkNames(i).some((name) => bright.has(nodeOf(name)))) ? 1 : 0.12;
     pen.strokeStyle = `hsl(${Math.round(210 - 210 * Math.min(1, 2 * held))} 75% 50%)`;
-    pen.lineWidth = 1 + 8 * held + (i === choice.link ? 2 : 0);
+    pen.lineWidth = 1 + Math.min(8, 0.2 * machine.cell * size) * held + (i === choice.link ? 2 : 0);
     pen.beginPath();
-    pen.moveTo(from[0] * size, from[1] * size);
-    pen.lineTo(to[0] * size, to[1] * size);
+    const [from, bend, to] = bow.map(([x, y]) => [x * size, y * size]);
+    pen.moveTo(...from);
+    pen.quadraticCurveTo(...bend, ...to);
     pen.stroke();
   }
   label(pen, "center");
@@ -71,7 +114,7 @@ const drawMachine = () => {
     pen.fillStyle = css("card");
     pen.beginPath();
     if (isNode) pen.arc(x * size, y * size, radius, 0, 7);
-    else pen.rect(x * size - 5, y * size - 5, 10, 10);
+    else pen.rect(x * size - 4, y * size - 4, 8, 8);
     pen.fill();
     if (isNode) {
       let computing = 0;
@@ -97,13 +140,13 @@ const drawMachine = () => {
 const nodeText = (node) => {
   if (node >= data.nodes) return "The host.";
   const [first, last] = stepsShown(), said = works.map((work, k) => [work.name, shareOf(k, node, first, last)]).filter(([, share]) => share >= 0.0005);
-  const waits = Math.max(0, 1 - said.reduce((sum, [, share]) => sum + share, 0));
-  return `Node ${node}, ${partText()}: ` + [...said, ["waiting", waits]].map(([name, share]) => `${name} ${percentText(share)}`).join(", ") + ".";
+  const rest = Math.max(0, 1 - said.reduce((sum, [, share]) => sum + share, 0));
+  return `Node ${node}, ${partText()}: ` + [...said, [restName, rest]].map(([name, share]) => `${name} ${percentText(share)}`).join(", ") + ".";
 };
 const linkText = (link) => {
   const [from, to, messages, bytes, held, waited] = data.links[link];
   return `Link from ${from} to ${to}, of the whole run: ${numberText(messages)} messages, ${numberText(bytes)} bytes, held for ` +
-    `${percentText(held / data.total_ns)} of it, waited for ${timeText(waited / 1e6)}.`;
+    `${percentText(held / data.total_ns)} of it, waited for ${timeText(waited / 1e6)}.` + (over.links ? ` ${partText()}: about ${numberText(over.links.count(link))} bytes.` : "");
 };
 
 // Who gets what from whom
@@ -114,17 +157,21 @@ const startPairs = (box) => {
     (x, y) => pair(y * side, x * side), (right, down) => state.peer < 0 ? pair(0, 1) : pair(state.node + down, state.peer + right));
   const counts = unpacked(data.pairs.counts), full = machine.counts = data.pairs.places ? new Float64Array(side * side) : counts;
   if (data.pairs.places) unpacked(data.pairs.places).forEach((place, i) => { full[place] = counts[i]; });
-  let most = 1;
-  for (const count of full) if (count > most) most = count;
-  machine.mostPairs = most;
-  const baked = machine.bakedPairs = document.createElement("canvas");
-  baked.width = baked.height = side;
-  const pen = baked.getContext("2d"), image = pen.createImageData(side, side), out = new Uint32Array(image.data.buffer);
-  for (let i = 0; i < out.length; ++i) out[i] = heatColors[Math.round(Math.sqrt(full[i] / most) * 255)];
+  machine.mostPairs = 1;
+  for (const count of full) if (count > machine.mostPairs) machine.mostPairs = count;
+  machine.bakedPairs = document.createElement("canvas");
+  machine.bakedPairs.width = machine.bakedPairs.height = side;
+  bakePairs();
+};
+const bakePairs = () => {
+  const {bakedPairs: {width: side}, counts, mostPairs} = machine, pen = machine.bakedPairs.getContext("2d");
+  const image = pen.createImageData(side, side), out = new Uint32Array(image.data.buffer);
+  for (let i = 0; i < out.length; ++i) out[i] = heatColors[Math.round(Math.sqrt(over.pairs ? over.pairs.share(i) : counts[i] / mostPairs) * 255)];
   pen.putImageData(image, 0, 0);
 };
 const drawPairs = () => {
   const [pen, size] = square(machine.pairs), {side} = data.pairs, cell = size / side, choice = chosen(), bright = brightNodes(choice);
+  if (over.pairs) bakePairs();
   pen.imageSmoothingEnabled = side > size;
   pen.globalAlpha = bright.size ? 0.3 : 1;
   pen.drawImage(machine.bakedPairs, 0, 0, size, size);
@@ -141,9 +188,8 @@ const drawPairs = () => {
   }
 };
 const pairText = ({node, peer}) => {
-  const count = numberText(machine.counts[node * data.pairs.side + peer]), name = (number) => number >= data.nodes ? "the host" : "node " + number;
-  return data.pairs.what === "pages" ? `Of the whole run: ${count} pages fetched by ${name(node)} from ${name(peer)}.` :
-    `Of the whole run: ${count} rays sent by ${name(node)} to ${name(peer)}.`;
+  const at = node * data.pairs.side + peer, [who, whom] = [node, peer].map(hostOr), now = over.pairs ? `${partText()}: ${numberText(over.pairs.count(at))} ${data.over.pairs.what}. ` : "";
+  return `${now}Of the whole run: ${numberText(machine.counts[at])} ` + (data.pairs.what === "pages" ? `pages fetched by ${who} from ${whom}.` : `rays sent by ${who} to ${whom}.`);
 };
 
 // The hottest pages, each a bar
@@ -159,12 +205,17 @@ const drawPages = () => {
     const height = 86 * fetched / most, isBright = choice.page >= 0 ? i === choice.page : bright.size === 0 || bright.has(home);
     pen.globalAlpha = isBright ? 1 : 0.2;
     pen.fillStyle = i === choice.page ? "#e03030" : workColors.paging;
+    pen.globalAlpha *= over.pages ? 0.35 : 1;
     pen.fillRect(i * width, 90 - height, Math.max(1, width - 0.5), height);
+    if (!over.pages) return;
+    pen.globalAlpha /= 0.35;
+    pen.fillRect(i * width, 90 - 86 * over.pages.share(i), Math.max(1, width - 0.5), 86 * over.pages.share(i));
   });
   pen.globalAlpha = 1;
 };
 const pageText = (page) => {
   const [number, home, fetched] = data.pages[page];
-  return `Page ${number}, the ${page + 1}. of the hottest: at home on ${home >= data.nodes ? "the host" : "node " + home}, fetched ` +
-    `${numberText(fetched)} times, ${percentText(fetched / data.fetched)} of all fetches.`;
+  return `Page ${number}, the ${page + 1}. of the hottest: at home on ${hostOr(home)}, fetched ` +
+    `${numberText(fetched)} times, ${percentText(fetched / data.fetched)} of all fetches.` +
+    (over.pages ? ` ${partText()}: ${numberText(over.pages.count(page))}.` : "");
 };

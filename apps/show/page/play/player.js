@@ -80,7 +80,7 @@ const stepKey = () => stepsShown().join();
 const startNames = (box) => {
   const table = make("table", {id: "names"}, box), head = make("tr", {}, make("thead", {}, table)), body = make("tbody", {}, table);
   for (const [text, type] of [["what", "text"], ["share", ""], ["", "bar"]]) make(text ? "th" : "td", text ? {scope: "col", class: type} : {}, head, text);
-  const rows = [...works.map((work) => work.name), "waiting"].map((name) => {
+  const rows = [...works.map((work) => work.name), restName].map((name) => {
     const row = make("tr", {}, body);
     make("th", {scope: "row", class: "text"}, row, name);
     const share = make("td", {}, row), bar = make("div", {class: "bar"}, make("td", {class: "bars"}, row));
@@ -178,7 +178,7 @@ const startKeys = (section) => {
       event.preventDefault();
       play(!player.playing);
     } else if (event.key === "Escape") {
-      Object.assign(state, {from: 0, to: 0});
+      Object.assign(state, {from: 0, to: 0, why: -1});
       settle(nothing);
     }
   });
@@ -207,26 +207,33 @@ const start = async () => {
     make("span", {class: "swatch"}, legend).style.background = workColors[work.name];
     legend.append(` ${work.name} `);
   }
+  startLevels(right);
   const cards = make("div", {class: "cards"}, section);
   startNames(card(cards, "What the time goes to", "names-head"));
   const place = card(cards, "The machine", "machine-head");
   startMachine(place);
-  make("p", {class: "note"}, place, "Discs: computing at that time. " + (data.links.length ? "Links: held over the whole run." : "Links are known of modelled machines."));
+  make("p", {class: "note"}, place, "Discs: computing at that time. " + (over.links ? "Links: bytes at that time." : data.links.length ? "Links: held over the whole run." : "Links are known of modelled machines."));
   placeMachine();
   if (data.pairs && data.pairs.side > 1) {
     const box = card(cards, data.pairs.what === "pages" ? "Who fetches from whom" : "Who sends rays to whom", "pairs-head");
     startPairs(box);
-    make("p", {class: "note"}, box, `Rows: ${data.pairs.row}. Columns: ${data.pairs.column}. The whole run, at most ${numberText(machine.mostPairs)} ${data.pairs.what}.`);
-    part(() => choiceKey(chosen()), drawPairs);
+    make("p", {class: "note"}, box, `Rows: ${data.pairs.row}. Columns: ${data.pairs.column}. ${over.pairs ? `At that time, at most ${numberText(over.pairs.most)} ${data.over.pairs.what} in ${timeText(over.pairs.step_ns / 1e6)}` :
+      `The whole run, at most ${numberText(machine.mostPairs)} ${data.pairs.what}`}.`);
+    part(() => (over.pairs ? stepKey() : "") + choiceKey(chosen()), drawPairs);
   }
   if (data.pages.length) {
     startPages(card(cards, "The hottest pages", "pages-head"));
-    part(() => choiceKey(chosen()), drawPages);
+    part(() => (over.pages ? stepKey() : "") + choiceKey(chosen()), drawPages);
+  }
+  if (causes) {
+    const box = card(cards, "Why it took so long", "why-head");
+    box.parentElement.className = "wide";
+    startWhy(box);
   }
   const view = card(section, "This view", "view-head"), command = make("pre", {class: "copy", id: "command", tabindex: 0, role: "region", "aria-label": "The command of this view"}, view);
   readAddress();
   part(() => [state.t, state.heat, state.mix, choiceKey(chosen())].join(), drawPixels);
-  part(() => [state.t, state.from, state.to, choiceKey(chosen())].join(), drawTime);
+  part(() => [state.t, state.from, state.to, state.why, choiceKey(chosen())].join(), drawTime);
   part(() => stepKey() + choiceKey(chosen()), drawMachine);
   part(() => choiceKey(chosen()) + (hasChoice(chosen()) && chosen().x < 0 ? stepKey() : ""), () => { said.textContent = wordsOf(chosen()); });
   part(() => [state.from, state.to, state.heat, choiceKey(state)].join(), () => { command.textContent = commandText(); });

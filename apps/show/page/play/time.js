@@ -15,6 +15,7 @@ const startTime = (box) => {
     canvas.addEventListener("pointerup", (event) => {
       if (time.start !== null && Math.abs(timeAt(event) - time.start) < totalMs / 200) {
         Object.assign(state, {t: time.start, from: 0, to: 0});
+        if (causes && canvas === time.raster) state.why = waitAt(within(placeIn(canvas, event)[1] * data.nodes, data.nodes), state.t * 1e6);
         writeAddress();
       }
       time.start = null;
@@ -36,6 +37,7 @@ const drag = (canvas, event) => {
   changed();
 };
 const moveByKey = (canvas, event) => {
+  if (event.key === "w" && causes && state.node >= 0) showWhy(waitAt(state.node, state.t * 1e6));
   const steps = {ArrowLeft: -1, ArrowRight: 1, PageUp: -10, PageDown: 10, Home: -stepCount, End: stepCount}[event.key];
   const rows = {ArrowUp: -1, ArrowDown: 1}[event.key];
   if (steps === undefined && (rows === undefined || canvas !== time.raster)) return;
@@ -92,6 +94,31 @@ const bakeShares = (choice) => {
     }
   }
 };
+// Levels, of all nodes together: the most in each step, each on a scale of its own
+const levelColors = ["#0072b2", "#d55e00", "#009e73", "#cc79a7"], levelsHeight = 60;
+const startLevels = (box) => {
+  const shown = time.levels = levels.map((level) => ({name: level.name, ...overTime(level)})).filter(({most}) => most > 1);
+  if (!shown.length) return;
+  time.levelsCanvas = makeCanvas("levels", "How full all nodes together were over time: " + shown.map(({name, most}) => `${name} at most ${numberText(most)}`).join(", "), box);
+  const legend = make("p", {class: "note"}, box, "Most at a time, of all nodes together: ");
+  shown.forEach(({name, most}, i) => {
+    make("span", {class: "swatch"}, legend).style.background = levelColors[i];
+    legend.append(` ${name} ${numberText(most)} `);
+  });
+  part(() => state.t, drawLevels);
+};
+const drawLevels = () => {
+  const [pen, wide] = square(time.levelsCanvas, levelsHeight);
+  time.levels.forEach(({at, steps, step_ns}, i) => {
+    pen.strokeStyle = levelColors[i];
+    pen.lineWidth = 1.5;
+    pen.beginPath();
+    for (let step = 0; step < steps; ++step) for (const end of [step, step + 1]) pen.lineTo(end * step_ns / data.total_ns * wide, levelsHeight - 2 - (levelsHeight - 4) * at(step));
+    pen.stroke();
+  });
+  pen.fillStyle = "#e03030";
+  pen.fillRect(state.t / totalMs * wide - 1, 0, 2, levelsHeight);
+};
 const sizeTime = () => {
   for (const [canvas, height] of [[time.raster, rasterHeight], [time.shares, sharesHeight + 18]]) {
     canvas.style.height = height + "px";
@@ -112,7 +139,10 @@ const drawTime = () => {
     pen.clearRect(0, 0, wide, height + 20);
     pen.imageSmoothingEnabled = false;
     pen.drawImage(baked, 0, 0, wide * over, height);
-    if (canvas === time.raster) drawRows(pen, wide, brightNodes(choice));
+    if (canvas === time.raster) {
+      drawRows(pen, wide, brightNodes(choice));
+      drawWhy(pen, wide, height);
+    }
     else drawAxis(pen, wide);
     if (state.to > state.from) {
       const left = state.from / totalMs * wide, right = state.to / totalMs * wide;

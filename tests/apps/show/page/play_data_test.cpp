@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,7 @@ TEST_CASE("sums of what a page plays are the run's counters") {
   for (const RenderOptions& options : {starved(small()), starved(modelled())}) {
     const Watched watched(options);
     const json data = json::parse(text_of(watched)), stats = json::parse(stats_json(watched.record()));
-    CHECK(data["format"] == 1);
+    CHECK(data["format"] == 2);
     CHECK(sum_of(named(data["fields"], "rays")["values"]) == stats["rays"]["total"]);
     CHECK(sum_of(named(data["fields"], "references")["values"]) == stats["pages"]["references"]);
     CHECK(sum_of(named(data["fields"], "faults")["values"]) == stats["pages"]["faults"]);
@@ -91,6 +92,106 @@ TEST_CASE("in virtual time the steps of all nodes add up to what they did, to ha
   CHECK(data["total_ns"].get<double>() == doctest::Approx(1e9 * stats["virtual_seconds"]["total"].get<double>()));
   CHECK(data["steps"].get<double>() * data["step_ns"].get<double>() >=
         data["total_ns"].get<double>() - data["step_ns"].get<double>());
+}
+
+TEST_CASE("on a modelled machine waits by name add up to those of --stats, and the critical path to the run") {
+  for (const Strategy strategy : {Strategy::svm, Strategy::dataflow, Strategy::forest}) {
+    CAPTURE(name_of(strategy));
+    const Watched watched(strategy == Strategy::svm ? starved(modelled()) : modelled(strategy));
+    const json data = json::parse(text_of(watched));
+    const Account account = account_of(*watched.report);
+    const nodes::VirtualTimes times = sum_of_nodes(*account.virtual_time);
+    const TimeParts parts = parts_of(times, account.waits);
+    std::uint64_t waited_ns = 0;
+    for (const TimePart part : wait_parts) {
+      const std::uint64_t ns = parts.ns[static_cast<std::size_t>(part)] - (part == TimePart::idle_at_end ? times.end_ns : 0);
+      const std::string name = words_of(part, account.waits);
+      CAPTURE(name);
+      const auto at =
+          std::find_if(data["waits"].begin(), data["waits"].end(), [&](const json& wait) { return wait["name"] == name; });
+      CHECK((at == data["waits"].end() ? 0 : (*at)["ns"].get<std::uint64_t>()) == ns);
+      waited_ns += ns;
+    }
+    CHECK(waited_ns > 0);
+    std::uint64_t path_ns = 0;
+    for (const json& part : data["path"]["parts"]) {
+      path_ns += part["ns"].get<std::uint64_t>();
+    }
+    CHECK(path_ns == account.virtual_time->total_ns);
+    CHECK(data["path"]["parts"][0]["name"] == "computing");
+  }
+}
+
+TEST_CASE("each wait that a page has is one of its node's, and what led to its end came before that") {
+  const Watched watched(starved(modelled()));
+  const json causes = json::parse(text_of(watched))["causes"];
+  const auto column = [&causes](const char* name) { return numbers_in(causes[name]); };
+  const std::vector<std::uint64_t> node = column("node"), begin = column("begin"), length = column("length"),
+                                   kind = column("kind");
+  REQUIRE(node.size() == watched.view().waits->waits.size());
+  REQUIRE(node.size() > 10);
+  CHECK(causes["count"] == node.size());
+  CHECK(causes["left_out_ns"] == 0);
+  const std::vector<std::uint64_t> at = column("at"), left = column("left"), request = column("request"), from = column("from");
+  std::size_t page_replies = 0, asked_by_itself = 0;
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    CHECK(at[i] <= begin[i] + length[i]);
+    CHECK(left[i] <= at[i]);
+    if (i > 0 && node[i] == node[i - 1]) {
+      CHECK(begin[i] >= begin[i - 1] + length[i - 1]);
+    }
+    if (causes["kinds"][kind[i]] == "page reply") {
+      ++page_replies;
+      CHECK(causes["kinds"][request[i]] == "page request");
+      asked_by_itself += from[i] == node[i] ? 1 : 0;  // else its request stood behind another's
+    }
+  }
+  CHECK(page_replies > 0);
+  CHECK(2 * asked_by_itself > page_replies);
+}
+
+TEST_CASE("what passed over time adds up to pages fetched, by pair and by page, and to what each link carried") {
+  const Watched watched(starved(modelled()));
+  const nodes::ExchangeProfile& exchange = *watched.view().exchange;
+  const svm::Fetches& fetches = *watched.view().fetches;
+  const auto sum = [](std::span<const std::uint64_t> row) { return std::accumulate(row.begin(), row.end(), std::uint64_t{0}); };
+  const std::size_t node_count = watched.options.computer.node_count;
+  for (std::uint32_t asker = 0; asker < node_count; ++asker) {
+    for (std::uint32_t home = 0; home < node_count; ++home) {
+      CHECK(sum(exchange.pairs().row(asker * static_cast<std::uint32_t>(node_count + 1) + home)) ==
+            fetches.by_pair[asker * fetches.peer_count + home]);
+    }
+  }
+  for (std::uint32_t page = 0; page < fetches.by_page.size(); ++page) {
+    CHECK(sum(exchange.numbers().row(page)) == fetches.by_page[page]);
+  }
+  for (const nodes::LinkUse& link : std::get<svm::Report>(*watched.report).virtual_time->busiest_links) {
+    CHECK(sum(exchange.link_bytes(link.from, link.to)) == link.bytes);
+  }
+}
+
+TEST_CASE("a page has as much over time as it shows: links, pairs, pages and levels") {
+  const json data = json::parse(text_of(Watched(starved(modelled()))));
+  const auto values = [](const json& rows) { return numbers_in(rows["values"]).size(); };
+  const json& over = data["over"];
+  CHECK(values(over["links"]) == data["links"].size() * over["links"]["steps"].get<std::size_t>());
+  CHECK(values(over["pages"]) == data["pages"].size() * over["pages"]["steps"].get<std::size_t>());
+  const auto side = data["pairs"]["side"].get<std::size_t>();
+  CHECK(values(over["pairs"]) == side * side * over["pairs"]["steps"].get<std::size_t>());
+  REQUIRE(over["levels"].size() == 3);
+  CHECK(over["levels"][1]["name"] == "pages awaited");
+  CHECK(values(over["levels"][1]) == over["levels"][1]["steps"]);
+  for (const char* const name : {"links", "pages", "pairs"}) {
+    const double end_ns = over[name]["steps"].get<double>() * over[name]["step_ns"].get<double>();
+    CHECK(end_ns >= data["total_ns"].get<double>());
+  }
+}
+
+TEST_CASE("threads have waits by name, too, and no path") {
+  const json data = json::parse(text_of(Watched(starved(small()))));
+  CHECK_FALSE(data["waits"].empty());
+  CHECK_FALSE(data.contains("path"));
+  CHECK_FALSE(data.contains("causes"));
 }
 
 TEST_CASE("links and hottest pages are as --stats and the page's tables have them") {

@@ -75,6 +75,24 @@ TEST_CASE("by keys alone a pixel is chosen, said and let go, time goes on, and t
   CHECK(told(page, "key(p.body,' ')", "id('play').textContent") == "Pause");
 }
 
+TEST_CASE("the chain of causes leads back to the start, from a wait by key and from the end of the run by address") {
+  const std::string page = page_of();
+  const std::string last = "p.querySelector('#why li:last-child').textContent";
+  const std::string path = told(page, "", "id('why-sum').textContent+" + last + "+id('path').textContent", "#why=1e9");
+  CHECK(contains(path, "The run ended when it did after "));
+  CHECK((contains(path, "From the start node ") || contains(path, "From the start the host ") ||
+         contains(path, "more, back to the start.")));
+  CHECK(contains(path, "Hide the critical path"));
+  const nlohmann::json data = nlohmann::json::parse(tests::data_in(page));
+  std::ostringstream state;
+  state << "#node=" << tests::numbers_in(data["causes"]["node"])[0] << "&t="
+        << static_cast<double>(tests::numbers_in(data["causes"]["begin"])[0] +
+                               tests::numbers_in(data["causes"]["length"])[0] / 2) /
+               1e6;
+  CHECK(contains(told(page, "key(id('raster'),'w')", "id('why-sum').textContent+w.location.hash", state.str()),
+                 "The wait ended when it did"));
+}
+
 TEST_CASE("the view's command has its heat map, window and node") {
   CHECK(told(page_of(), "", "id('command').textContent", "#heat=faults&from=1&to=2&node=1") ==
         "dmpc render balls-2 --heatmap=faults:faults.png --trace=part.json --trace-window=1.000000,2.000000 --trace-nodes=1");

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <string>
 #include <vector>
 
 namespace dmpc::apps::html::view_conclusions_test {
@@ -35,6 +36,15 @@ TEST_CASE("a time is concluded with how many nodes were busy, and with its tail"
   CHECK(time_conclusion(steps_of({10, 0}, {0, 10})) ==
         "On average 5.0 % of the nodes were busy, and never half of them at a time.");
   CHECK(time_conclusion(steps_of({}, {})).empty());
+}
+
+TEST_CASE("a time is concluded with the name of what was waited for most, of nodes without the host") {
+  nodes::ActivitySteps steps = steps_of({50, 50}, {50, 50});
+  steps.waits = {{{10, 0}, {10, 0}}, {{0, 0}, {0, 5}}, {{0, 100}, {0, 100}}};
+  const std::vector<std::string> names = {"page wait", "work wait", "", "", "", "", ""};
+  CHECK(time_conclusion(steps, names) ==
+        "On average 50 % of the nodes were busy. Most of what they waited was \"page wait\", 5.0 % of their time.");
+  CHECK(time_conclusion(steps) == "On average 50 % of the nodes were busy.");
 }
 
 TEST_CASE("pages are concluded with faults, the hottest pages and the home that served most") {
