@@ -89,6 +89,20 @@ TEST_CASE("steps have the nodes' time without the host's") {
   CHECK(step_plot(steps, six_works).bar_width == 0.001);
 }
 
+TEST_CASE("steps have waits by name, those of which there are any, and plots what any node did or waited for") {
+  const nodes::ActivitySteps steps{.step_ns = 1000,
+                                   .nodes = {{{500, 0, 0, 0, 0, 0}}, {{0, 0, 0, 0, 0, 0}}, {{9, 9, 9, 9, 9, 9}}},
+                                   .waits = {{{0, 100, 0, 0, 0, 0, 0}}, {{0, 0, 0, 0, 0, 0, 0}}, {{9, 9, 9, 9, 9, 9, 9}}}};
+  const std::vector<std::string> waits = {"p", "q", "r", "s", "t", "u", "v"};
+  const Table table = step_table(steps, six_works, waits);
+  REQUIRE(table.columns().size() == 8);
+  CHECK(table.columns()[7].name == "q");
+  CHECK(real(table.rows()[0][7]) == 5);
+  const Plot plot = step_plot(steps, six_works, waits);
+  REQUIRE(plot.series.size() == 2);
+  CHECK(plot.series[1].title == "q");
+}
+
 TEST_CASE("a sample tells nothing of caches that would hold next to nothing of it") {
   const MissEstimate estimate{.every = 8};
   const Table table = miss_table(estimate, 1000, 10, 20, 1);
