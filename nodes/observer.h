@@ -12,7 +12,7 @@
 #include "nodes/charge.h"
 #include "nodes/node_id.h"
 #include "nodes/packet.h"
-#include "nodes/virtual/path_times.h"
+#include "nodes/path_times.h"
 
 namespace dmpc::nodes {
 

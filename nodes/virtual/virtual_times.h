@@ -10,8 +10,8 @@
 
 #include "core/base/sampling.h"
 #include "nodes/packet.h"
+#include "nodes/path_times.h"
 #include "nodes/virtual/links.h"
-#include "nodes/virtual/path_times.h"
 
 namespace dmpc::nodes {
 
