@@ -83,7 +83,8 @@ TEST_CASE("the first frame of several is the run of it alone, to the last event"
 
 TEST_CASE("nodes that keep nothing but what they had do the same again for the same frame, to the last event") {
   const Walk walk("teapot-4", 24);
-  const svm::RunOptions options = one_by_one(4, nodes::Machine{});
+  svm::RunOptions options = one_by_one(4, nodes::Machine{});
+  options.pages.cache_pages.reset();
   svm::Frames frames(*svm::replicated_strategy(), walk.database, walk.frames[0], options, {});
   const svm::Report first = frames.render(walk.frames[0], {});
   const svm::Report again = frames.render(walk.frames[0], {});

@@ -20,7 +20,7 @@ namespace {
 
 /// A render of a small picture, with its files in the folder.
 std::vector<std::string> line(const TemporaryFolder& folder, const std::vector<std::string>& words) {
-  std::vector<std::string> command = {DMPC_PROGRAM, "render", "balls-2", "--resolution=16x16", "--nodes=3", "--cache-pages=4"};
+  std::vector<std::string> command = {DMPC_PROGRAM, "render", "balls-2", "--resolution=16x16", "--nodes=3"};
   for (std::string word : words) {
     const std::size_t place = word.find('@');
     command.push_back(place == std::string::npos ? word : word.replace(place, 1, folder.path().string() + "/"));
@@ -122,7 +122,7 @@ TEST_CASE("what frames cannot do is refused, and says what can be done") {
       {with("--trace=@a.json"), "--trace does not go with several frames"},
       {with("--grid-axes=screen"), "--frames does not go with --grid-axes=screen"},
       {with("--runner=mpi"), "--runner=mpi does not go with several frames"},
-      {with("--turntable=361"), "expected degrees"}};
+      {{"--frames=3", "--turntable=361", "-o", "@a.#.png"}, "expected degrees"}};
   for (const Refusal& refusal : refusals) {
     const Said said = render(folder, refusal.words);
     CHECK_MESSAGE(said.status == 2, refusal.says << " " << said.errors);
@@ -133,15 +133,15 @@ TEST_CASE("what frames cannot do is refused, and says what can be done") {
 
 TEST_CASE("more frames than the disk holds are told beforehand, and begun") {
   const TemporaryFolder folder;
-  ChildProcess process(line(folder, {"--frames=1000000000", "--turntable=0.001", "--resolution=64x64", "-o", "@a.#.png"}));
-  for (int tries = 0; tries < 6000 && !fs::exists(folder / "a.2.png"); ++tries) {
+  ChildProcess process(line(folder, {"--frames=1000000000", "--turntable=0.001", "-o", "@a.#.exr"}));
+  for (int tries = 0; tries < 6000 && !fs::exists(folder / "a.2.exr"); ++tries) {
     ::usleep(10'000);
   }
   process.send(SIGTERM);
   CHECK(process.status() == 130);
   CHECK(contains(process.errors(), "pictures of 1,000,000,000 frames take up to"));
   CHECK(contains(process.errors(), "this frame was not written, those before it were; --resume leaves them out"));
-  CHECK(fs::exists(folder / "a.2.png"));
+  CHECK(fs::exists(folder / "a.2.exr"));
 }
 
 TEST_CASE("frames that are killed again and again are those of one run, whole or not there") {
