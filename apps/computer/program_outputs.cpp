@@ -46,7 +46,7 @@ ProgramOutputs outputs_of(const ProgramOptions& options) {
   };
   add("--stats", options.stats, write_stats);
   add("--references", options.references, write_program_references);
-  add("--trace", options.trace, write_trace);
+  add("--trace", options.trace, write_program_trace);
   add("--heat", options.heat, write_task_heat);
   add("--report", options.report, html::write_program_page);
   return outputs;

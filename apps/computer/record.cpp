@@ -146,7 +146,7 @@ std::string summary(const ProgramRecord& record) {
          ranks_text(record.ranks) + "; " + bytes_text(sum.memory.total()) + " of memory a node\n";
 }
 
-void write_trace(const ProgramRecord& record, std::ostream& output) {
+void write_program_trace(const ProgramRecord& record, std::ostream& output) {
   core::expect(record.trace.has_value(), "a trace that is written was recorded");
   const Vocabulary& vocabulary = record.vocabulary;
   const std::vector<const char*> kind_names = kind_names_of(vocabulary);

@@ -87,6 +87,6 @@ std::string summary(const ProgramRecord& record);
 std::string stats_json(const ProgramRecord& record);
 
 /// Writes the trace in the format that its file's ending says.
-void write_trace(const ProgramRecord& record, std::ostream& output);
+void write_program_trace(const ProgramRecord& record, std::ostream& output);
 
 }  // namespace dmpc::apps
