@@ -2,12 +2,12 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <random>
 #include <vector>
 
 #include "apps/picture/image_file.h"
 #include "core/base/expect.h"
+#include "core/base/srgb.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -30,7 +30,7 @@ std::size_t wrong_pixels(int width, int height, const Bytes& indices, const std:
   for (std::size_t i = 0; i < indices.size(); ++i) {
     const PaletteColor& color = colors[indices[i]];
     for (std::size_t channel = 0; channel < color.size(); ++channel) {
-      wrong += std::abs(255 * read.rgb[3 * i + channel] - color[channel]) < 0.01F ? 0 : 1;
+      wrong += core::srgb_byte(read.rgb[3 * i + channel]) == color[channel] ? 0 : 1;
     }
   }
   return wrong;

@@ -177,7 +177,8 @@ TEST_CASE("node counts that are left out are refused") {
 TEST_CASE("a study that is missing or does not exist is answered with those there are") {
   CHECK(usage_complaint({"study"}).find("Try: dmpc study --help") != std::string::npos);
   CHECK(usage_complaint({"study", "weather", "teapot-12"})
-            .find("expected balance, traffic, cache, speedup, systems, paper, references, scale or sweep") != std::string::npos);
+            .find("expected balance, traffic, cache, speedup, systems, frames, paper, references, scale or sweep") !=
+        std::string::npos);
 }
 
 TEST_CASE("a study has its own options alone") {
