@@ -37,7 +37,7 @@ void release(std::byte* block) {
 
 /// Zero. Of a large block nothing but its front has been touched.
 std::byte* reserve_zero(std::size_t bytes) {
-  const BlockFront front{bytes, core::allocate_zeros(bytes + 2 * block_alignment)};
+  const BlockFront front{bytes, core::allocate_zeros(bytes + 2 * block_alignment, core::Touching::parts)};
   const auto offset = reinterpret_cast<std::uintptr_t>(front.start) % block_alignment;
   std::byte* const block = static_cast<std::byte*>(front.start) + (2 * block_alignment - offset);
   std::memcpy(block - sizeof(front), &front, sizeof(front));

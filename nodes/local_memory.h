@@ -2,6 +2,9 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <bit>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -67,6 +70,18 @@ inline MemoryPlan operator+(MemoryPlan sum, const MemoryPlan& more) { return sum
 /// Either takes the same bytes of the plan, and no program can tell.
 enum class Lasting : std::uint8_t { is_copied, is_referred_to };
 
+/// Whether objects that are value-initialised are all zero bytes, as far as that can be seen when they are compiled.
+template <class T>
+constexpr bool begins_as_zeros = std::is_trivially_default_constructible_v<T>;
+template <class T>
+requires(std::is_aggregate_v<T>&& std::is_trivially_copyable_v<T>&& std::has_unique_object_representations_v<T>&& requires {
+  typename std::bool_constant<(std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(T{}), true)>;
+}) constexpr bool begins_as_zeros<T> =
+    std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(T{}) == std::array<std::uint8_t, sizeof(T)>{};
+/// Words without a hidden lock.
+template <std::integral T>
+constexpr bool begins_as_zeros<std::atomic<T>> = std::atomic<T>::is_always_lock_free;
+
 /// One block of memory, cut from the front and never given back; each allocation is rounded up to a cache line and counts against
 /// its category's share of the plan. Thread safety: none; belongs to one node. Under ASan the bytes not handed out are poisoned,
 /// the remainders of cache lines too.
@@ -80,13 +95,14 @@ class LocalMemory {
   explicit LocalMemory(const MemoryPlan& plan, Lasting lasting = Lasting::is_copied);
 
   /// `count` value-initialised objects; expects that the memory is not sealed and that the category's plan has room.
-  /// T needs no destructor. Objects without a constructor of their own are not touched: the block is zero, and so are they.
+  /// T needs no destructor. Objects that begin as zeros are not touched: the block is zero, and so are they. The real computer
+  /// sets nothing aside for them until they are written.
   template <class T>
   std::span<T> allocate(Category category, std::size_t count) {
     static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= alignment);
     core::expect(count <= plan_[category] / sizeof(T), "an allocation stays within its category's plan");
     std::byte* const first = allocate_bytes(category, count * sizeof(T));
-    if constexpr (!std::is_trivially_default_constructible_v<T>) {
+    if constexpr (!begins_as_zeros<T>) {
       for (std::size_t i = 0; i < count; ++i) {
         ::new (static_cast<void*>(first + i * sizeof(T))) T();
       }

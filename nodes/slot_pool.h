@@ -8,6 +8,8 @@
 // (2) The link of a slot is meaningful to the one who holds it, or while it is free. It is atomic because a slow
 //     take() may still read it when the slot has gone to another; such a take() then fails, because the head has
 //     changed.
+//     A link of 0 is one that nobody has written yet: behind that slot comes the one with the next number. So a pool that
+//     is made touches neither links nor slots, and the real computer sets nothing aside for slots that are never taken.
 // (3) The head's tag grows by 1 with every take, so a head that looks the same is the same (no ABA). The tag has 32
 //     bits: wrong only if exactly a multiple of 2^32 takes happen while one take() is suspended between its load and
 //     its compare-exchange and the same slot is on top again.
@@ -39,12 +41,17 @@ class BasicSlotPool {
   };
 
   /// Owns the slots first .. first + bytes.size() / stride_bytes - 1, all free. `links` has a place for every slot of the
-  /// mailbox. The caller's memory must outlive the pool. Before any other thread knows the pool.
+  /// mailbox, and those of these slots are 0. The caller's memory must outlive the pool. Before any other thread knows the pool.
   BasicSlotPool(Head& head, std::span<Atomic<SlotIndex>> links, SlotIndex first, std::span<std::byte> bytes,
                 std::size_t stride_bytes)
-      : head_(&head), links_(links), bytes_(bytes), stride_bytes_(stride_bytes), first_(first) {
-    for (std::size_t i = bytes.size() / stride_bytes; i > 0; --i) {
-      give(first + static_cast<SlotIndex>(i) - 1);
+      : head_(&head),
+        links_(links),
+        bytes_(bytes),
+        stride_bytes_(stride_bytes),
+        first_(first),
+        end_(first + static_cast<SlotIndex>(bytes.size() / stride_bytes)) {
+    if (first_ < end_) {
+      head.word.store(with_index(head.word.load(std::memory_order_relaxed), first_), std::memory_order_relaxed);
     }
   }
 
@@ -56,7 +63,7 @@ class BasicSlotPool {
       if (slot == no_slot) {
         return no_slot;
       }
-      const SlotIndex next = links_[slot].load(std::memory_order_relaxed);
+      const SlotIndex next = behind(slot, links_[slot].load(std::memory_order_relaxed));
       // Relaxed: success proves that the head is the very one which the load has acquired.
       if (head_->word.compare_exchange_weak(head, after_take(head, next), std::memory_order_relaxed, std::memory_order_relaxed)) {
         return slot;
@@ -68,7 +75,7 @@ class BasicSlotPool {
   void give(SlotIndex slot) {
     std::uint64_t head = head_->word.load(std::memory_order_relaxed);
     do {
-      links_[slot].store(index_of_head(head), std::memory_order_relaxed);
+      links_[slot].store(index_of_head(head) + link_offset, std::memory_order_relaxed);
       // Release: the taker's acquire sees the link, and writes only after our reads.
     } while (
         !head_->word.compare_exchange_weak(head, with_index(head, slot), std::memory_order_release, std::memory_order_relaxed));
@@ -78,6 +85,13 @@ class BasicSlotPool {
   std::span<std::byte> slot(SlotIndex index) const { return bytes_.subspan((index - first_) * stride_bytes_, stride_bytes_); }
 
  private:
+  /// What is added to a link of the stack, modulo 2^32: that of a slot is 2 or more, that of none 1.
+  static constexpr SlotIndex link_offset = 2;
+
+  /// The free slot behind `slot`, whose link this is; anything if another has taken it meanwhile.
+  SlotIndex behind(SlotIndex slot, SlotIndex link) const {
+    return link != 0 ? link - link_offset : slot + 1 < end_ ? slot + 1 : no_slot;
+  }
   static SlotIndex index_of_head(std::uint64_t head) { return static_cast<SlotIndex>(head); }
   static std::uint64_t with_index(std::uint64_t head, SlotIndex slot) { return (head >> 32U << 32U) | slot; }
   static std::uint64_t after_take(std::uint64_t head, SlotIndex next) {
@@ -88,7 +102,7 @@ class BasicSlotPool {
   std::span<Atomic<SlotIndex>> links_;
   std::span<std::byte> bytes_;
   std::size_t stride_bytes_;
-  SlotIndex first_;
+  SlotIndex first_, end_;
 };
 
 }  // namespace dmpc::nodes

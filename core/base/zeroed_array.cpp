@@ -13,17 +13,32 @@
 namespace dmpc::core {
 namespace {
 
-/// So many bytes and more have pages of their own.
-constexpr bool has_pages(std::size_t bytes) { return bytes >= large_page_bytes; }
+/// So many bytes and more have pages of their own. malloc() gives up doing so as soon as something as large has been freed, and
+/// then calloc() writes its zeros: 1,024 nodes had their memories touched to the last byte before they began.
+constexpr bool has_pages(std::size_t bytes) { return bytes >= std::size_t{128} << 10U; }
 
 constexpr std::size_t whole_pages(std::size_t bytes) { return round_up(bytes, std::size_t{4} << 10U); }
 
-/// Begins where a large page does: the system places a mapping anywhere, and what lies before its first large page and behind its
-/// last one has small pages. Returns nullptr if there is no room.
+/// Returns nullptr if there is no room.
 void* map(std::size_t bytes) {
-  const std::size_t length = whole_pages(bytes);
-  void* const mapped = ::mmap(nullptr, length + large_page_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (mapped == MAP_FAILED) {
+  void* const mapped = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  return mapped == MAP_FAILED ? nullptr : mapped;
+}
+
+/// In small pages alone, of which none is set aside before something in it is touched. As map().
+void* map_small(std::size_t length) {
+  void* const first = map(length);
+  if (first != nullptr) {
+    ::madvise(first, length, MADV_NOHUGEPAGE);  // a wish, like the other: systems without large pages refuse it
+  }
+  return first;
+}
+
+/// Begins where a large page does: the system places a mapping anywhere, and what lies before its first large page and behind its
+/// last one has small pages. As map().
+void* map_large(std::size_t length) {
+  void* const mapped = map(length + large_page_bytes);
+  if (mapped == nullptr) {
     return nullptr;
   }
   const std::size_t before = (large_page_bytes - reinterpret_cast<std::uintptr_t>(mapped) % large_page_bytes) % large_page_bytes;
@@ -38,8 +53,11 @@ void* map(std::size_t bytes) {
 
 }  // namespace
 
-void* allocate_zeros(std::size_t bytes) {
-  void* const first = has_pages(bytes) ? map(bytes) : std::calloc(1, bytes);
+void* allocate_zeros(std::size_t bytes, Touching touching) {
+  const bool is_large = bytes >= large_page_bytes && touching == Touching::all;
+  void* const first = is_large           ? map_large(whole_pages(bytes))
+                      : has_pages(bytes) ? map_small(whole_pages(bytes))
+                                         : std::calloc(1, bytes);
   return first != nullptr ? first : throw std::bad_alloc();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <span>
@@ -10,10 +11,14 @@
 
 namespace dmpc::core {
 
-/// Zero bytes for objects of any kind that are not over-aligned. Large ones are asked of the operating system in pages as large
-/// as it has (Linux: transparent huge pages), and set aside as they are first touched: with pages of 4 KiB a film of a million
-/// pixels is 13,000 interruptions, which took as long as a third of a picture. Throws std::bad_alloc. Thread-safe, both.
-void* allocate_zeros(std::size_t bytes);
+/// What of an array will be touched: all of it, or here and there a part.
+enum class Touching : std::uint8_t { all, parts };
+
+/// Zero bytes for objects of any kind that are not over-aligned, set aside as they are first touched. Large ones that all is
+/// touched of are asked of the operating system in pages as large as it has (Linux: transparent huge pages): with pages of 4 KiB
+/// a film of a million pixels is 13,000 interruptions, which took as long as a third of a picture. Throws std::bad_alloc.
+/// Thread-safe, both.
+void* allocate_zeros(std::size_t bytes, Touching touching = Touching::all);
 /// What allocate_zeros() returned for as many bytes.
 void free_zeros(void* first, std::size_t bytes) noexcept;
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "core/base/zeroed_array.h"
 #include "nodes/charge.h"
 #include "nodes/local_memory.h"
 #include "nodes/mailbox.h"
@@ -175,10 +176,10 @@ struct alignas(64) VirtualProcessor final : Network {
   std::uint32_t small_held = 0, bulk_held = 0;  ///< places of the mailbox that are taken
   MailboxCapacity mailbox;
   std::uint32_t interrupt_kinds;
-  std::vector<Way> ways;    ///< by target
-  std::uint64_t calls = 0;  ///< of the program, if somebody looks on
-  Charges charged;          ///< likewise
-  Span span, service;       ///< what it is doing and what it interrupted that for, likewise
+  core::ZeroedArray<Way> ways;  ///< by target
+  std::uint64_t calls = 0;      ///< of the program, if somebody looks on
+  Charges charged;              ///< likewise
+  Span span, service;           ///< what it is doing and what it interrupted that for, likewise
   LocalMemory memory;
   Node node;
 };

@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -100,11 +101,48 @@ TEST_CASE("a memory takes nothing of the real computer until it is written") {
   };
   LocalMemory memory(queues_of(bytes));
   const auto all = memory.allocate<std::byte>(Category::queues, bytes);
-  CHECK(resident(all) < 600);  // a huge page at most
+  CHECK(resident(all) == 0);
+  all[bytes / 2] = std::byte{1};
+  CHECK(resident(all) == 1);
   std::memset(all.data(), 1, bytes);
   CHECK(resident(all) == bytes / page_bytes);
+
+  // malloc() keeps what it had of the system, and calloc() would write zeros there.
+  for (const std::size_t size : {std::size_t{256} << 10U, std::size_t{1} << 20U}) {
+    std::vector<std::vector<char>>(3, std::vector<char>(std::size_t{16} << 20U)).clear();
+    std::vector<std::vector<char>>(64, std::vector<char>(size)).clear();
+    LocalMemory small(queues_of(size));
+    CHECK(resident(small.allocate<std::byte>(Category::queues, size)) == 0);
+  }
+
+  struct Counter {
+    std::uint64_t count = 0;
+  };
+  LocalMemory counters(queues_of(bytes));
+  CHECK(resident(std::as_writable_bytes(counters.allocate<Counter>(Category::queues, bytes / sizeof(Counter)))) == 0);
+  LocalMemory words(queues_of(bytes));
+  CHECK(resident(std::as_writable_bytes(words.allocate<std::atomic<std::uint32_t>>(Category::queues, bytes / 4))) == 0);
 }
 #endif
+
+TEST_CASE("objects that begin as zeros are told from those that do not") {
+  struct Zeros {
+    std::uint32_t a = 0;
+    std::uint16_t b = 0, c = 0;
+  };
+  struct Number {
+    std::uint32_t a = 0, b = 1;
+  };
+  struct Padded {
+    std::uint32_t a = 0;
+    std::uint8_t b = 0;
+  };
+  CHECK(begins_as_zeros<int>);
+  CHECK(begins_as_zeros<Zeros>);
+  CHECK(begins_as_zeros<std::atomic<std::uint64_t>>);
+  CHECK_FALSE(begins_as_zeros<Number>);
+  CHECK_FALSE(begins_as_zeros<Padded>);  // what lies between its members is nobody's, so it is made by its constructor
+}
 
 TEST_CASE("a category can be filled to its last byte and no further") {
   LocalMemory memory(queues_of(128));

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -224,6 +226,26 @@ TEST_CASE("slots come back however often they are used") {
     REQUIRE(box.push(1, std::vector<std::byte>(60)));
     REQUIRE(box.take().size() == 2);
   }
+}
+
+TEST_CASE("a pool that is made writes no link, and gives its slots in their order, then those that came back") {
+  using Pool = BasicSlotPool<SystemAtomics>;
+  Pool::Head head;
+  std::array<std::atomic<SlotIndex>, 5> links{};
+  std::array<std::byte, 3 * 64> bytes{};
+  Pool pool(head, links, 1, bytes, 64);
+  CHECK(std::all_of(links.begin(), links.end(), [](const auto& link) { return link.load() == 0; }));
+  CHECK(pool.take() == 1);
+  CHECK(pool.take() == 2);
+  pool.give(1);
+  CHECK(pool.take() == 1);
+  CHECK(pool.take() == 3);
+  CHECK(pool.take() == no_slot);
+  pool.give(2);
+  pool.give(3);
+  CHECK(pool.take() == 3);
+  CHECK(pool.take() == 2);
+  CHECK(pool.take() == no_slot);
 }
 
 TEST_CASE("the tag of the free list may wrap around") {
