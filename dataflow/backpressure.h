@@ -4,6 +4,11 @@
 // Credits bound what lies between two nodes, not what passes through one on its way to a third that is slow: there rays pile up
 // until they overflow, while others go on starting new ones. So the node where they do says so. Nothing else waits for this: rays
 // on their way go on, so every queue gets short again and every announcement is taken back.
+//
+// Who tells whom: a node tells all others. Where nodes are so many that owners' places are shared, too, it tells the host alone,
+// which tells all nodes when the first of them asks and when the last has taken it back, along the tree of termination.h: who is
+// told tells those below, and acknowledges when they have. So a node's mailbox has room for one announcement and a few
+// acknowledgements, in place of one of each from each other node.
 #pragma once
 
 #include <algorithm>
@@ -21,31 +26,34 @@ constexpr std::uint32_t long_queue(std::uint32_t capacity_packets) { return std:
 constexpr std::uint32_t short_queue(std::uint32_t capacity_packets) { return capacity_packets / 8; }
 
 /// One node's part. It decides nothing about packets: it is told the length of the queue, of announcements and of
-/// acknowledgements. A node announces again only when all others have acknowledged its last announcement, so one place for each
-/// in every mailbox is enough. Belongs to one program.
+/// acknowledgements. A node announces again only when all whom it tells have acknowledged its last announcement, so one place for
+/// each in every mailbox is enough. Belongs to one program.
 class Backpressure {
  public:
-  /// With `is_wanted` false the node announces nothing and starts primary rays whatever waits, as the article's did.
-  Backpressure(std::uint32_t other_nodes, std::uint32_t queue_capacity_packets, bool is_wanted = true)
-      : other_nodes_(other_nodes), capacity_(queue_capacity_packets), is_wanted_(is_wanted) {}
+  /// `told`: to how many it announces. With `is_wanted` false the node announces nothing and starts primary rays whatever waits,
+  /// as the article's did.
+  Backpressure(std::uint32_t told, std::uint32_t queue_capacity_packets, bool is_wanted = true)
+      : told_(told), capacity_(queue_capacity_packets), is_wanted_(is_wanted) {}
+  /// The host's capacity, where nodes tell it alone: in place of packets it has holders() in its queue, of whom one is many.
+  static constexpr std::uint32_t relay_capacity = 1;
 
   /// Whether something is to be announced with `queued` packets in the queue.
   bool is_due(std::uint32_t queued) const { return missing_ == 0 && wants(queued) != is_announced_; }
-  /// Requires is_due(queued). The announcement, for each of the other nodes: true if they shall hold primary rays back.
+  /// Requires is_due(queued). The announcement, for all whom it tells: true if they shall hold primary rays back.
   bool announce(std::uint32_t queued) {
     core::expect(is_due(queued), "a node announces what is new, when the last announcement is acknowledged");
     is_announced_ = !is_announced_;
-    missing_ = other_nodes_;
+    missing_ = told_;
     count_ += is_announced_ ? 1 : 0;
     return is_announced_;
   }
-  /// One of the other nodes has taken notice.
+  /// One of those whom it tells has taken notice.
   void acknowledged() {
     core::expect(missing_ > 0, "an acknowledgement answers an announcement");
     --missing_;
   }
 
-  /// Another node's announcement has come: acknowledge it.
+  /// Another's announcement has come: acknowledge it.
   void take(bool holds) {
     core::expect(holds || holders_ > 0, "only what was announced is taken back");
     holders_ += holds ? 1 : -1U;
@@ -59,6 +67,7 @@ class Backpressure {
   std::uint64_t count() const { return count_; }
   /// For the key of a model's state.
   std::uint32_t missing() const { return missing_; }
+  /// Who asks this one to hold back; at the host, how many nodes do.
   std::uint32_t holders() const { return holders_; }
   bool is_announced() const { return is_announced_; }
 
@@ -67,11 +76,11 @@ class Backpressure {
     return is_wanted_ && (queued >= long_queue(capacity_) || (is_announced_ && queued > short_queue(capacity_)));
   }
 
-  std::uint32_t other_nodes_;
+  std::uint32_t told_;
   std::uint32_t capacity_;
   bool is_wanted_;
   std::uint32_t missing_ = 0;  ///< acknowledgements
-  std::uint32_t holders_ = 0;  ///< other nodes that ask this one to hold back
+  std::uint32_t holders_ = 0;  ///< others that ask this one to hold back
   std::uint64_t count_ = 0;
   bool is_announced_ = false;
 };

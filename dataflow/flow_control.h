@@ -20,6 +20,8 @@
 //     A credit so granted is for rays that are there, so it is used when their packet is full or its node has nothing else
 //     to do, by (3); if they have gone by way of the host meanwhile, it goes back unused, in the place that it stands for. So
 //     every place becomes free again, and goes to who has waited longest: nobody who asks waits for ever.
+//     A node asks no more owners at once than it has packets: more could only be those whose rays have gone by way of the host.
+//     Every answer lets it ask another.
 // (6) A node that fills as many packets as it has room for closes one before the next ray, so (2) is the way out here, too.
 #pragma once
 
@@ -118,6 +120,9 @@ constexpr bool must_close(std::uint32_t open_packets, std::uint32_t open_packets
 /// Whether a node asks an owner whose places are shared for one: there are rays for it, being gathered or in a closed packet.
 constexpr bool asks(bool has_rays, bool has_credit, bool has_asked) { return has_rays && !has_credit && !has_asked; }
 
+/// Whether it may ask one more, with so many that have not answered: their answers have room in its mailbox.
+constexpr bool may_ask(std::uint32_t asked, std::uint32_t asks_max) { return asked < asks_max; }
+
 /// Whether a shared place that was granted goes back unused: all rays for that owner have gone by way of the host.
 constexpr bool declines(bool has_rays, bool has_credit) { return has_credit && !has_rays; }
 
@@ -132,7 +137,7 @@ constexpr std::uint32_t places_freed(std::uint32_t packets, std::uint32_t rays, 
 /// Whether the host forwards a packet of the `kept` rays that it keeps for one owner: only into a place that is free.
 constexpr bool forwards(std::uint64_t kept, bool has_owner_credit) { return kept > 0 && has_owner_credit; }
 
-/// The host is passive in the sense of termination while it keeps no ray, for whatever owner.
-constexpr bool host_is_passive(std::uint64_t kept) { return kept == 0; }
+/// The host is passive in the sense of termination while it keeps no ray, for whatever owner, and has taken back what it relayed.
+constexpr bool host_is_passive(std::uint64_t kept, bool is_relay_settled) { return kept == 0 && is_relay_settled; }
 
 }  // namespace dmpc::dataflow

@@ -222,7 +222,7 @@ GatheredReports gather_reports(nodes::Runner& runner, const Plan& plan) {
       [&](std::size_t, nodes::FlatReader& told) {
         NodeReport& report = gathered.nodes.emplace_back();
         static_cast<ProgramCounts&>(report.program) = told.take<ProgramCounts>();
-        report.program.pairs = told.take_all<PairCounters>();
+        report.program.pairs = told.take_all<SentToOwner>();
         static_cast<nodes::NodeFigures&>(report) = told.take<nodes::NodeFigures>();
         gathered.are_credits_back = told.take<bool>() && gathered.are_credits_back;
       });

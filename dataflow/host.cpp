@@ -29,6 +29,7 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
       undealt_(plan.node_count(), plan.request.is_dealt_on_the_way ? run_rays_max : ~std::uint64_t{0}),
       kept_(plan.node_count(), plan.tested_objects()),
       termination_(Termination::initiator({plan.node_count()})),
+      relay_(termination_.place().child_count, Backpressure::relay_capacity),
       node_count_(plan.node_count()),
       ray_batch_(plan.ray_batch),
       tested_objects_(plan.tested_objects()),
@@ -92,6 +93,11 @@ void HostProgram::receive(const nodes::Packet& packet) {
       return take_film(packet);
     case Kind::token:
       return termination_.take(packet.as<Token>());
+    case Kind::hold:
+      relay_.take(packet.as<Hold>().holds != 0);
+      return send_control(*node_, packet.source, Kind::hold_acknowledgement, HoldAcknowledgement{});
+    case Kind::hold_acknowledgement:
+      return relay_.acknowledged();
     case Kind::done:
       return take_done(packet.as<Done>());
     case Kind::primaries_taken:
@@ -108,6 +114,7 @@ bool HostProgram::work() {
     return true;  // so that nobody takes the stillness for the end before the runner has seen the stop
   }
   deal_all();
+  relay_hold();
   for (std::uint32_t owner = 0; owner < node_count_; ++owner) {
     while (can_forward(owner)) {
       forward(owner);
@@ -139,6 +146,13 @@ void HostProgram::take_overflow(const nodes::Packet& packet) {
   }
   counters_.rays_in += header.count;
   send_control(*node_, packet.source, Kind::credits, Credits{1});
+}
+
+/// Tells all nodes when the first of them asks the others to hold primary rays back, and when none does any more.
+void HostProgram::relay_hold() {
+  if (relay_.is_due(relay_.holders())) {
+    tell_children(*node_, termination_.place(), Kind::hold, Hold{relay_.announce(relay_.holders()) ? 1U : 0U});
+  }
 }
 
 bool HostProgram::can_forward(std::uint32_t owner) const {
@@ -264,8 +278,8 @@ void HostProgram::deal(std::uint32_t index) {
   }
 }
 
-/// In the sense of termination: has no ray to send.
-bool HostProgram::is_passive() const { return host_is_passive(kept_.size()) && undealt_.is_empty(); }
+/// In the sense of termination: has no ray to send, nor an announcement to take back.
+bool HostProgram::is_passive() const { return host_is_passive(kept_.size(), relay_.is_settled()) && undealt_.is_empty(); }
 
 std::string HostProgram::describe() const {
   return std::to_string(kept_.size()) + " rays kept, light on " + std::to_string(pixels_with_light_) + " of " +

@@ -11,6 +11,7 @@
 #include "core/picture/film.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/refinement.h"
+#include "dataflow/backpressure.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/packets.h"
 #include "dataflow/plan.h"
@@ -40,11 +41,11 @@ struct HostCounters {
   std::uint64_t deposits_saturated = 0;  ///< on the host's film, and gatherings of its planes
 };
 
-/// Depends on nobody: film and overflow are taken and acknowledged at once. When the end of a pass is proved and its film
-/// complete, it deals the primary rays of the next, if there is one, packet by packet as nodes have room. Where the plan says so
-/// it deals those of the first pass, too. If then the picture is to be kept, it holds rays back until no other is left anywhere,
-/// which the same proof tells: then the pixels that have begun are done. A pass that could not be dealt whole never ends: the
-/// host then waits for the runner to end the run.
+/// Depends on nobody: film, overflow and what is to be held back are taken and acknowledged at once. When the end of a pass is
+/// proved and its film complete, it deals the primary rays of the next, if there is one, packet by packet as nodes have room.
+/// Where the plan says so it deals those of the first pass, too. If then the picture is to be kept, it holds rays back until no
+/// other is left anywhere, which the same proof tells: then the pixels that have begun are done. A pass that could not be dealt
+/// whole never ends: the host then waits for the runner to end the run.
 class HostProgram final : public nodes::Program {
  public:
   /// `film` outlives the program and is written by it alone until the run's end; it is as continuation.start has it.
@@ -76,6 +77,7 @@ class HostProgram final : public nodes::Program {
   void take_light(std::uint32_t pixel, const core::PixelSums& sums);
   void take_overflow(const nodes::Packet& packet);
   void take_done(const Done& done);
+  void relay_hold();
   bool can_forward(std::uint32_t owner) const;
   void forward(std::uint32_t owner);
   void begin_first_pass();
@@ -99,6 +101,7 @@ class HostProgram final : public nodes::Program {
   Undealt undealt_;
   KeptRays kept_;
   Termination termination_;
+  Backpressure relay_;                  ///< of what nodes tell the host alone
   std::span<std::byte> packet_;         ///< where a packet is put together
   std::span<std::uint64_t> has_light_;  ///< a bit a pixel
   std::uint32_t node_count_;

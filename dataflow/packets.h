@@ -8,7 +8,9 @@
 //   ask                    node -> owner         control   small  itself: the next waits for the grant
 //   unused                 node -> owner         rays      bulk   the credit that it gives back
 //   hold                   node -> each node     control   small  itself: the next waits for the answers
-//   hold_acknowledgement   node -> node          control   small  the announcement that it answers
+//                          node -> host, and     control   small  itself, likewise, where places are shared
+//                          parent -> child
+//   hold_acknowledgement   who is told -> teller control   small  the announcement that it answers
 //   film                   node -> host          film      bulk   the sender's film credits
 //   film_acknowledgement   host -> node          control   small  the film packet
 //   token                  parent <-> child      control   small  the token before: calls and what is told take turns

@@ -65,14 +65,15 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const TerminationTree tree{plan.node_count()};
   return {.small_slots = others * plan.ray_credits              // credits back from each other node, at least one a packet
                          + (plan.shares_places() ? others : 0)  // requests for places: one from each other node
-                         + (plan.shares_places() ? others : 0)  // grants: one for each of this node's requests
-                         + plan.host_credits                    // the same from the host
-                         + others                               // Hold: one from each other node, until it is acknowledged
-                         + others                               // acknowledgements of this node's
-                         + plan.film_credits                    // acknowledgements: one for each film packet of this node's
-                         + tree.packets_max(nodes::NodeId{0})   // tokens or done: nobody has more children than the first
-                         + 1                                    // Finish
-                         + 1                                    // Stop
+                         + (plan.shares_places() ? plan.gather().asks_max() : 0)  // grants: one for each of this node's requests
+                         + plan.host_credits                                      // the same from the host
+                         + (plan.shares_places() ? 1 : others)  // Hold: one from each other node, or from the parent alone
+                         + (plan.shares_places() ? 1 + tree.place_of(nodes::NodeId{0}).child_count : others)
+                         // acknowledgements: of this node's, and of what it relays
+                         + plan.film_credits                   // acknowledgements: one for each film packet of this node's
+                         + tree.packets_max(nodes::NodeId{0})  // tokens or done: nobody has more children than the first
+                         + 1                                   // Finish
+                         + 1                                   // Stop
                          + moving * unit_slots_of(plan),
           .bulk_slots = others * plan.ray_credits  // rays: each other node's credits for this one
                         + plan.ray_places          // rays, or credits unused: the places that others share
@@ -88,6 +89,8 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
   return {.small_slots = plan.node_count() * plan.host_credits                 // credits back for forwarded rays
                          + tree.packets_max(nodes::NodeId{plan.node_count()})  // tokens, or Done, of its children
                          + plan.node_count() * plan.dealing_credits()          // credits back for primary rays
+                         + (plan.shares_places() ? plan.node_count() : 0)      // Hold: one from each node
+                         + (plan.shares_places() ? tree.place_of(plan.host()).child_count : 0)  // acknowledgements of the host's
                          + plan.node_count(),  // film of one entry, which is small: each node's last packet, and no other
           .bulk_slots = plan.node_count() * plan.host_credits  // overflow: each node's credits for the host
                         + plan.node_count() * plan.film_credits,
@@ -267,6 +270,17 @@ void note_reductions(Plan& plan) {
 }
 
 }  // namespace
+
+Gather::Capacity Plan::gather() const {
+  return {.node_count = node_count(),
+          .ray_batch = ray_batch,
+          .ray_credits = ray_credits,
+          .shares_places = shares_places(),
+          .open_packets = shares_places() ? std::min(ray_places, node_count()) : 0,
+          .host_credits = host_credits,
+          .queue_packets = queue_packets,
+          .tested_objects = tested_objects()};
+}
 
 std::uint32_t Plan::dealing_credits() const { return request.is_dealt() ? dealt_packets : 0; }
 

@@ -11,6 +11,7 @@
 #include "core/picture/refinement.h"
 #include "dataflow/packets.h"
 #include "dataflow/ray_options.h"
+#include "dataflow/rays/gather.h"
 #include "dataflow/regions/regions.h"
 #include "dataflow/units/unit_pages.h"
 #include "dataflow/units/unit_primaries.h"
@@ -69,6 +70,8 @@ struct Plan {
   std::uint32_t node_count() const { return request.node_count(); }
   nodes::NodeId host() const { return nodes::NodeId{node_count()}; }
   bool shares_places() const { return ray_places > 0; }
+  /// What a node gathers rays in.
+  Gather::Capacity gather() const;
   /// Names of tested blocks that a ray takes along.
   std::uint32_t tested_objects() const { return request.rays.tested_objects; }
   /// A full packet of rays.

@@ -57,17 +57,6 @@ RayQueue::Capacity backlog_capacity(const Plan& plan) {
           .tested_objects = plan.tested_objects()};
 }
 
-Gather::Capacity gather_capacity(const Plan& plan) {
-  return {.node_count = plan.node_count(),
-          .ray_batch = plan.ray_batch,
-          .ray_credits = plan.ray_credits,
-          .shares_places = plan.shares_places(),
-          .open_packets = plan.shares_places() ? std::min(plan.ray_places, plan.node_count()) : 0,
-          .host_credits = plan.host_credits,
-          .queue_packets = plan.queue_packets,
-          .tested_objects = plan.tested_objects()};
-}
-
 /// Only rays that walk alone have lists of what they have tested.
 template <class RaysTask>
 RaysTask make_task(nodes::Node& node, const Plan& plan) {
@@ -107,9 +96,10 @@ RayProgram<RaysTask, Units>::RayProgram(nodes::Node& node, const Plan& plan, con
       tested_objects_(plan.tested_objects()),
       leaves_runs_(!plan.request.computer.machine && plan.request.first_samples == 1),
       task_(make_task<RaysTask>(node, plan)),
-      gather_(node, gather_capacity(plan)),
+      gather_(node, plan.gather()),
       film_(node, plan.node_count(), plan.film_credits, deposits_at_once<RaysTask>(deal.header)),
-      backpressure_(plan.node_count() - 1, plan.queue_packets, !plan.request.rays.without_backpressure),
+      tells_host_alone_(plan.shares_places()),
+      backpressure_(tells_host_alone_ ? 1 : plan.node_count() - 1, plan.queue_packets, !plan.request.rays.without_backpressure),
       termination_(Termination::member(node.id(), {plan.node_count()})) {
   core::expect(RaysTask::rays_max == plan.rays_a_task, "a node's task is that of the plan");
 }
@@ -121,7 +111,7 @@ nodes::MemoryPlan NodeProgram::layout(const Plan& plan, std::uint32_t index) {
                              (plan.is_moving() ? MovingUnits::layout(plan, index) : NoUnits::layout(plan, index)) +
                              Primaries::layout(plan.is_moving() ? 0 : share.primary_runs, plan.request.is_dealt()) +
                              RayQueue::layout(backlog_capacity(plan)) + Places::layout(places_of(plan)) +
-                             Gather::layout(gather_capacity(plan)) + FilmGather::layout();
+                             Gather::layout(plan.gather()) + FilmGather::layout();
   if (plan.rays_a_task > 1) {
     memory += BundleTask::layout(plan.request.waiting_hits_max);
   } else {
@@ -146,10 +136,9 @@ void RayProgram<RaysTask, Units>::receive(const nodes::Packet& packet) {
       places_.give_back(1);
       return grant_places();
     case Kind::hold:
-      backpressure_.take(packet.as<Hold>().holds != 0);
-      return send_control(*node_, packet.source, Kind::hold_acknowledgement, HoldAcknowledgement{});
+      return take_hold(packet.source, packet.as<Hold>());
     case Kind::hold_acknowledgement:
-      return backpressure_.acknowledged();
+      return tells_host_alone_ && packet.source != host_ ? hold_told_below() : backpressure_.acknowledged();
     case Kind::film_acknowledgement:
       return film_.acknowledged();
     case Kind::token:
@@ -169,6 +158,25 @@ void RayProgram<RaysTask, Units>::receive(const nodes::Packet& packet) {
       return tell_children(*node_, termination_.place(), Kind::stop, Stop{});
     default:
       return units_.receive(packet, termination_);
+  }
+}
+
+/// Where the host relays it, those below are told before the one above gets its answer.
+template <class RaysTask, class Units>
+void RayProgram<RaysTask, Units>::take_hold(nodes::NodeId teller, const Hold& hold) {
+  backpressure_.take(hold.holds != 0);
+  holds_below_ = tells_host_alone_ ? termination_.place().child_count : 0;
+  if (holds_below_ == 0) {
+    return send_control(*node_, teller, Kind::hold_acknowledgement, HoldAcknowledgement{});
+  }
+  tell_children(*node_, termination_.place(), Kind::hold, hold);
+}
+
+template <class RaysTask, class Units>
+void RayProgram<RaysTask, Units>::hold_told_below() {
+  core::expect(holds_below_ > 0, "an acknowledgement answers what was relayed");
+  if (--holds_below_ == 0) {
+    send_control(*node_, termination_.place().parent, Kind::hold_acknowledgement, HoldAcknowledgement{});
   }
 }
 
@@ -302,6 +310,9 @@ void RayProgram<RaysTask, Units>::perform(Task task) {
 template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::announce() {
   const Hold hold{backpressure_.announce(gather_.queued()) ? 1U : 0U};
+  if (tells_host_alone_) {
+    return send_control(*node_, host_, Kind::hold, hold);
+  }
   for (std::uint32_t i = 0; i < nodes::index_of(host_); ++i) {
     if (nodes::NodeId{i} != node_->id()) {
       send_control(*node_, nodes::NodeId{i}, Kind::hold, hold);

@@ -69,7 +69,7 @@ static_assert(std::is_trivially_copyable_v<ProgramCounts>, "it travels as bytes 
 
 /// All that a program counted.
 struct ProgramReport : ProgramCounts {
-  std::vector<PairCounters> pairs;  ///< by owner
+  std::vector<SentToOwner> pairs;  ///< by owner, ascending; of whom there was a ray
 };
 
 /// What all node programs of dataflow are, whatever their rays share.
@@ -127,6 +127,8 @@ class RayProgram final : public NodeProgram {
   void receive_rays(const nodes::Packet& packet);
   void take_credits(nodes::NodeId receiver, std::uint32_t count);
   void announce();
+  void take_hold(nodes::NodeId teller, const Hold& hold);
+  void hold_told_below();
   void send_waiting();
   void take_received();
   void take_up(const RayMessage& message, std::uint32_t account);
@@ -173,6 +175,8 @@ class RayProgram final : public NodeProgram {
   RaysTask task_;
   Gather gather_;
   FilmGather film_;
+  bool tells_host_alone_;          ///< what others are to hold back
+  std::uint32_t holds_below_ = 0;  ///< members below that have been told what to hold back, and have not acknowledged it
   Backpressure backpressure_;
   Termination termination_;
   DoneBelow below_;

@@ -90,13 +90,22 @@ std::vector<double> Report::work() const {
 }
 
 std::vector<std::uint64_t> Report::ray_matrix() const {
-  std::vector<std::uint64_t> matrix;
-  for (const NodeReport& node : nodes) {
-    for (const PairCounters& pair : node.program.pairs) {
-      matrix.push_back(pair.rays_total());
-    }
+  std::vector<std::uint64_t> matrix(nodes.size() * nodes.size());
+  for (const Flow& flow : ray_flows()) {
+    matrix[flow.first * nodes.size() + flow.second] = flow.amount;
   }
   return matrix;
+}
+
+std::vector<Flow> Report::ray_flows() const {
+  std::vector<Flow> flows;
+  for (std::uint32_t from = 0; from < nodes.size(); ++from) {
+    for (const SentToOwner& sent : nodes[from].program.pairs) {
+      core::expect(sent.owner != from && sent.owner < nodes.size(), "rays are sent to another node");
+      flows.push_back({from, sent.owner, sent.rays_total()});
+    }
+  }
+  return flows;
 }
 
 double Report::messages_per_ray() const {

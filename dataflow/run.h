@@ -21,6 +21,7 @@
 #include "dataflow/plan.h"
 #include "dataflow/program.h"
 #include "dataflow/ray_options.h"
+#include "dataflow/regions/mapping.h"
 #include "dataflow/regions/regions.h"
 #include "nodes/computer_request.h"
 #include "nodes/counters.h"
@@ -82,6 +83,8 @@ struct Report {
   std::vector<double> work() const;
   /// Rays from a node (row) to an owner (column), whichever way they took, row by row.
   std::vector<std::uint64_t> ray_matrix() const;
+  /// The same of those pairs alone that have any, in this order: few, where nodes are many.
+  std::vector<Flow> ray_flows() const;
   /// Ray messages per ray: how often a ray changes its node, on average.
   double messages_per_ray() const;
   /// Mean rays in a packet over those in a full one, in (0, 1]; 1 without packets.

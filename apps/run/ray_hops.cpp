@@ -9,7 +9,7 @@ namespace dmpc::apps {
 
 RayHops ray_hops_of(const dataflow::Report& report, nodes::TopologyKind topology) {
   const auto node_count = static_cast<std::uint32_t>(report.nodes.size());
-  const std::vector<dataflow::Flow> flows = dataflow::flows_of_matrix(report.ray_matrix(), node_count);
+  const std::vector<dataflow::Flow> flows = report.ray_flows();
   const nodes::Topology wiring(topology, node_count);
   return {dataflow::mean_hops(dataflow::identity_mapping(node_count), flows, wiring),
           dataflow::mean_hops_of_random(flows, wiring)};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include "core/base/counts.h"
 #include "core/base/expect.h"
@@ -26,13 +27,15 @@ Gather::Gather(nodes::Node& node, const Capacity& capacity)
       queue_capacity_(capacity.queue_packets),
       tested_objects_(capacity.tested_objects),
       open_packets_max_(capacity.open_packets_max()),
+      asks_max_(capacity.asks_max()),
       shares_places_(capacity.shares_places),
       are_nodes_joined_(capacity.shares_places || capacity.ray_credits > 0) {
+  static_assert(nodes::begins_as_zeros<Owner>);
   std::tie(room_, slots_, owners_) = layout(capacity).in(node.memory());
   for (std::size_t slot = capacity.packets(); slot > 0; --slot) {
-    release(static_cast<std::uint16_t>(slot - 1));
+    release(static_cast<std::uint16_t>(slot));
   }
-  for (std::uint32_t i = 0; i < capacity.node_count; ++i) {
+  for (std::uint32_t i = 0; capacity.ray_credits > 0 && i < capacity.node_count; ++i) {
     node.grant(NodeId{i}, ray_channel, NodeId{i} == node.id() ? 0 : capacity.ray_credits);
   }
   node.grant(host_, ray_channel, capacity.host_credits);
@@ -53,9 +56,10 @@ std::uint32_t Gather::credits_returned(NodeId receiver, std::uint32_t count) {
     return 0;
   }
   if (shares_places_) {
-    core::expect(owner_at(receiver).has_asked && count == 1, "a place is granted to who asks for it");
-    owner_at(receiver).has_asked = false;
+    core::expect(owner_at(receiver).has_asked == 1 && count == 1, "a place is granted to who asks for it");
+    owner_at(receiver).has_asked = 0;
     --asked_;
+    ask_others(receiver);
   }
   std::uint32_t sent = 0;
   for (; owner_at(receiver).first != none && has_credit(receiver); ++sent) {
@@ -64,19 +68,45 @@ std::uint32_t Gather::credits_returned(NodeId receiver, std::uint32_t count) {
   return sent + (ask_or_decline(receiver) ? 1 : 0);
 }
 
+bool Gather::wants_to_ask(NodeId owner) const {
+  const Owner& target = owner_at(owner);
+  return asks(has_rays_for(target), has_credit(owner), target.has_asked == 1);
+}
+
+/// Or puts it off, if as many are asked as may be.
+void Gather::ask(NodeId owner) {
+  if (!may_ask(asked_, asks_max_)) {
+    has_put_off_asking_ = true;
+    return;
+  }
+  owner_at(owner).has_asked = 1;
+  ++asked_;
+  send_control(*node_, owner, Kind::ask, Ask{});
+}
+
+/// One of those who were asked has answered: asks whom that was put off of, those behind it first, so that each has its turn.
+void Gather::ask_others(NodeId answering) {
+  if (!std::exchange(has_put_off_asking_, false)) {
+    return;
+  }
+  const auto count = static_cast<std::uint32_t>(owners_.size());
+  for (std::uint32_t i = 1; i < count && !has_put_off_asking_; ++i) {
+    const NodeId owner{(nodes::index_of(answering) + i) % count};
+    if (owner != node_->id() && wants_to_ask(owner)) {
+      ask(owner);
+    }
+  }
+}
+
 /// After whatever changes what is here for `owner`, or its credit. Says whether a credit went back.
 bool Gather::ask_or_decline(NodeId owner) {
   if (!shares_places_) {
     return false;
   }
-  Owner& target = owner_at(owner);
-  const bool has_rays = target.open != none || target.first != none;
-  if (asks(has_rays, has_credit(owner), target.has_asked)) {
-    target.has_asked = true;
-    ++asked_;
-    send_control(*node_, owner, Kind::ask, Ask{});
+  if (wants_to_ask(owner)) {
+    ask(owner);
   }
-  const bool goes_back = declines(has_rays, has_credit(owner));
+  const bool goes_back = declines(has_rays_for(owner_at(owner)), has_credit(owner));
   if (goes_back) {
     node_->send_reserved(owner, ray_channel, number_of(Kind::unused), Unused{});
   }
@@ -89,11 +119,11 @@ void Gather::add(NodeId owner, const RayMessage& message) {
   if (owner_at(owner).open == none) {
     core::expect(free_ != none, "every owner finds a slot to be filled");
     const std::uint16_t slot = free_;
-    free_ = slots_[slot].next;
+    free_ = slot_at(slot).next;
     set_open(owner, slot);
   }
   const std::uint16_t open = owner_at(owner).open;
-  Slot& slot = slots_[open];
+  Slot& slot = slot_at(open);
   put_ray(packet_in(open), slot.count, tested_objects_, message);
   ++size_;
   ++owner_at(owner).pair.rays[static_cast<std::size_t>(message.ray.kind)];
@@ -138,8 +168,8 @@ std::optional<NodeId> Gather::fullest(const May& may) const {
   std::optional<NodeId> found;
   std::uint16_t most = 0;
   for_each_open([&](std::uint32_t i) {
-    if (slots_[owners_[i].open].count > most && may(NodeId{i})) {
-      most = slots_[owners_[i].open].count;
+    if (const std::uint16_t count = slot_at(owners_[i].open).count; count > most && may(NodeId{i})) {
+      most = count;
       found = NodeId{i};
     }
   });
@@ -180,8 +210,8 @@ Way Gather::send() {
 
 void Gather::enqueue(NodeId owner) {
   Owner& target = owner_at(owner);
-  slots_[target.open].next = none;
-  (target.first == none ? target.first : slots_[target.last].next) = target.open;
+  slot_at(target.open).next = none;
+  (target.first == none ? target.first : slot_at(target.last).next) = target.open;
   target.last = target.open;
   counters_.queue_high_water = std::max<std::uint64_t>(counters_.queue_high_water, ++queued_);
   ++counters_.packets_queued;
@@ -190,18 +220,18 @@ void Gather::enqueue(NodeId owner) {
 void Gather::dequeue(NodeId owner) {
   Owner& target = owner_at(owner);
   const std::uint16_t slot = target.first;
-  target.first = slots_[slot].next;
+  target.first = slot_at(slot).next;
   --queued_;
   transmit(owner, slot, false);
 }
 
 std::span<std::byte> Gather::packet_in(std::uint16_t slot) const {
   const std::size_t bytes = ray_packet_bytes(ray_batch_, tested_objects_);
-  return room_.subspan(slot * stride_bytes(bytes), bytes);
+  return room_.subspan((slot - 1U) * stride_bytes(bytes), bytes);
 }
 
 void Gather::transmit(NodeId owner, std::uint16_t slot, bool overflows) {
-  const std::uint16_t count = slots_[slot].count;
+  const std::uint16_t count = slot_at(slot).count;
   const RayPacketHeader header{count, static_cast<std::uint16_t>(nodes::index_of(owner)), rays_left_};
   const std::span<std::byte> packet = packet_in(slot).first(ray_packet_bytes(count, tested_objects_));
   std::memcpy(packet.data(), &header, sizeof(header));
@@ -217,16 +247,18 @@ void Gather::transmit(NodeId owner, std::uint16_t slot, bool overflows) {
   release(slot);
 }
 
-std::vector<PairCounters> Gather::pairs() const {
-  std::vector<PairCounters> pairs;
-  for (const Owner& owner : owners_) {
-    pairs.push_back(owner.pair);
+std::vector<SentToOwner> Gather::pairs() const {
+  std::vector<SentToOwner> pairs;
+  for (std::uint32_t i = 0; i < owners_.size(); ++i) {
+    if (owners_[i].pair.rays_total() > 0) {
+      pairs.push_back({owners_[i].pair, i});
+    }
   }
   return pairs;
 }
 
 void Gather::release(std::uint16_t slot) {
-  slots_[slot] = {.next = free_};
+  slot_at(slot) = {.next = free_};
   free_ = slot;
 }
 

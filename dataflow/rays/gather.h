@@ -1,6 +1,7 @@
 // Rays on their way out: gathered by owner, in packets that leave when they are full or when the node has no other work.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,11 @@ struct PairCounters {
   std::uint64_t rays_total() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
 };
 
+/// What a node has sent one owner, which has got something from it.
+struct SentToOwner : PairCounters {
+  std::uint32_t owner = 0;  ///< its index
+};
+
 /// Open packets for as many owners as there is room for, and a queue of closed ones that found no credit, one room for all
 /// owners. At most one closed packet finds no room there either, and while it waits nothing may be added. Keeps account of the
 /// node's credits for rays, and asks for them where owners share their places. Thread safety: belongs to one node.
@@ -46,6 +52,9 @@ class Gather {
     /// Open and queued ones.
     std::uint32_t packets() const { return open_packets_max() + queue_packets; }
     std::uint32_t open_packets_max() const { return open_packets == 0 ? node_count : open_packets; }
+    /// Where places are shared: owners that may be asked at once and have not answered. More than there are packets for could
+    /// only be those whose rays have gone by way of the host.
+    std::uint32_t asks_max() const { return std::min(node_count - 1, packets()); }
   };
 
   /// What the gather has sent.
@@ -98,21 +107,23 @@ class Gather {
   const Counters& counters() const { return counters_; }
   /// Packets tell from now on that so many rays are left.
   void tell(std::uint32_t rays_left) { rays_left_ = rays_left; }
-  /// By owner; of rays gathered, the packets of those sent.
-  std::vector<PairCounters> pairs() const;
+  /// By owner, of whom there has been a ray here; of rays gathered, the packets of those sent.
+  std::vector<SentToOwner> pairs() const;
 
  private:
-  static constexpr std::uint16_t none = 0xffff;
+  /// Slots are numbered from 1 on.
+  static constexpr std::uint16_t none = 0;
 
   /// A packet's place.
   struct Slot {
     std::uint16_t next = none;  ///< of the same owner's queued packets, or of the free slots
     std::uint16_t count = 0;    ///< rays
   };
+  /// Begins as zeros, so that nothing is set aside for owners that no ray of this node's goes to: most, among many.
   struct Owner {
     std::uint16_t open = none;                ///< the slot that is being filled
     std::uint16_t first = none, last = none;  ///< queued, in the order of closing
-    bool has_asked = false;                   ///< for a place that is not granted yet
+    std::uint16_t has_asked = 0;              ///< 1: for a place that is not granted yet
     PairCounters pair;
   };
   static std::size_t stride_bytes(std::size_t bytes);
@@ -120,7 +131,12 @@ class Gather {
   std::span<std::byte> packet_in(std::uint16_t slot) const;
   bool has_credit(nodes::NodeId owner) const { return node_->credits(owner, ray_channel) > 0; }
   Owner& owner_at(nodes::NodeId owner) const { return owners_[nodes::index_of(owner)]; }
+  Slot& slot_at(std::uint16_t slot) const { return slots_[slot - 1]; }
   bool may_leave(nodes::NodeId owner) const;
+  bool has_rays_for(const Owner& owner) const { return owner.open != none || owner.first != none; }
+  bool wants_to_ask(nodes::NodeId owner) const;
+  void ask(nodes::NodeId owner);
+  void ask_others(nodes::NodeId answering);
   bool ask_or_decline(nodes::NodeId owner);
   template <class May>
   std::optional<nodes::NodeId> fullest(const May& may) const;
@@ -139,6 +155,7 @@ class Gather {
   std::uint32_t queue_capacity_;
   std::uint32_t tested_objects_;
   std::uint32_t open_packets_max_;
+  std::uint32_t asks_max_;
   bool shares_places_;
   bool are_nodes_joined_;  ///< there are credits between nodes
   std::span<std::byte> room_;
@@ -150,6 +167,7 @@ class Gather {
   std::uint32_t queued_ = 0;
   std::uint32_t open_count_ = 0;
   std::uint32_t asked_ = 0;              ///< owners
+  bool has_put_off_asking_ = false;      ///< some owner, since as many as may be were asked
   std::optional<nodes::NodeId> closed_;  ///< whose open packet is closed
   Counters counters_;
   std::uint32_t rays_left_ = 0;  ///< to be told

@@ -131,19 +131,6 @@ std::vector<Flow> flows_of(std::span<const Boundary> boundaries) {
   return flows;
 }
 
-std::vector<Flow> flows_of_matrix(std::span<const std::uint64_t> rays, std::uint32_t node_count) {
-  core::expect(rays.size() == std::size_t{node_count} * node_count, "the matrix has a row and a column for each node");
-  std::vector<Flow> flows;
-  for (std::uint32_t index = 0; index < rays.size(); ++index) {
-    const std::uint32_t source = index / node_count, target = index % node_count;
-    core::expect(source != target || rays[index] == 0, "no node sends rays to itself");
-    if (rays[index] > 0) {
-      flows.push_back({source, target, rays[index]});
-    }
-  }
-  return flows;
-}
-
 double mean_hops(const Mapping& mapping, std::span<const Flow> flows, const nodes::Topology& topology) {
   const std::uint64_t amount = total_amount(flows);
   return amount > 0 ? static_cast<double>(total_hops(mapping, flows, topology)) / static_cast<double>(amount) : 0.0;

@@ -22,9 +22,6 @@ using Mapping = std::vector<std::uint32_t>;
 
 /// The boundary lengths of the connectivity graph as flows.
 std::vector<Flow> flows_of(std::span<const Boundary> boundaries);
-/// Counted rays as flows: entry [row * node_count + column] of `rays` are those from node `row` to node `column`. Nothing flows
-/// from a node to itself.
-std::vector<Flow> flows_of_matrix(std::span<const std::uint64_t> rays, std::uint32_t node_count);
 
 /// Hops per unit of flow, the amounts as weights; 0 without any flow.
 double mean_hops(const Mapping& mapping, std::span<const Flow> flows, const nodes::Topology& topology);

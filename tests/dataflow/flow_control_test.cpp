@@ -63,8 +63,9 @@ TEST_CASE("the host forwards into free places only and is passive when it keeps 
   CHECK(dataflow::forwards(3, true));
   CHECK_FALSE(dataflow::forwards(3, false));
   CHECK_FALSE(dataflow::forwards(0, true));
-  CHECK(dataflow::host_is_passive(0));
-  CHECK_FALSE(dataflow::host_is_passive(1));
+  CHECK(dataflow::host_is_passive(0, true));
+  CHECK_FALSE(dataflow::host_is_passive(1, true));
+  CHECK_FALSE(dataflow::host_is_passive(0, false));
 }
 
 }  // namespace dmpc::tests::flow_control_test

@@ -165,6 +165,46 @@ TEST_CASE("while the host keeps a ray it keeps the token") {
   CHECK(host.program.describe().find("1 rays kept") != std::string::npos);
 }
 
+TEST_CASE("the host tells all nodes when the first asks them to hold primary rays back, and when the last has taken it back") {
+  LoneHost host;
+  const auto hears = [&](std::uint32_t sender, std::uint32_t holds) {
+    host.receive(sender, Kind::hold, dataflow::Hold{holds});
+    const Parcel answer = host.single.take();
+    CHECK(Kind{answer.kind} == Kind::hold_acknowledgement);
+    CHECK(answer.target == NodeId{sender});
+    host.program.work();
+  };
+  const auto tells = [&](std::uint32_t holds) {
+    for (const std::uint32_t node : {0U, 1U}) {
+      const Parcel told = host.single.take();
+      REQUIRE(Kind{told.kind} == Kind::hold);
+      CHECK(told.target == NodeId{node});
+      CHECK(told.packet().as<dataflow::Hold>().holds == holds);
+      host.receive(node, Kind::hold_acknowledgement, dataflow::HoldAcknowledgement{});
+    }
+    CHECK(host.single.post.parcels.empty());
+  };
+  host.pass_token_round(1);  // rays are under way, so another round is called
+  host.single.take();
+  host.single.take();
+  hears(1, 1);
+  tells(1);
+  hears(0, 1);
+  hears(1, 0);
+  CHECK(host.single.post.parcels.empty());
+  hears(0, 0);
+  tells(0);
+}
+
+TEST_CASE("the host hands no token on while what it has relayed is not taken back and acknowledged") {
+  LoneHost host;
+  host.receive(1, Kind::hold, dataflow::Hold{1});
+  host.program.work();
+  for (const Parcel& parcel : host.single.post.parcels) {
+    CHECK(Kind{parcel.kind} != Kind::token);
+  }
+}
+
 TEST_CASE("light from several nodes is added to the film and acknowledged") {
   LoneHost host;
   host.receive(0, Kind::film, LoneHost::FilmPacket{.entry = {5, 0, 0, {{1, 2, 3}}}});

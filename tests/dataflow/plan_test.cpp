@@ -264,17 +264,23 @@ TEST_CASE("among more than 128 nodes senders share 64 places, unless credits of 
   CHECK(make_plan(request).ray_places == 5);
 }
 
-TEST_CASE("queues and mailbox of one of 1,024 modelled nodes take 0.7 MB at most, not 3.9 as with a credit a pair") {
+TEST_CASE("queues and mailbox of one of 1,024 modelled nodes take 0.5 MB at most, not 3.9 as with a credit a pair") {
   PlanRequest request = request_with(1024, 1000);
   const auto bytes = [&] {
     const nodes::MemoryPlan plan = make_plan(request).node_memory(0);
     return plan[nodes::Category::queues] + plan[nodes::Category::mailbox];
   };
   request.computer.machine.emplace();
-  CHECK(bytes() <= 700'000);
+  CHECK(bytes() <= 500'000);
   request.rays.ray_credits = 1;
   request.rays.queue_packets = 512;
   CHECK(bytes() > 3'900'000);
+}
+
+TEST_CASE("where places are shared each further node takes 142 bytes of every other") {
+  const auto bytes = [](std::uint32_t nodes) { return make_plan(request_with(nodes, 1000)).node_memory(0).total(); };
+  // A request's slot and its link, credits, a place in the ring of those who ask, and what is known of an owner.
+  CHECK((bytes(4096) - bytes(1024)) / (4096 - 1024) == 64 + 4 + 8 + 2 + 64);
 }
 
 TEST_CASE("shared places are given up after queued packets and before the length of packets") {

@@ -237,6 +237,43 @@ TEST_CASE("a node whose queue gets long asks the others to hold their primary ra
   CHECK(node.program.report().gather.queue_high_water == 1);
 }
 
+TEST_CASE("where places are shared a node whose queue gets long tells the host alone") {
+  const Stage stage(tests::mirrors_and_glass(), 3, 16, {.rays = {.ray_batch = 1, .ray_places = 1, .queue_packets = 1}});
+  LoneProgram node(stage, 1, stage.distribution.primaries[1]);
+  node.work_to_rest();  // nobody answers
+  std::uint32_t asked = 0;
+  for (const Parcel& parcel : node.single.post.parcels) {
+    if (Kind{parcel.kind} == Kind::hold) {
+      CHECK(parcel.target == NodeId{3});
+      asked += parcel.packet().as<dataflow::Hold>().holds;
+    }
+  }
+  CHECK(asked == 1);
+  CHECK(node.program.report().rays.holds == 1);
+}
+
+TEST_CASE("what the host relays a node tells those below it, and answers when they have answered") {
+  const Stage stage(tests::mirrors_and_glass(), 6, 16, {.rays = {.ray_places = 1}});
+  LoneProgram node(stage, 0);
+  const auto receive = [&](std::uint32_t sender, Kind kind, const auto& packet) {
+    node.program.receive({NodeId{sender}, dataflow::number_of(kind), std::as_bytes(std::span(&packet, 1))});
+  };
+  receive(6, Kind::hold, dataflow::Hold{1});
+  for (const std::uint32_t below : {4U, 5U}) {
+    const Parcel told = node.single.take();
+    CHECK(Kind{told.kind} == Kind::hold);
+    CHECK(told.target == NodeId{below});
+    CHECK(told.packet().as<dataflow::Hold>().holds == 1);
+  }
+  receive(5, Kind::hold_acknowledgement, dataflow::HoldAcknowledgement{});
+  CHECK(node.single.post.parcels.empty());
+  receive(4, Kind::hold_acknowledgement, dataflow::HoldAcknowledgement{});
+  const Parcel answer = node.single.take();
+  CHECK(Kind{answer.kind} == Kind::hold_acknowledgement);
+  CHECK(answer.target == NodeId{6});
+  CHECK_THROWS_AS(receive(4, Kind::hold_acknowledgement, dataflow::HoldAcknowledgement{}), core::InternalError);
+}
+
 TEST_CASE("a node that rests gives back the credit of a ray that it has taken up") {
   const Stage stage(tests::mirrors_and_glass(), 2, 16);
   const LocalHit found = find_local_hit(stage);

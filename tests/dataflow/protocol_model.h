@@ -41,6 +41,12 @@ struct ProtocolRules {
   }
   static constexpr bool must_close(std::uint32_t open, std::uint32_t open_max) { return dataflow::must_close(open, open_max); }
   static constexpr bool asks(bool rays, bool credit, bool asked) { return dataflow::asks(rays, credit, asked); }
+  static constexpr bool may_ask(std::uint32_t asked, std::uint32_t asks_max) { return dataflow::may_ask(asked, asks_max); }
+  static constexpr bool acknowledges_last = true;  ///< what is relayed, when those below have been told
+  static constexpr bool asks_again = true;         ///< those that an owner was not asked for, when another has answered
+  static constexpr bool host_is_passive(std::uint64_t kept, bool is_relay_settled) {
+    return dataflow::host_is_passive(kept, is_relay_settled);
+  }
   static constexpr bool declines(bool rays, bool credit) { return dataflow::declines(rays, credit); }
   static constexpr bool grants(std::uint32_t free, bool is_asked) { return dataflow::grants(free, is_asked); }
 };
@@ -54,6 +60,7 @@ struct ProtocolSettings {
   std::uint8_t queue_packets = 0;           ///< at most 2
   std::uint8_t shared_places = 0;           ///< of each owner, that nodes ask for; 0: they have credits_each of their own
   std::uint8_t open_packets = model_nodes;  ///< being filled at one node at a time
+  std::uint8_t asks_max = model_nodes;      ///< owners that a node may be asking for a place
   bool has_backpressure = true;
   std::uint8_t owners = model_nodes;  ///< children go to the first so many nodes: fewer, and more children can be explored
 };
@@ -102,6 +109,7 @@ class ProtocolModel {
     std::array<std::uint8_t, model_nodes - 1> asking{};  ///< who waits for a place here, the longest first: index + 1
     std::uint8_t free_places = 0;                        ///< of those shared
     std::uint8_t withheld = 0;                           ///< of those shared: in them packets have come
+    std::uint8_t holds_below = 0;                        ///< members that have been told what to hold back, and not answered
     bool is_finished = false;
   };
   struct State {
@@ -171,6 +179,7 @@ class ProtocolModel {
       hold(state.alive == 0, "termination is detected only when no ray is left");
       hold(ray_packets_in(state) == 0, "termination is detected only when no ray packet is under way");
       hold(asked_in(state) == 0, "termination is detected only when no place is asked for");
+      hold(announcements_in(state) == 0, "termination is detected only when nothing is announced");
     }
     check_credits(state);
     if (settings_.shared_places > 0) {
@@ -203,7 +212,8 @@ class ProtocolModel {
     const bool is_host = peer == model_host;
     Member m{.termination = is_host ? Rules::Termination::initiator(model_tree)
                                     : Rules::Termination::member(nodes::NodeId{narrow(peer)}, model_tree),
-             .backpressure{model_nodes - 1, settings_.queue_packets, settings_.has_backpressure}};
+             .backpressure{told_by(peer), is_host ? dataflow::Backpressure::relay_capacity : settings_.queue_packets,
+                           settings_.has_backpressure}};
     m.primaries = is_host ? std::uint8_t{0} : settings_.primaries[peer];
     for (std::size_t target = 0; target < model_peers; ++target) {
       m.credits[target] = target == peer ? std::uint8_t{0} : target == model_host ? std::uint8_t{1} : credits_each(peer);
@@ -212,6 +222,11 @@ class ProtocolModel {
     return m;
   }
 
+  /// To how many a peer says what they are to hold back.
+  std::uint32_t told_by(std::size_t peer) const {
+    return peer == model_host ? place_of(peer).child_count : settings_.shared_places > 0 ? 1 : narrow(model_nodes - 1);
+  }
+  static dataflow::TreePlace place_of(std::size_t peer) { return model_tree.place_of(nodes::NodeId{narrow(peer)}); }
   /// That a peer has for a node without asking.
   std::uint8_t credits_each(std::size_t peer) const { return shares_with(peer) ? std::uint8_t{0} : settings_.credits_each; }
   /// Nodes' places are shared, the host's are its own.
@@ -238,6 +253,7 @@ class ProtocolModel {
               static_cast<char>(m.children),
               static_cast<char>(m.backpressure.missing()),
               static_cast<char>(m.backpressure.holders()),
+              static_cast<char>(m.holds_below),
               static_cast<char>(m.waiting),
               static_cast<char>(m.waiting_owner),
               static_cast<char>(m.free_places),
@@ -299,6 +315,12 @@ class ProtocolModel {
         count += asked;
       }
     }
+    return count;
+  }
+
+  static std::uint32_t announcements_in(const State& state) {
+    std::uint32_t count = 0;
+    for_each_message(state, [&](const Message& message) { count += message.kind == Kind::hold ? 1U : 0U; });
     return count;
   }
 
@@ -421,6 +443,7 @@ class ProtocolModel {
           m.asked[from] = 0;
         }
         send_queued(state, to, from);
+        ask_others(state, to, from);
         break;
       case Kind::ask:
         *std::find(m.asking.begin(), m.asking.end(), 0) = narrow(from + 1);
@@ -433,10 +456,14 @@ class ProtocolModel {
         break;
       case Kind::hold:
         m.backpressure.take(message.count != 0);
-        send(state, to, from, {.kind = Kind::hold_acknowledgement});
+        relay_or_acknowledge(state, to, from, message);
         break;
       case Kind::hold_acknowledgement:
-        m.backpressure.acknowledged();
+        if (is_relayed() && to != model_host && from != model_host) {
+          told_below(state, to);
+        } else {
+          m.backpressure.acknowledged();
+        }
         break;
       case Kind::token:
         m.termination.take({.balance = message.balance, .is_black = message.count});
@@ -444,6 +471,31 @@ class ProtocolModel {
       case Kind::finish:
         m.is_finished = true;
         break;
+    }
+  }
+
+  // ---- What is to be held back ----------------------------------------------------------------------------------------------
+
+  bool is_relayed() const { return settings_.shared_places > 0; }
+
+  void relay_or_acknowledge(State& state, std::size_t peer, std::size_t teller, const Message& hold) const {
+    const std::uint32_t below = is_relayed() && peer != model_host ? place_of(peer).child_count : 0;
+    state.member[peer].holds_below = narrow(below);
+    if (below == 0 || !Rules::acknowledges_last) {
+      send(state, peer, teller, {.kind = Kind::hold_acknowledgement});
+    }
+    tell_below(state, peer, below, hold.count);
+  }
+  void tell_below(State& state, std::size_t peer, std::uint32_t below, std::uint8_t holds) const {
+    for (std::uint32_t i = 0; i < below; ++i) {
+      const std::size_t child = place_of(peer).first_child + i;
+      send(state, peer, child, {Kind::hold, holds});
+      hold(count_in(state.channel[peer][child], Kind::hold, false) <= 1, "an announcement has its place in the mailbox");
+    }
+  }
+  void told_below(State& state, std::size_t peer) const {
+    if (--state.member[peer].holds_below == 0 && Rules::acknowledges_last) {
+      send(state, peer, index_of(place_of(peer).parent), {.kind = Kind::hold_acknowledgement});
     }
   }
 
@@ -483,9 +535,25 @@ class ProtocolModel {
       m.termination.ray_packet_sent();
       send(state, node, owner, {.kind = Kind::unused});
     }
-    if (Rules::asks(has_rays(m, owner), m.credits[owner] > 0, m.asked[owner] > 0)) {
+    ask(state, node, owner);
+  }
+
+  void ask(State& state, std::size_t node, std::size_t owner) const {
+    Member& m = state.member[node];
+    const auto asked = static_cast<std::uint32_t>(std::count(m.asked.begin(), m.asked.end(), 1));
+    hold(asked <= settings_.asks_max, "a grant has its place in the mailbox");
+    if (Rules::asks(has_rays(m, owner), m.credits[owner] > 0, m.asked[owner] > 0) && Rules::may_ask(asked, settings_.asks_max)) {
       m.asked[owner] = 1;
       send(state, node, owner, {.kind = Kind::ask});
+    }
+  }
+
+  /// The owners behind the one that has answered, in their turns.
+  void ask_others(State& state, std::size_t node, std::size_t answering) const {
+    for (std::size_t i = 1; Rules::asks_again && is_shared(node, answering) && i < model_nodes; ++i) {
+      if (const std::size_t owner = (answering + i) % model_nodes; owner != node) {
+        ask(state, node, owner);
+      }
     }
   }
 
@@ -554,7 +622,10 @@ class ProtocolModel {
   void announce(State state, std::size_t node, Visit visit) const {
     Member& m = state.member[node];
     const std::uint8_t holds = m.backpressure.announce(queued_in(m)) ? 1 : 0;
-    for (std::size_t other = 0; other < model_nodes; ++other) {
+    if (is_relayed()) {
+      send(state, node, model_host, {Kind::hold, holds});
+    }
+    for (std::size_t other = 0; !is_relayed() && other < model_nodes; ++other) {
       if (other != node) {
         send(state, node, other, {Kind::hold, holds});
       }
@@ -744,6 +815,9 @@ class ProtocolModel {
     if (host.termination.is_terminated()) {
       return finish(state, visit);
     }
+    if (host.backpressure.is_due(host.backpressure.holders())) {
+      return relay(state, visit);
+    }
     std::uint64_t kept = 0;
     for (std::size_t owner = 0; owner < model_nodes; ++owner) {
       kept += host.backlog[owner];
@@ -751,9 +825,17 @@ class ProtocolModel {
         forward(state, owner, visit);
       }
     }
-    if (dataflow::host_is_passive(kept) || !Rules::token_waits_for_rest) {
+    if (Rules::host_is_passive(kept, host.backpressure.is_settled()) || !Rules::token_waits_for_rest) {
       hand_on(state, model_host, visit);
     }
+  }
+
+  template <class Visit>
+  void relay(State state, Visit visit) const {
+    auto& relay = state.member[model_host].backpressure;
+    const std::uint8_t holds = relay.announce(relay.holders()) ? 1 : 0;
+    tell_below(state, model_host, place_of(model_host).child_count, holds);
+    visit(Action{"asks all to hold", narrow(model_host), narrow(model_host), holds}, state);
   }
 
   template <class Visit>

@@ -61,6 +61,8 @@ TEST_CASE("a ray that passes from one region to the other is one message in a pa
   const Report report = run_asking(subject, cut_across_x(subject, 2));
   CHECK(tests::outcome_of(report) == subject.outcome());
   CHECK(report.ray_matrix() == std::vector<std::uint64_t>{0, 1, 0, 0});
+  REQUIRE(report.ray_flows().size() == 1);
+  CHECK((report.ray_flows()[0].first == 0 && report.ray_flows()[0].second == 1 && report.ray_flows()[0].amount == 1));
   CHECK(report.messages_per_ray() == 1.0);
   CHECK(report.mean_fill() == 1.0 / report.plan.ray_batch);
   CHECK(report.nodes[0].primary_rays == 1);

@@ -105,12 +105,9 @@ Json regions_json(const dataflow::Report& report) {
 Json pairs_json(const dataflow::Report& report) {
   Json rows = Json::array();
   for (std::size_t from = 0; from < report.nodes.size(); ++from) {
-    const std::vector<dataflow::PairCounters>& pairs = report.nodes[from].program.pairs;
-    for (std::size_t to = 0; to < pairs.size(); ++to) {
-      if (pairs[to].rays_total() > 0) {
-        const auto& [rays, packets, overflowed] = pairs[to];
-        rows.push_back({from, to, rays[0], rays[1], rays[2], rays[3], packets, overflowed, rays[4]});
-      }
+    for (const dataflow::SentToOwner& sent : report.nodes[from].program.pairs) {
+      const auto& rays = sent.rays;
+      rows.push_back({from, sent.owner, rays[0], rays[1], rays[2], rays[3], sent.packets, sent.rays_overflowed, rays[4]});
     }
   }
   return {{"columns", {"from", "to", "primary", "reflected", "refracted", "shadow", "packets", "rays_overflowed", "scattered"}},

@@ -16,8 +16,10 @@ dataflow::Report report_with(const std::vector<std::vector<std::uint64_t>>& rays
   dataflow::Report report{.film = core::Film(1, 1), .plan = {}, .regions = dataflow::Bsp({1, 1, 1})};
   for (const std::vector<std::uint64_t>& row : rays) {
     report.nodes.emplace_back();
-    for (const std::uint64_t count : row) {
-      report.nodes.back().program.pairs.push_back({.rays = {count}});
+    for (std::uint32_t owner = 0; owner < row.size(); ++owner) {
+      if (row[owner] > 0) {
+        report.nodes.back().program.pairs.push_back({{.rays = {row[owner]}}, owner});
+      }
     }
   }
   return report;

@@ -220,6 +220,28 @@ TEST_CASE("a shared place goes back unused, and counts as a packet, if its rays 
   CHECK_FALSE(sender.gather.is_unanswered());
 }
 
+TEST_CASE("no more owners are asked at once than there are packets, and each answer lets the next be asked, in turn") {
+  RaySender sender(
+      {.node_count = 6, .ray_batch = 1, .ray_credits = 0, .shares_places = true, .open_packets = 2, .host_credits = 9});
+  for (const std::uint32_t owner : {0U, 2U}) {
+    sender.add(owner, owner);
+    CHECK(Kind{sender.single.take().kind} == Kind::ask);
+    CHECK(sender.gather.send() == Way::to_host);
+    CHECK(sender.single.take().target == NodeId{6});
+  }
+  sender.add(3, 3);  // two owners are asked, and have no rays any more
+  CHECK(sender.single.post.parcels.empty());
+  CHECK(sender.gather.credits_returned(NodeId{2}, 1) == 1);
+  const tests::Parcel next = sender.single.take();
+  CHECK(Kind{next.kind} == Kind::ask);
+  CHECK(next.target == NodeId{3});
+  CHECK(Kind{sender.single.take().kind} == Kind::unused);
+  CHECK(sender.gather.credits_returned(NodeId{0}, 1) == 1);
+  CHECK(sender.gather.credits_returned(NodeId{3}, 1) == 0);
+  CHECK_FALSE(sender.gather.is_unanswered());
+  CHECK(sender.gather.send() == Way::to_owner);
+}
+
 TEST_CASE("with as many packets open as there is room for the fullest is closed, preferably one that may leave") {
   RaySender sender({.node_count = 4, .ray_batch = 9, .ray_credits = 1, .open_packets = 2, .queue_packets = 1});
   sender.add(0, 1);

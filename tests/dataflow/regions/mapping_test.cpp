@@ -45,23 +45,6 @@ TEST_CASE("the connectivity graph's boundaries are flows by their length") {
   CHECK(flows[0].amount == 64);
 }
 
-TEST_CASE("counted rays are flows from row to column, without what is zero") {
-  const std::vector<std::uint64_t> rays{0, 5, 0,  //
-                                        7, 0, 0,  //
-                                        0, 9, 0};
-  const std::vector<Flow> flows = dataflow::flows_of_matrix(rays, 3);
-  REQUIRE(flows.size() == 3);
-  CHECK((flows[0].first == 0 && flows[0].second == 1 && flows[0].amount == 5));
-  CHECK((flows[1].first == 1 && flows[1].second == 0 && flows[1].amount == 7));
-  CHECK((flows[2].first == 2 && flows[2].second == 1 && flows[2].amount == 9));
-  CHECK(dataflow::flows_of_matrix(std::vector<std::uint64_t>{0}, 1).empty());
-}
-
-TEST_CASE("a matrix that is not square and rays from a node to itself are refused") {
-  CHECK_THROWS_AS(dataflow::flows_of_matrix(std::vector<std::uint64_t>{0, 1}, 2), core::InternalError);
-  CHECK_THROWS_AS(dataflow::flows_of_matrix(std::vector<std::uint64_t>{0, 1, 1, 2}, 2), core::InternalError);
-}
-
 TEST_CASE("random mappings have the hops of each in their mean") {
   const std::vector<Flow> flows{{0, 1, 3}, {2, 7, 1}};
   const Topology hypercube(TopologyKind::hypercube, 8);

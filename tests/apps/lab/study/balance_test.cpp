@@ -80,7 +80,7 @@ TEST_CASE("the figures are those of the run") {
   const dataflow::Report report = subject.runs.run(
       "again", dataflow::RunOptions{.computer = {.node_count = 5}, .rays = {.topology = nodes::TopologyKind::mesh}});
   const nodes::Topology mesh(nodes::TopologyKind::mesh, 5);
-  const std::vector<dataflow::Flow> flows = dataflow::flows_of_matrix(report.ray_matrix(), 5);
+  const std::vector<dataflow::Flow> flows = report.ray_flows();
   CHECK(real(table, 0, "average load predicted") == 100 * dataflow::average_load(report.predicted));
   CHECK(real(table, 0, "average load achieved") == 100 * dataflow::average_load(report.work()));
   CHECK(real(table, 0, "duplication") == report.duplication);
