@@ -18,6 +18,7 @@
 #include "apps/lab/bench/speed/kernel_means.h"
 #include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/plain_table.h"
+#include "apps/lab/bench/speed/smallest_item.h"
 #include "apps/lab/bench/speed/table.h"
 #include "apps/lab/bench/speed/target.h"
 #include "apps/lab/study/engine/tabled_job.h"
@@ -83,7 +84,8 @@ constexpr std::array part_rows = {
         .measure = measure_emulation,
         .explanation =
             "emulation: seconds of the phase render, setting the nodes' memories aside and dealing out the database included; "
-            "the nodes share the same cores."},
+            "the nodes share the same cores. An item is a question that some other node answers by 1 KiB, and the work behind "
+            "it; a node has 16 under way."},
     PartRow{
         .measure = measure_build,
         .explanation =
@@ -167,8 +169,10 @@ void add_notes(const SpeedOptions& options, const Results& results, double load,
       table.add_note(std::move(*sentence));
     }
   }
-  for (std::string& sentence : kernel_means(results.comparisons)) {
-    table.add_note(std::move(sentence));
+  for (const auto& sentences_on : {kernel_means, smallest_items}) {
+    for (std::string& sentence : sentences_on(results.comparisons)) {
+      table.add_note(std::move(sentence));
+    }
   }
   table.add_note(load_note(load));
   if (!is_whole) {

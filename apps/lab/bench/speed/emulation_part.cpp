@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -7,6 +8,8 @@
 #include "apps/edge/system/progress.h"
 #include "apps/lab/bench/speed/matches.h"
 #include "apps/lab/bench/speed/parts.h"
+#include "apps/lab/bench/speed/question_ring.h"
+#include "apps/lab/bench/speed/smallest_item.h"
 #include "apps/lab/study/engine/timed_render.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
@@ -52,6 +55,45 @@ StrategyOptions strategy_of(const Computer& computer, const core::Database& data
   return options;
 }
 
+/// Of an item, in microseconds.
+constexpr std::array<double, 8> works_us = {0.5, 1, 2, 4, 8, 16, 32, 64};
+
+/// Work alone that takes long enough to be timed.
+QuestionRing ring_of(double work_us, double step_seconds, bool is_quick) {
+  QuestionRing ring{.steps = static_cast<std::uint64_t>(1e-6 * work_us / step_seconds)};
+  ring.items_a_node = static_cast<std::uint32_t>((is_quick ? 40e3 : 120e3) / work_us / ring.node_count);
+  return ring;
+}
+
+/// Whatever nodes compute: how much work an item it takes for 64 of them to cost little more.
+void measure_items(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
+  Progress progress(std::cerr, stderr_is_terminal(), "items of 64 nodes:", "runs");
+  const double step_seconds = seconds_a_step();
+  Matches matches(results);
+  for (const double work_us : works_us) {
+    const QuestionRing ring = ring_of(work_us, step_seconds, settings.is_quick);
+    const auto add = [&matches, &interrupt, ring](const std::function<Times()>& times) {
+      return matches.add([&interrupt, ring, times] {
+        interrupt.check();
+        return std::vector{1e6 * figures_of(times()).back() / static_cast<double>(ring.item_count())};
+      });
+    };
+    const std::size_t alone = add([ring] { return times_of_work_alone(ring); });
+    for (const RunnerKind runner : {RunnerKind::threads, RunnerKind::pool}) {
+      matches.compare(add([ring, runner] { return times_of(ring, runner); }), alone,
+                      {.part = SpeedPart::emulation,
+                       .scene = "questions",
+                       .what = item_comparison,
+                       .detail = clock_names.back(),
+                       .threads = ring.node_count,
+                       .subject = std::string("64 nodes, ") + name_of(runner),
+                       .rival = "work alone",
+                       .unit = "us"});
+    }
+  }
+  matches.measure(settings.rounds_of(SpeedPart::emulation), progress);
+}
+
 }  // namespace
 
 void measure_emulation(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
@@ -82,6 +124,7 @@ void measure_emulation(const SpeedSettings& settings, const Interrupt& interrupt
     }
     matches.measure(settings.rounds_of(SpeedPart::emulation), progress);
   }
+  measure_items(settings, interrupt, results);
 }
 
 }  // namespace dmpc::apps

@@ -32,7 +32,8 @@ MeasurePart measure_kernel;
 /// within its phase `render`.
 MeasurePart measure_picture;
 /// Times the phase `render` with svm on 2, 8 and 64 nodes whose caches hold all pages, on 8 with caches of a part of the
-/// database, and with dataflow on 2 and 64. The films are expected to be one.
+/// database, and with dataflow on 2 and 64. The films are expected to be one. Then, of no scene, items of more and more work on
+/// 64 nodes (smallest_item.h).
 MeasurePart measure_emulation;
 /// Builds each scene's database and two of Embree's trees, the robust one and the fast one of high quality, on each number of
 /// threads. Embree's time is its tree's alone, from vertices that lie ready; ours is from the scene to the pages.
