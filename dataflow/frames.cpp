@@ -93,6 +93,20 @@ void check_packets(const Report& report) {
   nodes::expect_nothing_lost(report.ranks);
 }
 
+/// Of those owners that have got something since.
+std::vector<SentToOwner> since(const std::vector<SentToOwner>& now, const std::vector<SentToOwner>& before) {
+  std::vector<SentToOwner> changed;
+  auto earlier = before.begin();
+  for (const SentToOwner& sent : now) {
+    const bool is_known = earlier != before.end() && earlier->owner == sent.owner;
+    const PairCounters count = core::counts_since<PairCounters>(sent, is_known ? *earlier++ : SentToOwner{});
+    if (count.packets != 0 || count.rays_total() != 0) {
+      changed.push_back({count, sent.owner});
+    }
+  }
+  return changed;
+}
+
 /// What is counted, and not the most or the latest of something, is that of the frame.
 ProgramReport since(const ProgramReport& now, const ProgramReport& before) {
   ProgramReport report = now;
@@ -103,9 +117,7 @@ ProgramReport since(const ProgramReport& now, const ProgramReport& before) {
   report.film = core::counts_since(now.film, before.film);
   report.movement = core::counts_since(now.movement, before.movement);
   report.movement.units = now.movement.units;
-  for (std::size_t i = 0; i < before.pairs.size(); ++i) {
-    report.pairs[i] = core::counts_since(now.pairs[i], before.pairs[i]);
-  }
+  report.pairs = since(now.pairs, before.pairs);
   return report;
 }
 

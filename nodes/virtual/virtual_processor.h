@@ -142,7 +142,7 @@ struct alignas(64) VirtualProcessor final : Network {
     charged = program->charges();
     has_more = true;
     times = {};
-    std::fill(ways.begin(), ways.end(), Way{});
+    ways = core::ZeroedArray<Way>(ways.size());
     node.counters() = {};
   }
 
