@@ -49,7 +49,7 @@ struct Distance {
   }
 };
 
-std::string text_of(const AccurateRay& ray) {
+std::string ray_text(const AccurateRay& ray) {
   constexpr std::array<const char*, core::ray_kind_count> kinds{"primary", "reflected", "refracted", "shadow", "scattered"};
   return std::string("a ") + kinds[static_cast<std::size_t>(ray.kind)] + " ray of depth " + std::to_string(ray.depth);
 }
@@ -107,7 +107,7 @@ class StepAudit::Case {
     const double met = logged.hit ? logged.t : hit.found() ? hit.t : 0;
     result_.doubts[index] = cause_of(ray, {logged.hit, logged.body}, ray.origin + ray.direction * met);
     if (!result_.doubts[index]) {
-      complain(text_of(ray) + " whose answer no ray has that runs beside it");
+      complain(ray_text(ray) + " whose answer no ray has that runs beside it");
     }
   }
 
@@ -137,7 +137,7 @@ class StepAudit::Case {
     passed.t_max = std::min(ahead, right.t_max);
     if (ahead > 0 && answer_of(passed).found() && !is_same(log_.rays[index], answer_of(right)) &&
         !audit_.witnesses_.is_beside(passed, {}, core::rounding_allowed_pixels * pixel_at(found.origin, right))) {
-      complain(text_of(found) + " that starts behind something");
+      complain(ray_text(found) + " that starts behind something");
     }
   }
 
@@ -158,7 +158,7 @@ class StepAudit::Case {
       const bool is_warned = audit_.warned_pixels_ > core::rounding_allowed_pixels && is_met(audit_.warned_pixels_);
       result_.is_warned = result_.is_warned || is_warned;
       if (!is_warned) {
-        complain(text_of(ray) + " that hits its body where no ray does that runs beside it");
+        complain(ray_text(ray) + " that hits its body where no ray does that runs beside it");
       }
     }
     return {logged.t, logged.body};
@@ -168,7 +168,7 @@ class StepAudit::Case {
     AccurateRay from = log_.shots[index];
     from.apart = primary_.apart;
     if (log_.rays[index].body == core::no_primitive) {
-      return complain(text_of(from) + " hits what double precision leaves out");
+      return complain(ray_text(from) + " hits what double precision leaves out");
     }
     const AccurateHit hit = hit_of(index);
     add_glow(from, hit);
@@ -230,7 +230,7 @@ class StepAudit::Case {
   void check_decision(const AccurateRay& ray, const std::vector<Rays>& trials, bool was_shot) {
     if (std::none_of(trials.begin(), trials.end(),
                      [&](const Rays& trial) { return (find(trial, ray) != nullptr) == was_shot; })) {
-      complain(text_of(ray) + (was_shot ? " that should not be there" : " that is missing"));
+      complain(ray_text(ray) + (was_shot ? " that should not be there" : " that is missing"));
     }
   }
 
@@ -247,14 +247,14 @@ class StepAudit::Case {
     result_.largest_step = std::max(result_.largest_step, step);
     if (!(step <= steps_allowed)) {
       std::ostringstream text;
-      text << text_of(found) << " that is off by " << step << " times what rounding does";
+      text << ray_text(found) << " that is off by " << step << " times what rounding does";
       complain(text.str());
     }
     if (std::isfinite(right.t_max) && !(std::fabs(found.t_max - right.t_max) <= end_rounding * (right.t_max + audit_.unit_))) {
-      complain(text_of(found) + " with another end");
+      complain(ray_text(found) + " with another end");
     }
     if (!(std::fabs(found.cone - right.cone) <= cone_rounding * right.cone + float_rounding * audit_.unit_)) {
-      complain(text_of(found) + " with another cone");
+      complain(ray_text(found) + " with another cone");
     }
   }
 
