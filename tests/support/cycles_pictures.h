@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "apps/lab/bench/stability/cells.h"
-#include "core/picture/render.h"
 #include "core/picture/transport.h"
+#include "tests/support/path_film.h"
 #include "tests/support/scaled.h"
 
 namespace dmpc::tests::cycles {
@@ -60,15 +60,7 @@ inline core::Film film_of(const core::Scene& scene, int samples, int bounces, co
   core::BuildOptions options = apps::several_top_cells(scene);
   options.emitters_max = 100;
   options.for_paths = true;
-  const core::Database database = core::build_database(scene, options);
-  core::LocalRecords records(database.bytes());
-  core::GridTracer<core::LocalRecords> tracer(records, database.header(), {});
-  const core::ShadeOptions shade{
-      .depth_max = bounces + 1, .first_samples = static_cast<std::uint32_t>(samples), .transport = transport};
-  const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, samples),
-                                      shade};
-  core::Operations operations;
-  return core::render(tracer, settings, operations);
+  return tests::film_of(core::build_database(scene, options), scene.view, {transport, side, side, samples, bounces});
 }
 
 inline Light block_of(const core::Film& film, std::uint32_t block) {

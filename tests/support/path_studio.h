@@ -12,6 +12,7 @@
 #include "core/picture/transport.h"
 #include "core/scene/frame.h"
 #include "core/scene/scene.h"
+#include "tests/support/path_film.h"
 
 namespace dmpc::tests {
 
@@ -24,16 +25,8 @@ class Studio {
       : scene_(scene), database_(core::build_database(scene, options_for(scene, emitters_max))) {}
 
   core::Film film(int side, int samples, const core::Transport& transport, int bounces, const core::Skips& skips = {}) const {
-    core::LocalRecords records(database_.bytes());
-    core::GridTracer<core::LocalRecords> tracer(records, database_.header(), skips);
-    const core::ShadeOptions shade{
-        .depth_max = bounces + 1, .first_samples = static_cast<std::uint32_t>(samples), .transport = transport};
-    const core::RenderSettings settings{.header = database_.header(),
-                                        .camera = core::Camera(scene_.view, frame(), side, side, samples),
-                                        .shade = shade,
-                                        .skips = skips};
     operations = {};
-    return render(tracer, settings, operations);
+    return film_of(database_, scene_.view, {transport, side, side, samples, bounces, skips}, operations);
   }
   /// Of the picture's light, its mean; the red channel's.
   double mean(int side, int samples, const core::Transport& transport, int bounces) const {
@@ -51,10 +44,8 @@ class Studio {
   std::vector<double> square(int side, int samples, int bounces, int times, const core::Transport& transport = paths) const {
     core::LocalRecords records(database_.bytes());
     core::GridTracer<core::LocalRecords> tracer(records, database_.header(), {});
-    const core::ShadeOptions shade{
-        .depth_max = bounces + 1, .first_samples = static_cast<std::uint32_t>(samples), .transport = transport};
-    const core::RenderSettings settings{database_.header(), core::Camera(scene_.view, frame(), side, side * times, samples),
-                                        shade};
+    const PathPicture picture{transport, side, side * times, samples, bounces};
+    const core::RenderSettings settings = picture.settings(database_, scene_.view);
     std::vector<core::HitState> stack(1);
     core::PixelTask task(stack);
     std::vector<double> light;

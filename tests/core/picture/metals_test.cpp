@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "core/database/database.h"
-#include "core/picture/render.h"
-#include "core/record/records.h"
 #include "tests/support/faceted_surfaces.h"
 #include "tests/support/microfacet_hits.h"
+#include "tests/support/path_film.h"
 #include "tests/support/path_studio.h"
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
@@ -28,13 +27,7 @@ const Vec3d white{1, 1, 1}, gold{1, 0.75, 0.25};
 
 Film film_of(const Scene& scene, int side, int samples, const Transport& transport, int bounces, bool for_paths = true) {
   const Database database = build_database(scene, {.emitters_max = for_paths ? 100U : 0U, .for_paths = for_paths});
-  LocalRecords records(database.bytes());
-  GridTracer<LocalRecords> tracer(records, database.header(), {});
-  const ShadeOptions shade{
-      .depth_max = bounces + 1, .first_samples = static_cast<std::uint32_t>(samples), .transport = transport};
-  const RenderSettings settings{database.header(), Camera(scene.view, database.header().frame, side, side, samples), shade};
-  Operations operations;
-  return render(tracer, settings, operations);
+  return dmpc::tests::film_of(database, scene.view, {transport, side, side, samples, bounces});
 }
 
 Vec3d mean_of(const Film& film) {

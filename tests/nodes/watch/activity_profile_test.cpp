@@ -3,22 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <cstddef>
-#include <string>
 
-#include "nodes/program.h"
+#include "tests/nodes/watch/silent_program.h"
 
 namespace dmpc::nodes::activity_profile_test {
 
 namespace {
-
-/// Only its presence matters.
-class SilentProgram final : public Program {
- public:
-  void receive(const Packet& /*packet*/) override {}
-  bool work() override { return false; }
-  bool finished() const override { return true; }
-  std::string describe() const override { return ""; }
-};
 
 /// Kinds of work.
 constexpr std::size_t other = 1, received = work_count - 1;

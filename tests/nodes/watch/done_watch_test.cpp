@@ -4,24 +4,14 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "nodes/program.h"
+#include "tests/nodes/watch/silent_program.h"
 #include "tests/nodes/watch/toy_kind.h"
 
 namespace dmpc::nodes::done_watch_test {
 
 namespace {
-
-/// Only its presence matters.
-class SilentProgram final : public Program {
- public:
-  void receive(const Packet& /*packet*/) override {}
-  bool work() override { return false; }
-  bool finished() const override { return true; }
-  std::string describe() const override { return ""; }
-};
 
 /// Two nodes and a host that tell a watch over four items what the test says.
 struct WatchedNodes {
