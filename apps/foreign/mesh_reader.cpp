@@ -1,6 +1,7 @@
 #include "apps/foreign/mesh_reader.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -207,35 +208,68 @@ const MeshMaterial& material_for(const aiMesh& mesh, std::size_t index, const st
   return materials[mesh.mMaterialIndex];
 }
 
-/// Each mesh is freed after its last place.
-void add_geometry(MeshScene& result, ImportedFile& imported, const Placements& placements,
-                  const std::vector<MeshMaterial>& materials, const MeshOptions& options) {
-  aiScene& file = *imported.scene;
-  core::SceneBuilder builder(result.scene);
-  GeometryWriter writer(builder, result.vertices, options.smooth_degrees);
-  std::vector<std::size_t> uses = count_uses(file, placements);
-  for (const Placement& placement : placements) {
-    const aiMesh& mesh = *file.mMeshes[placement.mesh];
-    const MeshMaterial& material = material_for(mesh, placement.mesh, materials);
-    const bool is_last = --uses[placement.mesh] == 0;
-    if (material.is_cut_away) {
-      writer.leave_out();
-    } else {
-      FaceList triangles = is_last ? std::move(imported.triangles_of(placement.mesh)) : imported.triangles_of(placement.mesh);
-      writer.add(placed_mesh(mesh, placement.mesh, std::move(triangles), placement.world, material), material.material);
+/// Places the meshes of a file, each of which is freed after its last place, or as soon as it is shared by several.
+class PlacedMeshes {
+ public:
+  PlacedMeshes(ImportedFile& file, const Placements& placements, const std::vector<MeshMaterial>& materials,
+               GeometryWriter& writer)
+      : file_(file), materials_(materials), writer_(writer), uses_left_(count_uses(*file.scene, placements)) {}
+
+  void place(const Placement& placement, bool may_share) {
+    const bool is_last = --uses_left_[placement.mesh] == 0;
+    if (const auto shared = shared_.find(placement.mesh); shared != shared_.end()) {
+      put(shared->second, placement.world);
+      return;
     }
-    if (is_last) {
-      forget(file, placement.mesh);
+    const MeshMaterial& material = material_for(*file_.scene->mMeshes[placement.mesh], placement.mesh, materials_);
+    if (material.is_cut_away) {
+      writer_.leave_out();
+    } else if (may_share && !is_last) {
+      const auto shared = writer_.add_shared(take(placement.mesh, {}, material, true), material.material);
+      shared_.emplace(placement.mesh, shared);
+      put(shared, placement.world);
+    } else {
+      writer_.add(take(placement.mesh, placement.world, material, is_last), material.material);
+    }
+    if (is_last || shared_.contains(placement.mesh)) {
+      forget(*file_.scene, placement.mesh);
     }
   }
+
+ private:
+  void put(const std::optional<std::uint32_t>& shared, const Transform& world) {
+    if (shared) {
+      writer_.place(*shared, world);
+    }
+  }
+
+  PolygonMesh take(std::size_t mesh, const Transform& world, const MeshMaterial& material, bool is_last) {
+    FaceList triangles = is_last ? std::move(file_.triangles_of(mesh)) : file_.triangles_of(mesh);
+    return placed_mesh(*file_.scene->mMeshes[mesh], mesh, std::move(triangles), world, material);
+  }
+
+  ImportedFile& file_;
+  const std::vector<MeshMaterial>& materials_;
+  GeometryWriter& writer_;
+  std::vector<std::size_t> uses_left_;
+  std::map<std::size_t, std::optional<std::uint32_t>> shared_;  ///< nothing of a mesh without faces
+};
+
+void add_geometry(MeshScene& result, ImportedFile& imported, const Placements& placements,
+                  const std::vector<MeshMaterial>& materials, const MeshOptions& options) {
+  GeometryWriter writer(result.scene, result.vertices, options.smooth_degrees);
+  PlacedMeshes meshes(imported, placements, materials, writer);
+  for (const Placement& placement : placements) {
+    meshes.place(placement, !options.smooth_degrees);
+  }
   judge(writer, result.notes);
+  result.instances = writer.instances();
 }
 
 /// Takes the meshes of a file that a reader of our own has read, and frees each at once.
 void add_geometry(MeshScene& result, std::vector<PolygonMesh> meshes, const std::vector<core::Material>& materials,
                   const MeshOptions& options) {
-  core::SceneBuilder builder(result.scene);
-  GeometryWriter writer(builder, result.vertices, options.smooth_degrees);
+  GeometryWriter writer(result.scene, result.vertices, options.smooth_degrees);
   const double scale = options.scale.value_or(1);
   for (PolygonMesh& mesh : meshes) {
     for (core::Vec3d& vertex : mesh.vertices) {
@@ -266,7 +300,7 @@ void add_surroundings(MeshScene& result, const aiScene* file, const MeshOptions&
   core::Scene& scene = result.scene;
   std::vector<std::string>& notes = result.notes;
   const double scale = options.scale.value_or(1);
-  const BoundingSphere bounds = sphere_around(result.vertices);
+  const BoundingSphere bounds = sphere_around(result.vertices, scene.objects, result.instances);
   scene.background = plain_background;
   // What is said of a view or of lights that others are put in place of would be untrue.
   std::vector<std::string> unsaid;

@@ -55,7 +55,7 @@ void serve_mesh(const Message& request, Line& line) {
   for (const std::string& note : mesh.notes) {
     line.send(Saying::note, Packer().add_text(note));
   }
-  if (send_scene(mesh.scene, mesh.vertices, line, Handing::from_memory)) {
+  if (send_scene(mesh.scene, mesh.vertices, mesh.instances, line, Handing::from_memory)) {
     line.send(Saying::done);
   }
 }

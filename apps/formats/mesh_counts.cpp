@@ -53,7 +53,7 @@ Packer pack(const MeshCounts& counts) {
        {counts.vertices, counts.faces, counts.corners, counts.triangles_min, counts.read_bytes, counts.kept_bytes}) {
     fields.add(count);
   }
-  for (const bool flag : {counts.has_normals, counts.has_places, counts.has_colors}) {
+  for (const bool flag : {counts.has_normals, counts.has_places, counts.has_colors, counts.has_instances}) {
     fields.add(static_cast<std::uint8_t>(flag));
   }
   return fields;
@@ -66,7 +66,7 @@ MeshCounts take_mesh_counts(Unpacker fields) {
        {&counts.vertices, &counts.faces, &counts.corners, &counts.triangles_min, &counts.read_bytes, &counts.kept_bytes}) {
     *count = std::min(fields.take<std::uint64_t>(), most);
   }
-  for (bool* const flag : {&counts.has_normals, &counts.has_places, &counts.has_colors}) {
+  for (bool* const flag : {&counts.has_normals, &counts.has_places, &counts.has_colors, &counts.has_instances}) {
     *flag = fields.take_flag();
   }
   fields.finish();
@@ -84,9 +84,11 @@ ReadingForecast forecast_of(const MeshCounts& told, bool smooth) {
   // A list that is full is copied into a longer one; a reader has points and indices in place of a scene's vertices.
   const std::uint64_t growing = shading + points + index_bytes * counts.corners;
   const std::uint64_t placing = counts.kept_bytes + mesh + objects + shading + growing + (smooth ? smoothing_bytes(counts) : 0);
+  // What stands where it is moves to make room for instances, one pool at a time.
+  const std::uint64_t moved = counts.has_instances ? std::max(sizeof(Vec3d) * counts.corners, shading) : 0;
   const std::uint64_t triangles = counts.corners - std::min(counts.corners, 2 * counts.faces);
   return {.reader_bytes = std::max(counts.read_bytes + mesh, placing),
-          .transfer_bytes = scene + points + longest_copy(counts, shading),
+          .transfer_bytes = scene + std::max(points + longest_copy(counts, shading), moved),
           .building_bytes = scene + building_bytes_a_triangle * triangles};
 }
 

@@ -11,6 +11,7 @@ namespace dmpc::apps {
 struct MeshCounts {
   std::uint64_t vertices = 0, faces = 0, corners = 0;
   bool has_normals = false, has_places = false, has_colors = false;  ///< of corners
+  bool has_instances = false;                                        ///< some mesh stands in several places, all of which count
   std::uint64_t triangles_min = 0;  ///< at least, but for those without an area, which a database leaves out
   std::uint64_t read_bytes = 0;     ///< beside the meshes while the file is read: its own bytes, and what is made of them first
   std::uint64_t kept_bytes = 0;     ///< beside the meshes until the scene is made

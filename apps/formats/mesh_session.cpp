@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Beside what a file becomes: libraries' own, and instances, of which few bytes make many.
+/// Beside what a file becomes: libraries' own.
 constexpr std::uint64_t spare_bytes = std::uint64_t{2} << 30U;
 constexpr std::uint64_t memory_per_byte = 1024;
 /// So long is a texture within a file at most.

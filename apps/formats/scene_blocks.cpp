@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/formats/nff_reader.h"
 #include "apps/formats/view_faults.h"
 #include "core/base/expect.h"
@@ -106,7 +107,7 @@ bool is_weight(double value) { return value >= 0 && value < coordinate_max; }
 
 }  // namespace
 
-bool send_scene(core::Scene& scene, IndexedVertices& vertices, Line& line, Handing handing) {
+bool send_scene(core::Scene& scene, IndexedVertices& vertices, core::Instances& instances, Line& line, Handing handing) {
   const Packer head = Packer()
                           .add(scene.view)
                           .add(scene.background)
@@ -116,12 +117,15 @@ bool send_scene(core::Scene& scene, IndexedVertices& vertices, Line& line, Handi
                           .add(count_of(vertices.points))
                           .add(count_of(vertices.indices))
                           .add(count_of(scene.normals))
-                          .add(count_of(scene.corners));
+                          .add(count_of(scene.corners))
+                          .add(count_of(instances.meshes))
+                          .add(count_of(instances.places));
   BlockSender blocks(line, handing);
   return line.send(Saying::scene, head) && send_lights(scene.lights, line) && blocks.send(scene.materials, Saying::materials) &&
          blocks.send(scene.objects, Saying::objects) && blocks.send(vertices.points, Saying::points) &&
          blocks.send(vertices.indices, Saying::vertices) && blocks.send(scene.normals, Saying::normals) &&
-         blocks.send(scene.corners, Saying::corners);
+         blocks.send(scene.corners, Saying::corners) && blocks.send(instances.meshes, Saying::meshes) &&
+         blocks.send(instances.places, Saying::places);
 }
 
 bool SceneReceiver::take(const Message& message) {
@@ -156,6 +160,10 @@ bool SceneReceiver::take_from(Saying saying, std::uint64_t bytes, const Fill& fi
       return append(scene_.normals, announced_.normals, bytes, fill);
     case Saying::corners:
       return append(scene_.corners, announced_.corners, bytes, fill);
+    case Saying::meshes:
+      return append(instances_.meshes, announced_.meshes, bytes, fill);
+    case Saying::places:
+      return append(instances_.places, announced_.places, bytes, fill);
     default:
       return append_vertices(bytes, fill);
   }
@@ -175,7 +183,7 @@ void SceneReceiver::take_head(Unpacker fields) {
   const auto reserve = [this, &fields](auto& pool) {
     const auto count = fields.take<std::uint64_t>();
     Unpacker::require(count < std::numeric_limits<std::uint32_t>::max());
-    pool.reserve(std::min(count, believed_bytes_ / sizeof(pool[0])));
+    pool.reserve(std::min(count, limits_.believed_bytes / sizeof(pool[0])));
     return count;
   };
   announced_.materials = reserve(scene_.materials);
@@ -185,6 +193,8 @@ void SceneReceiver::take_head(Unpacker fields) {
   announced_.vertices = reserve(scene_.vertices);
   announced_.normals = reserve(scene_.normals);
   announced_.corners = reserve(scene_.corners);
+  announced_.meshes = reserve(instances_.meshes);
+  announced_.places = reserve(instances_.places);
   fields.finish();
 }
 
@@ -291,6 +301,35 @@ void SceneReceiver::drop_needless_alpha(core::Material& material) const {
   }
 }
 
+/// Each mesh has objects of its own, and each place one of the meshes.
+void SceneReceiver::check_instances() const {
+  std::uint32_t next = 0;
+  for (const core::SharedMesh& mesh : instances_.meshes) {
+    Unpacker::require(mesh.first >= next && mesh.end > mesh.first && mesh.end <= scene_.objects.size());
+    next = mesh.end;
+  }
+  next = 0;
+  for (const core::Instance& place : instances_.places) {
+    Unpacker::require(place.mesh < instances_.meshes.size() && place.before >= next && place.before <= scene_.objects.size());
+    next = place.before;
+  }
+}
+
+/// Few bytes may say much of them.
+void SceneReceiver::expand_instances() {
+  if (instances_.empty()) {
+    return;
+  }
+  check_instances();
+  const std::uint64_t bytes = core::expanded_size(scene_, instances_).bytes();
+  if (bytes > limits_.expanded_bytes) {
+    throw core::RoomError("with every instance it takes " + bytes_text(bytes) + " of memory, and there are " +
+                          bytes_text(limits_.expanded_bytes) + " for it: give the scene fewer, or coarser meshes");
+  }
+  core::expand(scene_, std::exchange(instances_, {}));
+  Unpacker::require(std::all_of(scene_.vertices.begin(), scene_.vertices.end(), is_point));
+}
+
 /// Normals and places on textures, or colours of corners, may have any bits (core/database/conversion.cpp).
 core::Scene SceneReceiver::finish() {
   const core::View& view = scene_.view;
@@ -309,6 +348,7 @@ core::Scene SceneReceiver::finish() {
   }
   Unpacker::require(std::all_of(points_.begin(), points_.end(), is_point));
   core::forget(points_);
+  expand_instances();
   return std::exchange(scene_, {});
 }
 

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/system/input_memory.h"
 #include "apps/formats/indexed_vertices.h"
 #include "apps/reader/line.h"
+#include "core/scene/instances.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
@@ -22,16 +24,23 @@ inline constexpr std::uint64_t believed_bytes_max = std::uint64_t{1} << 30U;
 /// reader that it has started, which spares three copies of four.
 enum class Handing : std::uint8_t { in_messages, from_memory };
 
-/// Sends all but the textures, the name and the scene's own vertices, in place of which it sends `vertices`; what is sent is
-/// freed on the way. Returns whether the other end took it.
-bool send_scene(core::Scene& scene, IndexedVertices& vertices, Line& line, Handing handing);
+/// Sends all but the textures, the name and the scene's own vertices, in place of which it sends `vertices`, and what stands in
+/// several places, `instances`, once with these; what is sent is freed on the way. Returns whether the other end took it.
+bool send_scene(core::Scene& scene, IndexedVertices& vertices, core::Instances& instances, Line& line, Handing handing);
 
-/// Puts it together. Throws Nonsense for what no scene may hold: more than was announced; an index, a count, a kind or a number
-/// out of its range; a view that shows nothing; std::bad_alloc if memory ends.
+/// How much room is made for what few bytes say.
+struct ReceivingLimits {
+  /// For each list, before it comes: believed_bytes_max, or less for who tries many scenes that announce much and send nothing.
+  std::uint64_t believed_bytes = believed_bytes_max;
+  std::uint64_t expanded_bytes = reader_memory_bytes_max();  ///< for the scene with every instance
+};
+
+/// Puts it together, with every instance expanded. Throws Nonsense for what no scene may hold: more than was announced; an index,
+/// a count, a kind or a number out of its range; a view that shows nothing; core::RoomError if the instances need more than there
+/// is; std::bad_alloc if memory ends.
 class SceneReceiver {
  public:
-  /// `believed_bytes`: believed_bytes_max, or less for who tries many scenes that announce much and send nothing.
-  explicit SceneReceiver(std::uint64_t believed_bytes = believed_bytes_max) : believed_bytes_(believed_bytes) {}
+  explicit SceneReceiver(const ReceivingLimits& limits = {}) : limits_(limits) {}
 
   /// Whether the message is one of a scene's, and was taken.
   bool take(const Message& message);
@@ -51,7 +60,7 @@ class SceneReceiver {
   void take_lights(Unpacker fields);
   /// How many entries there will be of each pool.
   struct Announced {
-    std::uint64_t materials = 0, objects = 0, points = 0, vertices = 0, normals = 0, corners = 0;
+    std::uint64_t materials = 0, objects = 0, points = 0, vertices = 0, normals = 0, corners = 0, meshes = 0, places = 0;
   };
 
   template <class T>
@@ -60,10 +69,13 @@ class SceneReceiver {
   void check_object(const core::Object& object) const;
   void check_material(const core::Material& material) const;
   void check_facet_textures() const;
+  void check_instances() const;
+  void expand_instances();
   void drop_needless_alpha(core::Material& material) const;
 
-  std::uint64_t believed_bytes_;
+  ReceivingLimits limits_;
   core::Scene scene_;
+  core::Instances instances_;
   std::vector<core::Vec3d> points_;  ///< of the scene's vertices
   Announced announced_;
   bool has_head_ = false;

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "core/base/box.h"
 #include "core/base/elementary.h"
@@ -13,24 +16,86 @@ namespace dmpc::apps {
 
 using core::Vec3d;
 
-BoundingSphere sphere_around(const IndexedVertices& vertices) {
-  core::Box box;
-  std::vector<std::uint8_t> has_vertex(vertices.points.size());  // a point is looked at once, in the order of the vertices
-  for (const std::uint32_t index : vertices.indices) {
-    if (has_vertex[index] == 0) {
-      has_vertex[index] = 1;
-      box.include(vertices.points[index]);
+namespace {
+
+/// The points of a scene's vertices, each once for each place in which it stands, and the box around them.
+class PlacedPoints {
+ public:
+  PlacedPoints(const IndexedVertices& vertices, const std::vector<core::Object>& objects, const core::Instances& instances)
+      : points_(vertices.points), places_(instances.places), is_own_(vertices.points.size()) {
+    const auto end = static_cast<std::uint32_t>(vertices.indices.size());
+    const auto first_vertex = [&](std::uint32_t object) { return object < objects.size() ? objects[object].first : end; };
+    std::uint32_t next = 0;
+    for (const core::SharedMesh& mesh : instances.meshes) {
+      add_own(vertices, next, first_vertex(mesh.first));
+      next = first_vertex(mesh.end);
+      add_shared(vertices, first_vertex(mesh.first), next);
+    }
+    add_own(vertices, next, end);
+    for_each_placed([this](const Vec3d& point) { box_.include(point); });
+  }
+
+  const core::Box& box() const { return box_; }
+
+  /// Calls `take` with each.
+  template <class Take>
+  void for_each(const Take& take) const {
+    for (std::size_t i = 0; i < is_own_.size(); ++i) {
+      if (is_own_[i] != 0) {
+        take(points_[i]);
+      }
+    }
+    for_each_placed(take);
+  }
+
+ private:
+  template <class Take>
+  void for_each_placed(const Take& take) const {
+    for (const core::Instance& place : places_) {
+      for (const std::uint32_t point : shared_[place.mesh]) {
+        take(place.world.point(points_[point]));
+      }
     }
   }
-  if (box.empty()) {
+
+  /// A point is looked at once, in the order of the vertices.
+  void add_own(const IndexedVertices& vertices, std::uint32_t first, std::uint32_t end) {
+    for (std::uint32_t i = first; i < end; ++i) {
+      const std::uint32_t point = vertices.indices[i];
+      if (std::exchange(is_own_[point], std::uint8_t{1}) == 0) {
+        box_.include(points_[point]);
+      }
+    }
+  }
+
+  void add_shared(const IndexedVertices& vertices, std::uint32_t first, std::uint32_t end) {
+    std::vector<std::uint32_t> list(vertices.indices.begin() + first, vertices.indices.begin() + end);
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    shared_.push_back(std::move(list));
+  }
+
+  const std::vector<Vec3d>& points_;
+  const std::vector<core::Instance>& places_;
+  core::Box box_;
+  std::vector<std::uint8_t> is_own_;                ///< by point
+  std::vector<std::vector<std::uint32_t>> shared_;  ///< points of each mesh
+};
+
+}  // namespace
+
+BoundingSphere sphere_around(const IndexedVertices& vertices, const std::vector<core::Object>& objects,
+                             const core::Instances& instances) {
+  const PlacedPoints points(vertices, objects, instances);
+  if (points.box().empty()) {
     return {{}, 1};
   }
-  BoundingSphere bounds{box.center(), 0};
+  BoundingSphere bounds{points.box().center(), 0};
   double square = 0;
-  for (std::size_t i = 0; i < has_vertex.size(); ++i) {
-    const Vec3d offset = vertices.points[i] - bounds.center;
-    square = has_vertex[i] != 0 ? std::max(square, dot(offset, offset)) : square;
-  }
+  points.for_each([&](const Vec3d& point) {
+    const Vec3d offset = point - bounds.center;
+    square = std::max(square, dot(offset, offset));
+  });
   bounds.radius = std::sqrt(square);
   return bounds;
 }

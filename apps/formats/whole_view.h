@@ -6,6 +6,7 @@
 #include "apps/formats/indexed_vertices.h"
 #include "apps/formats/up_axis.h"
 #include "core/base/vec.h"
+#include "core/scene/instances.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
@@ -15,8 +16,10 @@ struct BoundingSphere {
   core::Vec3d center;
   double radius = 0;
 };
-/// About the middle of their box; without any, of radius 1 about 0.
-BoundingSphere sphere_around(const IndexedVertices& vertices);
+/// About the middle of their box, those of `objects` in their order, of what stands in several places in all of them; without
+/// any, of radius 1 about 0. A point that no vertex has is none.
+BoundingSphere sphere_around(const IndexedVertices& vertices, const std::vector<core::Object>& objects,
+                             const core::Instances& instances);
 
 /// Light grey-blue, linear: dark and bright surfaces stand out from it.
 inline constexpr core::Vec3d plain_background{0.45, 0.55, 0.7};

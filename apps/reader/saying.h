@@ -7,7 +7,7 @@
 namespace dmpc::apps {
 
 /// The version of the messages and of what they hold; processes of different builds do not understand each other.
-inline constexpr std::uint32_t protocol = 8;
+inline constexpr std::uint32_t protocol = 9;
 
 /// A message is no longer; more is sent in pieces.
 inline constexpr std::size_t message_bytes_max = 64 * 1024;
@@ -38,13 +38,15 @@ enum class Saying : std::uint8_t {
   texture_bytes,   ///< of the bytes sent: name, format hint, edges; answered likewise
   texture_texels,  ///< of the bytes sent, four a texel: name, width, height, edges; answered likewise
   picture,         ///< width, height, format; its bytes follow, then done
-  scene,           ///< view, background, counts of materials, objects, points, vertices, normals and corners
+  scene,           ///< view, background, counts of materials, objects, points, vertices, normals, corners, meshes and places
   lights,
   materials,
   objects,
   points,  ///< where vertices lie
   normals,
   corners,
+  meshes,     ///< which of the objects stand in places of their own: core::SharedMesh
+  places,     ///< of meshes: core::Instance
   vertices,   ///< indices of the points that have come
   note,       ///< a text
   done,       ///< the last message about what was asked for

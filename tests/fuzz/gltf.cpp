@@ -44,6 +44,7 @@ std::optional<core::Scene> read(Bytes input) {
   try {
     apps::MeshScene mesh = apps::read_mesh(name, {.allows_missing = true}, files);
     mesh.scene.vertices = apps::expanded(mesh.vertices);
+    core::expand(mesh.scene, mesh.instances);
     return std::move(mesh.scene);
   } catch (const core::InputError& error) {
     core::expect(!std::string_view(error.what()).empty(), "who refuses says why");

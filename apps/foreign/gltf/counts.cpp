@@ -13,6 +13,11 @@ namespace {
 /// So that no sum overflows.
 constexpr std::uint64_t count_max = std::uint64_t{1} << 40U;
 
+/// Adds what is there once, and stands in so many places.
+void add_placed(std::uint64_t& sum, std::uint64_t once, std::uint64_t places) {
+  sum = std::min(sum + std::min(once, count_max / std::max(places, std::uint64_t{1})) * places, count_max);
+}
+
 /// Of a mesh, once.
 struct MeshSize {
   std::uint64_t vertices = 0, corners = 0;
@@ -41,12 +46,13 @@ class Counter {
     }
     return size;
   }
-  /// In how many nodes each mesh stands.
+  /// In how many places each mesh stands.
   std::vector<std::uint64_t> uses(std::size_t meshes) const {
     std::vector<std::uint64_t> uses(meshes);
     for (const Part& node : root_.list("nodes")) {
       if (const auto mesh = node.index("mesh", meshes, "meshes")) {
-        ++uses[*mesh];
+        const auto instancing = node.extension("EXT_mesh_gpu_instancing");
+        uses[*mesh] = std::min(uses[*mesh] + (instancing ? count_of_instances(*instancing) : 1), count_max);
       }
     }
     return uses;
@@ -54,6 +60,15 @@ class Counter {
 
  private:
   static constexpr std::uint64_t lines = 1, triangles = 4;
+
+  std::uint64_t count_of_instances(const Part& instancing) const {
+    const Part attributes = instancing.get("attributes");
+    std::uint64_t count = 0;
+    for (const char* const name : {"TRANSLATION", "ROTATION", "SCALE"}) {
+      count = std::max(count, count_of(attributes.find(name)));
+    }
+    return count;
+  }
 
   std::uint64_t count_of(const std::optional<Part>& place) const {
     return place ? std::min(accessors_.at(place->as_index(accessors_.size(), "accessors")).whole("count", 0), count_max) : 0;
@@ -89,8 +104,9 @@ MeshCounts counts_of(const Document& document, std::uint64_t file_bytes) {
     once.corners += size.corners;
     once.thin_faces += size.thin_faces;
     once.indices += size.indices;
-    counts.vertices += uses[i] * size.vertices;
-    counts.corners += uses[i] * size.corners;
+    add_placed(counts.vertices, size.vertices, uses[i]);
+    add_placed(counts.corners, size.corners, uses[i]);
+    counts.has_instances = counts.has_instances || uses[i] > 1;
     counts.triangles_min += uses[i] > 0 ? size.corners / 3 : 0;
   }
   counts.faces = counts.corners / 3;

@@ -12,6 +12,7 @@
 #include "apps/formats/mesh_counts.h"
 #include "apps/formats/nff_reader.h"
 #include "core/base/expect.h"
+#include "core/scene/face_normals.h"
 
 namespace dmpc::apps {
 namespace {
@@ -22,27 +23,6 @@ constexpr double coordinate_max = 1e30;
 
 bool is_usable(const Vec3d& v) {
   return std::abs(v.x) < coordinate_max && std::abs(v.y) < coordinate_max && std::abs(v.z) < coordinate_max;
-}
-
-/// Twice the area times the normal.
-Vec3d area_vector(const std::vector<Vec3d>& corners) {
-  Vec3d sum;
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    sum = sum + cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
-  }
-  return sum;
-}
-
-/// Whether a face looks as it would without them: all are alike and stand on its plane but for what writing them in a few digits
-/// has done to them, or are 0. Cards of leaves have normals that are alike, and point elsewhere.
-bool are_the_faces_own(const std::vector<Vec3d>& normals, const std::vector<Vec3d>& corners) {
-  constexpr double sine_max = 0x1p-10;
-  const Vec3d& first = normals.front();
-  if (!std::all_of(normals.begin(), normals.end(), [&first](const Vec3d& v) { return v == first; })) {
-    return false;
-  }
-  const Vec3d area = area_vector(corners);
-  return !(length(cross(first, area)) > sine_max * length(first) * length(area));
 }
 
 bool spans_an_area(const std::vector<Vec3d>& corners) {
@@ -100,9 +80,71 @@ void check_size(const GeometrySize& size) {
 }
 
 void GeometryWriter::add(PolygonMesh mesh, core::Material material) {
-  if (mesh.faces.ends.empty()) {
-    return;
+  is_shared_ = false;
+  if (!mesh.faces.ends.empty()) {
+    add_objects(std::move(mesh), material);
   }
+}
+
+std::optional<std::uint32_t> GeometryWriter::add_shared(PolygonMesh mesh, core::Material material) {
+  core::expect(!smooth_degrees_, "a mesh whose normals are reckoned anew is not shared");
+  if (mesh.faces.ends.empty()) {
+    return std::nullopt;
+  }
+  is_shared_ = true;
+  const auto first = static_cast<std::uint32_t>(scene_.objects.size());
+  const auto taken_since = [](std::uint64_t& count, std::uint64_t before) {
+    const std::uint64_t since = count - before;
+    count = before;
+    return since;
+  };
+  const std::uint64_t unplaced = unplaced_, unseen = unseen_, without_colors = meshes_without_colors_;
+  Shared shared{.name = mesh.name};
+  for (const std::uint32_t vertex : mesh.faces.corners) {
+    shared.box.include(mesh.vertices[vertex]);
+  }
+  add_objects(std::move(mesh), material);
+  shared.unplaced = taken_since(unplaced_, unplaced);
+  shared.unseen = taken_since(unseen_, unseen);
+  shared.without_colors = taken_since(meshes_without_colors_, without_colors);
+  shared_.push_back(std::move(shared));
+  instances_.meshes.push_back({first, static_cast<std::uint32_t>(scene_.objects.size())});
+  return static_cast<std::uint32_t>(shared_.size() - 1);
+}
+
+void GeometryWriter::place(std::uint32_t mesh, const core::Transform& world) {
+  const Shared& shared = shared_.at(mesh);
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const core::Box& box = shared.box;
+    const auto side = [&](unsigned axis) { return ((corner >> axis) & 1U) == 0 ? box.low[axis] : box.high[axis]; };
+    if (!is_usable(world.point({side(0), side(1), side(2)}))) {
+      throw core::InputError(shared.name + ": a node takes it beyond 1e30; correct the transforms of the file");
+    }
+  }
+  has_area_ = has_area_ || has_area_in(instances_.meshes[mesh], world);
+  unplaced_ += shared.unplaced;
+  unseen_ += shared.unseen;
+  meshes_without_colors_ += shared.without_colors;
+  instances_.places.push_back({world, mesh, static_cast<std::uint32_t>(scene_.objects.size())});
+}
+
+bool GeometryWriter::has_area_in(const core::SharedMesh& mesh, const core::Transform& world) const {
+  std::vector<Vec3d> corners;
+  for (std::uint32_t i = mesh.first; i < mesh.end; ++i) {
+    const core::Object& object = scene_.objects[i];
+    corners.clear();
+    for (std::uint32_t vertex = object.first; vertex < object.first + object.vertex_count; ++vertex) {
+      corners.push_back(world.point(vertices_.points[vertices_.indices[vertex]]));
+    }
+    if (spans_an_area(corners)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A mesh that has faces.
+void GeometryWriter::add_objects(PolygonMesh mesh, core::Material material) {
   check_faces(mesh.faces, mesh.name);
   check_vertices(mesh);
   if (smooth_degrees_) {
@@ -127,7 +169,7 @@ void GeometryWriter::add(PolygonMesh mesh, core::Material material) {
   const bool is_plain = mesh.normals.empty() && mesh.places.empty() && mesh.colors.empty();
   std::size_t first = 0;
   for (const std::uint32_t end : mesh.faces.ends) {
-    if (is_plain && has_area_) {
+    if (is_plain && (has_area_ || is_shared_)) {
       builder_.polygon(end - first);
     } else {
       add_face(mesh, material, first, end);
@@ -182,12 +224,12 @@ void GeometryWriter::add_face(const PolygonMesh& mesh, const core::Material& mat
   for (std::size_t i = first; i < end; ++i) {
     face_vertices_.push_back(mesh.vertices[mesh.faces.corners[i]]);
   }
-  has_area_ = has_area_ || spans_an_area(face_vertices_);
+  has_area_ = has_area_ || (!is_shared_ && spans_an_area(face_vertices_));
   face_normals_.clear();
   if (!mesh.normals.empty()) {
     face_normals_.assign(mesh.normals.begin() + static_cast<std::ptrdiff_t>(first),
                          mesh.normals.begin() + static_cast<std::ptrdiff_t>(end));
-    if (are_the_faces_own(face_normals_, face_vertices_)) {
+    if (!is_shared_ && core::are_the_faces_own(face_normals_, face_vertices_)) {  // what the shared ones say the place decides
       face_normals_.clear();
     }
   }

@@ -6,11 +6,14 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "apps/foreign/mesh/polygon_mesh.h"
 #include "apps/formats/indexed_vertices.h"
+#include "core/base/box.h"
 #include "core/base/counts.h"
+#include "core/scene/instances.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
@@ -32,17 +35,27 @@ void check_size(const GeometrySize& size);
 
 /// Adds meshes to a scene. Faces become polygons, or patches where they have vertex normals that are not the face's own, textured
 /// ones if the material has a texture and the mesh has places on it, coloured ones if it has none and the mesh has colours. Faces
-/// of one colour have a material of that colour, as long as there are few such.
+/// of one colour have a material of that colour, as long as there are few such. What stands in several places is added once, by
+/// add_shared(), and then has its places, by place(): instances, which whoever takes the scene has to expand.
 class GeometryWriter {
  public:
-  /// The builder's scene has no vertices, which go to `vertices`. `smooth_degrees`: vertex normals are reckoned anew
-  /// (apps/foreign/mesh/smooth.h), whatever the mesh has.
-  GeometryWriter(core::SceneBuilder& builder, IndexedVertices& vertices, std::optional<double> smooth_degrees)
-      : builder_(builder), vertices_(vertices), smooth_degrees_(smooth_degrees) {}
+  /// The scene has no vertices, which go to `vertices`, and nobody else adds to it. `smooth_degrees`: vertex normals are reckoned
+  /// anew (apps/foreign/mesh/smooth.h), whatever the mesh has.
+  GeometryWriter(core::Scene& scene, IndexedVertices& vertices, std::optional<double> smooth_degrees)
+      : scene_(scene), builder_(scene), vertices_(vertices), smooth_degrees_(smooth_degrees) {}
 
   /// A mesh without places loses the material's texture. Throws core::InputError with the mesh's name for a coordinate that is
   /// not finite or beyond 1e30, an index of a vertex that does not exist, or a polygon with too many corners.
   void add(PolygonMesh mesh, core::Material material);
+
+  /// Adds a mesh in coordinates of its own, which stands nowhere yet. Returns what place() calls it; nothing if it has no faces.
+  /// Throws as add() does. Not with smooth_degrees: how sharp an edge is depends on the place.
+  std::optional<std::uint32_t> add_shared(PolygonMesh mesh, core::Material material);
+  /// Puts a shared mesh in a place, behind all that came before in the file's order. Throws core::InputError with the mesh's name
+  /// if that takes it beyond 1e30.
+  void place(std::uint32_t mesh, const core::Transform& world);
+  /// Of all shared meshes.
+  const core::Instances& instances() const { return instances_; }
 
   /// A mesh whose surface is not there: it counts for has_area() alone.
   void leave_out() { has_area_ = true; }
@@ -57,6 +70,15 @@ class GeometryWriter {
   std::uint64_t meshes_without_colors() const { return meshes_without_colors_; }
 
  private:
+  /// What is known of a shared mesh beside its objects.
+  struct Shared {
+    std::string name;
+    core::Box box;
+    std::uint64_t unplaced = 0, unseen = 0, without_colors = 0;  ///< what each of its places counts for
+  };
+
+  void add_objects(PolygonMesh mesh, core::Material material);
+  bool has_area_in(const core::SharedMesh& mesh, const core::Transform& world) const;
   /// The face of these corners.
   void add_face(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end);
   void add_corners(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end);
@@ -64,9 +86,13 @@ class GeometryWriter {
   void keep_vertices(std::vector<core::Vec3d> points, std::vector<std::uint32_t> indices);
   bool set_one_color(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end);
 
-  core::SceneBuilder& builder_;
+  core::Scene& scene_;
+  core::SceneBuilder builder_;
   IndexedVertices& vertices_;
   std::optional<double> smooth_degrees_;
+  core::Instances instances_;
+  std::vector<Shared> shared_;  ///< by Instances::meshes
+  bool is_shared_ = false;      ///< what is being added
   bool has_area_ = false, hides_colors_ = false;
   std::uint64_t unplaced_ = 0, unseen_ = 0, meshes_without_colors_ = 0;
   std::set<std::array<double, 3>> face_colors_;  ///< of faces of one colour

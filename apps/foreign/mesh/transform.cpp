@@ -1,13 +1,10 @@
 #include "apps/foreign/mesh/transform.h"
 
+#include <array>
+
 namespace dmpc::apps {
 
 using core::Vec3d;
-
-Transform Transform::of_normals() const {
-  const double sign = determinant() < 0 ? -1 : 1;
-  return {{cross(rows[1], rows[2]) * sign, cross(rows[2], rows[0]) * sign, cross(rows[0], rows[1]) * sign}, {}};
-}
 
 Transform scaling(double factor) { return {{{{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}}}, {}}; }
 

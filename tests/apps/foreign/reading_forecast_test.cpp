@@ -197,6 +197,29 @@ TEST_CASE("of lines and points of glTF a forecast has a face of Assimp's each, a
   }
 }
 
+TEST_CASE("of what stands in several places a forecast has all of them, as nodes or as instances of one") {
+  const auto forecast_with = [](int nodes, int instances) {
+    tests::GltfDocument document;
+    const std::size_t positions = document.accessor(document.view(tests::bytes_of(tests::triangle_corners)), 5126, 3, "VEC3");
+    const std::string moves(12 * static_cast<std::size_t>(instances), '\0');
+    const std::size_t places = document.accessor(document.view(moves), 5126, static_cast<std::size_t>(instances), R"(VEC3)");
+    const std::string node =
+        R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":)" + std::to_string(places) + "}}}";
+    document.node = node;
+    for (int i = 1; i < nodes; ++i) {
+      document.node += (i == 1 ? R"(,"children":[1]},)" : "},") + node;
+    }
+    document.node += "}";
+    return *tests::read_mesh("a.gltf", document.text(R"({"attributes":{"POSITION":)" + std::to_string(positions) + "}}"))
+                .forecast;
+  };
+  const MeshCounts thousand{.vertices = 3000, .faces = 1000, .corners = 3000, .has_instances = true};
+  CHECK(forecast_with(1, 1000).transfer_bytes == forecast_of(thousand).transfer_bytes);
+  CHECK(forecast_with(2, 500).transfer_bytes == forecast_of(thousand).transfer_bytes);
+  const MeshCounts one{.vertices = 3, .faces = 1, .corners = 3};
+  CHECK(forecast_with(1, 1).building_bytes == forecast_of(one).building_bytes);
+}
+
 TEST_CASE("statements of OBJ count wherever they stand in a line, and on lines that go on") {
   const MeshCounts counts =
       obj::counts_of("v 0 0 0\n\tv 1 0 0 1 0 0\r\nv 0 1 0 1 1 1\nvt 0 0\nf 1/1 2/1 \\\n 3/1 1/1\r\n  f 1 2 3\n#f 1");

@@ -39,14 +39,15 @@ IndexedVertices vertices_of(const core::Scene& scene) {
 }
 
 /// Through a line and back, with so many textures of a texel.
-core::Scene sent(core::Scene scene, IndexedVertices vertices, int textures = 1) {
+core::Scene sent(core::Scene scene, IndexedVertices vertices, int textures = 1, core::Instances instances = {},
+                 const ReceivingLimits& limits = {}) {
   auto [mine, its] = make_ends();
   Line sender(std::move(mine)), receiver(std::move(its));
   std::jthread writer([&] {
-    send_scene(scene, vertices, sender, Handing::in_messages);
+    send_scene(scene, vertices, instances, sender, Handing::in_messages);
     sender.send(Saying::done);
   });
-  SceneReceiver whole;
+  SceneReceiver whole(limits);
   for (int i = 0; i < textures; ++i) {
     whole.add({.name = "t", .levels = {{1, 1, {0x808080}}}});
   }
@@ -61,10 +62,11 @@ core::Scene sent(core::Scene scene, IndexedVertices vertices, int textures = 1) 
 /// What a reader hands over is looked for where it says, or not at all.
 core::Scene handed_over(core::Scene scene, bool is_let) {
   IndexedVertices vertices = vertices_of(scene);
+  core::Instances instances;
   auto [mine, its] = make_ends();
   Line sender(std::move(mine)), receiver(std::move(its));
   std::jthread writer([&] {
-    send_scene(scene, vertices, sender, Handing::from_memory);
+    send_scene(scene, vertices, instances, sender, Handing::from_memory);
     sender.send(Saying::done);
   });
   SceneReceiver whole;
@@ -153,6 +155,46 @@ TEST_CASE("lists that are handed over come as those in messages do, and so do th
   }
 }
 
+TEST_CASE("what stands in several places comes once, and is there in all of them") {
+  const core::Scene before = three_triangles();
+  const core::Instances instances{.meshes = {{1, 3}}, .places = {{{.shift = {0, 0, 1}}, 0, 3}, {{.shift = {0, 0, 2}}, 0, 3}}};
+  const core::Scene after = sent(before, vertices_of(before), 1, instances);
+  core::Scene expected = before;
+  core::expand(expected, instances);
+  REQUIRE(after.objects.size() == 5);
+  CHECK(after.vertices == expected.vertices);
+  CHECK(after.vertices[9] == core::Vec3d{0, 0, 2});
+  CHECK(after.objects[4].kind == ObjectKind::textured);
+}
+
+TEST_CASE("instances that cannot be are refused, and so is what they would take beyond the memory that there is") {
+  const core::Scene scene = three_triangles();
+  const auto is_refused = [&scene](const core::Instances& instances) {
+    try {
+      sent(scene, vertices_of(scene), 1, instances);
+      return false;
+    } catch (const Nonsense&) {
+      return true;
+    }
+  };
+  const core::Transform here, far{.shift = {1e30, 0, 0}}, nowhere{.shift = {std::numeric_limits<double>::quiet_NaN(), 0, 0}};
+  CHECK_FALSE(is_refused({.meshes = {{0, 1}, {1, 3}}, .places = {{here, 1, 0}, {here, 0, 3}}}));
+  CHECK(is_refused({.meshes = {{1, 1}}}));
+  CHECK(is_refused({.meshes = {{2, 1}}}));
+  CHECK(is_refused({.meshes = {{1, 4}}}));
+  CHECK(is_refused({.meshes = {{0, 2}, {1, 3}}}));
+  CHECK(is_refused({.meshes = {{0, 1}}, .places = {{here, 1, 0}}}));
+  CHECK(is_refused({.meshes = {{0, 1}}, .places = {{here, 0, 4}}}));
+  CHECK(is_refused({.meshes = {{0, 1}}, .places = {{here, 0, 3}, {here, 0, 2}}}));
+  CHECK(is_refused({.meshes = {{0, 1}}, .places = {{far, 0, 3}}}));
+  CHECK(is_refused({.meshes = {{0, 1}}, .places = {{nowhere, 0, 3}}}));
+  const core::Instances thousand{.meshes = {{0, 3}}, .places = std::vector<core::Instance>(1000, {here, 0, 3})};
+  const std::uint64_t bytes = core::expanded_size(scene, thousand).bytes();
+  CHECK(sent(scene, vertices_of(scene), 1, thousand, {.expanded_bytes = bytes}).objects.size() == 3000);
+  CHECK_THROWS_WITH_AS(sent(scene, vertices_of(scene), 1, thousand, {.expanded_bytes = bytes - 1}),
+                       doctest::Contains("with every instance it takes"), core::RoomError);
+}
+
 TEST_CASE("more than was announced is not taken from anywhere") {
   const auto nothing = [](std::span<std::byte> /*room*/) { return true; };
   SceneReceiver receiver;
@@ -160,7 +202,7 @@ TEST_CASE("more than was announced is not taken from anywhere") {
   const core::Scene scene = three_triangles();
   Packer head;
   head.add(scene.view).add(scene.background).add(scene.coordinate_rounding);
-  for (int pool = 0; pool < 6; ++pool) {
+  for (int pool = 0; pool < 8; ++pool) {
     head.add(std::uint64_t{1});
   }
   receiver.take({Saying::scene, head.bytes(), Descriptor()});
@@ -246,7 +288,7 @@ TEST_CASE("more than was announced, and parts of an entry, are refused") {
   CHECK_THROWS_AS(receiver.take({Saying::points, std::string(24, '\0'), Descriptor()}), Nonsense);
   Packer head;
   head.add(scene.view).add(scene.background).add(scene.coordinate_rounding);
-  for (int pool = 0; pool < 6; ++pool) {
+  for (int pool = 0; pool < 8; ++pool) {
     head.add(std::uint64_t{1});
   }
   CHECK(receiver.take({Saying::scene, head.bytes(), Descriptor()}));
@@ -260,7 +302,7 @@ TEST_CASE("more lights, textures and materials than any scene has are refused be
   const core::Scene scene;
   Packer head;
   head.add(scene.view).add(scene.background).add(scene.coordinate_rounding).add(std::uint64_t{1} << 30U);
-  for (int pool = 0; pool < 5; ++pool) {
+  for (int pool = 0; pool < 7; ++pool) {
     head.add(std::uint64_t{1});
   }
   CHECK_THROWS_AS(receiver.take({Saying::scene, head.bytes(), Descriptor()}), Nonsense);

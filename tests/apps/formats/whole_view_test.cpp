@@ -9,12 +9,22 @@ namespace dmpc::apps::whole_view_test {
 using core::Vec3d;
 
 TEST_CASE("the bounds are a sphere about the middle of the box of the vertices that there are") {
-  const BoundingSphere bounds = sphere_around({{{-1, 0, 0}, {3, 0, 0}, {9, 9, 9}, {1, 1, 0}}, {0, 1, 0, 3}});
+  const BoundingSphere bounds = sphere_around({{{-1, 0, 0}, {3, 0, 0}, {9, 9, 9}, {1, 1, 0}}, {0, 1, 0, 3}}, {}, {});
   CHECK(bounds.center == Vec3d{1, 0.5, 0});
   CHECK(bounds.radius == doctest::Approx(2.0615528));
 }
 
-TEST_CASE("one vertex has bounds without a radius") { CHECK(sphere_around({{{5, 6, 7}}, {0}}).radius == 0); }
+TEST_CASE("one vertex has bounds without a radius") { CHECK(sphere_around({{{5, 6, 7}}, {0}}, {}, {}).radius == 0); }
+
+TEST_CASE("what stands in several places is around which the sphere lies in all of them, and not where it stands nowhere") {
+  const IndexedVertices vertices{{{0, 0, 0}, {1, 0, 0}, {100, 0, 0}, {102, 0, 0}}, {0, 1, 0, 2, 3, 2}};
+  const std::vector<core::Object> objects{{.first = 0, .vertex_count = 3}, {.first = 3, .vertex_count = 3}};
+  const core::Instances instances{.meshes = {{1, 2}},
+                                  .places = {{{.shift = {-100, 0, 0}}, 0, 2}, {{.shift = {-106, 0, 0}}, 0, 2}}};
+  const BoundingSphere bounds = sphere_around(vertices, objects, instances);
+  CHECK(bounds.center == Vec3d{-2, 0, 0});
+  CHECK(bounds.radius == 4);
+}
 
 TEST_CASE("the sphere touches the picture's edge, for every axis that may be up") {
   for (const std::size_t axis : {0U, 1U, 2U}) {

@@ -15,9 +15,8 @@ core::Scene square_with(const core::Vec3d& normal, bool has_places = false) {
   mesh.normals.assign(4, normal);
   mesh.places.assign(has_places ? 4 : 0, {});
   core::Scene scene{.textures = {{.name = "leaf", .levels = {}}}};
-  core::SceneBuilder builder(scene);
   IndexedVertices vertices;
-  GeometryWriter(builder, vertices, std::nullopt).add(mesh, {.texture = has_places ? 0 : core::Material::no_texture});
+  GeometryWriter(scene, vertices, std::nullopt).add(mesh, {.texture = has_places ? 0 : core::Material::no_texture});
   return scene;
 }
 
@@ -52,9 +51,8 @@ TEST_CASE(
     }
     mesh.places.assign(mesh.colors.size(), {});
     core::Scene scene{.textures = {{.name = "leaf", .levels = {}}}};
-    core::SceneBuilder builder(scene);
     IndexedVertices vertices;
-    GeometryWriter writer(builder, vertices, std::nullopt);
+    GeometryWriter writer(scene, vertices, std::nullopt);
     writer.add(mesh, {.texture = 0});
     CHECK(writer.meshes_without_colors() == (count > face_colors_max ? 1 : 0));
   }
@@ -62,9 +60,8 @@ TEST_CASE(
 
 TEST_CASE("meshes give their vertices once, however many faces share them, and of many those alone that a face has") {
   core::Scene scene;
-  core::SceneBuilder builder(scene);
   IndexedVertices vertices;
-  GeometryWriter writer(builder, vertices, std::nullopt);
+  GeometryWriter writer(scene, vertices, std::nullopt);
   const PolygonMesh square{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, .faces = {{0, 1, 2, 0, 2, 3}, {3, 6}}};
   writer.add(square, {});
   CHECK(vertices.points == square.vertices);
@@ -78,12 +75,60 @@ TEST_CASE("meshes give their vertices once, however many faces share them, and o
   CHECK(scene.objects[4].first == 12);
 }
 
+TEST_CASE("a shared mesh is added once, and its places come where they are said") {
+  core::Scene scene;
+  IndexedVertices vertices;
+  GeometryWriter writer(scene, vertices, std::nullopt);
+  const PolygonMesh square{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, .faces = {{0, 1, 2, 0, 2, 3}, {3, 6}}};
+  writer.add(square, {});
+  const auto shared = writer.add_shared(square, {});
+  REQUIRE(shared);
+  writer.place(*shared, {.shift = {0, 0, 1}});
+  writer.add(square, {});
+  writer.place(*shared, {.shift = {0, 0, 2}});
+  CHECK(scene.objects.size() == 6);
+  CHECK(vertices.points.size() == 12);
+  const core::Instances& instances = writer.instances();
+  REQUIRE(instances.meshes.size() == 1);
+  CHECK(instances.meshes[0].first == 2);
+  CHECK(instances.meshes[0].end == 4);
+  REQUIRE(instances.places.size() == 2);
+  CHECK(instances.places[0].before == 4);
+  CHECK(instances.places[1].before == 6);
+  CHECK_FALSE(writer.add_shared({}, {}));
+}
+
+TEST_CASE("a shared mesh has an area where a place leaves it one, and counts in each of its places") {
+  core::Scene scene;
+  IndexedVertices vertices;
+  GeometryWriter writer(scene, vertices, std::nullopt);
+  const PolygonMesh upright{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}}, .faces = {{0, 1, 2}, {3}}};
+  const auto shared = writer.add_shared(upright, {.texture = 0});
+  CHECK_FALSE(writer.has_area());
+  writer.place(*shared, {.rows = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}}});
+  CHECK_FALSE(writer.has_area());
+  CHECK(writer.unplaced() == 1);
+  writer.place(*shared, {});
+  CHECK(writer.has_area());
+  CHECK(writer.unplaced() == 2);
+}
+
+TEST_CASE("a place that takes a shared mesh farther than a scene reaches is refused by the mesh's name") {
+  core::Scene scene;
+  IndexedVertices vertices;
+  GeometryWriter writer(scene, vertices, std::nullopt);
+  const auto shared =
+      writer.add_shared({.name = "mesh 3", .vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, .faces = {{0, 1, 2}, {3}}}, {});
+  CHECK_NOTHROW(writer.place(*shared, {.shift = {9e29, 0, 0}}));
+  CHECK_THROWS_WITH_AS(writer.place(*shared, {.rows = {{{2e30, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}),
+                       doctest::Contains("mesh 3: a node takes it beyond 1e30"), core::InputError);
+}
+
 TEST_CASE("a face with more corners than an object has room for is refused by its number") {
   PolygonMesh mesh{.name = "mesh 3", .vertices = {{0, 0, 0}}, .faces = {std::vector<std::uint32_t>(65'539), {3, 65'539}}};
   core::Scene scene;
-  core::SceneBuilder builder(scene);
   IndexedVertices vertices;
-  CHECK_THROWS_WITH_AS(GeometryWriter(builder, vertices, std::nullopt).add(mesh, {}),
+  CHECK_THROWS_WITH_AS(GeometryWriter(scene, vertices, std::nullopt).add(mesh, {}),
                        doctest::Contains("mesh 3: face 1 has too many corners"), core::InputError);
 }
 

@@ -1,0 +1,51 @@
+// Meshes that stand in several places of a scene, and are there but once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "core/scene/transform.h"
+
+namespace dmpc::core {
+
+/// Scene::objects from `first` to before `end`: polygons, patches and textured patches in coordinates of their own. Where they
+/// stand instances say.
+struct SharedMesh {
+  std::uint32_t first = 0, end = 0;
+};
+
+/// A mesh in one place.
+struct Instance {
+  Transform world;           ///< from the mesh's coordinates
+  std::uint32_t mesh = 0;    ///< index into Instances::meshes
+  std::uint32_t before = 0;  ///< it comes after so many of Scene::objects
+};
+
+/// Whoever takes a scene's objects for what is there has to expand() these first.
+struct Instances {
+  std::vector<SharedMesh> meshes;  ///< one after the other, not empty
+  std::vector<Instance> places;    ///< in the file's order: `before` does not fall
+
+  bool empty() const { return meshes.empty() && places.empty(); }
+};
+
+/// What the pools of a scene hold once its instances are expanded; as much as 2^48 stands for more, too.
+struct ExpandedSize {
+  std::uint64_t objects = 0, vertices = 0, normals = 0, corners = 0;
+
+  std::uint64_t bytes() const {
+    return sizeof(Object) * objects + sizeof(Vec3d) * (vertices + normals) + sizeof(TexturedCorner) * corners;
+  }
+};
+/// At most: normals that turn out to be the faces' own need no room.
+ExpandedSize expanded_size(const Scene& scene, const Instances& instances);
+
+/// Puts a copy of each mesh in each of its places, where the file's order has it, and takes the meshes themselves away. Corners
+/// are placed in double; normals by the inverse transpose; a mirror's faces are turned back; what is pressed flat has the normals
+/// of its plane, and so has a face whose normals say no more than that (core/scene/face_normals.h). All pools are in the order
+/// of the objects. Throws RoomError if they outgrow 32 bits.
+void expand(Scene& scene, const Instances& instances);
+
+}  // namespace dmpc::core
