@@ -17,6 +17,8 @@
 #include "apps/foreign/mesh/skin.h"
 #include "apps/foreign/mesh/textures.h"
 #include "apps/foreign/mesh/without_area.h"
+#include "apps/foreign/pbrt/reader.h"
+#include "apps/foreign/placed_scene.h"
 #include "apps/foreign/polygon_formats.h"
 #include "apps/formats/whole_view.h"
 #include "core/base/expect.h"
@@ -40,20 +42,6 @@ std::vector<bool> used_materials(const aiScene& file, const Placements& placemen
     }
   }
   return used;
-}
-
-/// One line for all textures that are not where the file says.
-void note_other_names(const std::vector<std::string>& names, std::vector<std::string>& notes) {
-  constexpr std::size_t shown = 4;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
-    list += (i > 0 ? ", " : "") + names[i];
-  }
-  if (!names.empty()) {
-    notes.push_back(grouped(names.size()) + (names.size() == 1 ? " texture was" : " textures were") +
-                    " found under other names: " + list +
-                    (names.size() > shown ? " and " + grouped(names.size() - shown) + " more" : ""));
-  }
 }
 
 /// Gives a material its texture of metal and roughness; returns whether that is shown by its mean, as it lies elsewhere than that
@@ -138,20 +126,6 @@ std::vector<core::Material> materials_of(const PolygonFile& file, SceneFiles& fi
   }
   note_textures(textures, black, result, missing);
   return materials;
-}
-
-/// A picture without them would be another, so that has to be asked for.
-void judge_missing(const std::vector<std::string>& missing, const MeshOptions& options, std::vector<std::string>& notes) {
-  std::string list;
-  for (const std::string& one : missing) {
-    list += "\n  " + one;
-    notes.push_back(one + "; what it covers has its plain colour");
-  }
-  if (!missing.empty() && !options.allows_missing) {
-    throw core::InputError("what it refers to cannot be had:" + list +
-                           "\nPut these files where they are looked for, or show what they cover in its plain colour by " +
-                           "--missing=plain");
-  }
 }
 
 /// What all placements become; says what instancing costs.
@@ -354,6 +328,9 @@ MeshScene scene_of(PolygonFile file, const std::string& path, const MeshOptions&
 }
 
 MeshScene read(const std::string& path, const MeshOptions& options, SceneFiles& files) {
+  if (pbrt::is_pbrt_path(path)) {
+    return placed_scene(pbrt::read_pbrt(path, options.size, files), path, options, files);
+  }
   if (auto file = read_polygon_file(path, files)) {
     return scene_of(*std::move(file), path, options, files);
   }
@@ -361,6 +338,33 @@ MeshScene read(const std::string& path, const MeshOptions& options, SceneFiles& 
 }
 
 }  // namespace
+
+void note_other_names(const std::vector<std::string>& names, std::vector<std::string>& notes) {
+  constexpr std::size_t shown = 4;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
+    list += (i > 0 ? ", " : "") + names[i];
+  }
+  if (!names.empty()) {
+    notes.push_back(grouped(names.size()) + (names.size() == 1 ? " texture was" : " textures were") +
+                    " found under other names: " + list +
+                    (names.size() > shown ? " and " + grouped(names.size() - shown) + " more" : ""));
+  }
+}
+
+/// A picture without them would be another, so that has to be asked for.
+void judge_missing(const std::vector<std::string>& missing, const MeshOptions& options, std::vector<std::string>& notes) {
+  std::string list;
+  for (const std::string& one : missing) {
+    list += "\n  " + one;
+    notes.push_back(one + "; what it covers has its plain colour");
+  }
+  if (!missing.empty() && !options.allows_missing) {
+    throw core::InputError("what it refers to cannot be had:" + list +
+                           "\nPut these files where they are looked for, or show what they cover in its plain colour by " +
+                           "--missing=plain");
+  }
+}
 
 MeshScene read_mesh(const std::string& path, const MeshOptions& options, SceneFiles& files) {
   MeshScene mesh = read(path, options, files);

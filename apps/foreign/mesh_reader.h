@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/mesh/scene_files.h"
 #include "apps/formats/indexed_vertices.h"
 #include "apps/formats/mesh_options.h"
@@ -16,6 +17,7 @@ struct MeshScene {
   core::Scene scene;               ///< without vertices; its textures are names alone: who has the files has the texels
   IndexedVertices vertices;        ///< of the scene
   core::Instances instances;       ///< of what stands in several places, still to be expanded
+  std::vector<FileSky> skies;      ///< pictures, which who has the files shows
   std::vector<std::string> notes;  ///< what of the file is not shown as it is, a sentence each
 };
 

@@ -42,6 +42,7 @@ MeshOptions take_options(Unpacker& fields) {
   options.is_seen_otherwise = fields.take_flag();
   options.is_lit_otherwise = fields.take_flag();
   options.is_below_sky = fields.take_flag();
+  options.is_below_own_sky = fields.take_flag();
   return options;
 }
 
@@ -54,6 +55,14 @@ void serve_mesh(const Message& request, Line& line) {
   MeshScene mesh = read_mesh(path, options, files);
   for (const std::string& note : mesh.notes) {
     line.send(Saying::note, Packer().add_text(note));
+  }
+  for (const FileSky& sky : options.is_below_own_sky ? mesh.skies : std::vector<FileSky>()) {
+    Packer fields_of_sky;
+    fields_of_sky.add_text(sky.path);
+    for (const core::Vec3d& vector : {sky.rows[0], sky.rows[1], sky.rows[2], sky.scale}) {
+      fields_of_sky.add(vector);
+    }
+    line.send(Saying::sky, fields_of_sky);
   }
   if (send_scene(mesh.scene, mesh.vertices, mesh.instances, line, Handing::from_memory)) {
     line.send(Saying::done);

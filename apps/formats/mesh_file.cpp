@@ -11,6 +11,8 @@
 
 namespace dmpc::apps {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 /// Of formats that are known and not read, since the library that reads them makes wrong pictures of them without a word.
@@ -19,10 +21,9 @@ struct RefusedFormat {
   const char* why;
 };
 constexpr std::array refused_formats{
-    RefusedFormat{
-        "3mf",
-        "3MF is not read: Assimp gives all triangles of an object the material of the last, what has none that of "
-        "another, and leaves out parts that lie in files of their own"},
+    RefusedFormat{"3mf",
+                  "3MF is not read: Assimp gives all triangles of an object the material of the last, what has none that of "
+                  "another, and leaves out parts that lie in files of their own"},
     RefusedFormat{"x3d",
                   "X3D is not read: Assimp gives a shape without an appearance that of another, reads numbers up to their "
                   "first letter and no commas, and takes no viewpoint"},
@@ -46,16 +47,20 @@ void check_is_read(const std::string& path) {
 }  // namespace
 
 const std::vector<std::string>& mesh_extensions() {
-  static const std::vector<std::string> extensions = {"obj", "ply", "stl", "gltf", "glb",  "3ds", "ac", "amf",
-                                                      "ase", "dae", "fbx", "lwo",  "ms3d", "off", "x"};
+  static const std::vector<std::string> extensions = {"obj", "ply", "stl", "gltf", "glb", "3ds",  "ac",      "amf", "ase",
+                                                      "dae", "fbx", "lwo", "ms3d", "off", "pbrt", "pbrt.gz", "x"};
   return extensions;
 }
 
 bool is_mesh_path(const std::string& path) {
   const std::string ending = ending_of(path);
   const auto& known = mesh_extensions();
-  return std::find(known.begin(), known.end(), ending) != known.end() ||
+  return std::find(known.begin(), known.end(), ending) != known.end() || has_own_sky(path) ||
          std::any_of(refused_formats.begin(), refused_formats.end(), [&](const auto& format) { return format.ending == ending; });
+}
+
+bool has_own_sky(const std::string& path) {
+  return ending_of(path) == "pbrt" || (ending_of(path) == "gz" && ending_of(fs::path(path).stem().string()) == "pbrt");
 }
 
 std::string known_mesh_formats() {
@@ -77,7 +82,8 @@ MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, boo
   } catch (const core::RoomError& error) {
     throw core::RoomError(path + ": " + error.what());
   } catch (const core::InputError& error) {
-    throw core::InputError(path + ": " + error.what());
+    const std::string text = error.what();
+    throw text.starts_with(path + ":") ? error : core::InputError(path + ": " + text);  // one that names the line, too
   }
 }
 

@@ -8,6 +8,7 @@
 #include "apps/edge/system/opened_files.h"
 #include "apps/formats/mesh_counts.h"
 #include "apps/formats/mesh_options.h"
+#include "apps/formats/mesh_sky.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
@@ -17,6 +18,7 @@ struct ReaderLimits;
 struct MeshFile {
   core::Scene scene;
   std::vector<std::string> notes;           ///< what of the file is not shown as it is, a sentence each
+  std::vector<MeshSky> skies;               ///< whose lights add up; none unless the options say that they are shown
   OpenedFiles opened;                       ///< with those of the textures
   std::optional<ReadingForecast> forecast;  ///< of the memory that reading takes, if the file's reader could tell
 };
@@ -25,6 +27,8 @@ struct MeshFile {
 const std::vector<std::string>& mesh_extensions();
 /// Whether the path ends as mesh files do, whatever the case of its letters, also those of formats that are refused by name.
 bool is_mesh_path(const std::string& path);
+/// Of these, whether it is a whole scene, with lights and a sky of its own (pbrt's): by paths that is what it is shown by.
+bool has_own_sky(const std::string& path);
 /// "obj, ply, ...", for messages.
 std::string known_mesh_formats();
 

@@ -19,6 +19,7 @@ struct MeshOptions {
   Sandbox sandbox = Sandbox::available;  ///< what the readers of the file and of its textures have to be confined by
   /// Another view is taken, or other lights, so that nothing is said of the file's.
   bool is_seen_otherwise = false, is_lit_otherwise = false, is_below_sky = false;
+  bool is_below_own_sky = false;  ///< the sky that the file says itself
 };
 
 }  // namespace dmpc::apps

@@ -29,6 +29,8 @@ constexpr std::uint64_t spare_bytes = std::uint64_t{2} << 30U;
 constexpr std::uint64_t memory_per_byte = 1024;
 /// So long is a texture within a file at most.
 constexpr std::uint64_t texture_bytes_max = std::uint64_t{2} << 30U;
+/// More than any scene has, each of which is kept until all are there.
+constexpr std::size_t skies_max = 16;
 constexpr std::uint64_t note_bytes_max = std::uint64_t{1} << 20U;
 
 std::uint64_t memory_bytes_for(std::uint64_t file_bytes) {
@@ -51,7 +53,7 @@ std::uint64_t bytes_around(const std::string& path) {
 }
 
 std::string format_of(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
+  std::string ending = fs::path(has_own_sky(path) ? "a.pbrt" : path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::toupper(c); });
   return ending.empty() ? "these" : ending.substr(1);
 }
@@ -136,8 +138,8 @@ void MeshSession::ask() {
   const Resolution size = options_.size.value_or(Resolution{});
   add(fields, options_.size, static_cast<double>(size.width));
   fields.add(static_cast<double>(size.height));
-  for (const bool flag :
-       {options_.allows_missing, options_.is_seen_otherwise, options_.is_lit_otherwise, options_.is_below_sky}) {
+  for (const bool flag : {options_.allows_missing, options_.is_seen_otherwise, options_.is_lit_otherwise, options_.is_below_sky,
+                          options_.is_below_own_sky}) {
     fields.add(static_cast<std::uint8_t>(flag));
   }
   process_.send(Saying::read_mesh, fields);
@@ -170,6 +172,9 @@ bool MeshSession::answer(const Message& message) {
     case Saying::texture_bytes:
     case Saying::texture_texels:
       answer_texture(message);
+      return false;
+    case Saying::sky:
+      add_sky(fields);
       return false;
     case Saying::note:
       add_note(fields);
@@ -290,7 +295,7 @@ core::Texture MeshSession::texture_of_texels(Unpacker fields) {
 void MeshSession::take_over(Unpacker fields) {
   Unpacker::require(can_copy_);
   ProcessorStopwatch stopwatch(CLOCK_THREAD_CPUTIME_ID);
-  const Saying list = fields.take_choice(Saying::vertices);
+  const Saying list = fields.take_choice(Saying::spheres);
   auto address = fields.take<std::uint64_t>();
   const auto bytes = fields.take<std::uint64_t>();
   fields.finish();
@@ -309,6 +314,23 @@ void MeshSession::spend(ProcessorStopwatch& stopwatch) {
 void MeshSession::add_bytes(const std::string& bytes) {
   Unpacker::require(bytes_.size() + bytes.size() <= texture_bytes_max);
   bytes_ += bytes;
+}
+
+/// A picture, which no reader of meshes sees.
+void MeshSession::add_sky(Unpacker fields) {
+  const std::string path = fields.take_text();
+  MeshSky sky{.name = path, .image = {}, .rows = {}, .scale = {}};
+  for (core::Vec3d& row : sky.rows) {
+    row = fields.take<core::Vec3d>();
+  }
+  sky.scale = fields.take<core::Vec3d>();
+  fields.finish();
+  Unpacker::require(options_.is_below_own_sky && result_.skies.size() < skies_max);
+  InputFile file = access_.open(path);
+  std::string ending = fs::path(path).extension().string();
+  ending.erase(0, 1);
+  sky.image = pictures_.read_sky({std::move(file.descriptor), file.bytes, path, ending, true});
+  result_.skies.push_back(std::move(sky));
 }
 
 void MeshSession::add_note(Unpacker fields) {

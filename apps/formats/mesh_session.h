@@ -39,6 +39,7 @@ class MeshSession {
   void take_over(Unpacker fields);
   void spend(ProcessorStopwatch& stopwatch);
   void add_bytes(const std::string& bytes);
+  void add_sky(Unpacker fields);
   void add_note(Unpacker fields);
   void note_alpha();
   void expect(Unpacker fields);

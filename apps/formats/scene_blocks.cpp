@@ -124,12 +124,12 @@ bool send_scene(core::Scene& scene, IndexedVertices& vertices, core::Instances& 
   return line.send(Saying::scene, head) && send_lights(scene.lights, line) && blocks.send(scene.materials, Saying::materials) &&
          blocks.send(scene.objects, Saying::objects) && blocks.send(vertices.points, Saying::points) &&
          blocks.send(vertices.indices, Saying::vertices) && blocks.send(scene.normals, Saying::normals) &&
-         blocks.send(scene.corners, Saying::corners) && blocks.send(instances.meshes, Saying::meshes) &&
-         blocks.send(instances.places, Saying::places);
+         blocks.send(scene.corners, Saying::corners) && blocks.send(scene.spheres, Saying::spheres) &&
+         blocks.send(instances.meshes, Saying::meshes) && blocks.send(instances.places, Saying::places);
 }
 
 bool SceneReceiver::take(const Message& message) {
-  if (message.saying < Saying::scene || message.saying > Saying::vertices) {
+  if ((message.saying < Saying::scene || message.saying > Saying::vertices) && message.saying != Saying::spheres) {
     return false;
   }
   if (message.saying == Saying::scene) {
@@ -148,7 +148,7 @@ bool SceneReceiver::take(const Message& message) {
 }
 
 bool SceneReceiver::take_from(Saying saying, std::uint64_t bytes, const Fill& fill) {
-  Unpacker::require(has_head_ && saying >= Saying::materials && saying <= Saying::vertices);
+  Unpacker::require(has_head_ && ((saying >= Saying::materials && saying <= Saying::vertices) || saying == Saying::spheres));
   switch (saying) {
     case Saying::materials:
       return append(scene_.materials, announced_.materials, bytes, fill);
@@ -160,6 +160,8 @@ bool SceneReceiver::take_from(Saying saying, std::uint64_t bytes, const Fill& fi
       return append(scene_.normals, announced_.normals, bytes, fill);
     case Saying::corners:
       return append(scene_.corners, announced_.corners, bytes, fill);
+    case Saying::spheres:
+      return append(scene_.spheres, announced_.objects, bytes, fill);
     case Saying::meshes:
       return append(instances_.meshes, announced_.meshes, bytes, fill);
     case Saying::places:
@@ -248,9 +250,17 @@ bool SceneReceiver::append_vertices(std::uint64_t bytes, const Fill& fill) {
 
 void SceneReceiver::check_object(const core::Object& object) const {
   using core::ObjectKind;
+  Unpacker::require(object.material < scene_.materials.size());
+  if (object.kind == ObjectKind::sphere) {
+    const auto is_there = [](const core::Sphere& sphere) {
+      return is_point(sphere.center) && std::abs(sphere.radius) < coordinate_max && sphere.radius != 0;
+    };
+    Unpacker::require(object.first < scene_.spheres.size() && is_there(scene_.spheres[object.first]) &&
+                      !scene_.materials[object.material].microfacets.have_texture());
+    return;
+  }
   Unpacker::require(object.kind == ObjectKind::polygon || object.kind == ObjectKind::patch ||
                     object.kind == ObjectKind::textured);
-  Unpacker::require(object.material < scene_.materials.size());
   Unpacker::require(object.kind == ObjectKind::textured || !scene_.materials[object.material].microfacets.have_texture());
   Unpacker::require(object.vertex_count >= 3 && object.vertex_count <= polygon_vertices_max);
   const auto fits = [&object](std::uint32_t first, const auto& pool) {

@@ -85,18 +85,27 @@ class PlacedPoints {
 }  // namespace
 
 BoundingSphere sphere_around(const IndexedVertices& vertices, const std::vector<core::Object>& objects,
-                             const core::Instances& instances) {
+                             const core::Instances& instances, std::span<const core::Sphere> spheres) {
   const PlacedPoints points(vertices, objects, instances);
-  if (points.box().empty()) {
+  core::Box box = points.box();
+  for (const core::Sphere& sphere : spheres) {
+    const double radius = std::abs(sphere.radius);
+    box.include(sphere.center - Vec3d{radius, radius, radius});
+    box.include(sphere.center + Vec3d{radius, radius, radius});
+  }
+  if (box.empty()) {
     return {{}, 1};
   }
-  BoundingSphere bounds{points.box().center(), 0};
+  BoundingSphere bounds{box.center(), 0};
   double square = 0;
   points.for_each([&](const Vec3d& point) {
     const Vec3d offset = point - bounds.center;
     square = std::max(square, dot(offset, offset));
   });
   bounds.radius = std::sqrt(square);
+  for (const core::Sphere& sphere : spheres) {
+    bounds.radius = std::max(bounds.radius, length(sphere.center - bounds.center) + std::abs(sphere.radius));
+  }
   return bounds;
 }
 

@@ -1,6 +1,7 @@
 // A view, lights and a background for what comes without them.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "apps/formats/indexed_vertices.h"
@@ -16,10 +17,11 @@ struct BoundingSphere {
   core::Vec3d center;
   double radius = 0;
 };
-/// About the middle of their box, those of `objects` in their order, of what stands in several places in all of them; without
-/// any, of radius 1 about 0. A point that no vertex has is none.
+/// About the middle of their box, those of `objects` in their order, of what stands in several places in all of them, with that
+/// of the spheres; without any, of radius 1 about 0. A point that no vertex has is none. Requires that no mesh of `instances`
+/// stands beside spheres.
 BoundingSphere sphere_around(const IndexedVertices& vertices, const std::vector<core::Object>& objects,
-                             const core::Instances& instances);
+                             const core::Instances& instances, std::span<const core::Sphere> spheres = {});
 
 /// Light grey-blue, linear: dark and bright surfaces stand out from it.
 inline constexpr core::Vec3d plain_background{0.45, 0.55, 0.7};

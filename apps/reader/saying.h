@@ -54,7 +54,9 @@ enum class Saying : std::uint8_t {
   no_room,    ///< a text
   out_of_memory,
   lies_here,  ///< objects, or another list of a scene's, address and bytes: answered by yes, when dmpc has them from there, or no
-  expected,   ///< the last of all: what the scene's file says that it has, MeshCounts: before it is read, or never
+  expected,   ///< what the scene's file says that it has, MeshCounts: before it is read, or never
+  spheres,    ///< of a scene that has some
+  sky,        ///< the last of all: a picture's path, the rows of what turns the world's directions into its own, a factor
 };
 
 }  // namespace dmpc::apps

@@ -35,7 +35,9 @@ void say_once(const std::vector<std::string>& notes) {
 /// By paths a sky lights, and what shines by itself.
 bool is_lit(const core::Scene& scene, const TransportOptions& transport) {
   const auto shines = [](const core::Material& material) { return material.emission != core::Vec3d{}; };
-  return !scene.lights.empty() || scene.ambient != core::Vec3d{} || transport.sky || transport.occlusion ||
+  const bool has_sky =
+      transport.sky && (!has_own_sky(transport.sky->file) || scene.sky.is_there() || scene.background != core::Vec3d{});
+  return !scene.lights.empty() || scene.ambient != core::Vec3d{} || has_sky || transport.occlusion ||
          (transport.is_by_paths() && std::any_of(scene.materials.begin(), scene.materials.end(), shines));
 }
 
@@ -49,13 +51,15 @@ void say_what_is_missing(const core::Scene& scene, const TransportOptions& trans
   }
 }
 
-core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadNotes notes, OpenedFiles& opened) {
+core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadNotes notes, OpenedFiles& opened,
+                      std::vector<MeshSky>& skies) {
   const bool says = notes == LoadNotes::said;
   MeshFile file = read_mesh_file(path, options, says && stderr_is_terminal());
   opened.add(file.opened);
   if (says) {
     say_once(file.notes);
   }
+  skies = std::move(file.skies);
   return std::move(file.scene);
 }
 
@@ -103,7 +107,7 @@ core::Scene load_nff(const std::string& path, bool is_seen_otherwise, std::int64
 }
 
 core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes,
-                     OpenedFiles& opened) {
+                     OpenedFiles& opened, std::vector<MeshSky>& skies) {
   if (const auto name = core::find_scene_name(scene)) {
     return core::built_in_scene(*name);
   }
@@ -116,7 +120,7 @@ core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int
     }
     return core::built_in_scene(core::parse_scene_name(scene));  // throws, listing what there is
   }
-  return is_mesh_path(scene) ? load_mesh(scene, mesh, notes, opened)
+  return is_mesh_path(scene) ? load_mesh(scene, mesh, notes, opened, skies)
                              : load_nff(scene, mesh.is_seen_otherwise, pixels_max, notes, opened);
 }
 
@@ -140,9 +144,18 @@ void check_mesh_options(const std::string& scene, const MeshOptions& options) {
 
 bool is_mesh(const std::string& scene) { return !core::find_scene_name(scene) && is_mesh_path(scene); }
 
+bool is_below_own_sky(const std::string& scene) { return is_mesh(scene) && has_own_sky(scene); }
+
+SkyChoice own_sky(const std::string& scene) { return {.horizon = {}, .zenith = {}, .file = scene}; }
+
+bool is_own_sky(const PictureOptions& picture) {
+  return is_below_own_sky(picture.scene) && picture.transport.sky && picture.transport.sky->file == picture.scene;
+}
+
 core::Scene load_scene(const std::string& scene, std::int64_t pixels_max) {
   OpenedFiles opened;
-  return load_any(scene, {}, pixels_max, LoadNotes::said, opened);
+  std::vector<MeshSky> skies;
+  return load_any(scene, {}, pixels_max, LoadNotes::said, opened, skies);
 }
 
 void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
@@ -158,14 +171,18 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   mesh.is_seen_otherwise = picture.staging.camera.has_value();
   mesh.is_lit_otherwise = !picture.staging.lights.empty();
   mesh.is_below_sky = picture.transport.sky.has_value();
+  mesh.is_below_own_sky = is_own_sky(picture);
   OpenedFiles read;
-  core::Scene scene = load_any(picture.scene, mesh,
-                               picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max, notes, read);
+  std::vector<MeshSky> skies;
+  core::Scene scene =
+      load_any(picture.scene, mesh, picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max, notes,
+               read, skies);
   const SceneKind kind = is_mesh(picture.scene) ? SceneKind::mesh : SceneKind::own;
   const std::string note = apply(picture.staging, scene, kind);
+  set_sky(skies, scene);  // whose directions are those of the camera
   const bool has_points = !scene.lights.empty();
   std::string sky_note;
-  if (picture.transport.sky && picture.transport.sky->is_picture()) {
+  if (picture.transport.sky && picture.transport.sky->is_picture() && !mesh.is_below_own_sky) {
     read.add(picture.transport.sky->file);
     sky_note = read_sky(picture.transport.sky->file, picture.staging.mesh.sandbox, scene);
   }

@@ -21,6 +21,12 @@ core::Scene load_scene(const std::string& scene, std::int64_t pixels_max = pictu
 /// Whether load_scene(scene) reads it as a mesh file.
 bool is_mesh(const std::string& scene);
 
+/// Whether it is a whole scene that says its own sky (apps/formats/mesh_file.h).
+bool is_below_own_sky(const std::string& scene);
+/// What stands for it among skies: the scene's own path.
+SkyChoice own_sky(const std::string& scene);
+bool is_own_sky(const PictureOptions& picture);
+
 /// Adds the file that load_scene(scene) reads, if it reads one.
 void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs);
 

@@ -57,6 +57,13 @@ void apply_quality(const OptionSet& options, PictureOptions& picture) {
 constexpr std::array said_otherwise{"--transport", "--samples", "--quality", "--light",  "--background",
                                     "--fill",      "--ambient", "--depth",   "--cutoff", "--convention"};
 
+/// A whole scene's own is what it is shown by, unless another is asked for.
+std::optional<SkyChoice> sky_of(const PictureOptions& picture) {
+  return picture.transport.sky || picture.transport.occlusion ? picture.transport.sky
+         : is_below_own_sky(picture.scene)                    ? own_sky(picture.scene)
+                                                              : mesh_sky();
+}
+
 void present_mesh(const OptionSet& options, PictureOptions& picture) {
   if (!picture.presents_meshes || !is_mesh(picture.scene)) {
     return;
@@ -66,7 +73,7 @@ void present_mesh(const OptionSet& options, PictureOptions& picture) {
   if (!is_said) {
     picture.is_by_paths_unasked = true;
     picture.transport.kind = core::TransportKind::paths;
-    picture.transport.sky = picture.transport.sky || picture.transport.occlusion ? picture.transport.sky : mesh_sky();
+    picture.transport.sky = sky_of(picture);
   }
   const bool are_paths_asked_for = is_said && picture.transport.is_by_paths();
   if (!are_paths_asked_for && !options.is_given("--samples") && !picture.quality) {
@@ -105,6 +112,9 @@ void check_presented(const OptionSet& options, const PictureOptions& picture) {
 
 /// Of paths one number says how deep rays get, and what is seen behind everything is the sky's horizon.
 void settle_transport(const OptionSet& options, PictureOptions& picture) {
+  const bool are_paths_its_own =
+      picture.transport.is_by_paths() && is_below_own_sky(picture.scene) && !options.is_given("--background");
+  picture.transport.sky = are_paths_its_own ? sky_of(picture) : picture.transport.sky;
   check_presented(options, picture);
   check(options, picture.transport);
   if (!picture.transport.is_by_paths()) {
@@ -113,7 +123,7 @@ void settle_transport(const OptionSet& options, PictureOptions& picture) {
   refine_paths(picture);
   picture.depth = picture.transport.depth();
   picture.is_one_path_unasked = picture.samples == 1 && !options.is_given("--samples");
-  if (picture.transport.sky) {
+  if (picture.transport.sky && !is_own_sky(picture)) {
     picture.staging.background = picture.transport.sky->horizon;
   }
 }

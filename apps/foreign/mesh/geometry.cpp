@@ -180,6 +180,19 @@ void GeometryWriter::add_objects(PolygonMesh mesh, core::Material material) {
   keep_vertices(std::move(mesh.vertices), std::move(mesh.faces.corners));
 }
 
+void GeometryWriter::add(const core::Sphere& sphere, core::Material material) {
+  if (!is_usable(sphere.center) || !(std::abs(sphere.radius) < coordinate_max && sphere.radius != 0)) {
+    throw core::InputError("a sphere has a centre or a radius that is not a number, infinite or beyond 1e30; correct the file");
+  }
+  material.texture = core::Material::no_texture;
+  material.alpha = core::AlphaUse::none;
+  material.alpha_cutoff = 0;
+  unseen_ += shows_nothing(material) ? 1 : 0;
+  has_area_ = true;
+  builder_.material(material);
+  builder_.sphere(sphere.center, sphere.radius);
+}
+
 /// Of a mesh that has but a few of the vertices that it names each corner gets its own, for others may name them, too.
 void GeometryWriter::keep_vertices(std::vector<Vec3d> points, std::vector<std::uint32_t> indices) {
   if (points.size() > indices.size()) {

@@ -57,6 +57,9 @@ class GeometryWriter {
   /// Of all shared meshes.
   const core::Instances& instances() const { return instances_; }
 
+  /// A sphere, about which a texture says nothing.
+  void add(const core::Sphere& sphere, core::Material material);
+
   /// A mesh whose surface is not there: it counts for has_area() alone.
   void leave_out() { has_area_ = true; }
 

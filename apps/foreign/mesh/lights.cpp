@@ -44,16 +44,6 @@ bool is_shown(const aiLight& light) {
   return light.mType == aiLightSource_POINT || light.mType == aiLightSource_SPOT || light.mType == aiLightSource_DIRECTIONAL;
 }
 
-void scale_down(std::vector<PointLight>& lights) {
-  double sum = 0;
-  for (const PointLight& light : lights) {
-    sum += brightest(light.color) * brightest(light.color);
-  }
-  for (PointLight& light : lights) {
-    light.color = light.color * (1 / std::sqrt(std::max(sum, 1.0)));
-  }
-}
-
 void note_lights(std::map<aiLightSourceType, std::uint64_t>& counts, std::vector<std::string>& notes) {
   const auto note = [&](aiLightSourceType type, const std::string& what) { note_count(notes, what, counts[type]); };
   note(aiLightSource_POINT, "point lights whose fall-off with distance is ignored");
@@ -118,6 +108,16 @@ core::View view_of(const aiScene& scene, const aiCamera& camera, const std::opti
 bool is_perspective(const aiCamera& camera) { return camera.mHorizontalFOV > 0 && std::isfinite(camera.mHorizontalFOV); }
 
 }  // namespace
+
+void scale_down(std::vector<PointLight>& lights) {
+  double sum = 0;
+  for (const PointLight& light : lights) {
+    sum += brightest(light.color) * brightest(light.color);
+  }
+  for (PointLight& light : lights) {
+    light.color = light.color * (1 / std::sqrt(std::max(sum, 1.0)));
+  }
+}
 
 std::vector<PointLight> lights_of(const aiScene& scene, const BoundingSphere& bounds, double scale, bool is_below_sky,
                                   std::vector<std::string>& notes) {

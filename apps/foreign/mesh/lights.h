@@ -21,6 +21,9 @@ namespace dmpc::apps {
 std::vector<core::PointLight> lights_of(const aiScene& scene, const BoundingSphere& bounds, double scale, bool is_below_sky,
                                         std::vector<std::string>& notes);
 
+/// Colours together, until the squares of their brightest channels sum up to 1, unless they do not reach that.
+void scale_down(std::vector<core::PointLight>& lights);
+
 /// The first camera that makes a picture, if there is one; its own picture's shorter side has 512 pixels. Its angle spans a
 /// picture of `size`, its own if none is given, from edge to edge (core::View's goes between the middles of pixels): of glTF the
 /// vertical one, of others the horizontal one, or the vertical one that the camera's aspect makes of it. `notes` gets a sentence

@@ -78,7 +78,20 @@ std::string TextureReader::file_of(const std::string& name) {
   return (files.empty() ? folder / name : files.front()).string();
 }
 
+const MadePicture* TextureReader::made(const std::string& name) const {
+  for (std::size_t i = 0; name.starts_with('*') && i < pictures_.size(); ++i) {
+    if (name == "*" + std::to_string(i)) {
+      return &pictures_[i];
+    }
+  }
+  return nullptr;
+}
+
 void TextureReader::read(const TextureUse& use) {
+  if (const MadePicture* const picture = made(use.path)) {
+    return files_.add_texture(picture->texels, picture->width, picture->height, path_.string() + ", texture " + use.path,
+                              use.edges);
+  }
   const aiTexture* const within = file_ == nullptr ? nullptr : file_->GetEmbeddedTexture(use.path.c_str());
   if (within == nullptr) {
     return files_.add_texture(file_of(use.path), use.edges);

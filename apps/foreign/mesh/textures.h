@@ -8,9 +8,11 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "apps/foreign/mesh/made_picture.h"
 #include "apps/foreign/mesh/scene_files.h"
 #include "apps/picture/texture_file.h"
 #include "core/scene/texture.h"
@@ -41,6 +43,11 @@ class TextureReader {
   TextureReader(const aiScene* file, const std::filesystem::path& path, SceneFiles& files, std::vector<core::Texture>& textures)
       : file_(file), path_(path), files_(files), textures_(textures) {}
 
+  /// Of a file that holds `pictures` itself, which its materials call "*0", "*1", ... They outlive the reader.
+  TextureReader(std::span<const MadePicture> pictures, const std::filesystem::path& path, SceneFiles& files,
+                std::vector<core::Texture>& textures)
+      : file_(nullptr), pictures_(pictures), path_(path), files_(files), textures_(textures) {}
+
   /// Its place among the scene's textures; nothing if it cannot be had, which missing() tells.
   std::optional<std::uint32_t> find(const TextureUse& use);
   /// The same of one whose texels are numbers, no colours: one of the scene's by itself, whatever else shows its picture.
@@ -59,7 +66,11 @@ class TextureReader {
   /// That is meant by this name (apps/formats/named_file.h).
   std::string file_of(const std::string& name);
 
+  /// The one that the file holds itself.
+  const MadePicture* made(const std::string& name) const;
+
   const aiScene* file_;
+  std::span<const MadePicture> pictures_;
   std::filesystem::path path_;
   SceneFiles& files_;
   std::vector<core::Texture>& textures_;

@@ -57,11 +57,13 @@ class PlyReader {
       : progress_(progress), header_(read_ply_header(file)), values_(ply_values(header_, file)), surfaces_(header_.textures) {}
 
   PolygonFile read();
+  PolygonMesh read_shape(std::vector<std::string>& notes);
   const PlyHeader& header() const { return header_; }
 
  private:
   template <class Take>
   void for_each(const PlyElement& element, PlyRow& row, const Take& take);
+  void read_elements();
   void read_element(const PlyElement& element);
   void read_vertices(const PlyElement& element);
   void note_left_out(const PlyElement& element, const PlyRow& row);
@@ -381,7 +383,7 @@ void PlyReader::note_all() {
   note_count(notes_, "bytes behind the last element, which are not looked at", values_->count_rest());
 }
 
-PolygonFile PlyReader::read() {
+void PlyReader::read_elements() {
   bool has_vertices = false;
   for (const PlyElement& element : header_.elements) {
     if (element.name == "vertex" && std::exchange(has_vertices, true)) {
@@ -394,6 +396,22 @@ PolygonFile PlyReader::read() {
     read_element(element);
   }
   finish_faces();
+}
+
+/// Its surfaces are another's.
+PolygonMesh PlyReader::read_shape(std::vector<std::string>& notes) {
+  read_elements();
+  note_count(notes, "points and lines left out", counts_.thin);
+  mesh_.colors = {};
+  mesh_.face_colors = {};
+  mesh_.face_materials = {};
+  PolygonFile file;
+  add_meshes(std::move(mesh_), file);
+  return file.meshes.empty() ? PolygonMesh{} : std::move(file.meshes.front());
+}
+
+PolygonFile PlyReader::read() {
+  read_elements();
   note_all();
   finish_colors();
   PolygonFile file{.materials = surfaces_.materials(!mesh_.colors.empty() || !mesh_.face_colors.empty()),
@@ -415,6 +433,11 @@ PolygonFile read_ply(const std::string& path, SceneFiles& files) {
     progress.expect(counts_of_ply(reader.header(), without_mark(file)));
     return reader.read();
   });
+}
+
+PolygonMesh read_ply_shape(std::string_view file, SceneFiles& files, std::vector<std::string>& notes) {
+  ReadingProgress progress(files, file.size());
+  return PlyReader(without_mark(file), progress).read_shape(notes);
 }
 
 }  // namespace dmpc::apps

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "apps/foreign/mesh/polygon_file.h"
 #include "apps/foreign/mesh/scene_files.h"
@@ -13,5 +15,9 @@ namespace dmpc::apps {
 /// Elements and properties come in any order. Numbers in text are read as doubles, whatever type they have. Throws
 /// core::InputError, with the line or byte.
 PolygonFile read_ply(const std::string& path, SceneFiles& files);
+
+/// The shape alone of such a file, as a mesh without a material, with normals and places on a texture if the file has them.
+/// `notes` gets sentences about what of the shape is not shown.
+PolygonMesh read_ply_shape(std::string_view file, SceneFiles& files, std::vector<std::string>& notes);
 
 }  // namespace dmpc::apps

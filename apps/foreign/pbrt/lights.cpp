@@ -1,0 +1,148 @@
+#include "apps/foreign/pbrt/lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
+#include "apps/foreign/pbrt/affine.h"
+#include "apps/foreign/pbrt/spectra.h"
+
+namespace dmpc::apps::pbrt {
+namespace {
+
+using core::Vec3d;
+using enum ParameterType;
+
+constexpr double pi = std::numbers::pi;
+
+Vec3d light(const Parameters& parameters, const char* name, double factor) {
+  const Parameter* const found = parameters.find(name, {rgb, spectrum, blackbody});
+  return (found == nullptr ? Vec3d{1, 1, 1} : color_of(*found, parameters, SpectrumUse::light)) * factor;
+}
+
+double scale_of(const Parameters& parameters, double exposure) {
+  constexpr double most = 1e12;
+  const double scale = parameters.number("scale", 1);
+  if (!(scale >= 0 && scale <= most)) {
+    parameters.fail("its scale is " + rounded(scale) + ", expected 0 to 1e12");
+  }
+  return scale * exposure;
+}
+
+/// What is asked for of the whole, in place of what the light's own numbers make.
+double factor_of(const Parameters& parameters, const char* name, double of_one) {
+  const double value = parameters.number(name, 0);
+  return value > 0 ? value / of_one : 1;
+}
+
+void check_place(const Parameters& parameters, const Vec3d& point) {
+  if (!(length(point) < 1e30)) {
+    parameters.fail("stands nowhere: a coordinate is beyond 1e30");
+  }
+}
+
+void add_point(const Parameters& parameters, const Transform& world, double scale, FileLightKind kind, PlacedFile& file) {
+  const double factor = scale * factor_of(parameters, "power", 4 * pi);
+  FileLight result{.kind = kind,
+                   .position = world.point(parameters.point("from").value_or(Vec3d{})),
+                   .intensity = light(parameters, "I", factor)};
+  check_place(parameters, result.position);
+  for (const char* const cone : {"coneangle", "conedeltaangle", "fov"}) {
+    parameters.number(cone);
+  }
+  parameters.point("to");
+  parameters.text("filename", "");
+  file.lights.push_back(result);
+}
+
+void add_distant(const Parameters& parameters, const Transform& world, double scale, PlacedFile& file) {
+  const Vec3d from = parameters.point("from").value_or(Vec3d{}), to = parameters.point("to").value_or(Vec3d{0, 0, 1});
+  const Vec3d way = world.direction(to - from);
+  const double distance = length(way);
+  if (!(distance > 0 && distance < 1e30)) {
+    parameters.fail("its light goes nowhere: from and to are one point, or too far apart");
+  }
+  const double factor = scale * factor_of(parameters, "illuminance", 1);
+  file.lights.push_back(
+      {.kind = FileLightKind::distant, .position = way * (1 / distance), .intensity = light(parameters, "L", factor)});
+}
+
+void add_infinite(const Parameters& parameters, const Tokens& tokens, const Transform& world, double scale, PlacedFile& file,
+                  Notes& notes) {
+  const std::string name = parameters.text("filename", "");
+  notes.count("portals of infinite lights, which change no light, left out",
+              parameters.find("portal", {point3}) != nullptr ? 1 : 0);
+  if (name.empty()) {
+    const double factor = scale * factor_of(parameters, "illuminance", pi);
+    file.background = file.background + light(parameters, "L", factor);
+    return;
+  }
+  const bool is_measured = parameters.number("illuminance", 0) > 0;
+  notes.count("pictures of the sky that are to bring an illuminance, shown as bright as they are", is_measured ? 1 : 0);
+  const auto inverse = inverse_of(world);
+  if (!inverse) {
+    parameters.fail("has coordinates that are pressed flat, in which no sky has directions");
+  }
+  file.skies.push_back({.path = tokens.path_of(name), .rows = inverse->rows, .scale = {scale, scale, scale}});
+}
+
+double triangle_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return 0.5 * length(cross(b - a, c - a)); }
+
+double area_of(const PlacedShape& shape, const Transform& world) {
+  if (shape.sphere) {
+    const double stretch = std::cbrt(std::abs(world.determinant())) * shape.sphere->radius;
+    return 4 * pi * stretch * stretch;
+  }
+  double area = 0;
+  std::size_t first = 0;
+  const auto corner = [&](std::size_t i) { return world.point(shape.mesh.vertices[shape.mesh.faces.corners[i]]); };
+  for (const std::uint32_t end : shape.mesh.faces.ends) {
+    for (std::size_t i = first + 2; i < end; ++i) {
+      area += triangle_area(corner(first), corner(i - 1), corner(i));
+    }
+    first = end;
+  }
+  return area;
+}
+
+}  // namespace
+
+AreaLight area_light_of(const std::string& kind, const Parameters& parameters, double exposure, Notes& notes) {
+  if (kind != "diffuse") {
+    parameters.fail("there is no area light of kind '" + clipped(kind, 40) + "' in pbrt-v4");
+  }
+  AreaLight result{.radiance = light(parameters, "L", scale_of(parameters, exposure)), .power = {}, .is_twosided = false};
+  const double power = parameters.number("power", 0);
+  if (power > 0) {
+    result.power = power;
+  }
+  result.is_twosided = parameters.flag("twosided", false);
+  notes.count("area lights with a picture, shown as bright all over", parameters.text("filename", "").empty() ? 0 : 1);
+  return result;
+}
+
+Vec3d radiance_of(const AreaLight& light, const PlacedShape& shape, const Transform& world) {
+  const double area = light.power ? area_of(shape, world) * pi * (light.is_twosided ? 2 : 1) : 0;
+  return light.power && area > 0 ? light.radiance * (*light.power / area) : light.radiance;
+}
+
+void add_light(const std::string& kind, const Parameters& parameters, const Tokens& tokens, const Transform& world,
+               double exposure, PlacedFile& file, Notes& notes) {
+  const double scale = scale_of(parameters, exposure);
+  if (kind == "point") {
+    add_point(parameters, world, scale, FileLightKind::point, file);
+  } else if (kind == "spot" || kind == "goniometric" || kind == "projection") {
+    notes.count("lights of kind '" + kind + "', which shine all round here");
+    add_point(parameters, world, scale, FileLightKind::spot, file);
+  } else if (kind == "distant") {
+    add_distant(parameters, world, scale, file);
+  } else if (kind == "infinite") {
+    add_infinite(parameters, tokens, world, scale, file, notes);
+  } else {
+    parameters.fail("there is no light of kind '" + clipped(kind, 40) + "' in pbrt-v4");
+  }
+}
+
+}  // namespace dmpc::apps::pbrt

@@ -1,0 +1,29 @@
+// Lights of a pbrt scene.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/foreign/mesh/placed_file.h"
+#include "apps/foreign/pbrt/notes.h"
+#include "apps/foreign/pbrt/parameters.h"
+
+namespace dmpc::apps::pbrt {
+
+/// What shapes shine with that follow an AreaLightSource statement.
+struct AreaLight {
+  core::Vec3d radiance;
+  std::optional<double> power;  ///< of the whole shape: then `radiance` is of 1 for each unit of it that a white one would need
+  bool is_twosided = false;
+};
+
+/// Throws core::InputError for a kind that pbrt-v4 does not have. `exposure` is what the film multiplies all light by.
+AreaLight area_light_of(const std::string& kind, const Parameters& parameters, double exposure, Notes& notes);
+/// What the shape shines with, in these coordinates of the world.
+core::Vec3d radiance_of(const AreaLight& light, const PlacedShape& shape, const Transform& world);
+
+/// Adds what a LightSource statement says to the file's lights, background or skies. `world` is from its coordinates.
+void add_light(const std::string& kind, const Parameters& parameters, const Tokens& tokens, const Transform& world,
+               double exposure, PlacedFile& file, Notes& notes);
+
+}  // namespace dmpc::apps::pbrt

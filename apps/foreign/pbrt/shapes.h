@@ -1,0 +1,20 @@
+// Shapes of a pbrt scene, in their own coordinates.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/foreign/mesh/placed_file.h"
+#include "apps/foreign/mesh/scene_files.h"
+#include "apps/foreign/pbrt/notes.h"
+#include "apps/foreign/pbrt/parameters.h"
+
+namespace dmpc::apps::pbrt {
+
+/// Of a Shape statement; nothing for one that is not shown (curves), which is counted. Throws core::InputError, with its place,
+/// for indices of what does not exist, counts that do not match, numbers out of range, kinds that pbrt-v4 does not have, and
+/// files that cannot be had or read.
+std::optional<PlacedShape> shape_of(const std::string& kind, const Parameters& parameters, const Tokens& tokens,
+                                    SceneFiles& files, Notes& notes);
+
+}  // namespace dmpc::apps::pbrt

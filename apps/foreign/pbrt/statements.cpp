@@ -1,0 +1,529 @@
+#include "apps/foreign/pbrt/statements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
+#include "apps/foreign/pbrt/affine.h"
+#include "apps/foreign/pbrt/shapes.h"
+#include "apps/foreign/text/line_words.h"
+
+namespace dmpc::apps::pbrt {
+namespace {
+
+using core::Vec3d;
+
+constexpr double number_max = 1e30, degrees_max = 1e6;
+/// pbrt's numbers are floats, in text and in files of meshes.
+constexpr double float_rounding = 0x1p-25;
+
+std::string quoted(const std::string& word) { return "\"" + clipped(word, 60) + "\""; }
+
+Vec3d vector_at(const std::vector<double>& numbers, std::size_t first) {
+  return {numbers[first], numbers[first + 1], numbers[first + 2]};
+}
+
+/// Of a sphere as of one triangle.
+GeometrySize size_of_shape(const PlacedShape& shape) { return shape.sphere ? size_of_face(3) : size_of(shape.mesh.faces); }
+
+}  // namespace
+
+Statements::Statements(const std::string& path, SceneFiles& files)
+    : files_(files), tokens_(path, files), textures_(notes_, file_.pictures), surfaces_(notes_, textures_) {}
+
+const std::map<std::string_view, Statements::Statement>& Statements::all() {
+  static const std::map<std::string_view, Statement> statements{
+      {"Accelerator", &Statements::of_other_renderers},
+      {"ActiveTransform", &Statements::active_transform},
+      {"AreaLightSource", &Statements::area_light},
+      {"Attribute", &Statements::attribute},
+      {"AttributeBegin", &Statements::begin},
+      {"AttributeEnd", &Statements::end},
+      {"Camera", &Statements::camera},
+      {"ColorSpace", &Statements::color_space},
+      {"ConcatTransform", &Statements::matrix},
+      {"CoordSysTransform", &Statements::coordinates},
+      {"CoordinateSystem", &Statements::coordinate_system},
+      {"Film", &Statements::film},
+      {"Identity", &Statements::transform_statement},
+      {"Import", &Statements::import},
+      {"Include", &Statements::include},
+      {"Integrator", &Statements::of_other_renderers},
+      {"LightSource", &Statements::light},
+      {"LookAt", &Statements::transform_statement},
+      {"MakeNamedMaterial", &Statements::make_named_material},
+      {"MakeNamedMedium", &Statements::of_other_renderers},
+      {"Material", &Statements::material},
+      {"MediumInterface", &Statements::medium_interface},
+      {"NamedMaterial", &Statements::named_material},
+      {"ObjectBegin", &Statements::object_begin},
+      {"ObjectEnd", &Statements::end},
+      {"ObjectInstance", &Statements::object_instance},
+      {"Option", &Statements::option},
+      {"PixelFilter", &Statements::of_other_renderers},
+      {"Renderer", &Statements::of_older_versions},
+      {"ReverseOrientation", &Statements::reverse_orientation},
+      {"Rotate", &Statements::transform_statement},
+      {"Sampler", &Statements::of_other_renderers},
+      {"Scale", &Statements::transform_statement},
+      {"Shape", &Statements::shape},
+      {"SurfaceIntegrator", &Statements::of_older_versions},
+      {"Texture", &Statements::texture},
+      {"Transform", &Statements::matrix},
+      {"TransformBegin", &Statements::begin},
+      {"TransformEnd", &Statements::end},
+      {"TransformTimes", &Statements::transform_statement},
+      {"Translate", &Statements::transform_statement},
+      {"Volume", &Statements::of_older_versions},
+      {"VolumeIntegrator", &Statements::of_older_versions},
+      {"WorldBegin", &Statements::world_begin},
+      {"WorldEnd", &Statements::of_older_versions},
+  };
+  return statements;
+}
+
+PlacedFile Statements::read(const std::optional<Resolution>& size) {
+  for (Token token = tokens_.next(); token.kind != TokenKind::end; token = tokens_.next()) {
+    end_imports();
+    const auto found = token.kind == TokenKind::word ? all().find(token.text) : all().end();
+    if (found == all().end()) {
+      tokens_.fail(token.place, quoted(token.kind == TokenKind::open    ? "["
+                                       : token.kind == TokenKind::close ? "]"
+                                                                        : token.text) +
+                                    " is no statement; expected one such as Shape, or the end of the file");
+    }
+    (this->*found->second)(token);
+  }
+  end_imports();
+  check_ended();
+  surfaces_.settle(tokens_);
+  give_materials();
+  drop_undrawn();
+  const Camera camera = camera_.value_or(Camera{});
+  const bool is_turned = sees_left_handed(camera);
+  const Transform turn = is_turned ? scaling(Vec3d{-1, 1, 1}) : Transform{};
+  notes_.count("scenes in left-handed coordinates, shown with x turned round", is_turned ? 1 : 0);
+  file_.view = view_of(camera, film_, size, turn);
+  turn_round(turn);
+  file_.coordinate_rounding = float_rounding;
+  notes_.add_to(file_.notes);
+  return std::move(file_);
+}
+
+/// Into coordinates that a camera of ours shows the right way round.
+void Statements::turn_round(const Transform& turn) {
+  for (ShapePlace& place : file_.places) {
+    place.world = composed(turn, place.world);
+  }
+  for (FileLight& light : file_.lights) {
+    light.position = turn.point(light.position);
+  }
+  for (FileSky& sky : file_.skies) {
+    const Transform rows{sky.rows, {}};
+    sky.rows = composed(rows, turn).rows;  // which is its own inverse
+  }
+}
+
+void Statements::check_ended() const {
+  if (!saved_.empty()) {
+    tokens_.fail(saved_.back().place, "what begins here is not ended");
+  }
+}
+
+// What moves things.
+
+std::vector<double> Statements::numbers(const Token& name, std::size_t count) {
+  const bool is_list = tokens_.peek().kind == TokenKind::open;
+  if (is_list) {
+    tokens_.next();
+  }
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Token token = tokens_.next();
+    const auto value = token.kind == TokenKind::word ? decimal_number(token.text) : std::nullopt;
+    if (!value || !(std::abs(*value) <= number_max)) {
+      tokens_.fail(token.place, name.text + " has " + quoted(token.text) + " as number " + std::to_string(i + 1) + ", expected " +
+                                    std::to_string(count) + " numbers, none beyond 1e30");
+    }
+    values.push_back(*value);
+  }
+  if (is_list) {
+    if (const Token token = tokens_.next(); token.kind != TokenKind::close) {
+      tokens_.fail(token.place,
+                   name.text + " has " + quoted(token.text) + " where its list of " + std::to_string(count) + " numbers ends");
+    }
+  }
+  return values;
+}
+
+void Statements::check_map(const Token& name, const Transform& map) const {
+  const auto is_usable = [](const Vec3d& row) { return core::largest_component(row) <= number_max && is_finite(row); };
+  if (!is_usable(map.rows[0]) || !is_usable(map.rows[1]) || !is_usable(map.rows[2]) || !is_usable(map.shift)) {
+    tokens_.fail(name.place, name.text + " puts what follows beyond 1e30");
+  }
+}
+
+/// What is moved at the end of the shutter's time alone does not move here.
+void Statements::apply(const Token& name, const Transform& map) {
+  if (moves_start_) {
+    const Transform moved = composed(state_.ctm, map);
+    check_map(name, moved);
+    state_.ctm = moved;
+  }
+}
+
+void Statements::transform_statement(const Token& name) {
+  if (name.text == "Identity") {
+    state_.ctm = moves_start_ ? Transform{} : state_.ctm;
+  } else if (name.text == "TransformTimes") {
+    numbers(name, 2);
+  } else if (name.text == "Translate") {
+    apply(name, translation(vector_at(numbers(name, 3), 0)));
+  } else if (name.text == "Scale") {
+    apply(name, scaling(vector_at(numbers(name, 3), 0)));
+  } else if (name.text == "Rotate") {
+    const std::vector<double> values = numbers(name, 4);
+    const Vec3d axis = vector_at(values, 1);
+    if (!(length(axis) > 0 && length(axis) <= number_max && std::abs(values[0]) <= degrees_max)) {
+      tokens_.fail(name.place, "Rotate has an axis without a direction, or more than 1e6 degrees");
+    }
+    apply(name, rotation(values[0], axis));
+  } else {
+    const std::vector<double> values = numbers(name, 9);
+    const auto map = look_at(vector_at(values, 0), vector_at(values, 3), vector_at(values, 6));
+    if (!map) {
+      tokens_.fail(name.place,
+                   "LookAt looks nowhere: from and at are one point, or up points along the way from one to the other");
+    }
+    apply(name, *map);
+  }
+}
+
+/// Sixteen numbers, column by column.
+void Statements::matrix(const Token& name) {
+  const std::vector<double> m = numbers(name, 16);
+  constexpr double rounding = 1e-6;
+  if (!(std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1) <= rounding)) {
+    tokens_.fail(name.place,
+                 name.text + " makes lines meet that are parallel; expected 0, 0, 0 and 1 for its numbers 4, 8, 12 and 16");
+  }
+  const Transform map{{{{m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}}}, {m[12], m[13], m[14]}};
+  if (name.text == "Transform") {
+    state_.ctm = moves_start_ ? Transform{} : state_.ctm;
+  }
+  apply(name, map);
+}
+
+void Statements::coordinate_system(const Token& name) { systems_.insert_or_assign(text(name, "a name"), state_.ctm); }
+
+void Statements::coordinates(const Token& name) {
+  const std::string system = text(name, "a name");
+  const auto found = systems_.find(system);
+  if (found == systems_.end()) {
+    tokens_.fail(name.place, "CoordSysTransform: no CoordinateSystem " + quoted(system) + " is there");
+  }
+  state_.ctm = found->second;
+}
+
+void Statements::active_transform(const Token& name) {
+  const Token which = tokens_.next();
+  if (which.text != "StartTime" && which.text != "EndTime" && which.text != "All") {
+    tokens_.fail(which.place, name.text + " has " + quoted(which.text) + ", expected StartTime, EndTime or All");
+  }
+  moves_start_ = which.text != "EndTime";
+  notes_.count("what moves while the shutter is open, shown as it stands at first", moves_start_ ? 0 : 1);
+}
+
+void Statements::reverse_orientation(const Token& /*name*/) { state_.is_reversed = !state_.is_reversed; }
+
+// What is kept and given back.
+
+void Statements::save(Opening opening, const Place& place) {
+  if (saved_.size() >= attribute_levels_max) {
+    tokens_.fail(place, "more than " + grouped(attribute_levels_max) + " of AttributeBegin and the like stand within each other");
+  }
+  saved_.push_back({state_, opening, place, tokens_.level()});
+}
+
+void Statements::restore(Opening opening, const Token& name) {
+  if (saved_.empty() || saved_.back().opening != opening) {
+    tokens_.fail(name.place, name.text + " ends what has not begun" +
+                                 (saved_.empty() ? "" : ", within what begins at " + tokens_.text_of(saved_.back().place)));
+  }
+  if (opening == Opening::transform) {
+    state_.ctm = saved_.back().state.ctm;
+  } else {
+    state_ = std::move(saved_.back().state);
+  }
+  saved_.pop_back();
+}
+
+void Statements::begin(const Token& name) {
+  save(name.text == "TransformBegin" ? Opening::transform : Opening::attribute, name.place);
+}
+
+void Statements::end(const Token& name) {
+  const Opening opening = name.text == "TransformEnd" ? Opening::transform
+                          : name.text == "ObjectEnd"  ? Opening::object
+                                                      : Opening::attribute;
+  restore(opening, name);
+  if (opening == Opening::object) {
+    open_object_ = nullptr;
+  }
+}
+
+/// What a file that is imported says holds until its end alone.
+void Statements::end_imports() {
+  while (!saved_.empty() && saved_.back().opening == Opening::import && tokens_.level() <= saved_.back().file_level) {
+    state_ = std::move(saved_.back().state);
+    saved_.pop_back();
+  }
+}
+
+void Statements::include(const Token& name) { tokens_.include(text(name, "a file's name"), name.place); }
+
+void Statements::import(const Token& name) {
+  save(Opening::import, name.place);
+  include(name);
+}
+
+void Statements::attribute(const Token& name) {
+  const std::string kind = text(name, "what it is of");
+  if (kind != "shape" && kind != "light" && kind != "material" && kind != "medium" && kind != "texture") {
+    tokens_.fail(name.place, "Attribute is of " + quoted(kind) + ", expected shape, light, material, medium or texture");
+  }
+  Parameters more(tokens_, "Attribute " + quoted(kind), name.place);
+  std::vector<Parameter> list = more.take_list();
+  if (const auto& known = state_.defaults[kind]) {
+    list.insert(list.end(), known->begin(), known->end());  // what is said last counts
+  }
+  constexpr std::size_t most = 1000;
+  if (list.size() > most) {
+    tokens_.fail(name.place, "Attribute says more than 1,000 parameters");
+  }
+  state_.defaults[kind] = std::make_shared<const std::vector<Parameter>>(std::move(list));
+}
+
+// Objects.
+
+void Statements::object_begin(const Token& name) {
+  const std::string object = text(name, "a name");
+  if (open_object_ != nullptr) {
+    tokens_.fail(name.place, "ObjectBegin stands within another object, where pbrt allows none");
+  }
+  const auto [found, is_new] = objects_.try_emplace(object);
+  if (!is_new) {
+    tokens_.fail(name.place, "there is an object " + quoted(object) + " already");
+  }
+  save(Opening::object, name.place);
+  open_object_ = &found->second;
+}
+
+/// In front of what the object's shapes have. Here alone an instance's transform is made.
+void Statements::object_instance(const Token& name) {
+  const std::string object = text(name, "a name");
+  const auto found = objects_.find(object);
+  if (open_object_ != nullptr || found == objects_.end()) {
+    tokens_.fail(name.place, open_object_ != nullptr ? "ObjectInstance stands within an object, where pbrt allows none"
+                                                     : "no object " + quoted(object) + " is there: none has begun before");
+  }
+  size_ += found->second.size;
+  check_size(size_);
+  for (const ShapePlace& place : found->second.places) {
+    const ShapePlace instance{place.shape, composed(state_.ctm, place.world)};
+    check_map(name, instance.world);
+    ++file_.shapes[place.shape].uses;
+    file_.places.push_back(instance);
+  }
+}
+
+void Statements::add_place(const ShapePlace& place, const GeometrySize& size) {
+  if (open_object_ != nullptr) {
+    open_object_->places.push_back(place);
+    open_object_->size += size;
+    return;
+  }
+  size_ += size;
+  check_size(size_);
+  ++file_.shapes[place.shape].uses;
+  file_.places.push_back(place);
+}
+
+// How it is seen.
+
+std::string Statements::text(const Token& name, const char* what) {
+  const Token token = tokens_.next();
+  if (token.kind != TokenKind::text) {
+    tokens_.fail(token.place, name.text + " is followed by " + quoted(token.text) + ", expected " + what + " in quotes");
+  }
+  return token.text;
+}
+
+Parameters Statements::parameters(const std::string& owner, const Token& name, const char* kind) {
+  Parameters result(tokens_, name.text + " " + quoted(owner), name.place);
+  const auto defaults = state_.defaults.find(kind);
+  if (defaults != state_.defaults.end()) {
+    result.add_defaults(defaults->second);
+  }
+  return result;
+}
+
+void Statements::finish(const Parameters& parameters) {
+  for (const std::string& name : parameters.unused()) {
+    notes_.count("parameters \"" + clipped(name, 40) + "\" that mean nothing where they stand", 1);
+  }
+}
+
+void Statements::film(const Token& name) {
+  const std::string kind = text(name, "its kind");
+  const Parameters all = parameters(kind, name, "");
+  film_ = film_of(kind, all, notes_);
+}
+
+void Statements::camera(const Token& name) {
+  const std::string kind = text(name, "its kind");
+  const Parameters all = parameters(kind, name, "");
+  camera_ = camera_of(kind, all, state_.ctm, notes_);
+  systems_.insert_or_assign("camera", *inverse_of(state_.ctm));
+}
+
+void Statements::color_space(const Token& name) {
+  const std::string space = text(name, "its name");
+  notes_.count("colours of the space " + quoted(space) + ", shown as if they were of sRGB", space == "srgb" ? 0 : 1);
+}
+
+/// Samplers, integrators, filters and what is within media: how pbrt renders, or what is not shown.
+void Statements::of_other_renderers(const Token& name) {
+  const std::string kind = text(name, "its kind");
+  parameters(kind, name, "");
+}
+
+void Statements::option(const Token& name) { Parameters(tokens_, "Option", name.place); }
+
+void Statements::medium_interface(const Token& name) {
+  const std::string inside = text(name, "a medium's name");
+  if (tokens_.peek().kind == TokenKind::text) {
+    tokens_.next();
+  }
+  notes_.count("media, which are not shown", inside.empty() ? 0 : 1);
+}
+
+void Statements::world_begin(const Token& name) {
+  if (std::exchange(is_world_, true)) {
+    tokens_.fail(name.place, "WorldBegin is there a second time");
+  }
+  state_.ctm = {};
+  moves_start_ = true;
+  systems_.insert_or_assign("world", state_.ctm);
+}
+
+void Statements::of_older_versions(const Token& name) {
+  tokens_.fail(
+      name.place,
+      name.text + " is a statement of pbrt-v3 and older versions: turn the scene into one of version 4 by pbrt --upgrade");
+}
+
+// What shapes look like.
+
+void Statements::texture(const Token& name) {
+  const std::string texture = text(name, "its name"), type = text(name, "what it is of"), kind = text(name, "its kind");
+  const Parameters all = parameters(texture, name, "texture");
+  textures_.add(texture, type, kind, all);
+  finish(all);
+}
+
+void Statements::material(const Token& name) {
+  const std::string kind = text(name, "its kind");
+  const Parameters all = parameters(kind, name, "material");
+  state_.surface = surfaces_.add(kind, all, tokens_);
+  finish(all);
+}
+
+void Statements::make_named_material(const Token& name) {
+  const std::string material = text(name, "its name");
+  const Parameters all = parameters(material, name, "material");
+  surfaces_.add_named(material, all, tokens_);
+  finish(all);
+}
+
+void Statements::named_material(const Token& name) { state_.surface = surfaces_.named(text(name, "its name"), name.place); }
+
+void Statements::area_light(const Token& name) {
+  const std::string kind = text(name, "its kind");
+  const Parameters all = parameters(kind, name, "light");
+  state_.light = area_light_of(kind, all, film_.exposure, notes_);
+  finish(all);
+}
+
+void Statements::light(const Token& name) {
+  const std::string kind = text(name, "its kind");
+  const Parameters all = parameters(kind, name, "light");
+  add_light(kind, all, tokens_, state_.ctm, film_.exposure, file_, notes_);
+  finish(all);
+}
+
+// Shapes.
+
+void Statements::shape(const Token& name) {
+  const std::string kind = text(name, "its kind");
+  const Parameters all = parameters(kind, name, "shape");
+  std::optional<PlacedShape> shape = shape_of(kind, all, tokens_, files_, notes_);
+  if (shape) {
+    add_shape(*std::move(shape), all);
+    finish(all);
+  }
+}
+
+void Statements::add_shape(PlacedShape shape, const Parameters& parameters) {
+  shape.is_turned = state_.is_reversed;
+  shape.mesh.name = tokens_.text_of(parameters.place());
+  shape.mesh.material = material_of_shape(shape, parameters);
+  const GeometrySize size = size_of_shape(shape);
+  file_.shapes.push_back(std::move(shape));
+  add_place({static_cast<std::uint32_t>(file_.shapes.size() - 1), state_.ctm}, size);
+}
+
+std::size_t Statements::material_of_shape(const PlacedShape& shape, const Parameters& parameters) {
+  Look look{.surface = state_.surface, .emission = {}, .opacity = 1};
+  if (parameters.find("alpha", {ParameterType::texture}) != nullptr) {
+    notes_.count("shapes that a texture cuts out, shown whole");
+  }
+  look.opacity = std::clamp(parameters.number("alpha", 1), 0.0, 1.0);
+  if (state_.light && open_object_ != nullptr) {
+    notes_.count("area lights of objects with instances, which shine nowhere, as in pbrt");
+  } else if (state_.light) {
+    const Vec3d radiance = radiance_of(*state_.light, shape, state_.ctm);
+    look.emission = {std::min(radiance.x, light_max), std::min(radiance.y, light_max), std::min(radiance.z, light_max)};
+    notes_.count("area lights that shine to one side, shown shining to both", state_.light->is_twosided || shape.sphere ? 0 : 1);
+  }
+  const auto [found, is_new] = look_numbers_.try_emplace(look.key(), looks_.size());
+  if (is_new) {
+    looks_.push_back(look);
+  }
+  return found->second;
+}
+
+void Statements::give_materials() {
+  for (const Look& look : looks_) {
+    file_.materials.push_back(Surfaces::material_of(surfaces_.at(look.surface), look.emission, look.opacity));
+  }
+}
+
+/// What parts media from each other shows nothing, but where it shines; nor does what alpha takes away.
+void Statements::drop_undrawn() {
+  const auto is_undrawn = [this](const ShapePlace& place) {
+    const Look& look = looks_[file_.shapes[place.shape].mesh.material];
+    const bool is_dark = !surfaces_.at(look.surface).is_drawn && look.emission == Vec3d{};
+    return is_dark || look.opacity <= 0;
+  };
+  for (const ShapePlace& place : file_.places) {
+    file_.shapes[place.shape].uses -= is_undrawn(place) ? 1 : 0;
+  }
+  const std::size_t before = file_.places.size();
+  std::erase_if(file_.places, is_undrawn);
+  notes_.count("shapes that only part media from each other, or that alpha takes away, left out", before - file_.places.size());
+}
+
+}  // namespace dmpc::apps::pbrt

@@ -1,0 +1,135 @@
+// The statements of a pbrt scene, one after the other, and what they leave for those that follow.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/foreign/mesh/geometry.h"
+#include "apps/foreign/mesh/placed_file.h"
+#include "apps/foreign/pbrt/camera.h"
+#include "apps/foreign/pbrt/lights.h"
+#include "apps/foreign/pbrt/notes.h"
+#include "apps/foreign/pbrt/parameters.h"
+#include "apps/foreign/pbrt/surfaces.h"
+#include "apps/foreign/pbrt/textures.h"
+#include "apps/foreign/pbrt/tokens.h"
+#include "apps/formats/resolution.h"
+
+namespace dmpc::apps::pbrt {
+
+/// So many AttributeBegin, ObjectBegin and the like may stand within each other.
+inline constexpr std::size_t attribute_levels_max = 100'000;
+
+class Statements {
+ public:
+  /// `files` outlives it.
+  Statements(const std::string& path, SceneFiles& files);
+
+  /// All of them. Call it once.
+  PlacedFile read(const std::optional<Resolution>& size);
+
+ private:
+  using Statement = void (Statements::*)(const Token& name);
+  static const std::map<std::string_view, Statement>& all();
+
+  /// What AttributeBegin keeps and AttributeEnd gives back.
+  struct State {
+    Transform ctm;
+    std::uint32_t surface = 0;
+    std::optional<AreaLight> light;
+    bool is_reversed = false;
+    std::map<std::string, Parameters::Defaults> defaults;  ///< of shapes, lights, materials, ...
+  };
+  enum class Opening : std::uint8_t { attribute, transform, object, import };
+  struct Saved {
+    State state;
+    Opening opening;
+    Place place;
+    std::size_t file_level;
+  };
+  /// What an object's shapes are, each where its own CTM puts it.
+  struct Object {
+    std::vector<ShapePlace> places;
+    GeometrySize size;
+  };
+
+  void transform_statement(const Token& name);
+  void matrix(const Token& name);
+  void coordinate_system(const Token& name);
+  void coordinates(const Token& name);
+  void active_transform(const Token& name);
+  void reverse_orientation(const Token& name);
+  void begin(const Token& name);
+  void end(const Token& name);
+  void attribute(const Token& name);
+  void object_begin(const Token& name);
+  void object_instance(const Token& name);
+  void film(const Token& name);
+  void camera(const Token& name);
+  void color_space(const Token& name);
+  void of_other_renderers(const Token& name);
+  void option(const Token& name);
+  void medium_interface(const Token& name);
+  void world_begin(const Token& name);
+  void texture(const Token& name);
+  void material(const Token& name);
+  void make_named_material(const Token& name);
+  void named_material(const Token& name);
+  void area_light(const Token& name);
+  void light(const Token& name);
+  void shape(const Token& name);
+  void include(const Token& name);
+  void import(const Token& name);
+  void of_older_versions(const Token& name);
+
+  void save(Opening opening, const Place& place);
+  void restore(Opening opening, const Token& name);
+  void end_imports();
+  void apply(const Token& name, const Transform& map);
+  void check_map(const Token& name, const Transform& map) const;
+  std::vector<double> numbers(const Token& name, std::size_t count);
+  std::string text(const Token& name, const char* what);
+  /// With what Attribute has said of such, and what of it nobody knows is counted by finish().
+  Parameters parameters(const std::string& owner, const Token& name, const char* kind);
+  void finish(const Parameters& parameters);
+  void add_shape(PlacedShape shape, const Parameters& parameters);
+  std::size_t material_of_shape(const PlacedShape& shape, const Parameters& parameters);
+  void add_place(const ShapePlace& place, const GeometrySize& size);
+  void give_materials();
+  void drop_undrawn();
+  void check_ended() const;
+  void turn_round(const Transform& turn);
+
+  /// What a shape's material is made of, in the end.
+  struct Look {
+    std::uint32_t surface = 0;
+    core::Vec3d emission;
+    double opacity = 1;
+    auto key() const { return std::array<double, 5>{static_cast<double>(surface), emission.x, emission.y, emission.z, opacity}; }
+  };
+
+  SceneFiles& files_;
+  Tokens tokens_;
+  Notes notes_;
+  PlacedFile file_;
+  Textures textures_;
+  Surfaces surfaces_;
+  State state_;
+  std::vector<Saved> saved_;
+  std::map<std::string, Transform> systems_;
+  std::map<std::string, Object> objects_;
+  Object* open_object_ = nullptr;
+  std::vector<Look> looks_;
+  std::map<std::array<double, 5>, std::size_t> look_numbers_;
+  GeometrySize size_;
+  Film film_;
+  std::optional<Camera> camera_;
+  bool is_world_ = false, moves_start_ = true;
+};
+
+}  // namespace dmpc::apps::pbrt

@@ -1,0 +1,245 @@
+#include "apps/foreign/pbrt/surfaces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "apps/edge/line/shown_text.h"
+
+namespace dmpc::apps::pbrt {
+namespace {
+
+using core::Vec3d;
+using enum ParameterType;
+
+/// Of pbrt-v3.
+constexpr std::array<std::string_view, 12> old_kinds{"matte",     "plastic",     "metal",  "glass",        "mirror",  "uber",
+                                                     "substrate", "translucent", "disney", "kdsubsurface", "fourier", "none"};
+
+double mean(const Vec3d& v) { return (v.x + v.y + v.z) / 3; }
+
+Vec3d clamped(const Vec3d& color) {
+  return {std::clamp(color.x, 0.0, 1.0), std::clamp(color.y, 0.0, 1.0), std::clamp(color.z, 0.0, 1.0)};
+}
+
+/// What a pane reflects of both its faces together, of what one face reflects.
+double of_both_faces(double one) { return 2 * one / (1 + one); }
+
+/// A share of each, of the larger one's kind.
+Surface blended(const Surface& first, const Surface& second, double amount) {
+  Surface result = amount < 0.5 ? first : second;
+  const auto between = [&](double a, double b) { return a + (b - a) * amount; };
+  result.has_facets = first.has_facets || second.has_facets;
+  result.is_drawn = first.is_drawn || second.is_drawn;
+  result.color.color = first.color.color * (1 - amount) + second.color.color * amount;
+  result.facets.metallic = between(first.facets.metallic, second.facets.metallic);
+  result.facets.roughness = between(first.facets.roughness, second.facets.roughness);
+  result.facets.transmission = between(first.facets.transmission, second.facets.transmission);
+  return result;
+}
+
+}  // namespace
+
+Surfaces::Surfaces(Notes& notes, const Textures& textures) : notes_(notes), textures_(textures) {
+  slots_.push_back({});
+  slots_[0].surface = Surface{.color = {.color = {0.5, 0.5, 0.5}, .picture = {}, .place = {}}, .facets = {}};
+}
+
+std::uint32_t Surfaces::add(const std::string& kind, const Parameters& parameters, const Tokens& tokens) {
+  slots_.emplace_back();
+  fill(slots_.back(), kind, parameters, tokens);
+  return static_cast<std::uint32_t>(slots_.size() - 1);
+}
+
+std::uint32_t Surfaces::named(const std::string& name, const Place& place) {
+  const auto [found, is_new] = names_.try_emplace(name, static_cast<std::uint32_t>(slots_.size()));
+  if (is_new) {
+    slots_.emplace_back();
+    slots_.back().name = name;
+    slots_.back().place = place;
+  }
+  return found->second;
+}
+
+void Surfaces::add_named(const std::string& name, const Parameters& parameters, const Tokens& tokens) {
+  const std::uint32_t number = named(name, parameters.place());
+  if (slots_[number].surface || slots_[number].mixture) {
+    parameters.fail("there is a material of this name already");
+  }
+  Slot slot = slots_[number];
+  fill(slot, parameters.text("type", ""), parameters, tokens);
+  slots_[number] = slot;
+}
+
+void Surfaces::fill(Slot& slot, const std::string& kind, const Parameters& parameters, const Tokens& tokens) {
+  const bool is_old = std::find(old_kinds.begin(), old_kinds.end(), kind) != old_kinds.end();
+  if (is_old) {
+    tokens.fail(parameters.place(),
+                "the material '" + kind + "' is one of pbrt-v3: turn the scene into one of version 4 by pbrt --upgrade");
+  }
+  for (const char* const map : {"displacement", "normalmap"}) {
+    const bool is_there = parameters.find(map, {texture, text, number}) != nullptr;
+    notes_.count("materials with displacement or a map of normals, shown without", is_there ? 1 : 0);
+  }
+  if (kind == "mix") {
+    const Mixture mixture = mixture_of(parameters);  // which may make a slot, and so move this one
+    slot.mixture = mixture;
+  } else {
+    slot.surface = surface_of(kind, parameters);
+  }
+}
+
+Surfaces::Mixture Surfaces::mixture_of(const Parameters& parameters) {
+  const Parameter* const names = parameters.find("materials", {text});
+  if (names == nullptr || names->texts.size() != 2) {
+    parameters.fail("a mixture is of two \"string materials\"");
+  }
+  notes_.count("mixtures of materials, shown as one with mean numbers");
+  const double amount = std::clamp(textures_.number(parameters, "amount").value_or(0.5), 0.0, 1.0);
+  return {named(names->texts[0], names->place), named(names->texts[1], names->place), amount};
+}
+
+/// Of glTF's kind: its square is alpha.
+double Surfaces::roughness(const Parameters& parameters, const std::string& prefix, double fallback) const {
+  const auto find = [&](const char* name) { return textures_.number(parameters, (prefix + name).c_str()); };
+  const double both = find("roughness").value_or(fallback);
+  const double u = std::max(find("uroughness").value_or(both), 0.0), v = std::max(find("vroughness").value_or(both), 0.0);
+  notes_.count("materials that are rougher one way than the other, shown by the mean", u < v || v < u ? 1 : 0);
+  const bool is_remapped = parameters.flag("remaproughness", true);
+  const double rough = std::sqrt(u * v), alpha = is_remapped ? std::sqrt(rough) : rough;
+  constexpr double smooth_alpha = 1e-3;  // what pbrt takes for a mirror
+  return alpha < smooth_alpha ? 0 : std::clamp(std::sqrt(alpha), 0.0, 1.0);
+}
+
+double Surfaces::index(const Parameters& parameters, const char* name, double fallback) const {
+  if (const Parameter* const found = parameters.find(name, {rgb, spectrum})) {
+    return mean(color_of(*found, parameters, SpectrumUse::index));
+  }
+  return parameters.number(name, fallback);
+}
+
+Surface Surfaces::diffuse(const Parameters& parameters, const char* name, double fallback) const {
+  return {.color = textures_.color(parameters, name, {fallback, fallback, fallback}, SpectrumUse::reflectance), .facets = {}};
+}
+
+Surface Surfaces::conductor(const Parameters& parameters, const std::string& prefix) const {
+  Surface surface{.has_facets = true, .facets = {.metallic = 1}};
+  surface.facets.roughness = roughness(parameters, prefix, 0);
+  if (const auto color = textures_.color(parameters, "reflectance", SpectrumUse::reflectance)) {
+    surface.color = *color;
+    return surface;
+  }
+  const auto part = [&](const char* name, const Vec3d& fallback) {
+    return textures_.color(parameters, (prefix + name).c_str(), fallback, SpectrumUse::index).color;
+  };
+  surface.color.color = straight_reflection(part("eta", copper_eta()), part("k", copper_k()));
+  return surface;
+}
+
+Surface Surfaces::coated(const Parameters& parameters) const {
+  Surface surface = diffuse(parameters, "reflectance", 0.5);
+  surface.has_facets = true;
+  surface.facets.metallic = 0;
+  surface.facets.roughness = roughness(parameters, "", 0);
+  surface.facets.refraction_index = index(parameters, "eta", 1.5);
+  for (const char* const inside : {"thickness", "g", "albedo", "maxdepth", "nsamples"}) {
+    parameters.find(inside, {number, integer, rgb, spectrum, texture});
+  }
+  return surface;
+}
+
+Surface Surfaces::glass(const Parameters& parameters, bool is_thin) const {
+  Surface surface{.has_facets = true, .is_thin = is_thin, .facets = {.metallic = 0, .roughness = 0, .transmission = 1}};
+  surface.facets.refraction_index = index(parameters, "eta", 1.5);
+  if (!is_thin) {
+    surface.facets.roughness = roughness(parameters, "", 0);
+    notes_.count("rough glass, which is shown letting light through as smooth", surface.facets.roughness > 0 ? 1 : 0);
+  }
+  return surface;
+}
+
+Surface Surfaces::surface_of(const std::string& kind, const Parameters& parameters) const {
+  if (kind == "diffuse") {
+    return diffuse(parameters, "reflectance", 0.5);
+  }
+  if (kind == "coateddiffuse") {
+    return coated(parameters);
+  }
+  if (kind == "conductor") {
+    return conductor(parameters, "");
+  }
+  if (kind == "coatedconductor") {
+    notes_.count("coats of metals, which are not shown");
+    return conductor(parameters, "conductor.");
+  }
+  if (kind == "dielectric" || kind == "thindielectric") {
+    return glass(parameters, kind == "thindielectric");
+  }
+  if (kind == "interface" || kind.empty()) {
+    Surface surface;
+    surface.is_drawn = false;
+    return surface;
+  }
+  if (kind == "diffusetransmission") {
+    notes_.count("materials that scatter light through, shown as opaque");
+    parameters.find("transmittance", {texture, rgb, spectrum});
+    return diffuse(parameters, "reflectance", 0.25);
+  }
+  if (kind == "subsurface" || kind == "hair" || kind == "measured") {
+    notes_.count("materials of kind '" + kind + "', shown as diffuse");
+    return diffuse(parameters, kind == "hair" ? "color" : "reflectance", 0.5);
+  }
+  parameters.fail("there is no material of kind '" + clipped(kind, 40) + "' in pbrt-v4");
+}
+
+const Surface& Surfaces::settled(std::uint32_t number, int level, const Tokens& tokens) {
+  constexpr int levels_max = 100;
+  Slot& slot = slots_[number];
+  if (slot.is_being_mixed || level > levels_max) {
+    tokens.fail(slot.place, "the material \"" + clipped(slot.name, 60) + "\" is mixed of itself, or too deep");
+  }
+  if (!slot.surface && !slot.mixture) {
+    tokens.fail(slot.place, "the material \"" + clipped(slot.name, 60) + "\" is not there: no MakeNamedMaterial has that name");
+  }
+  if (!slot.surface) {
+    slot.is_being_mixed = true;
+    const Surface first = settled(slot.mixture->first, level + 1, tokens),
+                  second = settled(slot.mixture->second, level + 1, tokens);
+    slot.surface = blended(first, second, slot.mixture->amount);
+    slot.is_being_mixed = false;
+  }
+  return *slot.surface;
+}
+
+void Surfaces::settle(const Tokens& tokens) {
+  for (std::uint32_t number = 0; number < slots_.size(); ++number) {
+    settled(number, 0, tokens);
+  }
+}
+
+PlacedMaterial Surfaces::material_of(const Surface& surface, const Vec3d& emission, double opacity) {
+  PlacedMaterial result{.surface = {.material = {}, .texture = surface.color.picture}, .place = surface.color.place};
+  core::Material& material = result.surface.material;
+  if (!surface.has_facets) {
+    material = apps::material_of(PhongSurface{.diffuse = surface.is_drawn ? clamped(surface.color.color) : Vec3d{},
+                                              .specular = {},
+                                              .emission = emission,
+                                              .opacity = opacity,
+                                              .illumination = std::nullopt});
+    return result;
+  }
+  MetallicSurface facets = surface.facets;
+  facets.base = clamped(surface.color.color);
+  facets.emission = emission;
+  facets.opacity = opacity;
+  material = apps::material_of(facets);
+  if (surface.is_thin) {  // what comes out goes on as it came
+    material.refraction_index = 1;
+    material.specular = of_both_faces(material.specular);
+    material.transmittance = 1 - material.specular;
+    material.microfacets.reflectance = of_both_faces(material.microfacets.reflectance);
+  }
+  return result;
+}
+
+}  // namespace dmpc::apps::pbrt

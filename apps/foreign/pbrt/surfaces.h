@@ -1,0 +1,75 @@
+// Materials of a pbrt scene as ours.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/foreign/mesh/placed_file.h"
+#include "apps/foreign/mesh/surface.h"
+#include "apps/foreign/pbrt/textures.h"
+
+namespace dmpc::apps::pbrt {
+
+/// One that is diffuse alone, or has tiny mirrors.
+struct Surface {
+  TextureValue color;
+  bool has_facets = false, is_thin = false;
+  bool is_drawn = true;    ///< what only parts one medium from another is not
+  MetallicSurface facets;  ///< but for its base, which is `color`
+};
+
+/// By the table in apps/foreign/README.md. What a shape shows is made of a surface, its own light and how much of it is there.
+class Surfaces {
+ public:
+  /// The first surface, 0, is what pbrt gives shapes before any Material statement.
+  Surfaces(Notes& notes, const Textures& textures);
+
+  /// A Material statement's; returns its number. Throws core::InputError for a kind that pbrt-v4 does not have.
+  std::uint32_t add(const std::string& kind, const Parameters& parameters, const Tokens& tokens);
+  /// A MakeNamedMaterial statement's. Throws core::InputError, too, if there is one of that name.
+  void add_named(const std::string& name, const Parameters& parameters, const Tokens& tokens);
+  /// The number of the one of this name, which may come later.
+  std::uint32_t named(const std::string& name, const Place& place);
+
+  /// Throws core::InputError for a name that no statement has defined, or that is mixed of itself. Call it behind the last
+  /// statement.
+  void settle(const Tokens& tokens);
+  /// After settle().
+  const Surface& at(std::uint32_t number) const { return *slots_[number].surface; }
+  static PlacedMaterial material_of(const Surface& surface, const core::Vec3d& emission, double opacity);
+
+ private:
+  struct Mixture {
+    std::uint32_t first, second;
+    double amount;
+  };
+  struct Slot {
+    std::optional<Surface> surface;
+    std::optional<Mixture> mixture;
+    std::string name;
+    Place place;
+    bool is_being_mixed = false;
+  };
+
+  void fill(Slot& slot, const std::string& kind, const Parameters& parameters, const Tokens& tokens);
+  Surface surface_of(const std::string& kind, const Parameters& parameters) const;
+  Surface conductor(const Parameters& parameters, const std::string& prefix) const;
+  Surface coated(const Parameters& parameters) const;
+  Surface glass(const Parameters& parameters, bool is_thin) const;
+  Surface diffuse(const Parameters& parameters, const char* name, double fallback) const;
+  double roughness(const Parameters& parameters, const std::string& prefix, double fallback) const;
+  double index(const Parameters& parameters, const char* name, double fallback) const;
+  Mixture mixture_of(const Parameters& parameters);
+  const Surface& settled(std::uint32_t number, int level, const Tokens& tokens);
+
+  Notes& notes_;
+  const Textures& textures_;
+  std::vector<Slot> slots_;
+  std::map<std::string, std::uint32_t> names_;
+};
+
+}  // namespace dmpc::apps::pbrt
