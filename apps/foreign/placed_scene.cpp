@@ -15,6 +15,7 @@
 #include "apps/foreign/mesh/without_area.h"
 #include "apps/formats/view_faults.h"
 #include "apps/formats/whole_view.h"
+#include "core/base/box.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -92,7 +93,6 @@ class PlacedScene {
     note_instances();
     make_materials();
     add_shapes();
-    bounds_ = sphere_around(result_.vertices, result_.scene.objects, result_.instances, result_.scene.spheres);
     set_view();
     result_.scene.background = file_.background;
     add_lights();
@@ -118,7 +118,9 @@ class PlacedScene {
     TextureReader textures(file_.pictures, result_.scene.name, files_, result_.scene.textures);
     std::vector<bool> used(file_.materials.size());
     for (const ShapePlace& place : file_.places) {
-      used[file_.shapes[place.shape].mesh.material] = true;
+      const PlacedShape& shape = file_.shapes[place.shape];
+      used[shape.mesh.material] = true;
+      used[shape.back.value_or(shape.mesh.material)] = true;
     }
     for (std::size_t i = 0; i < used.size(); ++i) {
       core::Material& material = file_.materials[i].surface.material;
@@ -140,6 +142,10 @@ class PlacedScene {
     GeometryWriter writer(builder, result_.vertices, options_.smooth_degrees);
     for (const ShapePlace& place : file_.places) {
       add_shape(place, writer);
+    }
+    bounds_ = sphere_around(result_.vertices, result_.scene.objects, result_.instances, result_.scene.spheres);
+    for (const PolygonMesh& back : backs_) {
+      writer.add(behind(back), file_.materials[back.material].surface.material);
     }
     if (!writer.has_area()) {
       refuse_without_area("there is no shape in it that has an area", result_.notes);
@@ -170,7 +176,38 @@ class PlacedScene {
       mesh.places.clear();
     }
     put_in_place(mesh, world, shape.is_turned, material.place);
+    if (shape.back) {
+      backs_.push_back(mesh);
+      backs_.back().material = *shape.back;
+    }
     writer.add(std::move(mesh), material.surface.material);
+  }
+
+  /// What shines here shines to both sides: so what shines to the front alone has a back of its surface, which does not shine, a
+  /// little behind.
+  PolygonMesh behind(const PolygonMesh& front) const {
+    PolygonMesh back{.name = front.name, .material = front.material, .normals = front.normals, .places = front.places};
+    core::Box box;
+    for (const Vec3d& vertex : front.vertices) {
+      box.include(vertex);
+    }
+    const double away = std::max(front.vertices.empty() ? 0 : length(box.half()) * 0x1p-11, bounds_.radius * 0x1p-17);
+    std::size_t first = 0;
+    for (const std::uint32_t end : front.faces.ends) {
+      const auto corner = [&](std::size_t i) { return front.vertices[front.faces.corners[i]]; };
+      Vec3d area;
+      for (std::size_t i = first + 2; i < end; ++i) {
+        area = area + cross(corner(i - 1) - corner(first), corner(i) - corner(first));
+      }
+      const Vec3d shift = length(area) > 0 ? normalize(area) * -away : Vec3d{};
+      for (std::size_t i = first; i < end; ++i) {
+        back.faces.corners.push_back(static_cast<std::uint32_t>(back.vertices.size()));
+        back.vertices.push_back(corner(i) + shift);
+      }
+      back.faces.ends.push_back(static_cast<std::uint32_t>(back.faces.corners.size()));
+      first = end;
+    }
+    return back;
   }
 
   void set_view() {
@@ -241,6 +278,7 @@ class PlacedScene {
   double scale_;
   MeshScene result_;
   BoundingSphere bounds_;
+  std::vector<PolygonMesh> backs_;  ///< where their fronts are
 };
 
 }  // namespace

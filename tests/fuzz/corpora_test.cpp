@@ -39,6 +39,7 @@ TEST_CASE("what is kept for the fuzzer machine is refused or as promised") { rep
 TEST_CASE("what is kept for the fuzzer mesh is refused or as promised") { replay("mesh", try_mesh); }
 TEST_CASE("what is kept for the fuzzer mesh_text is refused or as promised") { replay("mesh_text", try_mesh_text); }
 TEST_CASE("what is kept for the fuzzer nff is refused or as promised") { replay("nff", try_nff); }
+TEST_CASE("what is kept for the fuzzer pbrt is refused or as promised") { replay("pbrt", try_pbrt); }
 TEST_CASE("what is kept for the fuzzer picture is refused or as promised") { replay("picture", try_picture); }
 TEST_CASE("what is kept for the fuzzer polygon is refused or as promised") { replay("polygon", try_polygon); }
 TEST_CASE("what is kept for the fuzzer reply is refused or as promised") { replay("reply", try_reply); }

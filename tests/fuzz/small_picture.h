@@ -16,6 +16,10 @@ namespace dmpc::tests {
 inline void check_scene(const core::Scene& scene) {
   using core::expect;
   for (const core::Object& object : scene.objects) {
+    if (object.kind == core::ObjectKind::sphere) {
+      expect(object.first < scene.spheres.size() && object.material < scene.materials.size(), "a sphere is there");
+      continue;
+    }
     expect(object.kind <= core::ObjectKind::textured && object.material < scene.materials.size(), "an object is one");
     expect(object.first + std::uint64_t{object.vertex_count} <= scene.vertices.size(), "an object's vertices are there");
   }

@@ -22,6 +22,7 @@ void try_machine(const std::uint8_t* data, std::size_t size);
 void try_mesh(const std::uint8_t* data, std::size_t size);
 void try_mesh_text(const std::uint8_t* data, std::size_t size);
 void try_nff(const std::uint8_t* data, std::size_t size);
+void try_pbrt(const std::uint8_t* data, std::size_t size);
 void try_picture(const std::uint8_t* data, std::size_t size);
 void try_polygon(const std::uint8_t* data, std::size_t size);
 void try_reply(const std::uint8_t* data, std::size_t size);

@@ -25,6 +25,7 @@ struct ShapePlace {
 struct PlacedShape {
   PolygonMesh mesh;                    ///< with a material; without faces where it is a sphere
   std::optional<core::Sphere> sphere;  ///< which stays round in all its places
+  std::optional<std::size_t> back;     ///< the material of what it shows behind, where it shines to the front alone
   bool is_turned = false;              ///< its faces look to the other side
   std::uint64_t uses = 0;              ///< how many places it has
 };

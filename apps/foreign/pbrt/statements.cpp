@@ -479,30 +479,41 @@ void Statements::shape(const Token& name) {
 void Statements::add_shape(PlacedShape shape, const Parameters& parameters) {
   shape.is_turned = state_.is_reversed;
   shape.mesh.name = tokens_.text_of(parameters.place());
-  shape.mesh.material = material_of_shape(shape, parameters);
+  set_look(shape, parameters);
   const GeometrySize size = size_of_shape(shape);
   file_.shapes.push_back(std::move(shape));
   add_place({static_cast<std::uint32_t>(file_.shapes.size() - 1), state_.ctm}, size);
 }
 
-std::size_t Statements::material_of_shape(const PlacedShape& shape, const Parameters& parameters) {
-  Look look{.surface = state_.surface, .emission = {}, .opacity = 1};
-  if (parameters.find("alpha", {ParameterType::texture}) != nullptr) {
-    notes_.count("shapes that a texture cuts out, shown whole");
-  }
-  look.opacity = std::clamp(parameters.number("alpha", 1), 0.0, 1.0);
-  if (state_.light && open_object_ != nullptr) {
-    notes_.count("area lights of objects with instances, which shine nowhere, as in pbrt");
-  } else if (state_.light) {
-    const Vec3d radiance = radiance_of(*state_.light, shape, state_.ctm);
-    look.emission = {std::min(radiance.x, light_max), std::min(radiance.y, light_max), std::min(radiance.z, light_max)};
-    notes_.count("area lights that shine to one side, shown shining to both", state_.light->is_twosided || shape.sphere ? 0 : 1);
-  }
+std::size_t Statements::look_number(const Look& look) {
   const auto [found, is_new] = look_numbers_.try_emplace(look.key(), looks_.size());
   if (is_new) {
     looks_.push_back(look);
   }
   return found->second;
+}
+
+/// Its material, and that of its back where it shines to the front alone.
+void Statements::set_look(PlacedShape& shape, const Parameters& parameters) {
+  Look look{.surface = state_.surface, .emission = {}, .opacity = 1};
+  const bool is_cut = parameters.find("alpha", {ParameterType::texture}) != nullptr;
+  notes_.count("shapes that a texture cuts out, shown whole", is_cut ? 1 : 0);
+  look.opacity = std::clamp(parameters.number("alpha", 1), 0.0, 1.0);
+  const std::size_t dark = look_number(look);
+  shape.mesh.material = dark;
+  if (!state_.light) {
+    return;
+  }
+  if (open_object_ != nullptr) {
+    notes_.count("area lights of objects with instances, which shine nowhere, as in pbrt");
+    return;
+  }
+  const Vec3d radiance = radiance_of(*state_.light, shape, state_.ctm);
+  look.emission = {std::min(radiance.x, light_max), std::min(radiance.y, light_max), std::min(radiance.z, light_max)};
+  shape.mesh.material = look_number(look);
+  if (!state_.light->is_twosided && !shape.sphere && look.emission != Vec3d{}) {
+    shape.back = dark;
+  }
 }
 
 void Statements::give_materials() {

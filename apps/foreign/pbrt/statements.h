@@ -58,6 +58,14 @@ class Statements {
     GeometrySize size;
   };
 
+  /// What a shape's material is made of, in the end.
+  struct Look {
+    std::uint32_t surface = 0;
+    core::Vec3d emission;
+    double opacity = 1;
+    auto key() const { return std::array<double, 5>{static_cast<double>(surface), emission.x, emission.y, emission.z, opacity}; }
+  };
+
   void transform_statement(const Token& name);
   void matrix(const Token& name);
   void coordinate_system(const Token& name);
@@ -98,20 +106,13 @@ class Statements {
   Parameters parameters(const std::string& owner, const Token& name, const char* kind);
   void finish(const Parameters& parameters);
   void add_shape(PlacedShape shape, const Parameters& parameters);
-  std::size_t material_of_shape(const PlacedShape& shape, const Parameters& parameters);
+  void set_look(PlacedShape& shape, const Parameters& parameters);
+  std::size_t look_number(const Look& look);
   void add_place(const ShapePlace& place, const GeometrySize& size);
   void give_materials();
   void drop_undrawn();
   void check_ended() const;
   void turn_round(const Transform& turn);
-
-  /// What a shape's material is made of, in the end.
-  struct Look {
-    std::uint32_t surface = 0;
-    core::Vec3d emission;
-    double opacity = 1;
-    auto key() const { return std::array<double, 5>{static_cast<double>(surface), emission.x, emission.y, emission.z, opacity}; }
-  };
 
   SceneFiles& files_;
   Tokens tokens_;

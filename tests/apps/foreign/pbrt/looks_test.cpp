@@ -1,0 +1,220 @@
+// Materials, textures, lights and skies of pbrt scenes.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "apps/foreign/mesh/surface.h"
+#include "apps/formats/mesh_sky.h"
+#include "apps/picture/image_file.h"
+#include "tests/support/pbrt_scenes.h"
+
+namespace dmpc::apps::pbrt_looks_test {
+
+using core::Material;
+using core::Vec3d;
+using tests::notes;
+using tests::pbrt_refusal;
+using tests::pbrt_triangle;
+using tests::read_pbrt;
+
+namespace {
+
+const double pi = std::acos(-1);
+
+Material material_of(const std::string& statements) {
+  return tests::material_of_object(read_pbrt(statements + pbrt_triangle), 0);
+}
+
+bool is_near(const Vec3d& a, const Vec3d& b, double slack = 1e-6) { return core::largest_component(a - b) < slack; }
+
+}  // namespace
+
+TEST_CASE("what is diffuse has its reflectance, grey without one") {
+  CHECK(material_of("").color == Vec3d{0.5, 0.5, 0.5});
+  CHECK(material_of("Material \"diffuse\" \"rgb reflectance\" [0.1 0.2 0.3]\n").color == Vec3d{0.1, 0.2, 0.3});
+  CHECK(!material_of("Material \"diffuse\" \"rgb reflectance\" [0.1 0.2 0.3]\n").microfacets.are_there());
+  CHECK(is_near(material_of("Material \"diffuse\" \"spectrum reflectance\" [300 0.4 900 0.4]\n").color, {0.4, 0.4, 0.4}));
+}
+
+TEST_CASE("a metal is one, with what it reflects straight ahead as its colour, and its alpha as roughness squared") {
+  const Material copper = material_of("Material \"conductor\" \"float roughness\" 0.0625\n");
+  CHECK(copper.microfacets.metallic == 1);
+  CHECK(copper.microfacets.roughness == doctest::Approx(0.5));  // alpha = sqrt(1/16), of which the root
+  CHECK(copper.color.x > 0.9);
+  CHECK(copper.color.x > copper.color.y);
+  CHECK(copper.color.y > copper.color.z);
+  // ((n-1)^2 + k^2) / ((n+1)^2 + k^2) with n = 1, k = 2: 4/8.
+  const Material own = material_of(
+      "Material \"conductor\" \"rgb eta\" [1 1 1] \"rgb k\" [2 2 2] \"float roughness\" 0.25 \"bool remaproughness\" false\n");
+  CHECK(is_near(own.color, {0.5, 0.5, 0.5}));
+  CHECK(own.microfacets.roughness == doctest::Approx(0.5));
+  CHECK(material_of("Material \"conductor\" \"rgb reflectance\" [1 0 0]\n").color == Vec3d{1, 0, 0});
+  const Material gold = material_of("Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\"\n");
+  CHECK(is_near(gold.color, {1, 0.77, 0.34}, 0.06));
+}
+
+TEST_CASE("a coat over what is diffuse is a plastic's") {
+  const Material plastic = material_of("Material \"coateddiffuse\" \"rgb reflectance\" [0.2 0.3 0.4] \"float roughness\" 0\n");
+  CHECK(plastic.microfacets.metallic == 0);
+  CHECK(plastic.microfacets.roughness == 0);
+  CHECK(plastic.microfacets.reflectance == doctest::Approx(0.04));
+  CHECK(plastic.color == Vec3d{0.2, 0.3, 0.4});
+}
+
+TEST_CASE("glass bends light by its index, and a pane lets it through straight") {
+  const Material glass = material_of("Material \"dielectric\" \"float eta\" 2\n");
+  CHECK(glass.microfacets.transmission == 1);
+  CHECK(glass.microfacets.reflectance == doctest::Approx(1.0 / 9));
+  CHECK(glass.refraction_index == 2);
+  CHECK(material_of("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\n").refraction_index == doctest::Approx(1.5168));
+  const Material pane = material_of("Material \"thindielectric\" \"float eta\" 2\n");
+  CHECK(pane.refraction_index == 1);
+  CHECK(pane.microfacets.reflectance == doctest::Approx(2.0 / 9 / (1 + 1.0 / 9)));
+}
+
+TEST_CASE("named materials may come later, and mixtures are of their numbers") {
+  CHECK(material_of("NamedMaterial \"m\"\nMakeNamedMaterial \"m\" \"string type\" \"diffuse\" \"rgb reflectance\" [1 0 0]\n")
+            .color == Vec3d{1, 0, 0});
+  const std::string two =
+      "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" \"rgb reflectance\" [1 0 0]\n"
+      "MakeNamedMaterial \"b\" \"string type\" \"diffuse\" \"rgb reflectance\" [0 0 1]\n";
+  CHECK(is_near(material_of(two + "Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" 0.25\n").color,
+                {0.75, 0, 0.25}));
+  CHECK(tests::contains(pbrt_refusal("MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"m\" \"m\"]\n"),
+                        "mixed of itself"));
+  CHECK(tests::contains(pbrt_refusal(two + "MakeNamedMaterial \"a\" \"string type\" \"diffuse\""), "of this name already"));
+  CHECK(tests::contains(pbrt_refusal("Material \"velvet\""), "no material of kind 'velvet'"));
+}
+
+TEST_CASE("textures of constants are reckoned, and checkerboards are pictures") {
+  const std::string two =
+      "Texture \"a\" \"spectrum\" \"constant\" \"rgb value\" [1 0.5 0]\n"
+      "Texture \"s\" \"spectrum\" \"scale\" \"texture tex\" \"a\" \"float scale\" 0.5\n"
+      "Texture \"m\" \"spectrum\" \"mix\" \"texture tex1\" \"a\" \"rgb tex2\" [0 0 1] \"float amount\" 0.5\n";
+  CHECK(material_of(two + "Material \"diffuse\" \"texture reflectance\" \"s\"\n").color == Vec3d{0.5, 0.25, 0});
+  CHECK(material_of(two + "Material \"diffuse\" \"texture reflectance\" \"m\"\n").color == Vec3d{0.5, 0.25, 0.5});
+  const MeshFile checks = read_pbrt(
+      "Texture \"c\" \"spectrum\" \"checkerboard\" \"float uscale\" 4 \"rgb tex1\" [1 1 1] \"rgb tex2\" [0 0 0]\n"
+      "Material \"diffuse\" \"texture reflectance\" \"c\"\n"
+      "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1]\n");
+  REQUIRE(checks.scene.textures.size() == 1);
+  REQUIRE(checks.scene.corners.size() == 3);
+  CHECK(checks.scene.textures[0].levels[0].texels[127 * 128] == 0xffffff);  // the lower left square is the first
+  CHECK(checks.scene.textures[0].levels[0].texels[0] == 0);
+  CHECK(checks.scene.corners[1].place[0] - checks.scene.corners[0].place[0] == 2);  // four squares, two a picture
+  CHECK(tests::contains(pbrt_refusal("Material \"diffuse\" \"texture reflectance\" \"x\""), "the texture \"x\" is not there"));
+}
+
+TEST_CASE("pictures lie by u and v, v upwards, scaled and moved") {
+  const tests::TemporaryFolder folder;
+  write_image(folder / "wood.png", Image(4, 2));
+  tests::write_text(
+      folder / "a.pbrt",
+      tests::pbrt_camera +
+          "Texture \"w\" \"spectrum\" \"imagemap\" \"string filename\" \"wood.png\" \"float vscale\" 2 \"float vdelta\" 0.25\n"
+          "Material \"diffuse\" \"texture reflectance\" \"w\"\n"
+          "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1]\n");
+  const MeshFile file = read_mesh_file(folder / "a.pbrt");
+  REQUIRE(file.scene.corners.size() == 3);
+  CHECK(file.scene.materials[file.scene.objects[0].material].color == Vec3d{1, 1, 1});
+  CHECK(file.scene.corners[0].place[1] == doctest::Approx(0.75));   // v = 0 is 0.25 from below
+  CHECK(file.scene.corners[2].place[1] == doctest::Approx(-1.25));  // v = 1 is 2.25
+}
+
+TEST_CASE("an area light shines as brightly as it says, to its front: behind stands its surface") {
+  const MeshFile file = read_pbrt("AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"float scale\" 2\n" +
+                                  pbrt_triangle + "AttributeEnd\n");
+  REQUIRE(file.scene.objects.size() == 2);
+  CHECK(tests::material_of_object(file, 0).emission == Vec3d{2, 4, 6});
+  CHECK(tests::material_of_object(file, 1).emission == Vec3d{});
+  CHECK(file.scene.vertices[3].z < 0);
+  CHECK(file.scene.vertices[3].z > -0.01);
+  CHECK(read_pbrt("AreaLightSource \"diffuse\" \"bool twosided\" true\n" + pbrt_triangle).scene.objects.size() == 1);
+  // Half a square of side 1 with 10 W sends 10 / (pi / 2) a square and steradian.
+  const MeshFile measured = read_pbrt("AreaLightSource \"diffuse\" \"float power\" 10\n" + pbrt_triangle);
+  CHECK(is_near(tests::material_of_object(measured, 0).emission, Vec3d{1, 1, 1} * (20 / pi)));
+  CHECK(notes(read_pbrt("ObjectBegin \"o\" AreaLightSource \"diffuse\"\n" + pbrt_triangle + "ObjectEnd ObjectInstance \"o\"\n"),
+              "shine nowhere"));
+}
+
+TEST_CASE("lights that are no surface light as physics has it, below the file's own sky") {
+  const MeshOptions by_paths{.is_below_sky = true, .is_below_own_sky = true};
+  const MeshFile point = read_pbrt("LightSource \"point\" \"rgb I\" [1 2 3] \"point3 from\" [0 5 0]\n" + pbrt_triangle, by_paths);
+  REQUIRE(point.scene.spheres.size() == 1);
+  CHECK(point.scene.lights.empty());
+  const double radius = point.scene.spheres[0].radius;
+  CHECK(point.scene.spheres[0].center == Vec3d{0, 5, 0});
+  CHECK(is_near(tests::material_of_object(point, 1).emission * (pi * radius * radius), {1, 2, 3}));
+  const MeshFile sun = read_pbrt(
+      "LightSource \"distant\" \"rgb L\" [3 3 3] \"point3 from\" [0 1 0] \"point3 to\" [0 0 0]\n" + pbrt_triangle, by_paths);
+  REQUIRE(sun.scene.lights.size() == 1);
+  CHECK(is_near(sun.scene.lights[0].color, Vec3d{1, 1, 1} * (3 / pi)));  // ours shine with an irradiance of pi times that
+  CHECK(sun.scene.lights[0].position.y > 100);
+  const MeshFile sky = read_pbrt(
+      "LightSource \"infinite\" \"rgb L\" [1 2 3] \"float scale\" 2\nLightSource \"infinite\" \"float illuminance\" 3\n" +
+          pbrt_triangle,
+      by_paths);
+  CHECK(is_near(sky.scene.background, Vec3d{2, 4, 6} + Vec3d{1, 1, 1} * (3 / pi)));
+  CHECK(tests::contains(pbrt_refusal("LightSource \"area\""), "no light of kind 'area'"));
+}
+
+TEST_CASE("light that is no rgb has the luminance 1, and the colour of its temperature") {
+  const auto glow = [](const std::string& temperature) {
+    return tests::material_of_object(
+               read_pbrt("AreaLightSource \"diffuse\" \"blackbody L\" " + temperature + "\n" + pbrt_triangle), 0)
+        .emission;
+  };
+  for (const char* const kelvin : {"2000", "6504", "10000"}) {
+    const Vec3d light = glow(kelvin);
+    CHECK(0.2126 * light.x + 0.7152 * light.y + 0.0722 * light.z == doctest::Approx(1));
+  }
+  CHECK(is_near(glow("6504"), {1, 1, 1}, 0.1));  // near daylight
+  CHECK(glow("2000").x > 3 * glow("2000").z);
+  CHECK(glow("10000").z > glow("10000").x);
+}
+
+TEST_CASE("the film's exposure brightens all light") {
+  const MeshFile file =
+      tests::read_mesh("a.pbrt",
+                       "Film \"rgb\" \"float iso\" 200 \"float exposuretime\" 2 \"string sensor\" \"cie1931\" WorldBegin\n"
+                       "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n" +
+                           pbrt_triangle);
+  CHECK(tests::material_of_object(file, 0).emission == Vec3d{4, 4, 4});
+}
+
+TEST_CASE("a sky's directions lie in its square as in equal areas") {
+  const auto near = [](const std::array<double, 2>& place, double s, double t) {
+    return std::abs(place[0] - s) < 1e-12 && std::abs(place[1] - t) < 1e-12;
+  };
+  CHECK(near(equal_area_place({0, 0, 1}), 0.5, 0.5));  // up is the middle
+  CHECK(near(equal_area_place({1, 0, 0}), 1, 0.5));    // the horizon is a diamond within
+  CHECK(near(equal_area_place({0, 1, 0}), 0.5, 1));
+  CHECK(near(equal_area_place({-1, 0, 0}), 0, 0.5));
+  CHECK(near(equal_area_place({0.6, 0, 0.8}), 0.5 + std::sqrt(0.2) / 2, 0.5));
+  // Below, folded outwards: a corner is the pole.
+  CHECK(near(equal_area_place({1e-30, 1e-30, -1}), 1, 1));
+}
+
+TEST_CASE("a picture of the sky turns with its light and shows where it is bright") {
+  MeshSky sky{.name = "sky", .image = Image(64, 64), .rows = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, .scale = {2, 2, 2}};
+  for (int y = 16; y < 48; ++y) {  // about z, up to half the way to the horizon along x and y
+    for (int x = 16; x < 48; ++x) {
+      sky.image.rgb[static_cast<std::size_t>((y * 64 + x) * 3)] = 1;
+    }
+  }
+  core::Scene scene;
+  scene.view.up = {0, 0, 1};
+  scene.background = {0, 0, 1};
+  set_sky({sky}, scene);
+  REQUIRE(scene.sky.is_there());
+  CHECK(scene.sky.width == 128);
+  CHECK(scene.sky.height == 64);
+  CHECK(scene.background == Vec3d{});
+  CHECK(scene.sky.brightest == doctest::Approx(2).epsilon(0.01));
+  // The zenith is bright and the nadir is not.
+  CHECK((scene.sky.texels.front() & 511U) > 0);
+  CHECK((scene.sky.texels.back() & 511U) == 0);
+}
+
+}  // namespace dmpc::apps::pbrt_looks_test

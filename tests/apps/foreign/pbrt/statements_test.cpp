@@ -1,0 +1,175 @@
+// Statements of pbrt scenes: what is where, how it is seen, and what is refused.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/support/pbrt_scenes.h"
+
+namespace dmpc::apps::pbrt_statements_test {
+
+using core::ObjectKind;
+using core::Vec3d;
+using tests::notes;
+using tests::pbrt_camera;
+using tests::pbrt_refusal;
+using tests::pbrt_triangle;
+using tests::read_mesh;
+using tests::read_pbrt;
+
+namespace {
+
+/// The first vertex of what these statements put the point (1, 2, 3) to.
+Vec3d put(const std::string& moves) {
+  return read_pbrt(moves + " Shape \"trianglemesh\" \"point3 P\" [1 2 3 4 0 0 0 5 0]\n").scene.vertices.at(0);
+}
+
+bool is_near(const Vec3d& a, const Vec3d& b) { return core::largest_component(a - b) < 1e-12; }
+
+std::string repeated(const std::string& text, int count) {
+  std::string all;
+  for (int i = 0; i < count; ++i) {
+    all += text;
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a triangle stands where its points say, and is seen by the camera over the film's pixels") {
+  const MeshFile file = read_pbrt(pbrt_triangle);
+  REQUIRE(file.scene.objects.size() == 1);
+  CHECK(file.scene.objects[0].kind == ObjectKind::polygon);
+  CHECK(file.scene.vertices == std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const core::View& view = file.scene.view;
+  CHECK(view.width == 64);
+  CHECK(view.height == 32);
+  CHECK(is_near(view.from, {0, 0, 10}));
+  CHECK(is_near(view.at, {0, 0, 9}));
+  CHECK(is_near(view.up, {0, 1, 0}));
+  // 90 degrees from edge to edge of 32 rows; ours go from the middle of the first to that of the last.
+  CHECK(std::tan(view.angle_degrees * std::acos(-1) / 360) == doctest::Approx(31.0 / 32));
+}
+
+TEST_CASE("the angle is that of the shorter side of the picture that is asked for") {
+  const MeshFile file = read_pbrt(pbrt_triangle, {.size = Resolution{16, 40}});
+  CHECK(std::tan(file.scene.view.angle_degrees * std::acos(-1) / 360) == doctest::Approx(15.0 / 16));
+}
+
+TEST_CASE("transforms stand before what comes behind them, in double precision") {
+  CHECK(put("") == Vec3d{1, 2, 3});
+  CHECK(put("Translate 1 0 0 Scale 2 2 2") == Vec3d{3, 4, 6});
+  CHECK(put("Scale 2 2 2 Translate 1 0 0") == Vec3d{4, 4, 6});
+  CHECK(is_near(put("Rotate 90 0 0 2"), {-2, 1, 3}));
+  CHECK(put("Transform [1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1]") == Vec3d{6, 8, 10});
+  CHECK(put("Translate 1 1 1 ConcatTransform [0 1 0 0 -1 0 0 0 0 0 1 0 0 0 0 1]") == Vec3d{-1, 2, 4});
+  CHECK(put("Translate 1 1 1 Identity") == Vec3d{1, 2, 3});
+  CHECK(put("Translate 1 0 0 CoordinateSystem \"a\" Identity CoordSysTransform \"a\"") == Vec3d{2, 2, 3});
+  CHECK(put("AttributeBegin Translate 9 9 9 AttributeEnd TransformBegin Scale 9 9 9 TransformEnd") == Vec3d{1, 2, 3});
+  CHECK(put("ActiveTransform EndTime Translate 9 9 9 ActiveTransform All Translate 0.1 0.2 0") == Vec3d{1.1, 2.2, 3});
+}
+
+TEST_CASE("coordinates that are left-handed have x turned round, and triangles look to the side that they did") {
+  const std::string left = "LookAt 0 0 10  0 0 0  0 1 0\nCamera \"perspective\"\nWorldBegin\n";
+  const MeshFile file = read_mesh("a.pbrt", left + pbrt_triangle);
+  CHECK(notes(file, "left-handed"));
+  CHECK(file.scene.vertices == std::vector<Vec3d>{{0, 1, 0}, {-1, 0, 0}, {0, 0, 0}});
+  CHECK(is_near(file.scene.view.from, {0, 0, 10}));
+  const MeshFile right = read_pbrt(pbrt_triangle);
+  CHECK(!notes(right, "left-handed"));
+  // Mirrored once more it looks to the other side again, and turned by ReverseOrientation, too.
+  CHECK(read_pbrt("Scale 1 -1 1 " + pbrt_triangle).scene.vertices == std::vector<Vec3d>{{0, -1, 0}, {1, 0, 0}, {0, 0, 0}});
+  CHECK(read_pbrt("ReverseOrientation " + pbrt_triangle).scene.vertices == std::vector<Vec3d>{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}});
+}
+
+TEST_CASE("an object stands wherever it is named, its own transform behind the instance's") {
+  const MeshFile file = read_pbrt("ObjectBegin \"o\" Translate 1 0 0\n" + pbrt_triangle +
+                                  "ObjectEnd\nScale 2 2 2\nObjectInstance \"o\"\nIdentity ObjectInstance \"o\"\n");
+  REQUIRE(file.scene.objects.size() == 2);
+  CHECK(file.scene.vertices[0] == Vec3d{2, 0, 0});
+  CHECK(file.scene.vertices[3] == Vec3d{1, 0, 0});
+  CHECK(notes(file, "1 shape stands in 2 places"));
+  CHECK(tests::contains(pbrt_refusal("ObjectInstance \"o\""), "no object \"o\" is there"));
+  CHECK(tests::contains(pbrt_refusal("ObjectBegin \"o\" ObjectInstance \"o\""), "stands within an object"));
+  CHECK(tests::contains(pbrt_refusal("ObjectBegin \"o\" ObjectBegin \"p\""), "within another object"));
+}
+
+TEST_CASE("what is said of shapes by Attribute holds for those that do not say it, until the attributes end") {
+  const MeshFile file = read_pbrt(
+      "AttributeBegin Attribute \"shape\" \"float radius\" 3\nShape \"sphere\"\nShape \"sphere\" \"float radius\" 2 "
+      "AttributeEnd\n"
+      "Shape \"sphere\"\n");
+  REQUIRE(file.scene.spheres.size() == 3);
+  CHECK(file.scene.spheres[0].radius == 3);
+  CHECK(file.scene.spheres[1].radius == 2);
+  CHECK(file.scene.spheres[2].radius == 1);
+}
+
+TEST_CASE("text may have remarks, lines that end by two bytes, a mark in front, and no end of its last line") {
+  const std::string text =
+      "\xef\xbb\xbf# Stra\xc3\x9f"
+      "e\r\n" +
+      pbrt_camera + "# a remark [ \" \r\nShape \"trianglemesh\"\r\n\"point3 P\" [0 0 0 1 0 0 0 1 0]";
+  CHECK(read_mesh("a.pbrt", text).scene.objects.size() == 1);
+}
+
+TEST_CASE("errors say file, line and column") {
+  CHECK(pbrt_refusal("\n  Sphere").starts_with("7:3: \"Sphere\" is no statement"));
+  CHECK(pbrt_refusal("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]\n \"integer indices\" [0 1 5]")
+            .starts_with("7:2: Shape \"trianglemesh\": index 2 is of point 5, which does not exist: there are 3"));
+  CHECK(pbrt_refusal("Shape \"sphere\" \"float radius\" [1 x]")
+            .starts_with("6:34: Shape \"sphere\": parameter \"radius\" has 'x', expected a number"));
+  CHECK(tests::contains(pbrt_refusal("Shape \"sphere\" \"float radius\" [1 2]"), "has 2 values, expected one"));
+  CHECK(tests::contains(pbrt_refusal("Shape \"sphere\" \"float radius\" []"), "has no value"));
+  CHECK(tests::contains(pbrt_refusal("Shape \"sphere\" \"float radius\" [1"), "is not ended"));
+  CHECK(tests::contains(pbrt_refusal("Shape \"sphere\" \"point3 P\" [1 2]"), "expected 3 for each value"));
+  CHECK(tests::contains(pbrt_refusal("Shape \"sphere"), "quotes are not closed in their line"));
+  CHECK(tests::contains(pbrt_refusal("Shape \"cube\""), "no shape of kind 'cube'"));
+  CHECK(tests::contains(pbrt_refusal("Translate 1 2 nan"), "as number 3"));
+  CHECK(tests::contains(pbrt_refusal("Scale 1e31 1 1"), "none beyond 1e30"));
+  CHECK(tests::contains(pbrt_refusal("Scale 1e30 1 1 Scale 10 1 1"), "puts what follows beyond 1e30"));
+  CHECK(tests::contains(pbrt_refusal("Rotate 10 0 0 0"), "axis without a direction"));
+  CHECK(tests::contains(pbrt_refusal("LookAt 0 0 0 0 0 0 0 1 0"), "looks nowhere"));
+  CHECK(tests::contains(pbrt_refusal("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1]"), "makes lines meet"));
+  CHECK(tests::contains(pbrt_refusal("AttributeBegin"), "what begins here is not ended"));
+  CHECK(tests::contains(pbrt_refusal("AttributeEnd"), "ends what has not begun"));
+  CHECK(tests::contains(pbrt_refusal("AttributeBegin TransformEnd"), "ends what has not begun, within what begins at"));
+  CHECK(tests::contains(pbrt_refusal(std::string("\x01", 1)), "a byte that no text has, 1"));
+  CHECK(tests::contains(pbrt_refusal("NamedMaterial \"m\"\n" + pbrt_triangle), "6:1: the material \"m\" is not there"));
+  CHECK(tests::contains(pbrt_refusal("] ["), "\"]\" is no statement"));
+}
+
+TEST_CASE("scenes of pbrt-v3 are told by what tells them, and by what makes them new") {
+  for (const char* const old :
+       {"WorldEnd", "SurfaceIntegrator \"path\"", "Material \"matte\"", "Shape \"sphere\" \"point P\" [0 0 0]"}) {
+    CHECK(tests::contains(pbrt_refusal(old), "pbrt --upgrade"));
+  }
+  CHECK(tests::contains(tests::mesh_refusal("a.pbrt", "Film \"image\" \"integer xresolution\" 4"),
+                        "Film \"image\": is of pbrt-v3"));
+}
+
+TEST_CASE("a million brackets, attributes within each other and endless words are an error, or nothing, and soon") {
+  CHECK(tests::contains(pbrt_refusal("Shape \"sphere\" \"float radius\" " + repeated("[", 1'000'000)),
+                        "has '[', expected a number"));
+  CHECK(tests::contains(pbrt_refusal(repeated("AttributeBegin ", 200'000)), "stand within each other"));
+  CHECK(read_pbrt(repeated("AttributeBegin ", 1000) + repeated("AttributeEnd ", 1000) + pbrt_triangle).scene.objects.size() == 1);
+  CHECK(tests::contains(pbrt_refusal(std::string(1'000'000, 'x')), "is no statement"));
+}
+
+TEST_CASE("what is pressed flat is shown flat, and a camera in what is pressed flat is refused") {
+  CHECK(read_pbrt("Scale 1 1 0 " + pbrt_triangle).scene.objects.size() == 1);
+  CHECK(tests::contains(tests::mesh_refusal("a.pbrt", "Scale 1 0 1 Camera \"perspective\" WorldBegin " + pbrt_triangle),
+                        "pressed flat"));
+}
+
+TEST_CASE("what says nothing here is counted once a kind") {
+  const MeshFile file = read_pbrt(
+      "Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 1 1 0 1 1 1]\nShape \"curve\"\n"
+      "Shape \"sphere\" \"float weight\" 1\nMediumInterface \"fog\" \"\"\n" +
+      pbrt_triangle);
+  CHECK(notes(file, "curves left out: 2"));
+  CHECK(notes(file, "parameters \"weight\" that mean nothing where they stand: 1"));
+  CHECK(notes(file, "media, which are not shown: 1"));
+}
+
+}  // namespace dmpc::apps::pbrt_statements_test
