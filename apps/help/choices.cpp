@@ -25,6 +25,8 @@ ChoiceList scenes() {
   }
   all.entries.push_back(
       {"landscape-10", "a million triangles and a texture; only as files: dmpc scene landscape-10 -o land.gltf"});
+  all.entries.push_back(
+      {"grove-5", "some 500 trees, as instances, on a landscape; only as files: dmpc scene grove-5 -o grove.gltf"});
   return all;
 }
 

@@ -112,7 +112,7 @@ void Commands::declare_values() {
     scenes.words.push_back(scene.text());
     families.words.push_back(scene.family);
   }
-  families.words.emplace_back("landscape");
+  families.words.insert(families.words.end(), {"landscape", "grove"});
   for (const std::string& ending : words_between(known_mesh_formats(), ',')) {
     scenes.endings.push_back(ending.substr(ending.find_first_not_of(' ')));
   }

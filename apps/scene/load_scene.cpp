@@ -114,7 +114,7 @@ core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int
   std::error_code error;
   const bool looks_like_name = scene.find_first_of("./") == std::string::npos;
   if (looks_like_name && !std::filesystem::exists(scene, error)) {
-    if (landscape_size(scene)) {
+    if (landscape_size(scene) || grove_size(scene)) {
       throw core::InputError("'" + scene + "' is a scene of several files: write them first, dmpc scene " + scene + " -o " +
                              scene + ".gltf, then take " + scene + ".gltf");
     }

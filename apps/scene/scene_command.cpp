@@ -20,8 +20,8 @@ void check_ending(const core::SceneName& name, const std::filesystem::path& path
   if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
     throw core::UsageError(
         "-o " + path.string() + ": " + name.text() +
-        " is written as NFF: expected a name that ends in .nff, or has no ending (only landscapes are written " +
-        "as .gltf: dmpc scene landscape-10 -o land.gltf)");
+        " is written as NFF: expected a name that ends in .nff, or has no ending (only landscapes and groves are " +
+        "written as .gltf: dmpc scene landscape-10 -o land.gltf)");
   }
 }
 
@@ -49,15 +49,17 @@ void write_output(const core::SceneName& name, Interrupt& interrupt, std::ostrea
   finish_output(output, "the scene");
 }
 
-void write_landscape_files(int size, const SceneOptions& options, Interrupt& interrupt) {
+using WriteFiles = void (*)(int size, const std::filesystem::path& gltf, const RowsDone& rows_done);
+
+void write_files(WriteFiles write, int size, const SceneOptions& options, Interrupt& interrupt) {
   const auto& path = options.output;
   if (!path) {
-    throw core::UsageError("a landscape is several files: give -o FILE.gltf");
+    throw core::UsageError(options.name + " is several files: give -o FILE.gltf");
   }
   check_output_path(*path, "-o");
   const Interrupt::EndAtOnce end_at_once(interrupt);
   Progress progress(std::cerr, !options.quiet && stderr_is_terminal(), "Making " + options.name + ":", "rows");
-  write_landscape(size, *path, [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
+  write(size, *path, [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
 }
 
 }  // namespace
@@ -77,7 +79,11 @@ void add_options(OptionSet options, SceneOptions& scene) {
 
 int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output) {
   if (const auto size = landscape_size(options.name)) {
-    write_landscape_files(*size, options, interrupt);
+    write_files(write_landscape, *size, options, interrupt);
+    return 0;
+  }
+  if (const auto size = grove_size(options.name)) {
+    write_files(write_grove, *size, options, interrupt);
     return 0;
   }
   const core::SceneName name = core::parse_scene_name(options.name);

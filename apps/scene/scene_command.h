@@ -1,4 +1,4 @@
-// The command `scene`: writes a built-in scene as NFF, or a landscape as glTF.
+// The command `scene`: writes a built-in scene as NFF, or a landscape or grove as glTF.
 #pragma once
 
 #include <filesystem>
@@ -12,9 +12,9 @@
 namespace dmpc::apps {
 
 struct SceneOptions {
-  std::string name;                             ///< of a built-in scene or a landscape
+  std::string name;                             ///< of a built-in scene, a landscape or a grove
   std::optional<std::filesystem::path> output;  ///< stdout if not given
-  bool quiet = false;                           ///< no progress of a landscape, the only one that takes long
+  bool quiet = false;                           ///< no progress of a landscape or grove, which alone take long
 };
 
 /// Declares them.
@@ -22,8 +22,8 @@ void add_options(OptionSet options, SceneOptions& scene);
 
 /// Writes to the file asked for (whole or not at all), else to `output`. A signal ends the process. Returns the exit status 0.
 /// Throws core::InputError for an unknown name or if writing fails,
-/// core::UsageError for a landscape without an -o that ends in .gltf or another scene with one that ends in anything but .nff,
-/// Interrupted if a signal came before.
+/// core::UsageError for a landscape or grove without an -o that ends in .gltf or another scene with one that ends in anything but
+/// .nff, Interrupted if a signal came before.
 int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

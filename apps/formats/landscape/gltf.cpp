@@ -1,6 +1,7 @@
 #include "apps/formats/landscape/gltf.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
@@ -46,13 +47,17 @@ class Buffer {
   Json views = Json::array(), accessors = Json::array();
 };
 
-Json mesh_json(const LandscapeMesh& mesh, int material, Buffer& buffer) {
-  const Json attributes = {{"POSITION", buffer.add_positions(mesh.positions)},
-                           {"NORMAL", buffer.add(mesh.normals, "VEC3", real_number)},
-                           {"TEXCOORD_0", buffer.add(mesh.places, "VEC2", real_number)}};
-  const Json primitive = {
-      {"attributes", attributes}, {"indices", buffer.add(mesh.indices, "SCALAR", whole_number)}, {"material", material}};
-  return {{"primitives", Json::array({primitive})}};
+Json primitive_json(const LandscapeMesh& mesh, std::size_t material, Buffer& buffer) {
+  Json attributes = {{"POSITION", buffer.add_positions(mesh.positions)},
+                     {"NORMAL", buffer.add(mesh.normals, "VEC3", real_number)}};
+  if (!mesh.places.empty()) {
+    attributes["TEXCOORD_0"] = buffer.add(mesh.places, "VEC2", real_number);
+  }
+  return {{"attributes", attributes}, {"indices", buffer.add(mesh.indices, "SCALAR", whole_number)}, {"material", material}};
+}
+
+Json mesh_json(const LandscapeMesh& mesh, std::size_t material, Buffer& buffer) {
+  return {{"primitives", Json::array({primitive_json(mesh, material, buffer)})}};
 }
 
 /// A camera's place and directions, column by column.
@@ -76,10 +81,39 @@ Json materials_json() {
       {{{"name", "ground"}, {"pbrMetallicRoughness", ground}}, {{"name", "lake"}, {"pbrMetallicRoughness", lake}}});
 }
 
+Json rough_json(const std::string& name, const Json& color) {
+  return {{"name", name}, {"pbrMetallicRoughness", {{"baseColorFactor", color}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
+}
+
+/// A mesh of bark and leaves for each kind of tree that stands somewhere, and a node that puts it in all its places.
+void add_trees(const Grove& grove, Json& json, Buffer& buffer) {
+  static const std::array<Json, tree_kinds> greens{Json::array({0.05, 0.14, 0.06, 1}), Json::array({0.16, 0.27, 0.05, 1}),
+                                                   Json::array({0.04, 0.1, 0.07, 1}), Json::array({0.24, 0.28, 0.06, 1})};
+  const std::size_t bark = json["materials"].size();
+  json["materials"].push_back(rough_json("bark", Json::array({0.2, 0.13, 0.08, 1})));
+  json["extensionsUsed"] = json["extensionsRequired"] = Json::array({"EXT_mesh_gpu_instancing"});
+  for (std::size_t kind = 0; kind < tree_kinds; ++kind) {
+    const TreePlaces& places = grove.places[kind];
+    if (places.translations.empty()) {
+      continue;
+    }
+    json["materials"].push_back(rough_json("leaves", greens[kind]));
+    const Json primitives = Json::array({primitive_json(grove.trees[kind].bark, bark, buffer),
+                                         primitive_json(grove.trees[kind].leaves, json["materials"].size() - 1, buffer)});
+    json["meshes"].push_back({{"name", "tree"}, {"primitives", primitives}});
+    const Json attributes = {{"TRANSLATION", buffer.add(places.translations, "VEC3", real_number)},
+                             {"ROTATION", buffer.add(places.rotations, "VEC4", real_number)},
+                             {"SCALE", buffer.add(places.scales, "VEC3", real_number)}};
+    json["scenes"][0]["nodes"].push_back(json["nodes"].size());
+    json["nodes"].push_back(
+        {{"mesh", json["meshes"].size() - 1}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}}}});
+  }
+}
+
 }  // namespace
 
 LandscapeGltf landscape_gltf(const LandscapeMesh& ground, const LandscapeMesh& lake, const std::string& numbers_name,
-                             const std::string& picture_name) {
+                             const std::string& picture_name, const Grove* trees) {
   Buffer buffer;
   const Json meshes = Json::array({mesh_json(ground, 0, buffer), mesh_json(lake, 1, buffer)});
   const Json perspective = {{"aspectRatio", 1}, {"yfov", 0.8}, {"znear", 0.01}};
@@ -95,6 +129,9 @@ LandscapeGltf landscape_gltf(const LandscapeMesh& ground, const LandscapeMesh& l
   json["textures"] = Json::array({{{"source", 0}, {"sampler", 0}}});
   json["samplers"] = Json::array({{{"wrapS", 33071}, {"wrapT", 33071}}});  // the edge goes on
   json["images"] = Json::array({{{"uri", picture_name}}});
+  if (trees != nullptr) {
+    add_trees(*trees, json, buffer);
+  }
   json["accessors"] = buffer.accessors;
   json["bufferViews"] = buffer.views;
   json["buffers"] = Json::array({{{"uri", numbers_name}, {"byteLength", buffer.numbers.size()}}});

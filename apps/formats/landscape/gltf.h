@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "apps/formats/landscape/grove.h"
 #include "apps/formats/landscape/mesh.h"
 
 namespace dmpc::apps {
@@ -13,8 +14,9 @@ struct LandscapeGltf {
 };
 
 /// Ground with the texture `picture_name`, a lake that mirrors, and a camera at the lake's near end. Both names are of files
-/// beside the .gltf, of letters, digits, dots, - and _ alone.
+/// beside the .gltf, of letters, digits, dots, - and _ alone. Trees, if there are any, are instances of a mesh for each kind, by
+/// EXT_mesh_gpu_instancing (Khronos Group).
 LandscapeGltf landscape_gltf(const LandscapeMesh& ground, const LandscapeMesh& lake, const std::string& numbers_name,
-                             const std::string& picture_name);
+                             const std::string& picture_name, const Grove* trees = nullptr);
 
 }  // namespace dmpc::apps

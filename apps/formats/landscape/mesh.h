@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/formats/landscape/rows_done.h"
+#include "core/base/vec.h"
 
 namespace dmpc::apps {
 
@@ -13,9 +14,12 @@ namespace dmpc::apps {
 struct LandscapeMesh {
   using Point = std::array<float, 3>;
   std::vector<Point> positions, normals;
-  std::vector<std::array<float, 2>> places;  ///< on the texture: s to the right, t downwards
+  std::vector<std::array<float, 2>> places;  ///< on the texture: s to the right, t downwards; or none
   std::vector<std::uint32_t> indices;
 };
+
+/// A vertex without a place.
+void add_vertex(LandscapeMesh& mesh, const core::Vec3d& position, const core::Vec3d& normal);
 
 /// 4^size triangles over a lattice of 2^size by 2^(size - 1) squares, x from -1 to 1, z from -1/2 to 1/2; size from 1 to 13.
 LandscapeMesh ground_mesh(int size, const RowsDone& rows_done = {});

@@ -4,8 +4,11 @@
 
 #include <string>
 
+#include "apps/formats/landscape/gltf.h"
+#include "apps/formats/landscape/grove.h"
 #include "apps/info/scene_figures.h"
 #include "core/base/expect.h"
+#include "core/base/sampling.h"
 #include "tests/apps/show/rendered.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
@@ -68,11 +71,52 @@ TEST_CASE("a landscape has the same bytes every time and the same picture in eve
   CHECK(film_hash(folder / "a.gltf", Strategy::dataflow) == film);
 }
 
+TEST_CASE("a grove's name says its size") {
+  CHECK(grove_size("grove") == grove_size_default);
+  CHECK(grove_size("grove-10") == 10);
+  CHECK_FALSE(grove_size("landscape-4"));
+  for (const char* name : {"grove-0", "grove-11", "groves"}) {
+    CHECK_THROWS_AS(grove_size(name), core::InputError);
+  }
+}
+
+TEST_CASE("a grove is a landscape with a tree in each of its places, whose files have each kind of tree but once") {
+  const TemporaryFolder folder;
+  constexpr int size = 4;
+  write_grove(size, folder / "grove.gltf");
+  const Grove trees = grove(size);
+  std::size_t count = 0;
+  for (const TreePlaces& places : trees.places) {
+    count += places.translations.size();
+  }
+  REQUIRE(count > 100);
+  const core::Scene scene = load_scene(PictureOptions{.scene = folder / "grove.gltf"}, LoadNotes::silent);
+  const SceneFigures figures = figures_of(scene);
+  CHECK(figures.objects[static_cast<std::size_t>(core::ObjectKind::textured)] == std::size_t{1} << 14U);
+  CHECK(figures.objects[static_cast<std::size_t>(core::ObjectKind::patch)] == count * (bark_triangles + leaf_triangles));
+  CHECK(std::filesystem::file_size(folder / "grove.bin") < 2'000'000);  // of some 20 million bytes of triangles
+}
+
+TEST_CASE("a grove has the same bytes on every machine, and the same picture in every strategy") {
+  const Grove trees = grove(2);
+  std::uint64_t hash = 0;
+  for (const char c : landscape_gltf(ground_mesh(1), lake_mesh(), "a.bin", "a.png", &trees).numbers) {
+    hash = core::mix(hash + static_cast<unsigned char>(c));
+  }
+  CHECK(hash == 123052014117615486U);
+  const TemporaryFolder folder;
+  write_grove(2, folder / "a.gltf");
+  const std::uint64_t film = film_hash(folder / "a.gltf", Strategy::svm);
+  CHECK(film_hash(folder / "a.gltf", Strategy::replicated) == film);
+  CHECK(film_hash(folder / "a.gltf", Strategy::dataflow) == film);
+}
+
 TEST_CASE("what cannot be a landscape's name is refused, and then there are no files") {
   const TemporaryFolder folder;
   for (const char* name : {"a.nff", "a", "a b.gltf", "a%.gltf", ".gltf", "a.GLTF"}) {
     CAPTURE(name);
     CHECK_THROWS_AS(write_landscape(1, folder / name), core::UsageError);
+    CHECK_THROWS_AS(write_grove(1, folder / name), core::UsageError);
   }
   CHECK_THROWS_AS(write_landscape(1, folder / "none" / "a.gltf"), core::InputError);
   CHECK(folder.entry_count() == 0);
@@ -87,7 +131,10 @@ TEST_CASE("scene writes a landscape where it is told, and nowhere else") {
   };
   CHECK(status({"landscape-2", "-o", folder / "land.gltf"}) == 0);
   CHECK(folder.entry_count() == 3);
+  CHECK(status({"grove-1", "-o", folder / "land.gltf"}) == 0);
+  CHECK(folder.entry_count() == 3);
   CHECK(status({"landscape-2"}) == 2);
+  CHECK(status({"grove-1"}) == 2);
   CHECK(status({"landscape-99", "-o", folder / "b.gltf"}) == 1);
   CHECK(status({"landscape-2", "-o", folder / "none" / "b.gltf"}) == 1);
 }
