@@ -128,15 +128,21 @@ std::vector<core::Material> materials_of(const PolygonFile& file, SceneFiles& fi
   return materials;
 }
 
-/// What all placements become; says what instancing costs.
-GeometrySize measure(ImportedFile& file, const Placements& placements, std::vector<std::string>& notes) {
+/// What placed meshes become, each of them once and in all its places.
+struct PlacedSize {
+  GeometrySize once, all;
+};
+
+/// Says what instancing costs.
+PlacedSize measure(ImportedFile& file, const Placements& placements, std::vector<std::string>& notes) {
   std::vector<GeometrySize> sizes(file.scene->mNumMeshes);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     sizes[i] = size_of(*file.scene->mMeshes[i]);
     sizes[i] += size_of(file.triangles_of(i));
   }
   std::set<std::size_t> placed;
-  GeometrySize once, all;
+  PlacedSize size;
+  auto& [once, all] = size;
   for (const Placement& placement : placements) {
     all += sizes[placement.mesh];
     once += placed.insert(placement.mesh).second ? sizes[placement.mesh] : GeometrySize{};
@@ -146,7 +152,7 @@ GeometrySize measure(ImportedFile& file, const Placements& placements, std::vect
                     grouped(placements.size()) + " places: " + grouped(once.triangles) + " triangles become " +
                     grouped(all.triangles));
   }
-  return all;
+  return size;
 }
 
 /// In how many places each mesh stands.
@@ -295,9 +301,9 @@ MeshScene scene_of(ImportedFile file, const std::string& path, const MeshOptions
   pose_skins(file, result.notes);
   std::vector<std::string> missing = file.missing;
   const Placements placements = find_placements(*file.scene, options.scale.value_or(1));
-  const GeometrySize size = measure(file, placements, result.notes);
-  check_size(size);
-  result.scene.objects.reserve(size.faces);
+  const PlacedSize size = measure(file, placements, result.notes);
+  check_size(size.all);
+  result.scene.objects.reserve(options.smooth_degrees ? size.all.faces : size.once.faces);
   note_features(*file.scene, placements, result.notes);
   result.notes.insert(result.notes.end(), file.notes.begin(), file.notes.end());
   const std::vector<MeshMaterial> materials = materials_of(file, placements, files, result, missing);

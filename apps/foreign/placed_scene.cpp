@@ -138,8 +138,7 @@ class PlacedScene {
   }
 
   void add_shapes() {
-    core::SceneBuilder builder(result_.scene);
-    GeometryWriter writer(builder, result_.vertices, options_.smooth_degrees);
+    GeometryWriter writer(result_.scene, result_.vertices, options_.smooth_degrees);
     for (const ShapePlace& place : file_.places) {
       add_shape(place, writer);
     }
