@@ -72,15 +72,15 @@ Scene textured_floor(std::vector<std::uint32_t> texels, Microfacets facets) {
 }  // namespace
 
 TEST_CASE("under a white sky tiny mirrors that reflect all show what one scattering leaves, however often light may bounce") {
-  for (const auto& [alpha, cosine, share] : {std::tuple{0.04, 1.0, .9975},
+  for (const auto& [alpha, cosine, share] : {std::tuple{0.04, 1.0, .9983},
                                              {0.04, 0.5, .9955},
-                                             {0.04, 0.1, .926},
+                                             {0.04, 0.1, .929},
                                              {0.25, 1.0, .9158},
                                              {0.25, 0.5, .8573},
-                                             {0.25, 0.1, .895},
+                                             {0.25, 0.1, .8916},
                                              {0.5, 1.0, .6879},
                                              {0.5, 0.5, .6983},
-                                             {0.5, 0.1, .861},
+                                             {0.5, 0.1, .8601},
                                              {1.0, 1.0, .3069},
                                              {1.0, 0.5, .4507},
                                              {1.0, 0.1, .760}}) {
@@ -89,7 +89,7 @@ TEST_CASE("under a white sky tiny mirrors that reflect all show what one scatter
     const int samples = 16384 / static_cast<int>(slowness);
     for (const int bounces : {0, 3}) {
       const Vec3d light = mean_of(film_of(floor_of(microfacets(white, 1, alpha), cosine), 1, samples, white_sky, bounces));
-      CHECK(light.x == doctest::Approx(share).epsilon(0.005));
+      CHECK(light.x == doctest::Approx(share).epsilon(0.005).scale(0));
       CHECK(light.z == light.x);
     }
   }
@@ -99,13 +99,13 @@ TEST_CASE("a white lacquer that is smooth is white under a white sky, and gold h
   const int samples = 16384 / static_cast<int>(slowness);
   for (const double cosine : {1.0, 0.5, 0.2}) {
     CHECK(mean_of(film_of(floor_of(microfacets(white, 0, 0), cosine), 1, samples, white_sky, 0)).x ==
-          doctest::Approx(1).epsilon(0.002));
+          doctest::Approx(1).epsilon(0.002).scale(0));
   }
   const Vec3d smooth = mean_of(film_of(floor_of(microfacets(gold, 1, 0), 1), 1, 16, white_sky, 2));
   CHECK(length(smooth - gold) < 1e-6);
   const Vec3d rough = mean_of(film_of(floor_of(microfacets(gold, 1, 0.25), 1), 1, samples, white_sky, 2));
-  CHECK(rough.y / rough.x == doctest::Approx(0.75).epsilon(0.005));
-  CHECK(rough.z / rough.x == doctest::Approx(0.25).epsilon(0.02));
+  CHECK(rough.y / rough.x == doctest::Approx(0.75).epsilon(0.005).scale(0));
+  CHECK(rough.z / rough.x == doctest::Approx(0.25).epsilon(0.02).scale(0));
 }
 
 TEST_CASE("a point light shows as bright on a metal as its normals are dense, and the backdrop in mirrors alone") {

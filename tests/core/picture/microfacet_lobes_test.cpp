@@ -71,10 +71,11 @@ Vec3d share_by_steps(const Material& material, double cosine) {
   return sum;
 }
 
-/// The first table of what one scattering leaves: alpha, the eye's cosine, the share.
+/// What one scattering leaves: alpha, the eye's cosine, the share. By a quadrature over normals in another program, of 1500 x
+/// 1500 steps, the tail of steep ones as fine as the rest.
 const std::tuple<double, double, double> left_by_one[] = {
-    {0.04, 1, .9975}, {0.04, 0.5, .9955}, {0.04, 0.1, .926}, {0.25, 1, .9158}, {0.25, 0.5, .8573}, {0.25, 0.1, .895},
-    {0.5, 1, .6879},  {0.5, 0.5, .6983},  {0.5, 0.1, .861},  {1, 1, .3069},    {1, 0.5, .4507},    {1, 0.1, .760}};
+    {0.04, 1, .99830}, {0.04, 0.5, .99545}, {0.04, 0.1, .92900}, {0.25, 1, .91581}, {0.25, 0.5, .85726}, {0.25, 0.1, .89162},
+    {0.5, 1, .68785},  {0.5, 0.5, .69825},  {0.5, 0.1, .86010},  {1, 1, .30685},    {1, 0.5, .45069},    {1, 0.1, .76021}};
 
 }  // namespace
 
@@ -83,8 +84,8 @@ TEST_CASE("tiny mirrors that reflect all send on what one scattering leaves, by 
     CAPTURE(alpha);
     CAPTURE(cosine);
     const Material mirrors = microfacets(white, 1, alpha);
-    CHECK(share_by_sum(mirrors, cosine).x == doctest::Approx(share).epsilon(0.002));
-    CHECK(share_by_steps(mirrors, cosine).y == doctest::Approx(share).epsilon(0.003));
+    CHECK(share_by_sum(mirrors, cosine).x == doctest::Approx(share).epsilon(0.001).scale(0));
+    CHECK(share_by_steps(mirrors, cosine).y == doctest::Approx(share).epsilon(0.001).scale(0));
   }
 }
 
@@ -113,7 +114,7 @@ TEST_CASE("no more light leaves than comes, from whatever side, though a white s
   }
   const Material smooth = microfacets(white, 0, 0);
   for (const double cosine : {1.0, 0.5, 0.2}) {
-    CHECK(share_by_steps(smooth, cosine).x == doctest::Approx(1).epsilon(0.001));
+    CHECK(share_by_steps(smooth, cosine).x == doctest::Approx(1).epsilon(0.001).scale(0));
   }
 }
 
@@ -168,11 +169,11 @@ TEST_CASE("the density of steps is that of the ways together, and 1 but for what
       double sum = 0;
       over_hemisphere(500, 500, [&](const Vec3d& in, double angle) { sum += lobes.density(in) * angle; });
       int lost = 0;
-      constexpr int draws = 16384;
+      constexpr int draws = 65536;
       for (std::uint32_t sample = 0; sample < draws; ++sample) {
         lost += lobes.step(sample_pair(5, sample, 1), sample_pair(5, sample, 2)) ? 0 : 1;
       }
-      CHECK(sum + static_cast<double>(lost) / draws == doctest::Approx(1).epsilon(0.002));
+      CHECK(sum + static_cast<double>(lost) / draws == doctest::Approx(1).epsilon(0.002).scale(0));
     }
   }
 }
@@ -226,7 +227,7 @@ TEST_CASE(
       CHECK(length(step->towards + eye_at(0.5)) < 1e-12);
     }
   }
-  CHECK(through == doctest::Approx(0.75 * 4096).epsilon(0.001));
+  CHECK(through == doctest::Approx(0.75 * 4096).epsilon(0.001).scale(0));
   Material glass = microfacets(white, 0, 0);
   glass.microfacets.transmission = 1;
   glass.refraction_index = 1.5;
@@ -244,8 +245,8 @@ TEST_CASE(
     return sum;
   };
   const double expected = 0.04 + 0.96 * 0.03125;
-  CHECK(mirrored(outside) == doctest::Approx(expected).epsilon(0.01));
-  CHECK(mirrored(within) == doctest::Approx(expected).epsilon(0.01));
+  CHECK(mirrored(outside) == doctest::Approx(expected).epsilon(0.01).scale(0));
+  CHECK(mirrored(within) == doctest::Approx(expected).epsilon(0.01).scale(0));
 }
 
 TEST_CASE("no step weighs more than the bound, and no point light shows more of itself") {
