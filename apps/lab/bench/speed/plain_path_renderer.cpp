@@ -8,10 +8,12 @@
 #include "apps/lab/bench/speed/plain_emitters.h"
 #include "apps/lab/bench/speed/plain_lobes.h"
 #include "apps/lab/bench/speed/plain_tiles.h"
+#include "core/base/expect.h"
 #include "core/picture/emitter_light.h"
 #include "core/picture/path_step.h"
 #include "core/picture/sample_position.h"
 #include "core/picture/surface_shares.h"
+#include "core/record/sky.h"
 
 namespace dmpc::apps {
 
@@ -161,8 +163,10 @@ class PlainPathRenderer::Walker : public PlainAsker {
   int ray_depth_max_;
 };
 
-PlainPathRenderer::PlainPathRenderer(const Subject& subject)
-    : stage_(std::make_unique<PlainStage>(subject, EmbreeMode::robust)) {}
+PlainPathRenderer::PlainPathRenderer(const Subject& subject) : stage_(std::make_unique<PlainStage>(subject, EmbreeMode::robust)) {
+  core::expect(!core::has_sky_picture(subject.settings.header),
+               "the plain path tracer knows skies of colours alone, no pictures");
+}
 PlainPathRenderer::~PlainPathRenderer() = default;
 
 PlainPicture PlainPathRenderer::render(std::uint32_t thread_count) const {

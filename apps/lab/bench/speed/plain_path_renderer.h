@@ -15,10 +15,12 @@ class PlainStage;
 /// of the scene, threads that take tiles, nothing emulated. The numbers of chance are ours (core/picture/sample_pair.h), and for
 /// the same purposes, as are the places in pixels, the ways in which a surface sends light on, tiny mirrors included, what hits
 /// aim at and how that is weighed, roulette, sky and last looks; so sample for sample its light is ours, but where rounding leads
-/// a path elsewhere. No textures, no occlusion. Immutable; render() is thread-safe.
+/// a path elsewhere. No textures, no sky's picture, no occlusion. Immutable; render() is
+/// thread-safe.
 class PlainPathRenderer {
  public:
-  /// Builds the tree, of high quality, on all cores. `subject`, whose picture is by paths, outlives it.
+  /// Builds the tree, of high quality, on all cores. `subject`, whose picture is by paths, below a sky of colours if it has one,
+  /// outlives it.
   explicit PlainPathRenderer(const Subject& subject);
   ~PlainPathRenderer();
   PlainPathRenderer(const PlainPathRenderer&) = delete;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/base/expect.h"
 #include "core/scene/triangulate.h"
 
 namespace dmpc::apps {
@@ -97,6 +98,7 @@ void add_object(AccurateScene& to, const core::Scene& scene, std::uint32_t index
 }  // namespace
 
 AccurateScene accurate_scene(const core::Scene& scene) {
+  core::expect(!scene.sky.is_there(), "the renderer in double knows skies of colours alone, no pictures");
   AccurateScene result;
   result.textures = scene.textures;
   result.materials = scene.materials;

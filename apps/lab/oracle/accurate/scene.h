@@ -46,7 +46,7 @@ struct AccurateScene {
   bool hits_glow() const { return has_emission || !(ambient == core::Vec3d{}); }
 };
 
-/// Lights without a colour get 1 / sqrt(their number), as in the product.
+/// Lights without a colour get 1 / sqrt(their number), as in the product. Requires a sky of colours, no picture.
 AccurateScene accurate_scene(const core::Scene& scene);
 
 }  // namespace dmpc::apps
