@@ -263,16 +263,26 @@ void add_geometry(MeshScene& result, std::vector<PolygonMesh> meshes, const std:
 
 std::string text_of(const core::Vec3d& point) { return shortest(point.x) + "," + shortest(point.y) + "," + shortest(point.z); }
 
+/// What is said, else what the file says, which holds for any camera.
+UpAxis up_of(const aiScene* file, const MeshOptions& options, std::vector<std::string>& notes) {
+  return (options.up || file == nullptr ? options.up : up_axis_of(*file, notes)).value_or(UpAxis{});
+}
+
 /// The whole in view; says how, to the last bit, as a start for a camera of one's own.
-core::View plain_view(const BoundingSphere& bounds, const aiScene* file, const MeshOptions& options,
+core::View plain_view(const BoundingSphere& bounds, const UpAxis& up, const MeshOptions& options,
                       std::vector<std::string>& notes) {
-  const auto said = options.up || file == nullptr ? options.up : up_axis_of(*file, notes);  // which holds for any camera
-  const core::View view = whole_view(bounds, said.value_or(UpAxis{}));
+  const core::View view = whole_view(bounds, up);
   if (options.is_seen_otherwise) {
     return view;
   }
   notes.push_back("the whole is in view, as by --camera=" + text_of(view.from) + "/" + text_of(view.at) + "/" + text_of(view.up));
   return view;
+}
+
+/// By a sky, or, by paths, by what shines in it: other transports show that, but not what it lights.
+bool is_lit_without_lights(const core::Scene& scene, const MeshOptions& options) {
+  const auto shines = [](const core::Material& material) { return material.emission != core::Vec3d{}; };
+  return options.is_below_sky || (options.is_by_paths && std::any_of(scene.materials.begin(), scene.materials.end(), shines));
 }
 
 /// `file` may have cameras and lights, if it is there.
@@ -286,12 +296,22 @@ void add_surroundings(MeshScene& result, const aiScene* file, const MeshOptions&
   std::vector<std::string> unsaid;
   const bool has_camera = file != nullptr && !options.is_seen_otherwise;
   const auto camera = has_camera ? camera_of(*file, options.size, scale, notes) : std::nullopt;
-  scene.view = camera ? *camera : plain_view(bounds, file, options, notes);
+  const UpAxis up = up_of(file, options, camera ? unsaid : notes);
+  scene.view = camera ? *camera : plain_view(bounds, up, options, notes);
+  scene.zenith = axes_of(up).up;
+  const bool is_lit_else = is_lit_without_lights(scene, options);
   if (file != nullptr) {
-    scene.lights = lights_of(*file, bounds, scale, options.is_below_sky, options.is_lit_otherwise ? unsaid : notes);
+    scene.lights = lights_of(*file, bounds, scale, is_lit_else, options.is_lit_otherwise ? unsaid : notes);
   }
-  if (scene.lights.empty() && !options.is_below_sky) {
+  if (scene.lights.empty() && !is_lit_else) {
     scene.lights = plain_lights(bounds, scene.view);
+  }
+}
+
+/// What nobody shows need not be there, nor be decoded.
+void leave_out_facets(std::vector<MaterialTextures>& textures) {
+  for (MaterialTextures& of_material : textures) {
+    of_material.facets.reset();
   }
 }
 
@@ -299,6 +319,9 @@ void add_surroundings(MeshScene& result, const aiScene* file, const MeshOptions&
 MeshScene scene_of(ImportedFile file, const std::string& path, const MeshOptions& options, SceneFiles& files) {
   MeshScene result{.scene = {.name = path, .coordinate_rounding = float_rounding}, .notes = {}};
   pose_skins(file, result.notes);
+  if (!options.is_by_paths) {
+    leave_out_facets(file.textures);
+  }
   std::vector<std::string> missing = file.missing;
   const Placements placements = find_placements(*file.scene, options.scale.value_or(1));
   const PlacedSize size = measure(file, placements, result.notes);

@@ -43,6 +43,7 @@ MeshOptions take_options(Unpacker& fields) {
   options.is_lit_otherwise = fields.take_flag();
   options.is_below_sky = fields.take_flag();
   options.is_below_own_sky = fields.take_flag();
+  options.is_by_paths = fields.take_flag();
   return options;
 }
 

@@ -20,6 +20,8 @@ struct MeshOptions {
   /// Another view is taken, or other lights, so that nothing is said of the file's.
   bool is_seen_otherwise = false, is_lit_otherwise = false, is_below_sky = false;
   bool is_below_own_sky = false;  ///< the sky that the file says itself
+  /// What shines by itself is a light, and textures of metal and roughness are read, which no other transport shows.
+  bool is_by_paths = false;
 };
 
 }  // namespace dmpc::apps

@@ -139,7 +139,7 @@ void MeshSession::ask() {
   add(fields, options_.size, static_cast<double>(size.width));
   fields.add(static_cast<double>(size.height));
   for (const bool flag : {options_.allows_missing, options_.is_seen_otherwise, options_.is_lit_otherwise, options_.is_below_sky,
-                          options_.is_below_own_sky}) {
+                          options_.is_below_own_sky, options_.is_by_paths}) {
     fields.add(static_cast<std::uint8_t>(flag));
   }
   process_.send(Saying::read_mesh, fields);

@@ -94,7 +94,7 @@ void set_sky(const std::vector<MeshSky>& skies, core::Scene& scene) {
     side = std::max(side, sky.image.height);
   }
   const auto height = static_cast<std::uint32_t>(std::min<int>(side, core::SkyTexels::size_max / 2)), width = 2 * height;
-  Directions directions{.up = normalize(scene.view.up), .middle = {}, .right = {}};
+  Directions directions{.up = zenith_of(scene), .middle = {}, .right = {}};
   directions.middle = core::sky_middle(directions.up);
   directions.right = cross(directions.middle, directions.up);
   std::vector<float> rgb;

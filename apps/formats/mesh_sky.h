@@ -23,7 +23,7 @@ struct MeshSky {
 /// Where in such a square, 0 to 1 to the right and downwards, a unit direction lies.
 std::array<double, 2> equal_area_place(const core::Vec3d& direction);
 
-/// Gives the scene one sky, in the directions of its view, that is as bright as all of them and its background together; a
+/// Gives the scene one sky, below its zenith, that is as bright as all of them and its background together; a
 /// picture's light that is below 0 or no number counts as none. The scene's background is black then. Throws core::InputError for
 /// a picture that is not square.
 void set_sky(const std::vector<MeshSky>& skies, core::Scene& scene);

@@ -110,6 +110,7 @@ bool is_weight(double value) { return value >= 0 && value < coordinate_max; }
 bool send_scene(core::Scene& scene, IndexedVertices& vertices, core::Instances& instances, Line& line, Handing handing) {
   const Packer head = Packer()
                           .add(scene.view)
+                          .add(scene.zenith)
                           .add(scene.background)
                           .add(scene.coordinate_rounding)
                           .add(count_of(scene.materials))
@@ -179,6 +180,8 @@ void SceneReceiver::add(core::Texture texture) {
 void SceneReceiver::take_head(Unpacker fields) {
   Unpacker::require(!std::exchange(has_head_, true));
   scene_.view = fields.take<core::View>();
+  scene_.zenith = fields.take<Vec3d>();
+  Unpacker::require(scene_.zenith == Vec3d{} || std::abs(length(scene_.zenith) - 1) < 1e-6);
   scene_.background = fields.take<Vec3d>();
   scene_.coordinate_rounding = fields.take<double>();
   Unpacker::require(scene_.coordinate_rounding >= 0 && scene_.coordinate_rounding < 1);

@@ -142,6 +142,12 @@ std::string view_text(const core::View& view) {
   return text_of(digest);
 }
 
+std::string zenith_text(const core::Scene& scene) {
+  Digest digest;
+  add(digest, zenith_of(scene));
+  return text_of(digest);
+}
+
 void add_samples(std::vector<PictureFact>& facts, const PictureOptions& picture) {
   facts.push_back({"samples", picture.is_refined ? "auto" : std::to_string(picture.samples)});
   if (picture.is_refined) {
@@ -180,6 +186,9 @@ void add_transport(std::vector<PictureFact>& facts, const TransportOptions& tran
   facts.push_back({"transport", name_of(transport.kind)});
   if (transport.sky) {
     facts.push_back({"sky", scene.sky.is_there() ? sky_text(scene.sky) : sky_text(*transport.sky, scene)});
+  }
+  if (transport.sky && zenith_of(scene) != normalize(scene.view.up)) {
+    facts.push_back({"sky's zenith", zenith_text(scene)});  // before there was this fact, where the view's up points
   }
   if (transport.occlusion) {
     facts.push_back({"occlusion", text_of(*transport.occlusion)});
@@ -236,6 +245,7 @@ std::uint64_t scene_digest(const core::Scene& scene) {
   }
   if (scene.sky.is_there()) {
     digest.add(sky_text(scene.sky));
+    add(digest, zenith_of(scene));
   }
   return digest.value();
 }

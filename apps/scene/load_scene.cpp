@@ -32,12 +32,18 @@ void say_once(const std::vector<std::string>& notes) {
   }
 }
 
+/// Of which some direction is not black.
+bool is_below_light(const core::Scene& scene, const SkyChoice& sky) {
+  constexpr core::Vec3d black;
+  return sky.is_picture() ? scene.sky.brightest > 0 || scene.background != black
+                          : sky.horizon != black || sky.zenith.value_or(black) != black;
+}
+
 /// By paths a sky lights, and what shines by itself.
 bool is_lit(const core::Scene& scene, const TransportOptions& transport) {
   const auto shines = [](const core::Material& material) { return material.emission != core::Vec3d{}; };
-  const bool has_sky =
-      transport.sky && (!has_own_sky(transport.sky->file) || scene.sky.is_there() || scene.background != core::Vec3d{});
-  return !scene.lights.empty() || scene.ambient != core::Vec3d{} || has_sky || transport.occlusion ||
+  return !scene.lights.empty() || scene.ambient != core::Vec3d{} || transport.occlusion ||
+         (transport.sky && is_below_light(scene, *transport.sky)) ||
          (transport.is_by_paths() && std::any_of(scene.materials.begin(), scene.materials.end(), shines));
 }
 
@@ -106,7 +112,7 @@ core::Scene load_nff(const std::string& path, bool is_seen_otherwise, std::int64
   return scene;
 }
 
-core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes,
+core::Scene read_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes,
                      OpenedFiles& opened, std::vector<MeshSky>& skies) {
   if (const auto name = core::find_scene_name(scene)) {
     return core::built_in_scene(*name);
@@ -122,6 +128,14 @@ core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int
   }
   return is_mesh_path(scene) ? load_mesh(scene, mesh, notes, opened, skies)
                              : load_nff(scene, mesh.is_seen_otherwise, pixels_max, notes, opened);
+}
+
+/// The sky stays where it is, whatever view is put in place of the scene's own.
+core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes,
+                     OpenedFiles& opened, std::vector<MeshSky>& skies) {
+  core::Scene read = read_any(scene, mesh, pixels_max, notes, opened, skies);
+  read.zenith = zenith_of(read);
+  return read;
 }
 
 /// What surprises who gives a mesh a light of their own.
@@ -172,6 +186,7 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   mesh.is_lit_otherwise = !picture.staging.lights.empty();
   mesh.is_below_sky = picture.transport.sky.has_value();
   mesh.is_below_own_sky = is_own_sky(picture);
+  mesh.is_by_paths = picture.transport.is_by_paths();
   OpenedFiles read;
   std::vector<MeshSky> skies;
   core::Scene scene =
@@ -179,7 +194,7 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
                read, skies);
   const SceneKind kind = is_mesh(picture.scene) ? SceneKind::mesh : SceneKind::own;
   const std::string note = apply(picture.staging, scene, kind);
-  set_sky(skies, scene);  // whose directions are those of the camera
+  set_sky(skies, scene);
   const bool has_points = !scene.lights.empty();
   std::string sky_note;
   if (picture.transport.sky && picture.transport.sky->is_picture() && !mesh.is_below_own_sky) {

@@ -144,7 +144,7 @@ void check_refinement(const OptionSet& options, PictureOptions& picture) {
 double pixel_share(const PictureOptions& picture) { return picture.is_refined ? 0.5 : 1; }
 
 /// What bounds of light ask of the transport, of whatever grid.
-core::Transport light_of(const PictureOptions& picture) { return transport_of(picture.transport, {}, {}); }
+core::Transport light_of(const PictureOptions& picture) { return transport_of(picture.transport, {0, 0, 1}, {}); }
 
 }  // namespace
 
@@ -239,7 +239,7 @@ core::RenderSettings render_settings(const PictureOptions& options, const core::
                 .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
                 .first_samples = static_cast<std::uint32_t>(options.samples),
                 .film_scale = film_scale_of(options, scene),
-                .transport = transport_of(options.transport, scene.view, database.header().frame)},
+                .transport = transport_of(options.transport, zenith_of(scene), database.header().frame)},
       .refinement = options.refinement,
       .skips = options.skips};
   return core::seen_by(camera, settings, database);

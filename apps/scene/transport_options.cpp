@@ -142,7 +142,8 @@ void add_options(OptionSet options, TransportOptions& transport) {
   options.add_text(
       "--sky", "R,G,B|GREY[/R,G,B|GREY]|FILE [none]", [&transport](const std::string& text) { transport.sky = parse_sky(text); },
       "By paths: what no ray meets is this bright, and lights the scene: everywhere alike, or from the horizon to the zenith, "
-      "which is where the view's up points, or as a picture (EXR, HDR, ...) shows all directions, twice as wide as high, its "
+      "which is where the scene's up points (a mesh's as --up has it, else that of the file's view), or as a picture (EXR, HDR, "
+      "...) shows all directions, twice as wide as high, its "
       "upper edge the zenith. Its middle lies along z where up is y, along x where up is z, along y where up is x, and its left "
       "half to the left of who looks there");
   options.add_text(
@@ -168,13 +169,13 @@ void check(const OptionSet& options, const TransportOptions& transport) {
   refuse_each(options, {"--bounces", "--sky", "--occlusion", "--emitters", "--light-radius"}, " goes with --transport=paths");
 }
 
-core::Transport transport_of(const TransportOptions& options, const core::View& view, const core::GridFrame& frame) {
+core::Transport transport_of(const TransportOptions& options, const core::Vec3d& zenith, const core::GridFrame& frame) {
   core::Transport transport{.kind = options.kind};
   if (options.sky) {
     transport.has_sky = true;
     transport.has_gradient = options.sky->zenith.has_value();
     transport.zenith = core::Color(options.sky->zenith.value_or(core::Vec3d{}));
-    transport.up = core::Vec3f(turned(frame.axes, normalize(view.up)));
+    transport.up = core::Vec3f(turned(frame.axes, zenith));
   }
   if (options.occlusion) {
     const double least = double{std::numeric_limits<float>::min()}, most = double{std::numeric_limits<float>::max()};

@@ -58,8 +58,8 @@ std::string text_of(const TransportOptions& transport);
 /// "whitted" or "paths".
 const char* name_of(core::TransportKind kind);
 
-/// As the nodes have it: up is where the view's up points, at a right angle to nothing.
-core::Transport transport_of(const TransportOptions& options, const core::View& view, const core::GridFrame& frame);
+/// As the nodes have it. `zenith`: of unit length, in the world.
+core::Transport transport_of(const TransportOptions& options, const core::Vec3d& zenith, const core::GridFrame& frame);
 
 /// A sentence about what shines by itself and is met by chance alone, as `emitters` of a database are aimed at and `others` are
 /// not; empty if that is nothing, or nobody aims at anything.

@@ -299,7 +299,7 @@ class DatabaseBuilder {
     if (!options_.for_paths || !scene_.sky.is_there()) {
       return;
     }
-    const Vec3d up = normalize(scene_.view.up);
+    const Vec3d up = zenith_of(scene_);
     sky_ = sky_records(scene_.sky, turned(options_.axes, sky_middle(up)), turned(options_.axes, up));
     sky_.reference.choices = writer_.allocate_array<EmitterChoice>(sky_.choices.size());
     writer_.write(sky_.reference.choices, 0, std::as_bytes(std::span(sky_.choices)));

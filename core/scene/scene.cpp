@@ -196,6 +196,8 @@ Vec3d intensity_of(const PointLight& light, const Scene& scene) {
   return {equal, equal, equal};
 }
 
+Vec3d zenith_of(const Scene& scene) { return scene.zenith == Vec3d{} ? normalize(scene.view.up) : scene.zenith; }
+
 void replay(const Scene& scene, SceneSink& sink) {
   sink.background(scene.background);
   sink.view(scene.view);

@@ -139,6 +139,7 @@ struct Scene {
   std::vector<Cone> cones;
   std::vector<Texture> textures;
   SkyTexels sky;  ///< by paths, what no ray meets, if it is there
+  Vec3d zenith;   ///< of a sky, of unit length, wherever the scene is seen from; 0: where the view's up points
   /// What the file's coordinates have lost of those that were meant, as a share of them: 0x1p-25 where it keeps them in single
   /// precision. So much does not tell two planes apart.
   double coordinate_rounding = 0;
@@ -147,6 +148,9 @@ struct Scene {
 /// What a light of the scene shines with. One without a colour shines with 1 / sqrt(number of lights): twice Haines' suggestion,
 /// since nothing here is ambient.
 Vec3d intensity_of(const PointLight& light, const Scene& scene);
+
+/// Of unit length. Requires a view that makes a picture.
+Vec3d zenith_of(const Scene& scene);
 
 /// What takes the entities of a scene one by one, in a file's order: a builder, a writer, or a step on the way to one. Objects
 /// get the material given last before them.

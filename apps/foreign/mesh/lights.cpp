@@ -119,7 +119,7 @@ void scale_down(std::vector<PointLight>& lights) {
   }
 }
 
-std::vector<PointLight> lights_of(const aiScene& scene, const BoundingSphere& bounds, double scale, bool is_below_sky,
+std::vector<PointLight> lights_of(const aiScene& scene, const BoundingSphere& bounds, double scale, bool is_lit_else,
                                   std::vector<std::string>& notes) {
   std::vector<PointLight> lights;
   std::map<aiLightSourceType, std::uint64_t> counts;
@@ -140,7 +140,7 @@ std::vector<PointLight> lights_of(const aiScene& scene, const BoundingSphere& bo
   }
   scale_down(lights);
   note_lights(counts, notes);
-  const std::string instead = lights.empty() && !is_below_sky ? ", so that plain ones take their place" : "";
+  const std::string instead = lights.empty() && !is_lit_else ? ", so that plain ones take their place" : "";
   note_count(notes, "lights without any brightness left out" + instead, dark);
   note_count(notes, "lights without a place or direction left out" + instead, nowhere);
   return lights;

@@ -17,8 +17,9 @@ namespace dmpc::apps {
 /// Point lights as they are, spots as if they shone all round, directional ones as points 1,000 radii of the scene away; area and
 /// ambient lights, and what is dark or nowhere, are left out. Fall-off is ignored, since ours have none; so colours are scaled
 /// down together until the squares of their brightest channels sum up to 1, as lights without a colour do. `notes` gets a
-/// sentence for each kind that is not shown as it is. Below a sky no others take the place of those that cannot be.
-std::vector<core::PointLight> lights_of(const aiScene& scene, const BoundingSphere& bounds, double scale, bool is_below_sky,
+/// sentence for each kind that is not shown as it is; where the scene is lit by something else, none take the place of those that
+/// cannot be.
+std::vector<core::PointLight> lights_of(const aiScene& scene, const BoundingSphere& bounds, double scale, bool is_lit_else,
                                         std::vector<std::string>& notes);
 
 /// Colours together, until the squares of their brightest channels sum up to 1, unless they do not reach that.

@@ -28,6 +28,7 @@ core::Scene three_triangles() {
   scene.objects = {{ObjectKind::polygon, 0, 0, 3, 0}, {ObjectKind::patch, 0, 0, 3, 0}, {ObjectKind::textured, 1, 0, 3, 0}};
   scene.lights = {{{1, 2, 3}, {0.5, 0.5, 0.5}, true}, {{4, 5, 6}}};
   scene.view.width = 640;
+  scene.zenith = {0, 1, 0};
   return scene;
 }
 
@@ -116,6 +117,7 @@ TEST_CASE("a scene comes through the line as it was") {
   CHECK(after.lights[0].has_color);
   CHECK_FALSE(after.lights[1].has_color);
   CHECK(after.view.width == 640);
+  CHECK(after.zenith == core::Vec3d{0, 1, 0});
 }
 
 TEST_CASE("a scene of many messages comes through, too") {
@@ -201,7 +203,7 @@ TEST_CASE("more than was announced is not taken from anywhere") {
   CHECK_THROWS_AS(receiver.take_from(Saying::points, 24, nothing), Nonsense);
   const core::Scene scene = three_triangles();
   Packer head;
-  head.add(scene.view).add(scene.background).add(scene.coordinate_rounding);
+  head.add(scene.view).add(scene.zenith).add(scene.background).add(scene.coordinate_rounding);
   for (int pool = 0; pool < 8; ++pool) {
     head.add(std::uint64_t{1});
   }
@@ -248,6 +250,7 @@ TEST_CASE("a scene that cannot be is refused, whatever is wrong with it") {
   CHECK(is_refused([](core::Scene& scene) { scene.lights[0].position.x = 1e31; }));
   CHECK(is_refused([](core::Scene& scene) { scene.view.width = 0; }));
   CHECK(is_refused([](core::Scene& scene) { scene.view.at = scene.view.from; }));
+  CHECK(is_refused([](core::Scene& scene) { scene.zenith = {0, 2, 0}; }));
 }
 
 TEST_CASE("a texture of metal and roughness is one by itself, beside that of a colour and of what has places on it, or refused") {
@@ -287,7 +290,7 @@ TEST_CASE("more than was announced, and parts of an entry, are refused") {
   core::Scene scene = three_triangles();
   CHECK_THROWS_AS(receiver.take({Saying::points, std::string(24, '\0'), Descriptor()}), Nonsense);
   Packer head;
-  head.add(scene.view).add(scene.background).add(scene.coordinate_rounding);
+  head.add(scene.view).add(scene.zenith).add(scene.background).add(scene.coordinate_rounding);
   for (int pool = 0; pool < 8; ++pool) {
     head.add(std::uint64_t{1});
   }
@@ -301,7 +304,7 @@ TEST_CASE("more lights, textures and materials than any scene has are refused be
   SceneReceiver receiver;
   const core::Scene scene;
   Packer head;
-  head.add(scene.view).add(scene.background).add(scene.coordinate_rounding).add(std::uint64_t{1} << 30U);
+  head.add(scene.view).add(scene.zenith).add(scene.background).add(scene.coordinate_rounding).add(std::uint64_t{1} << 30U);
   for (int pool = 0; pool < 7; ++pool) {
     head.add(std::uint64_t{1});
   }

@@ -47,6 +47,10 @@ TEST_CASE("by paths a sky lights a scene, and occlusion needs no light") {
   CHECK(tests::contains(said_of(sphere, {}, paths), "--light=X,Y,Z adds one, --sky=1 a sky"));
   paths.sky = SkyChoice{{1, 1, 1}, {}};
   CHECK(said_of(sphere, {}, paths).empty());
+  paths.sky = SkyChoice{{}, {}};
+  CHECK(tests::contains(said_of(sphere, {}, paths), "a.nff: no light is in it"));
+  paths.sky = SkyChoice{{}, core::Vec3d{0, 0, 1}};
+  CHECK(said_of(sphere, {}, paths).empty());
   paths = {.kind = core::TransportKind::paths, .occlusion = 1};
   CHECK(said_of(sphere, {}, paths).empty());
 }

@@ -25,13 +25,13 @@ TEST_CASE("what has letters that no colour has is the file of a sky's picture") 
   CHECK_FALSE(parse_sky("1e3").is_picture());
 }
 
-TEST_CASE("nodes have the zenith where the view's up points, of length 1, and distances in the grid's units") {
+TEST_CASE("nodes have the zenith where the scene's up points, of length 1, and distances in the grid's units") {
   core::Scene scene = tests::mirrors_and_glass();
   scene.view.up = {0, 0, 4};
   const core::Database database = core::build_database(scene, {});
   const core::GridFrame& frame = database.header().frame;
   const TransportOptions sky{.kind = core::TransportKind::paths, .sky = SkyChoice{{1, 1, 1}, core::Vec3d{0, 0, 2}}};
-  const core::Transport transport = transport_of(sky, scene.view, frame);
+  const core::Transport transport = transport_of(sky, zenith_of(scene), frame);
   CHECK(transport.has_sky);
   CHECK(transport.has_gradient);
   CHECK(transport.up == core::Vec3f{0, 0, 1});
@@ -39,9 +39,9 @@ TEST_CASE("nodes have the zenith where the view's up points, of length 1, and di
   CHECK(sky_light(transport, {1, 1, 1}, {0, 0, -1}) == core::Color{1, 1, 1});
   CHECK(sky_light(transport, {1, 1, 1}, {1, 0, 0}) == core::Color{1, 1, 1});
   const TransportOptions occlusion{.kind = core::TransportKind::paths, .occlusion = 2};
-  CHECK(transport_of(occlusion, scene.view, frame).occlusion_distance == static_cast<float>(2 * frame.scale));
-  CHECK(transport_of({.kind = core::TransportKind::paths, .occlusion = 1e-320}, scene.view, frame).occlusion_distance > 0);
-  CHECK_FALSE(transport_of({}, scene.view, frame).is_by_paths());
+  CHECK(transport_of(occlusion, zenith_of(scene), frame).occlusion_distance == static_cast<float>(2 * frame.scale));
+  CHECK(transport_of({.kind = core::TransportKind::paths, .occlusion = 1e-320}, zenith_of(scene), frame).occlusion_distance > 0);
+  CHECK_FALSE(transport_of({}, zenith_of(scene), frame).is_by_paths());
 }
 
 TEST_CASE("a transport is told in a few words") {

@@ -35,7 +35,7 @@ void write_facets(const std::filesystem::path& path) {
 
 /// A triangle with two sets of coordinates, of a material of these members; there are the pictures a.png and b.png, and none
 /// else.
-apps::MeshFile read(const std::string& material, const apps::MeshOptions& options = {}) {
+apps::MeshFile read(const std::string& material, const apps::MeshOptions& options = {.is_by_paths = true}) {
   const TemporaryFolder folder;
   apps::write_image(folder / "a.png", apps::Image(4, 4));
   write_facets(folder / "b.png");
@@ -112,12 +112,19 @@ TEST_CASE("one picture may be a colour and say what is metal: it is two textures
 
 TEST_CASE("a picture of metal and roughness that is missing is an error, or by --missing=plain as if there were none") {
   CHECK_THROWS_WITH_AS(read(metal(R"("index":0)", R"("index":2)")), doctest::Contains("nowhere.png"), core::InputError);
-  const apps::MeshFile plain = read(metal(R"("index":0)", R"("index":2)"), {.allows_missing = true});
+  const apps::MeshFile plain = read(metal(R"("index":0)", R"("index":2)"), {.allows_missing = true, .is_by_paths = true});
   CHECK_FALSE(plain.scene.materials.at(0).microfacets.have_texture());
   CHECK(plain.scene.materials.at(0).microfacets.metallic == 1);
   const apps::MeshFile none = read(metal(R"("index":0)", R"("index":3)"));
   CHECK(std::count(none.notes.begin(), none.notes.end(), "textures that name no picture, left out: 1") == 1);
   CHECK(none.scene.materials.at(0).microfacets.metallic == 1);
+}
+
+TEST_CASE("where nothing is by paths nobody reads a picture of metal and roughness, so it may be missing") {
+  const apps::MeshFile file = read(metal(R"("index":0)", R"("index":2)"), {});
+  CHECK_FALSE(file.scene.materials.at(0).microfacets.have_texture());
+  CHECK(file.scene.textures.size() == 1);
+  CHECK_FALSE(says_mean(read(metal("", R"("index":1)"), {})));
 }
 
 TEST_CASE("a material of specular and glossiness has no metal, whatever texture of it stands beside") {

@@ -96,6 +96,26 @@ TEST_CASE("below a sky a file's own lights shine, and no plain ones") {
   CHECK(lit(R"([{"type":"point"}])", place, {.is_below_sky = true}).scene.lights.size() == 1);
 }
 
+TEST_CASE("what shines is a light by paths, so that no plain ones take the place of those that are not there") {
+  const tests::Gltf gltf{.materials = R"([{"emissiveFactor":[1,0.5,0]}])"};
+  const auto read = [&](const MeshOptions& options) {
+    const tests::TemporaryFolder folder;
+    tests::write_text(folder / "a.gltf", gltf.text());
+    return read_mesh_file(folder / "a.gltf", options).scene;
+  };
+  CHECK(read({.is_by_paths = true}).lights.empty());
+  CHECK(read({}).lights.size() == 2);
+  CHECK(lit(R"([{"type":"point","intensity":0}])", R"("translation":[0,0,7])", {.is_by_paths = true}).scene.lights.size() == 2);
+}
+
+TEST_CASE("a sky's zenith is the axis that points up, however the file's camera is turned") {
+  const std::string camera = R"([{"type":"perspective","perspective":{"yfov":1}}])", leaning = R"("rotation":[-0.6,0,0,0.8])";
+  const Scene scene = seen(camera, leaning).scene;
+  CHECK(scene.view.up.y < 0.5);
+  CHECK(scene.zenith == Vec3d{0, 1, 0});
+  CHECK(seen(camera, leaning, {.up = UpAxis{2, true}}).scene.zenith == Vec3d{0, 0, -1});
+}
+
 TEST_CASE("a light that several nodes have stands at each of them") {
   const MeshFile file =
       lit(R"([{"type":"point"}])", R"("translation":[0,0,7],"children":[2]},)"
