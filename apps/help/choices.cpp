@@ -104,7 +104,8 @@ ChoiceList skips() {
 ChoiceList formats() {
   ChoiceList all{"formats", "SCENE", {{"nff", "Neutral File Format of the Standard Procedural Databases"}}};
   for (const std::string& ending : words_between(known_mesh_formats(), ',')) {
-    all.entries.push_back({ending.substr(ending.find_first_not_of(' ')), "a mesh file"});
+    const std::string word = ending.substr(ending.find_first_not_of(' '));
+    all.entries.push_back({word, has_own_sky("a." + word) ? "a whole scene of pbrt-v4" : "a mesh file"});
   }
   return all;
 }

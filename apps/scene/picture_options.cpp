@@ -159,7 +159,8 @@ QualityChoice choice_of(Quality quality) {
 void add_options(OptionSet options, PictureOptions& picture) {
   options.add_argument(
       "SCENE", [&picture](const std::string& text) { picture.scene = text; },
-      "An NFF file, a scene of pbrt-v4, a mesh file (obj, ply, stl, gltf, glb, ...), or a built-in scene such as teapot-12, rings-4-t1, tetra-9");
+      "An NFF file, a scene of pbrt-v4, a mesh file (obj, ply, stl, gltf, glb, ...), or a built-in scene such as teapot-12, "
+      "rings-4-t1, tetra-9");
   add_options(options, picture.staging);
   add_view_options(options, picture);
   options.add_text(

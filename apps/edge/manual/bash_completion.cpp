@@ -30,6 +30,7 @@ _dmpc_files() {
   compgen -P "$2" -d -- "$1"
   compgen -P "$2" -f -- "$1" | while read -r file; do
     local ending=${file##*.}
+    [[ ${ending,,} != gz ]] || ending=${file%.*} ending=${ending##*.}.gz
     [[ -d ${file#"$2"} || " $endings " != *" ${ending,,} "* ]] || echo "$file"
   done
 }

@@ -14,6 +14,9 @@ namespace dmpc::apps::import_test {
 TEST_CASE("of Assimp's readers those of a file's ending stay, and no others") {
   for (const std::string& ending : mesh_extensions()) {
     CAPTURE(ending);
+    if (has_own_sky("a." + ending)) {  // which no reader of Assimp's reads
+      continue;
+    }
     Assimp::Importer importer;
     keep_readers_of(ending, importer);
     CHECK(importer.GetImporterCount() >= 1);
