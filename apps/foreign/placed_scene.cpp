@@ -96,6 +96,8 @@ class PlacedScene {
     set_view();
     result_.scene.background = file_.background;
     add_lights();
+    note_count(result_.notes, "skies of pictures, which are shown by paths below the file's own sky alone",
+               options_.is_below_own_sky ? 0 : file_.skies.size());
     for (FileSky& sky : file_.skies) {
       result_.skies.push_back(std::move(sky));
     }
@@ -230,7 +232,11 @@ class PlacedScene {
     if (options_.is_lit_otherwise) {
       return;
     }
-    const bool is_by_paths = options_.is_below_own_sky;
+    const bool is_by_paths = options_.is_below_sky || options_.is_below_own_sky;
+    const auto shines = [](const PlacedMaterial& material) { return material.surface.material.emission != Vec3d{}; };
+    const auto shining = std::count_if(file_.materials.begin(), file_.materials.end(), shines);
+    note_count(result_.notes, "materials that shine, which light other things by paths alone",
+               is_by_paths ? 0 : static_cast<std::uint64_t>(shining));
     core::SceneBuilder builder(result_.scene);
     std::vector<core::PointLight> points;
     std::uint64_t spheres = 0, unfallen = 0;

@@ -46,8 +46,10 @@ Surfaces::Surfaces(Notes& notes, const Textures& textures) : notes_(notes), text
 }
 
 std::uint32_t Surfaces::add(const std::string& kind, const Parameters& parameters, const Tokens& tokens) {
-  slots_.emplace_back();
-  fill(slots_.back(), kind, parameters, tokens);
+  Slot slot;
+  slot.place = parameters.place();
+  fill(slot, kind, parameters, tokens);  // which may make slots of the names that it mixes
+  slots_.push_back(std::move(slot));
   return static_cast<std::uint32_t>(slots_.size() - 1);
 }
 
@@ -82,8 +84,7 @@ void Surfaces::fill(Slot& slot, const std::string& kind, const Parameters& param
     notes_.count("materials with displacement or a map of normals, shown without", is_there ? 1 : 0);
   }
   if (kind == "mix") {
-    const Mixture mixture = mixture_of(parameters);  // which may make a slot, and so move this one
-    slot.mixture = mixture;
+    slot.mixture = mixture_of(parameters);
   } else {
     slot.surface = surface_of(kind, parameters);
   }

@@ -74,6 +74,11 @@ TEST_CASE("glass bends light by its index, and a pane lets it through straight")
 }
 
 TEST_CASE("named materials may come later, and mixtures are of their numbers") {
+  const std::string mixed = "Material \"mix\" \"string materials\" [\"c\" \"d\"]\n", diffuse = " \"string type\" \"diffuse\" ";
+  CHECK(is_near(material_of(mixed + "MakeNamedMaterial \"c\"" + diffuse + "\"rgb reflectance\" [1 0 0]\nMakeNamedMaterial \"d\"" +
+                            diffuse + "\"rgb reflectance\" [0 1 0]\n")
+                    .color,
+                {0.5, 0.5, 0}));
   CHECK(material_of("NamedMaterial \"m\"\nMakeNamedMaterial \"m\" \"string type\" \"diffuse\" \"rgb reflectance\" [1 0 0]\n")
             .color == Vec3d{1, 0, 0});
   const std::string two =
