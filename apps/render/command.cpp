@@ -10,6 +10,7 @@
 #include <optional>
 #include <ostream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <type_traits>
@@ -17,7 +18,9 @@
 #include <vector>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/ranks/rank_group.h"
+#include "apps/edge/show/page/origin.h"
 #include "apps/edge/system/attempts.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/system/progress.h"
@@ -28,10 +31,10 @@
 #include "apps/render/checkpoints.h"
 #include "apps/render/film_notes.h"
 #include "apps/render/frame_files.h"
+#include "apps/render/live_view.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/outputs.h"
 #include "apps/render/pass_progress.h"
-#include "apps/render/preview.h"
 #include "apps/render/ranks.h"
 #include "apps/render/self_test.h"
 #include "apps/render/unseen_note.h"
@@ -40,6 +43,7 @@
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/show/frame_line.h"
+#include "apps/show/page/render_page.h"
 #include "apps/show/stats/stats.h"
 #include "apps/show/summary.h"
 #include "apps/show/trace/file.h"
@@ -65,16 +69,6 @@ ProcessorTime processor_time() {
   return {seconds(usage.ru_utime), seconds(usage.ru_stime)};
 }
 
-/// Who looks on; nothing if nobody wants to or listens.
-std::unique_ptr<Preview> make_preview(const RenderOptions& options, const core::Camera& camera, const core::PartialPicture* start,
-                                      const std::stop_token& stop) {
-  if (options.viewer.empty()) {
-    return nullptr;
-  }
-  return Preview::to_viewer(parse_viewer_address(options.viewer, "--preview"), options.picture.scene, camera.width(),
-                            camera.height(), start, stop);
-}
-
 /// What an interruption of the run means; where there are several frames, of the one under way.
 const char* consequence_of(const Checkpoints& checkpoints, bool are_frames) {
   if (are_frames) {
@@ -84,7 +78,7 @@ const char* consequence_of(const Checkpoints& checkpoints, bool are_frames) {
   return checkpoints.has_one() ? "no picture was written; --resume goes on from the checkpoint" : "no picture was written";
 }
 
-core::Continuation continuation_of(Checkpoints* checkpoints, bool are_frames, Preview* preview, Interrupt& interrupt) {
+core::Continuation continuation_of(Checkpoints* checkpoints, bool are_frames, LiveView* live, Interrupt& interrupt) {
   core::Continuation continuation;
   if (checkpoints != nullptr) {
     continuation = checkpoints->continuation();
@@ -95,9 +89,9 @@ core::Continuation continuation_of(Checkpoints* checkpoints, bool are_frames, Pr
       interrupt.set_consequence(consequence_of(*checkpoints, are_frames));
     };
   }
-  if (preview != nullptr) {
-    continuation.watch = [preview](const core::Film& film, const core::Refinement& pass, std::uint32_t pixel) {
-      preview->watch(film, pass, pixel);
+  if (live != nullptr) {
+    continuation.watch = [live](const core::Film& film, const core::Refinement& pass, std::uint32_t pixel) {
+      live->watch(film, pass, pixel);
     };
   }
   return continuation;
@@ -110,6 +104,19 @@ class Rendering {
       : asked_(options), options_(options), interrupt_(interrupt), output_(output), files_(files) {}
 
   int run() {
+    try {
+      return run_stages();
+    } catch (const Interrupted&) {
+      tell_end("The run was interrupted: " + std::string(interrupt_.consequence()) + ".");
+      throw;
+    } catch (const std::exception& error) {
+      tell_end("The run has failed: " + std::string(error.what()));
+      throw;
+    }
+  }
+
+ private:
+  int run_stages() {
     if (asked_.frames.range && !claim_frames()) {
       return 0;
     }
@@ -123,10 +130,10 @@ class Rendering {
       render();
       status = write();
     }
+    apart([&] { stay(status); });
     return status;
   }
 
- private:
   /// Where there are other ranks, they are shown that this one lives while it does something that has nothing to do with them.
   template <class Work>
   std::invoke_result_t<const Work&> apart(const Work& work) {
@@ -192,6 +199,9 @@ class Rendering {
       checkpoints_->begin(identity_from(view(), *own_identity_));
     }
     onlookers_->begin_again();
+    if (live_) {
+      live_->begin(live_head(), nullptr);
+    }
     return true;
   }
 
@@ -215,6 +225,10 @@ class Rendering {
     }
     choose_machine(asked_);
     options_ = frame_ ? options_of(asked_, *frame_) : asked_;
+    if (!options_.serve_port.empty()) {
+      live_ = std::make_unique<LiveView>(*number_in<std::uint16_t>(options_.serve_port), "dmpc render " + options_.picture.scene);
+      std::cerr << "dmpc: to be seen at " + live_->address() + "\n";  // at once
+    }
   }
 
   /// Reads and builds; a signal ends the process here and now.
@@ -254,13 +268,30 @@ class Rendering {
     }
   }
 
+  /// Where somebody observes threads they read the clock twice a call, which takes a third of the processor's time more: then
+  /// what nodes do is shown only if others observe them, too.
+  bool are_nodes_shown() const { return options_.computer.machine || options_.report || options_.trace.path; }
+
+  LiveHead live_head() const {
+    const core::Camera& camera = settings_->camera;
+    return {.width = static_cast<std::uint32_t>(camera.width()),
+            .height = static_cast<std::uint32_t>(camera.height()),
+            .node_count = are_nodes_shown() ? options_.computer.node_count : 0,
+            .is_modelled = options_.computer.machine.has_value(),
+            .frame = asked_.frames.are_several() ? *frame_ : 0};
+  }
+
   void look_on() {
     const core::Camera& camera = subject_->settings.camera;
-    onlookers_.emplace(watch_order(options_, static_cast<std::uint32_t>(subject_->database.page_count()), camera.pixel_count()));
+    const core::PartialPicture* const start = checkpoints_ ? checkpoints_->start() : nullptr;
+    if (live_) {
+      live_->begin(live_head(), start);
+    }
+    onlookers_.emplace(watch_order(options_, static_cast<std::uint32_t>(subject_->database.page_count()), camera.pixel_count()),
+                       live_ ? live_->observer() : nullptr);
     options_.pages.reference_logs = onlookers_->reference_logs();
-    preview_ = make_preview(options_, camera, checkpoints_ ? checkpoints_->start() : nullptr, interrupt_.token());
     continuation_ =
-        continuation_of(checkpoints_ ? &*checkpoints_ : nullptr, asked_.frames.are_several(), preview_.get(), interrupt_);
+        continuation_of(checkpoints_ ? &*checkpoints_ : nullptr, asked_.frames.are_several(), live_.get(), interrupt_);
   }
 
   /// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
@@ -303,11 +334,19 @@ class Rendering {
     } else if (asked_.frames.are_several()) {
       interrupt_.set_consequence("this frame was not written, those before it were; --resume leaves them out");
     }
+    if (live_) {
+      live_->say(asked_.frames.are_several()
+                     ? "Frame " + grouped(*frame_) + " comes, the last is " + grouped(asked_.frames.range->last) + "."
+                     : "The picture comes.");
+    }
     Stopwatch stopwatch;
     const ProcessorTime before = processor_time();
     Progress progress(std::cerr, !options_.quiet && stderr_is_terminal());
     PassProgress passes(progress, continuation_.start != nullptr ? continuation_.start->passes : 1, core::passes_max);
     update_ = [this, &progress, &passes](std::uint32_t done, std::uint32_t total) {
+      if (live_) {
+        live_->update(done, total);
+      }
       options_.picture.is_refined ? passes.update(done, total) : progress.update(done, total);
     };
     report_.emplace(is_started_ ? ready_.go_on(*settings_, interrupt_.token())
@@ -333,6 +372,9 @@ class Rendering {
     const bool is_written = attempts.make([&] { write_picture(film); });
     attempts.make([&] { say(film_notes(film, lit_in(account))); });
     attempts.make([&] { say({sees_nothing(account) ? unseen_note(bounds_, up_) : ""}); });
+    if (has_viewers()) {
+      attempts.make([&] { live_->show(film); });
+    }
     if (checkpoints_ && is_written) {
       attempts.make([&] { checkpoints_->finish(); });
     } else if (checkpoints_ && checkpoints_->has_one()) {
@@ -341,10 +383,39 @@ class Rendering {
     Sights sights;
     attempts.make([&] { sights = take_sights(); });
     write_others(sights, attempts);
-    if (preview_) {
-      preview_->finish(film);
-    }
     return attempts.status();
+  }
+
+  /// Who looks on, or may in the end, where the page stays.
+  bool has_viewers() const { return live_ && (live_->has_had_visitors() || stderr_is_terminal()); }
+
+  void tell_end(const std::string& said) {
+    if (live_) {
+      live_->end({.said = said});
+    }
+  }
+
+  /// For those who look on.
+  std::string last_words(bool is_well) const {
+    if (asked_.frames.are_several()) {
+      return is_well ? "All frames are done." : "A frame is not written whole, and no further one is made: dmpc has said why.";
+    }
+    return is_well ? "The picture is done." : "The picture is done, but not all was well: dmpc has said what.";
+  }
+
+  /// On a terminal those who look on have the page until a signal comes, in a script until they have got it.
+  void stay(int status) {
+    if (!live_) {
+      return;
+    }
+    live_->end({.said = last_words(status == 0), .figures = closing_, .page = std::move(page_)}, interrupt_.token());
+    if (const std::string complaint = live_->complaint(); !complaint.empty()) {
+      std::cerr << "dmpc: who looked on was told nothing any more: " << complaint << '\n';
+    }
+    if (stderr_is_terminal()) {
+      std::cerr << "dmpc: the page stays at " << live_->address() << " until Ctrl-C\n";
+      LiveView::wait(interrupt_.token());
+    }
   }
 
   void write_picture(const core::Film& film) {
@@ -405,6 +476,9 @@ class Rendering {
     record.seconds.user = all.user;
     record.seconds.system = all.system;
     outputs_.write(record, attempts, files_);
+    if (options_.report && has_viewers()) {
+      attempts.make([&] { page_ = html::render_page(record, this_origin(record.scene_digest), std::cerr); });
+    }
     attempts.make([&] { print_closing(record); });
   }
 
@@ -413,8 +487,11 @@ class Rendering {
     if (has_counters_on_standard_output(options_)) {
       output_ << stats_json(record);
     }
+    std::ostringstream lines;
+    asked_.frames.are_several() ? print_frame(lines, *frame_, record) : print_summary(lines, record);
+    closing_ += lines.str();
     if (!options_.quiet) {
-      asked_.frames.are_several() ? print_frame(output_, *frame_, record) : print_summary(output_, record);
+      output_ << lines.str();
     }
     finish_output(output_, "what follows the picture");
   }
@@ -443,6 +520,7 @@ class Rendering {
   std::optional<PictureIdentity> own_identity_;  ///< that of its picture, where there is a checkpoint
   Seconds seconds_;
   std::optional<FileLock> lock_;
+  std::unique_ptr<LiveView> live_;  ///< outlives all that it looks on at
   std::optional<Checkpoints> checkpoints_;
   std::optional<std::uint64_t> scene_digest_;  ///< if a page tells it
   core::Box bounds_;                           ///< of the scene
@@ -450,7 +528,7 @@ class Rendering {
   std::optional<Subject> subject_;
   std::optional<core::RenderSettings> settings_;  ///< of the frame
   std::optional<Onlookers> onlookers_;
-  std::unique_ptr<Preview> preview_;
+  std::string closing_, page_;  ///< for who looks on, in the end
   core::Continuation continuation_;
   ReadyRun ready_;
   nodes::Progress update_;  ///< of the frame under way

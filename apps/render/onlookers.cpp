@@ -16,8 +16,11 @@ constexpr std::size_t waits_max = std::size_t{1} << 17U, waits_of_node_least = 6
 
 }  // namespace
 
-Onlookers::Onlookers(const WatchOrder& order) : order_(order) {
+Onlookers::Onlookers(const WatchOrder& order, nodes::Observer* another) : order_(order) {
   std::vector<nodes::Observer*> members;
+  if (another != nullptr) {
+    members.push_back(another);
+  }
   if (!order.heat_kinds.empty()) {
     heat_.emplace(order.pixel_count, order.heat_kinds);
   }

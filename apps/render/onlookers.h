@@ -30,7 +30,8 @@ struct Sights {
 /// over.
 class Onlookers {
  public:
-  explicit Onlookers(const WatchOrder& order);
+  /// `another` looks on, too, if there is one, and outlives this.
+  explicit Onlookers(const WatchOrder& order, nodes::Observer* another = nullptr);
   Onlookers(const Onlookers&) = delete;
   Onlookers& operator=(const Onlookers&) = delete;
 

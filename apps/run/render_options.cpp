@@ -4,8 +4,8 @@
 #include <string>
 
 #include "apps/edge/line/option_values.h"
+#include "apps/edge/line/parsed_number.h"
 #include "apps/edge/table/table_options.h"
-#include "apps/edge/viewer/address.h"
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
@@ -63,10 +63,10 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
       "--references", "FILE.csv", render.references,
       "Write every node's references of pages of others, in order, for dmpc study references (svm; 4 bytes of the real "
       "computer each until then). Those of all caches if --work-item=0 --in-flight=1 fixes their order");
-  const ViewerAddress standard;
-  options.add_flag_with_text("--preview", standard.host + ":" + standard.port, render.viewer,
-                             "Show the picture as it comes in the image viewer tev, if that listens there; --preview=HOST:PORT "
-                             "if it listens elsewhere");
+  options.add_flag_with_text("--serve", "0", render.serve_port,
+                             "Show the picture, and on modelled machines or with --report what the nodes do, as they come, to "
+                             "browsers of this computer that know the address, which is said; "
+                             "in the end with the page of --report, if there is one. --serve=PORT at this port");
   options.add_flag("--quiet", render.quiet, "No progress, no closing lines");
 }
 
@@ -149,7 +149,7 @@ void check_frames(const OptionSet& options, const RenderOptions& render) {
     return;
   }
   const std::string alone = ": give it with one of the frames, such as --frames=3..3, which is the same picture";
-  for (const char* option : {"--trace", "--report", "--references", "--preview", "--keep-checkpoint"}) {
+  for (const char* option : {"--trace", "--report", "--references", "--keep-checkpoint"}) {
     if (options.is_given(option)) {
       throw UsageError(std::string(option) + " does not go with several frames" + alone);
     }
@@ -174,8 +174,8 @@ void check(const OptionSet& options, const RenderOptions& render) {
   if (render.pages.count_pages && !render.stats) {
     throw UsageError("--count-pages counts for the --stats file: give --stats=FILE.json too");
   }
-  if (!render.viewer.empty()) {
-    parse_viewer_address(render.viewer, "--preview");
+  if (!render.serve_port.empty() && !number_in<std::uint16_t>(render.serve_port)) {
+    throw UsageError("--serve=" + render.serve_port + ": expected a port from 0 (any that is free) to 65,535, such as 8080");
   }
   if (render.checkpoint.resumes && !render.heat_maps.empty()) {
     throw UsageError("--resume does not go with --heatmap: what was done before would be missing on it");

@@ -31,7 +31,7 @@ struct RenderOptions : StrategyOptions {
   TraceOptions trace;                               ///< what is recorded of the run
   std::optional<std::filesystem::path> references;  ///< where the nodes' page references go, as CSV
   CheckpointOptions checkpoint;                     ///< what is kept on the way
-  std::string viewer;                               ///< HOST:PORT of one that is to show the picture as it comes; empty: none
+  std::string serve_port;                           ///< the port at which browsers may look on, 0: any; empty: nobody may
   bool quiet = false;                               ///< no progress and no closing lines
 };
 

@@ -68,6 +68,7 @@ constexpr Row rows[] = {
     {"render-output", picture},
     {"quick", draft},
     {"preview-quality", draft},
+    {"preview", {"--serve", "which has replaced it, and shows the picture in a browser as it comes"}},
 };
 
 /// "w", of "--w", "-w" and "-W640"; "+w", of "+W640"; names of several letters keep their digits.

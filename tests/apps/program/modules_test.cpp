@@ -52,7 +52,7 @@ struct Wanted {
   std::string picture, option, module;
 };
 std::vector<Wanted> all_that_are_built() {
-  std::vector<Wanted> all = {{"a.png", "--tracer=embree", "dmpc_embree.so"}};
+  std::vector<Wanted> all = {{"a.png", "--tracer=embree", "dmpc_embree.so"}, {"a.png", "--serve", "dmpc_http.so"}};
   if (fs::exists(built / "dmpc_mpi.so")) {  // if there is MPI
     all.push_back({"a.png", "--runner=mpi", "dmpc_mpi.so"});
   }
@@ -107,7 +107,7 @@ TEST_CASE("what renders nothing, and a render to a picture of any kind, load nei
                                              render_of(folder / "a.png", "--heatmap=rays:" + (folder / "h.png").string())}) {
     CAPTURE(arguments[0]);
     const std::string loaded = loaded_by(arguments);
-    for (const std::string library : {"OpenImageIO", "embree", "assimp", "libmpi", "dmpc_"}) {
+    for (const std::string library : {"OpenImageIO", "embree", "assimp", "libmpi", "httplib", "libssl", "dmpc_"}) {
       CHECK_FALSE_MESSAGE(contains(loaded, library), library);
     }
   }

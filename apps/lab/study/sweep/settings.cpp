@@ -19,7 +19,7 @@ constexpr std::size_t runs_max = 10'000;
 /// Options of outputs, of what goes on from earlier ones, and of what is said meanwhile.
 constexpr const char* unsweepable[] = {
     "--help",         "--output",      "--stats",      "--report",      "--heatmap",          "--trace",
-    "--trace-window", "--trace-nodes", "--preview",    "--trace-every", "--trace-events",     "--trace-keep",
+    "--trace-window", "--trace-nodes", "--serve",      "--trace-every", "--trace-events",     "--trace-keep",
     "--quiet",        "--references",  "--checkpoint", "--resume",      "--checkpoint-every", "--keep-checkpoint",
     "--frames",       "--turntable",   "--camera-path"};
 

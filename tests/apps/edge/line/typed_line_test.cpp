@@ -86,7 +86,7 @@ constexpr Slip slips[] = {
     {"render teapot-12 -o a.png --quiet=", "--quiet takes no value"},
     {"render teapot-12 -o a.png --quiet=false", "or leave it out"},
     {"render teapot-12 -o a.png --resume=c.ck", "--resume takes no value"},
-    {"render teapot-12 -o a.png --preview=", "--preview=: a value is missing"},
+    {"render teapot-12 -o a.png --serve=", "--serve=: a value is missing"},
     {"bench stability --quick=yes", "--quick takes no value"},
     {"render teapot-12 -o a.png --nodes=4 --nodes=8", "--nodes is given twice, as 4 and as 8: give it once"},
     {"render teapot-12 -o a.png -o b.png", "-o is given twice, as a.png and as b.png"},

@@ -74,7 +74,7 @@ TEST_CASE("how something is rendered can vary, and what is written where cannot"
   for (const char* const name : {"--nodes", "--machine", "--samples", "--no-skip", "--count-pages", "--light", "--chaos"}) {
     CHECK_MESSAGE(is_sweepable(name), name);
   }
-  for (const char* const name : {"--output", "--stats", "--trace", "--quiet", "--checkpoint", "--help", "--preview"}) {
+  for (const char* const name : {"--output", "--stats", "--trace", "--quiet", "--checkpoint", "--help", "--serve"}) {
     CHECK_MESSAGE(!is_sweepable(name), name);
     CHECK_THROWS_AS(parse_variation(std::string(name) + ":x"), core::UsageError);
   }

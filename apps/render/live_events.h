@@ -1,0 +1,41 @@
+// What viewers of a render are told, as their page's script (apps/show/page/live/live.js) reads it: one JSON text an event.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/render/live_picture.h"
+#include "apps/render/live_steps.h"
+
+namespace dmpc::apps {
+
+/// What does not change while a picture comes.
+struct LiveHead {
+  std::uint32_t width = 0, height = 0;
+  std::uint32_t node_count = 0;  ///< of those of which is shown what they do; 0: of none
+  bool is_modelled = false;
+  std::uint64_t frame = 0;  ///< its number; 0 where there is one picture alone
+};
+
+/// How far it is.
+struct LiveState {
+  std::string said;      ///< as a sentence
+  std::uint64_t ms = 0;  ///< of the wall clock
+  std::uint64_t ns = 0;  ///< on the nodes' clock
+  std::uint32_t done = 0, total = 0, pass = 1;
+  std::uint64_t packets = 0, bytes = 0;  ///< sent by nodes
+  std::vector<double> shares = {};       ///< of the nodes' time since the one before, by kind of work; empty: none has passed
+};
+
+std::string json_of(const LiveHead& head, std::size_t steps_max);
+std::string json_of(const LiveState& state);
+/// In bytes of sRGB, by base64.
+std::string json_of(const PictureTile& tile);
+/// Of a frame, by base64.
+std::string json_of(const LiveSteps& steps, std::size_t step, std::uint64_t frame);
+/// That it is over, with lines of `figures`. `has_page`: another page is to be had now at the same place.
+std::string json_of_end(const std::string& said, const std::string& figures, bool has_page);
+
+}  // namespace dmpc::apps

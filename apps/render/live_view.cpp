@@ -1,0 +1,255 @@
+#include "apps/render/live_view.h"
+
+#include <cerrno>
+#include <condition_variable>
+#include <cstring>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "apps/edge/run/work.h"
+#include "apps/show/page/live_page.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// For pages: a stream holds a thread.
+constexpr std::size_t other_threads = 4;
+constexpr std::chrono::seconds patience_at_the_end{2};
+constexpr std::chrono::milliseconds look_interval{20};
+
+constexpr std::size_t steps_max = 240;
+/// Places of events.
+enum : std::size_t { head_place, state_place, first_step, first_tile = first_step + steps_max };
+
+std::string why_not(std::uint16_t port, int error) {
+  const std::string named = "--serve=" + std::to_string(port) + ": this port of 127.0.0.1 cannot be had: " + std::strerror(error);
+  return port == 0 ? named : named + "; give another, from 1024 on, or --serve alone, which takes one that is free";
+}
+
+}  // namespace
+
+LiveView::LiveView(std::uint16_t port, const std::string& title) : title_(title), feed_(first_tile), steps_(steps_max) {
+  // Nobody knows the token before it is said, so that nothing can be asked before there is a gate.
+  const std::string token = random_token();
+  server_ =
+      web_library().listen({.port = port, .threads = viewers_max + other_threads, .answer = [this](const WebRequest& request) {
+                              return answer(request);
+                            }});
+  if (!server_) {
+    throw core::InputError(why_not(port, errno));
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    gate_.emplace(token, server_->port());
+  }
+  publisher_ = std::jthread([this](const std::stop_token& stop) { publish(stop); });
+}
+
+LiveView::~LiveView() {
+  end({.said = "dmpc has ended before its picture was done."});
+  server_.reset();
+}
+
+std::string LiveView::complaint() {
+  const std::lock_guard lock(mutex_);
+  return complaint_;
+}
+
+void LiveView::say(const std::string& phase) {
+  const std::lock_guard lock(mutex_);
+  phase_ = phase;
+}
+
+void LiveView::begin(const LiveHead& head, const core::PartialPicture* start) {
+  const std::lock_guard lock(mutex_);
+  head_ = head;
+  if (picture_) {
+    picture_->begin_again();
+    if (counts_) {
+      counts_->clear();
+    }
+  } else {
+    picture_ = std::make_unique<LivePicture>(head.width, head.height, start);
+    if (head.node_count > 0) {
+      counts_ = std::make_unique<nodes::LiveCounts>(head.node_count + 1, work_of);
+    }
+  }
+  steps_.clear();
+  last_.reset();
+  feed_.put(head_place, "head", json_of(head_, steps_max));
+}
+
+void LiveView::watch(const core::Film& film, const core::Refinement& pass, std::uint32_t pixel) {
+  pass_.store(pass.result().passes, std::memory_order_relaxed);
+  picture_->watch(film, pass, pixel);
+}
+
+void LiveView::update(std::uint32_t done, std::uint32_t total) {
+  done_.store(done, std::memory_order_relaxed);
+  total_.store(total, std::memory_order_relaxed);
+}
+
+/// Nobody would catch what leaves the thread: the picture goes on without viewers.
+void LiveView::publish(const std::stop_token& stop) {
+  try {
+    std::mutex sleeping;
+    std::condition_variable_any woken;
+    std::unique_lock lock(sleeping);
+    while (!woken.wait_for(lock, stop, LiveFeed::interval_usual, [] { return false; }) && !stop.stop_requested()) {
+      publish_all();
+    }
+  } catch (const std::exception& error) {
+    complain(error);
+  }
+}
+
+/// What is new is made once for all. Steps are kept for those who come later; tiles wait until somebody looks on.
+void LiveView::publish_all(bool is_last) {
+  const std::lock_guard lock(mutex_);
+  feed_.put(state_place, "state", json_of(state(is_last)));
+  if (picture_ && feed_.seats_taken() > 0) {
+    publish_tiles(picture_->take());
+  }
+}
+
+/// With the mutex locked. The last has the shares of all that time.
+LiveState LiveView::state(bool is_last) {
+  const auto passed = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start_).count();
+  LiveState state{.said = phase_,
+                  .ms = static_cast<std::uint64_t>(passed),
+                  .done = done_.load(std::memory_order_relaxed),
+                  .total = total_.load(std::memory_order_relaxed),
+                  .pass = pass_.load(std::memory_order_relaxed)};
+  if (!counts_) {
+    return state;
+  }
+  const std::vector<nodes::LiveNode> nodes = counts_->read();
+  for (const nodes::LiveNode& node : nodes) {
+    state.packets += node.packets_sent;
+    state.bytes += node.bytes_sent;
+  }
+  LiveMoment moment(state.ms, nodes);
+  state.ns = moment.ns;
+  const LiveMoment* const before = is_last ? steps_.first() : last_ ? &*last_ : nullptr;
+  if (before != nullptr && moment.ns > before->ns) {
+    state.shares = shares_between(*before, moment);
+  }
+  if (!last_ || moment.ns > last_->ns) {
+    last_ = moment;
+  }
+  publish_steps(std::move(moment));
+  return state;
+}
+
+void LiveView::publish_steps(LiveMoment moment) {
+  for (std::size_t step = steps_.add(std::move(moment)); step < steps_.count(); ++step) {
+    feed_.put(first_step + step, "step", json_of(steps_, step, head_.frame));
+  }
+}
+
+void LiveView::publish_tiles(const std::vector<PictureTile>& tiles) {
+  for (const PictureTile& tile : tiles) {
+    feed_.put(first_tile + tile.index, "tile", json_of(tile));
+  }
+}
+
+void LiveView::show(const core::Film& film) {
+  say("The picture is done.");
+  picture_->take();
+  publish_tiles(picture_->finish(film));
+}
+
+void LiveView::end(LiveEnd end, const std::stop_token& stop) {
+  if (std::exchange(has_ended_, true)) {
+    return;
+  }
+  publisher_.request_stop();
+  publisher_.join();
+  try {
+    tell_end(std::move(end), stop);
+  } catch (const std::exception& error) {
+    complain(error);
+  }
+}
+
+void LiveView::tell_end(LiveEnd end, const std::stop_token& stop) {
+  const std::size_t viewers = feed_.seats_taken();
+  const bool has_page = !end.page.empty();
+  say(end.said);
+  publish_all(true);
+  if (has_page) {
+    const std::lock_guard lock(mutex_);
+    last_page_ = std::move(end.page);
+  }
+  feed_.close("end", json_of_end(end.said, end.figures, has_page));
+  const auto have_all = [&] {
+    return has_page ? pages_given_.load(std::memory_order_relaxed) >= viewers : feed_.seats_taken() == 0;
+  };
+  const Clock::time_point deadline = Clock::now() + patience_at_the_end;
+  while (!have_all() && Clock::now() < deadline && !stop.stop_requested()) {
+    std::this_thread::sleep_for(look_interval);
+  }
+}
+
+void LiveView::complain(const std::exception& error) {
+  const std::lock_guard lock(mutex_);
+  complaint_ = error.what();
+}
+
+void LiveView::wait(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::this_thread::sleep_for(look_interval);
+  }
+}
+
+WebAnswer LiveView::answer(const WebRequest& request) {
+  constexpr int not_found = 404, come_later = 503;
+  std::string place;
+  {
+    const std::lock_guard lock(mutex_);
+    const int refusal = gate_ ? gate_->refusal(request) : come_later;
+    if (refusal != 0) {
+      return {.status = refusal, .body = "This is for who has the whole address, as dmpc has said it.\n"};
+    }
+    place = gate_->place_of(request);
+  }
+  if (place == "events") {
+    return events();
+  }
+  return place.empty() ? page() : WebAnswer{.status = not_found, .body = "There is nothing here.\n"};
+}
+
+WebAnswer LiveView::events() {
+  has_had_visitors_.store(true, std::memory_order_relaxed);
+  std::shared_ptr<const LiveFeed::Seat> seat = feed_.take_seat(viewers_max);
+  if (!seat) {
+    constexpr int come_later = 503;
+    return {.status = come_later, .body = std::to_string(viewers_max) + " look on already, and there is room for no more.\n"};
+  }
+  return {.type = "text/event-stream",
+          .body = "",
+          .headers = {{"Cache-Control", "no-store"}, {"X-Content-Type-Options", "nosniff"}},
+          .stream = [this, seat = std::move(seat)](WebStream& viewer) { feed_.follow(viewer); }};
+}
+
+/// The live one, or the last.
+WebAnswer LiveView::page() {
+  const std::lock_guard lock(mutex_);
+  has_had_visitors_.store(true, std::memory_order_relaxed);
+  if (last_page_) {
+    pages_given_.fetch_add(1, std::memory_order_relaxed);
+  }
+  return {.type = "text/html; charset=utf-8",
+          .body = last_page_ ? *last_page_ : html::live_page(title_),
+          .headers = {{"Cache-Control", "no-store"},
+                      {"Referrer-Policy", "no-referrer"},
+                      {"X-Content-Type-Options", "nosniff"},
+                      {"X-Frame-Options", "DENY"},
+                      {"Cross-Origin-Resource-Policy", "same-origin"},
+                      {"Content-Security-Policy", last_page_ ? "frame-ancestors 'none'" : html::live_policy()}}};
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,59 @@
+// The live page in a browser, whose script a window around it tells what the server would.
+#include "apps/show/page/live_page.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/support/browser.h"
+
+namespace dmpc::tests::live_page_test {
+
+namespace {
+
+namespace html = apps::html;
+
+/// Two nodes, a picture of 4x2 pixels: a red pixel comes; in the fourth step node 0 traces all the time and node 1 does nothing.
+/// What is of another frame, or from before steps became longer, is told, too, and is to be passed over.
+constexpr const char* telling = R"(<script>addEventListener('load',()=>{
+const page=document.querySelector('iframe').contentWindow,tell=(name,event)=>page.eval(`${name}(${JSON.stringify(event)})`);
+const text=(id)=>page.document.getElementById(id).textContent;
+const pixel=(id,x,y)=>[...page.document.getElementById(id).getContext('2d').getImageData(x,y,1,1).data].join();
+tell('begin',{width:4,height:2,nodes:2,modelled:true,frame:2,works:['tracing','shading','paging','packing','messages','control'],
+levels:40,steps:240});
+tell('drawTile',{x:1,y:0,width:1,height:1,rgb:'/wAA'});
+tell('drawStep',{frame:2,doublings:0,step:7,ms:2000,cells:'8PA='});
+tell('drawStep',{frame:2,doublings:1,step:3,ms:2000,cells:'8AE='});
+tell('drawStep',{frame:1,doublings:1,step:5,ms:9000,cells:'8PA='});
+tell('drawStep',{frame:2,doublings:0,step:6,ms:9000,cells:'8PA='});
+tell('tellState',{said:'It comes.',ms:1500,ns:2000000,done:3,total:8,pass:1,packets:7,bytes:5120000,shares:[0.5,0,0,0,0,0]});
+document.title=`${text('said')} shot ${pixel('shot',1,0)} ${pixel('shot',0,0)} steps ${[3,5,6,7].map(x=>pixel('raster',x,0))} idle `+
+`${pixel('raster',3,200)} until ${text('until')} facts ${text('facts')} shares ${text('shares')} wide `+
+`${page.document.documentElement.scrollWidth} of ${page.innerWidth}`})</script>)";
+
+}  // namespace
+
+TEST_CASE("in a browser the live page shows tiles, steps and figures as it is told them, on a telephone and a screen") {
+  const TemporaryFolder folder;
+  for (const int width : {400, 1280}) {
+    const std::string told = told_by_browser(html::live_page("dmpc render x"), width, width == 400, folder / "shot.png", telling);
+    const std::string wide = std::to_string(width);
+    CHECK(told ==
+          "It comes. shot 255,0,0,255 0,0,0,0 steps 0,114,178,255,0,0,0,0,0,0,0,0,0,0,0,0 idle 0,0,0,0 until 120 s facts "
+          "Time by the wall clock1.5 sPixels done3 of 8Virtual time2 msPackets sent7Bytes sent5.1 MB shares "
+          "tracing50.0 %shading0.0 %paging0.0 %packing0.0 %messages0.0 %control0.0 % wide " +
+              wide + " of " + wide);
+  }
+}
+
+TEST_CASE("the live page's policy runs what it has in itself alone, and lets it ask its server alone") {
+  const std::string page = html::live_page("x"), policy = html::live_policy();
+  CHECK(policy.starts_with("default-src 'none'; img-src data:; script-src 'sha256-"));
+  CHECK(policy.ends_with("'; base-uri 'none'; form-action 'none'; connect-src 'self'; frame-ancestors 'none'"));
+  CHECK(count(policy, "'sha256-") == count(page, "<style>") + count(page, "<script>"));
+  CHECK_FALSE(contains(policy, "unsafe"));
+  CHECK_FALSE(contains(page, " style="));
+  CHECK(contains(html::live_page("</script><b>"), "&lt;/script&gt;&lt;b&gt;"));
+}
+
+}  // namespace dmpc::tests::live_page_test
