@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -15,6 +16,7 @@
 #include "apps/edge/run/work.h"
 #include "apps/run/report.h"
 #include "apps/show/heat/field.h"
+#include "apps/show/page/forecast_view.h"
 #include "apps/show/page/path_table.h"
 #include "apps/show/page/play_cells.h"
 #include "apps/show/page/typed_array.h"
@@ -307,6 +309,9 @@ void add_exchange(json& head, const RenderRecord& record) {
   if (const auto& fetches = record.view->fetches) {
     head["pairs"] = pairs_of(fetches->by_pair, {{"what", "pages"}, {"row", "node that asks"}, {"column", "home of the page"}});
     head["pages"] = pages_of(*fetches);
+    if (const std::optional<ForecastView> forecast = forecast_view(record)) {
+      head["forecast"] = json_of(*forecast);
+    }
     head["fetched"] = sum_of(fetches->by_page);
   } else if (const auto* const rays = std::get_if<dataflow::Report>(&record.report)) {
     head["pairs"] =

@@ -43,6 +43,7 @@ inline constexpr std::uint64_t done_parts = 65'535;
 ///   links: bytes by link; pairs: packets {what} by row * side + column, if there are not too many; pages: fetches by page;
 ///   levels: [{name, ...}]: the most of each node in a step, summed
 /// - links: [[from, to, messages, bytes, held_ns, waited_ns]], the busiest (modelled machines)
+/// - forecast (svm on modelled machines, if references were kept): json_of() of a ForecastView
 /// - pages: [[number, home, fetched]], the hottest (svm); fetched: of all pages
 std::string play_data(const RenderRecord& record, const Origin& origin);
 

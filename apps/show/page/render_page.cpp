@@ -20,6 +20,7 @@
 #include "apps/show/heat/field.h"
 #include "apps/show/heat/picture.h"
 #include "apps/show/page/conclusions.h"
+#include "apps/show/page/forecast_view.h"
 #include "apps/show/page/path_table.h"
 #include "apps/show/page/pictures.h"
 #include "apps/show/page/play_data.h"
@@ -106,6 +107,12 @@ void add_misses(Page& page, const RenderRecord& record, const MissEstimate& miss
                                  report.plan.frames, pages.faults);
   page.add_plot(miss_plot(), table);
   page.add_table(table);
+  if (const std::optional<ForecastView> forecast = forecast_view(record)) {
+    add_forecast(page, *forecast);
+  } else if (!report.virtual_time) {
+    page.add_text("How long the run would take with other caches is predicted on modelled machines (`--runner=virtual`) alone: times by "
+                  "the wall clock compare schedules of this computer.");
+  }
 }
 
 void add_fetches(Page& page, const svm::Fetches& fetches) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "apps/edge/show/page/page.h"
 #include "apps/edge/table/plot.h"
 #include "apps/edge/table/table.h"
+#include "apps/show/page/forecast_view.h"
 
 namespace dmpc::apps::html {
 
@@ -26,6 +28,7 @@ struct Sweep {
   std::vector<std::string> texts;  ///< paragraphs
   std::vector<SweepPart> parts;
   Facts results = {};  ///< by which another run is known to be the same
+  std::optional<ForecastView> forecast = {};  ///< from one of its runs, beside all of them
 };
 
 /// The whole document. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be

@@ -108,6 +108,8 @@ void Page::add_facts(const Facts& facts) {
 
 void Page::add_code(const std::string& text) { body_ += "<pre class=\"copy\">" + escaped(text) + "</pre>\n"; }
 
+void Page::add_place(const std::string& id) { body_ += "<div id=\"" + escaped(id) + "\"></div>\n"; }
+
 void Page::add_map(const NumberMap& map, const std::string& caption) {
   const std::string url = data_url("image/svg+xml", svg_of(map));
   add_figure(url, "class=\"plot\"", map.title, caption, shown_save_link(map.title, "SVG"));

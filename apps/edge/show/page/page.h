@@ -46,6 +46,8 @@ class Page {
   /// that saves it.
   void add_figure(const std::string& url, const std::string& attributes, const std::string& description,
                   const std::string& caption, const std::string& save);
+  /// Empty: for a script to fill, which finds it by its id.
+  void add_place(const std::string& id);
   void add_map(const NumberMap& map, const std::string& caption);
   /// With title and notes; a long one is folded.
   void add_table(const Table& table);

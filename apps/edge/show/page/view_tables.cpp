@@ -17,8 +17,6 @@ using svm::Fetch;
 using svm::Fetches;
 
 constexpr std::size_t pages_listed = 20;
-/// Pages of a sample that a cache has to hold for the sample to tell something of it.
-constexpr std::uint32_t sampled_pages_least = 4;
 constexpr std::size_t part_count = svm::fetch_part_names.size();
 
 double microseconds(double ns) { return ns / 1000; }
@@ -309,7 +307,7 @@ Table miss_table(const MissEstimate& estimate, std::uint32_t page_count, std::ui
                  std::uint64_t faults) {
   Table table("Misses by the size of the caches",
               {{"cache", "pages", 0}, {"misses", "", 0}, {"of all look-ups", "%", 3}, {"this run", "%", 3}});
-  const std::uint32_t size_min = estimate.every == 1 ? 1 : sampled_pages_least * estimate.every;
+  const std::uint32_t size_min = estimate.cache_pages_min();
   std::vector<std::uint32_t> sizes = geometric_sizes(page_count, 24);
   std::erase_if(sizes, [&](std::uint32_t size) { return size < size_min; });
   sizes.push_back(cache_pages);

@@ -13,6 +13,7 @@
 #include "apps/edge/system/interrupt.h"
 #include "apps/edge/table/plot.h"
 #include "apps/edge/table/table_files.h"
+#include "apps/show/page/forecast_view.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -44,6 +45,7 @@ struct StudyFindings {
   std::string conclusion = {};  ///< a sentence; empty: none
   html::Facts facts = {};       ///< by which another study is known to have found the same
   std::optional<std::uint64_t> scene_digest = {};
+  std::optional<html::ForecastView> forecast = {};  ///< from one of its runs, beside all of them
 };
 TableResult study_result(StudyFindings findings, TableFormat format);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "apps/edge/table/table_files.h"
 #include "apps/lab/figures/known_figures.h"
 #include "apps/lab/study/engine/tabled_job.h"
+#include "apps/lab/study/sweep/forecast.h"
 #include "apps/lab/study/sweep/measure.h"
 #include "apps/lab/study/sweep/table.h"
 #include "apps/scene/load_scene.h"
@@ -28,7 +30,7 @@ TableFiles files_of(const StudySweepOptions& options, const std::vector<SweepRun
 }
 
 TableResult result_of(const StudySweepOptions& options, const std::vector<SweepRun>& runs,
-                      const std::vector<SweepResult>& results, bool is_whole) {
+                      const std::vector<SweepResult>& results, const std::optional<html::ForecastView>& forecast, bool is_whole) {
   Table table = sweep_table(options.settings, runs, results);
   if (!is_whole) {
     table.add_note("Ended before its time: rows are missing.");
@@ -36,7 +38,8 @@ TableResult result_of(const StudySweepOptions& options, const std::vector<SweepR
   return study_result({.title = "Study sweep of " + options.settings.scene,
                        .table = std::move(table),
                        .data_file = sweep_data_file,
-                       .plots = sweep_plots(options.settings, runs)},
+                       .plots = sweep_plots(options.settings, runs),
+                       .forecast = forecast},
                       options.table.format);
 }
 
@@ -129,6 +132,7 @@ int study_sweep_command(const StudySweepOptions& options, Interrupt& interrupt, 
   check_not_read(scene, files.names());
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   std::vector<SweepResult> results;
+  std::optional<html::ForecastView> forecast;
   const auto measure = [&] {
     Progress progress(std::cerr, stderr_is_terminal() && !options.quiet, "sweep: ", "runs");
     progress.update(0, runs.size());
@@ -137,10 +141,13 @@ int study_sweep_command(const StudySweepOptions& options, Interrupt& interrupt, 
       shown.show(sweep_table(options.settings, runs, results), options.settings.variations.size());
       progress.update(results.size(), runs.size());
     });
+    if (options.table.report) {
+      forecast = sweep_forecast(options.settings, results, interrupt);
+    }
   };
   const int status = run_tabled(
       {.measure = measure, .has_findings = [&] { return !results.empty(); }},
-      [&](bool is_whole) { return result_of(options, runs, results, is_whole); }, files, interrupt, output);
+      [&](bool is_whole) { return result_of(options, runs, results, forecast, is_whole); }, files, interrupt, output);
   check_any_fits(results);
   return status;
 }

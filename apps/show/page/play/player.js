@@ -100,10 +100,6 @@ const startNames = (box) => {
 
 // Controls
 
-const control = (bar, text, name, attributes) => {
-  const label = make("label", {}, bar, text + " ");
-  return make(name, attributes, label);
-};
 const startBar = (bar) => {
   const button = make("button", {type: "button", id: "play"}, bar, "Play");
   button.addEventListener("click", () => play(!player.playing));
@@ -232,6 +228,8 @@ const start = async () => {
   }
   const view = card(section, "This view", "view-head"), command = make("pre", {class: "copy", id: "command", tabindex: 0, role: "region", "aria-label": "The command of this view"}, view);
   readAddress();
+  const whatIfBox = byId("what-if");
+  if (whatIfBox) part(() => [state.cache, state.dots, whatIfBox.clientWidth].join(), startWhatIf(whatIfBox, data.forecast, state, writeAddress));
   part(() => [state.t, state.heat, state.mix, choiceKey(chosen())].join(), drawPixels);
   part(() => [state.t, state.from, state.to, state.why, choiceKey(chosen())].join(), drawTime);
   part(() => stepKey() + choiceKey(chosen()), drawMachine);

@@ -1,8 +1,4 @@
-"use strict";
-// What is shown: the data that came with the page, and one state, from which all that is drawn follows and which stands in the
-// address.
-const byId = (id) => document.getElementById(id);
-const data = JSON.parse(byId("data").textContent);
+// What is shown: one state, from which all that is drawn follows and which stands in the address.
 
 /// Whole numbers as the page has them: little-endian, as are all computers that browsers run on.
 const unpacked = ({type, data: text}) => {
@@ -20,7 +16,7 @@ const stepCount = Math.min(data.steps, Math.ceil(data.total_ns / data.step_ns));
 
 /// What is chosen, or under the pointer: nothing where a number is -1. A pair is a node and a peer.
 const nothing = {node: -1, peer: -1, link: -1, page: -1, x: -1, y: -1};
-const state = {t: totalMs, from: 0, to: 0, heat: "", mix: 70, why: -1, ...nothing};
+const state = {t: totalMs, from: 0, to: 0, heat: "", mix: 70, why: -1, ...asked, ...nothing};
 let pointed = null;
 const chosen = () => pointed || state;
 const choose = (choice) => Object.assign(state, nothing, choice);
@@ -42,7 +38,7 @@ const summed = (choice) => {
 const choiceKey = (choice) => [choice.node, choice.peer, choice.link, choice.page, choice.x, choice.y].join();
 
 // The address: #t=15&from=10&to=14&heat=faults&mix=85&node=6; one without "=" leads to a section.
-const usual = {...state}, most = {t: totalMs, from: totalMs, to: totalMs, mix: 100, node: data.nodes, peer: data.nodes,
+const usual = {...state}, most = {t: totalMs, from: totalMs, to: totalMs, mix: 100, cache: Infinity, dots: 1, node: data.nodes, peer: data.nodes,
   link: data.links.length - 1, page: data.pages.length - 1, x: data.wide - 1, y: data.high - 1};
 const isNumber = (key) => key in nothing || key === "why";
 const readAddress = () => {
@@ -86,17 +82,7 @@ const shareOf = (work, node, first, last) => {
 };
 
 const timeText = (ms) => ms.toFixed(totalMs < 1 ? 4 : totalMs < 1000 ? 2 : 0) + " ms";
-const numberText = (value) => value.toLocaleString("en", {maximumFractionDigits: 2});
-const percentText = (share) => (100 * share).toFixed(1) + " %";
 
-/// An element with text, never markup.
-const make = (name, attributes = {}, parent = null, text = "") => {
-  const element = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-  element.textContent = text;
-  if (parent) parent.append(element);
-  return element;
-};
 /// A canvas for those who see it, with words for those who do not. What is at a place, 0 to 1 each way, is chosen by the pointer,
 /// what lies so many steps to the right and down from what was chosen before by arrow keys.
 const makeCanvas = (id, label, parent, at, beside) => {
@@ -127,4 +113,3 @@ const nodeColors = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b
 /// Work strong, waits pale.
 const workColors = {tracing: "#0072b2", shading: "#56b4e9", paging: "#009e73", packing: "#cc79a7", messages: "#e69f00", control: "#8c6d46", "page wait": "#009e7370", "answer wait": "#009e7370",
   "ray wait": "#cc79a780", "work wait": "#e6c30070", "token wait": "#6a4fb080", "credit wait": "#d55e0080", "film wait": "#56b4e980", "other waits": "#80808080", "idle at the end": "#80808040"};
-const css = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();

@@ -36,6 +36,18 @@ TEST_CASE("where one node keeps the references of a share of the pages, those of
   CHECK(estimate.misses(1000) == static_cast<double>(2 * kept * estimate.every));
 }
 
+TEST_CASE("half of a sample is there to tell its error, and no half where every page counts") {
+  std::vector<svm::ReferenceLog> sampled = {pages_up_to(4096, svm::ReferenceLog(1024))}, all = {pages_up_to(64, {})};
+  const MissEstimate estimate = estimate_misses(sampled);
+  CHECK(estimate.half.references() < estimate.curve.references());
+  CHECK(estimate.half_misses(10'000) == static_cast<double>(estimate.half.references()) * 2 * estimate.every);
+  CHECK(estimate.half_misses(10'000) == doctest::Approx(4096).epsilon(0.2));
+  CHECK(sampled[0].pages().size() == estimate.curve.references());
+  CHECK(estimate.cache_pages_min() == 4 * estimate.every);
+  CHECK(estimate_misses(all).half.references() == 0);
+  CHECK(estimate_misses(all).cache_pages_min() == 1);
+}
+
 TEST_CASE("nothing is missed by nobody") {
   std::vector<svm::ReferenceLog> none;
   CHECK(estimate_misses(none).misses(1) == 0);

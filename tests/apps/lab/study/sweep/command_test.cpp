@@ -12,6 +12,7 @@
 #include "apps/lab/study/sweep/kept_runs.h"
 #include "apps/lab/study/sweep/table.h"
 #include "apps/main/commands.h"
+#include "apps/show/page/forecast_view.h"
 #include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -87,6 +88,26 @@ TEST_CASE("a sweep draws what it varies, with commas in names, too, in a folder 
     CHECK(file_text(folder / "plots" / (plot.name + ".gnuplot")).size() > 100);
     CHECK(contains(file_text(folder / "page.html"), "Plot: " + apps::html::escaped(plot.title)));
   }
+}
+
+TEST_CASE("the page of a sweep over caches alone has all its runs beside what one of them predicts") {
+  const TemporaryFolder folder;
+  const std::string page = folder / "page.html";
+  const auto shown = [&](const Words& more) {
+    Words words = {"balls-2", "--resolution=16x16", "--runner=virtual", "--format=csv", "--page-size=512", "--report=" + page};
+    words.insert(words.end(), more.begin(), more.end());
+    swept(sweep_options(words));
+    return apps::html::forecast_in(file_text(page));
+  };
+  const auto forecast = shown({"--vary=cache-pages:4,2,1", "--vary=nodes:4"});
+  REQUIRE(forecast.has_value());
+  CHECK(forecast->cache_pages == 2);
+  REQUIRE(forecast->runs.size() == 3);
+  CHECK(forecast->runs[0].cache_pages == 4);
+  CHECK(forecast->runs[0].total_ns < forecast->runs[2].total_ns);
+  CHECK_FALSE(shown({"--vary=cache-pages:1,2", "--vary=nodes:2,4"}).has_value());
+  CHECK_FALSE(shown({"--vary=nodes:2,4"}).has_value());
+  CHECK_FALSE(shown({"--vary=cache-pages:1,2", "--strategy=forest", "--structure=extents"}).has_value());
 }
 
 TEST_CASE("rows come as JSON lines, each an object of its own") {

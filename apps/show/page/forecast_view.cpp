@@ -1,0 +1,195 @@
+#include "apps/show/page/forecast_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <variant>
+
+#include "apps/edge/line/amount.h"
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/run/run_view.h"
+#include "apps/edge/show/page/shares.h"
+#include "apps/edge/table/plot.h"
+#include "apps/edge/table/table.h"
+#include "apps/run/report.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps::html {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double told_error_least = 0.001;  ///< less is not worth a sentence
+
+std::string why_wide(const CacheForecast& forecast) {
+  std::string text =
+      "The band lies between two readings of that run: that all of its time but for computing grows with the faults, or page wait, "
+      "service of interrupts and messages alone.";
+  if (forecast.curve_error >= told_error_least) {
+    text += " It is wider by " + share_text(forecast.curve_error) +
+            ", by which the curve misses that run's own faults, as where several pixels wait for one page or lru is not what "
+            "replaces.";
+  }
+  if (forecast.sample_error > 0) {
+    text += " It is wider by up to " + share_text(forecast.sample_error) +
+            " of the faults on each side, since the curve is from a sample, one page in " + std::to_string(forecast.every) + ".";
+  }
+  return text;
+}
+
+double milliseconds(double ns) { return ns / 1e6; }
+
+/// The one of so many pages; nullptr if there is none.
+template <class Sized>
+const Sized* of_size(const std::vector<Sized>& all, std::uint32_t pages) {
+  const auto found = std::find_if(all.begin(), all.end(), [pages](const Sized& one) { return one.cache_pages == pages; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+/// Of what is predicted and of what was run.
+std::set<std::uint32_t> sizes_of(const ForecastView& view) {
+  std::set<std::uint32_t> sizes;
+  for (const Forecast& size : view.sizes) {
+    sizes.insert(size.cache_pages);
+  }
+  for (const MadeRun& run : view.runs) {
+    sizes.insert(run.cache_pages);
+  }
+  return sizes;
+}
+
+Table forecast_table(const ForecastView& view) {
+  Table table("Run time by the size of the caches", {{"cache", "pages", 0},
+                                                     {"faults", "", 0},
+                                                     {"least", "ms", 3},
+                                                     {"most", "ms", 3},
+                                                     {"wide", "%", 1},
+                                                     {"run", "ms", 3}});
+  std::size_t wide = 0;
+  for (const std::uint32_t pages : sizes_of(view)) {
+    std::vector<Cell> row = {std::uint64_t{pages}};
+    row.resize(table.columns().size());
+    if (const Forecast* const size = of_size(view.sizes, pages)) {
+      row[1] = static_cast<std::uint64_t>(std::llround(size->faults));
+      row[4] = 100 * size->width();
+      if (size->is_narrow()) {
+        row[2] = milliseconds(size->least_ns);
+        row[3] = milliseconds(size->most_ns);
+      }
+      wide += size->is_narrow() ? 0 : 1;
+    }
+    if (const MadeRun* const run = of_size(view.runs, pages)) {
+      row[5] = milliseconds(run->total_ns);
+    }
+    table.add_row(std::move(row));
+  }
+  table.add_note("Predicted from the run with " + counted(view.cache_pages, "page") + " alone. " + view.why);
+  if (wide > 0) {
+    table.add_note("With " + std::to_string(wide) + " of " + counted(view.sizes.size(), "size") +
+                   " nothing is predicted: there the band would be wider than " + share_text(Forecast::width_max) + ".");
+  }
+  return table;
+}
+
+Plot forecast_plot() {
+  constexpr std::size_t dashed = plot_colors.size();
+  std::vector<PlotSeries> series(3);
+  series[0] = {.title = "predicted, least", .column = "least", .color = dashed};
+  series[1] = {.title = "predicted, most", .column = "most", .color = dashed + 1};
+  series[2] = {.title = "run", .column = "run", .mark = PlotMark::points, .color = 1};
+  return curves("forecast", "Run time by the size of the caches", "cache",
+                {.label = "cache of a node (pages)", .scale = PlotScale::powers_of_10}, {.label = "ms", .least = 0},
+                std::move(series));
+}
+
+/// Of a cache of twice as many pages or somewhat more.
+std::string forecast_conclusion(const ForecastView& view) {
+  const auto twice = std::find_if(view.sizes.begin(), view.sizes.end(),
+                                  [&view](const Forecast& size) { return size.cache_pages >= 2 * view.cache_pages; });
+  if (twice == view.sizes.end()) {
+    return "";
+  }
+  const std::string with = "With caches of " + counted(twice->cache_pages, "page") + " in place of " + grouped(view.cache_pages) +
+                           " the run would take ";
+  return twice->is_narrow() ? with + amount_text(twice->least_ns, "ns") + " to " + amount_text(twice->most_ns, "ns") + "."
+                            : with + "a time that is not predicted: the two readings lie " + share_text(twice->width()) + " apart.";
+}
+
+}  // namespace
+
+std::optional<ForecastView> forecast_view(const RenderRecord& record) {
+  const auto* const report = std::get_if<svm::Report>(&record.report);
+  const Account account = account_of(record.report);
+  if (report == nullptr || record.view == nullptr || !record.view->misses || !account.virtual_time) {
+    return std::nullopt;
+  }
+  const ForecastRun run{.parts = parts_of(account),
+                        .node_count = static_cast<std::uint32_t>(account.nodes.size()),
+                        .cache_pages = report->plan.frames,
+                        .faults = report->pages().faults};
+  CacheForecast forecast =
+      forecast_caches(run, *record.view->misses, static_cast<std::uint32_t>(record.database.page_count()));
+  if (forecast.sizes.empty()) {
+    return std::nullopt;
+  }
+  const std::string why = why_wide(forecast);
+  return ForecastView{run.cache_pages, why, std::move(forecast.sizes), {{run.cache_pages, run.total_ns()}}};
+}
+
+json json_of(const ForecastView& view) {
+  json points = json::array(), made = json::array();
+  for (const Forecast& size : view.sizes) {
+    points.push_back({size.cache_pages, std::llround(size.faults), std::llround(size.least_ns), std::llround(size.most_ns)});
+  }
+  for (const MadeRun& run : view.runs) {
+    made.push_back({run.cache_pages, std::llround(run.total_ns)});
+  }
+  return {{"cache", view.cache_pages},
+          {"widest", Forecast::width_max},
+          {"why", view.why},
+          {"points", std::move(points)},
+          {"runs", std::move(made)}};
+}
+
+std::optional<ForecastView> forecast_in(std::string_view page) {
+  constexpr std::string_view begin = "<script type=\"application/json\" id=\"data\">", end = "</script>";
+  const std::size_t at = page.find(begin);
+  if (at == std::string_view::npos) {
+    return std::nullopt;
+  }
+  page.remove_prefix(at + begin.size());
+  const json data = json::parse(page.substr(0, page.find(end)), nullptr, false);
+  core::expect(data.is_object(), "a page's data are whole");
+  if (!data.contains("forecast")) {
+    return std::nullopt;
+  }
+  const json& forecast = data["forecast"];
+  ForecastView view{forecast["cache"], forecast["why"], {}, {}};
+  for (const json& point : forecast["points"]) {
+    view.sizes.push_back({.cache_pages = point[0], .faults = point[1], .least_ns = point[2], .most_ns = point[3]});
+  }
+  for (const json& run : forecast["runs"]) {
+    view.runs.push_back({.cache_pages = run[0], .total_ns = run[1]});
+  }
+  return view;
+}
+
+void add_forecast(Page& page, const ForecastView& view) {
+  page.add_conclusion(forecast_conclusion(view));
+  page.add_place("what-if");
+  const Table table = forecast_table(view);
+  page.add_plot(forecast_plot(), table);
+  page.add_table(table);
+}
+
+void add_forecast_alone(Page& page, const ForecastView& view) {
+  page.begin_section("What if the caches had another size");
+  add_forecast(page, view);
+  page.add_style(what_if_style);
+  page.add_data("data", json({{"forecast", json_of(view)}}).dump());
+  page.add_script(what_if_script);
+}
+
+}  // namespace dmpc::apps::html

@@ -1,0 +1,49 @@
+// How long a run would take with other caches, as a page shows it: a table and a plot, and what its script draws.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/edge/run/cache_forecast.h"
+#include "apps/edge/show/page/page.h"
+#include "apps/edge/show/page/web_part.h"
+#include "apps/run/render_record.h"
+
+namespace dmpc::apps::html {
+
+extern const WebPart what_if_style;   ///< what_if.css
+extern const WebPart what_if_script;  ///< of a page that plays no run: what draws the band alone
+
+/// A run that was made: its cache, and what it took.
+struct MadeRun {
+  std::uint32_t cache_pages = 0;
+  double total_ns = 0;
+};
+
+/// A band beside runs.
+struct ForecastView {
+  std::uint32_t cache_pages = 0;  ///< of the run that predicts
+  std::string why;                ///< the band is as wide as it is: sentences
+  std::vector<Forecast> sizes;    ///< in ascending order, whether narrow enough to be shown or not
+  std::vector<MadeRun> runs;
+};
+
+/// Of the run that a page is of, which is the one that was made: nothing unless pages travel on a modelled machine and their
+/// references were kept, or if nothing can be told from it.
+std::optional<ForecastView> forecast_view(const RenderRecord& record);
+
+/// For scripts: {cache, widest (share), why, points: [[pages, faults, least_ns, most_ns]], runs: [[pages, ns]]}.
+nlohmann::json json_of(const ForecastView& view);
+/// What the page of a render says, read back; nothing if that has none.
+std::optional<ForecastView> forecast_in(std::string_view page);
+
+/// Says it in a sentence and a table, and draws it: by gnuplot, and where scripts run by them, in a place of its own.
+void add_forecast(Page& page, const ForecastView& view);
+/// The same for a page that plays no run, with its scripts.
+void add_forecast_alone(Page& page, const ForecastView& view);
+
+}  // namespace dmpc::apps::html
