@@ -41,9 +41,9 @@ struct Readings {
 };
 
 Readings readings_of(const ForecastRun& run) {
-  return {run.total_ns() - mean_ns(run, TimePart::computing),
-          mean_ns(run, TimePart::data_wait) + mean_ns(run, TimePart::stolen) + mean_ns(run, TimePart::lent) +
-              mean_ns(run, TimePart::messages)};
+  return {run.total_ns() - mean_ns(run, TimePart::computing), mean_ns(run, TimePart::data_wait) + mean_ns(run, TimePart::stolen) +
+                                                                  mean_ns(run, TimePart::lent) +
+                                                                  mean_ns(run, TimePart::messages)};
 }
 
 /// The error of a proportion of the curve, by half of the sample, as a share.

@@ -26,8 +26,8 @@ struct ForecastRun {
 /// With a cache of another size.
 struct Forecast {
   std::uint32_t cache_pages = 0;
-  double faults = 0;                  ///< by the run's own curve, held against its own faults
-  double least_ns = 0, most_ns = 0;   ///< of both readings, as wide as the curve is uncertain
+  double faults = 0;                 ///< by the run's own curve, held against its own faults
+  double least_ns = 0, most_ns = 0;  ///< of both readings, as wide as the curve is uncertain
 
   double width() const { return most_ns / least_ns - 1; }
   /// Wider ones say too little to be shown.
@@ -43,8 +43,8 @@ struct CacheForecast {
   double sample_error = 0;      ///< of the curve, where it is from a sample: the largest at these sizes, as a share
 };
 
-/// For caches of up to `pages_max` pages. Of no sizes where nothing can be told: the run had no faults, its cache is too small for
-/// the sample, or it took no time.
+/// For caches of up to `pages_max` pages. Of no sizes where nothing can be told: the run had no faults, its cache is too small
+/// for the sample, or it took no time.
 ///
 /// Faults are taken in proportion: the curve's at that size to the curve's at the run's own, or to the run's own faults, which
 /// differ where several pixels wait for one page or another policy than lru replaces; the band has both. Where the curve is a

@@ -25,7 +25,8 @@ constexpr double told_error_least = 0.001;  ///< less is not worth a sentence
 
 std::string why_wide(const CacheForecast& forecast) {
   std::string text =
-      "The band lies between two readings of that run: that all of its time but for computing grows with the faults, or page wait, "
+      "The band lies between two readings of that run: that all of its time but for computing grows with the faults, or page "
+      "wait, "
       "service of interrupts and messages alone.";
   if (forecast.curve_error >= told_error_least) {
     text += " It is wider by " + share_text(forecast.curve_error) +
@@ -61,12 +62,9 @@ std::set<std::uint32_t> sizes_of(const ForecastView& view) {
 }
 
 Table forecast_table(const ForecastView& view) {
-  Table table("Run time by the size of the caches", {{"cache", "pages", 0},
-                                                     {"faults", "", 0},
-                                                     {"least", "ms", 3},
-                                                     {"most", "ms", 3},
-                                                     {"wide", "%", 1},
-                                                     {"run", "ms", 3}});
+  Table table(
+      "Run time by the size of the caches",
+      {{"cache", "pages", 0}, {"faults", "", 0}, {"least", "ms", 3}, {"most", "ms", 3}, {"wide", "%", 1}, {"run", "ms", 3}});
   std::size_t wide = 0;
   for (const std::uint32_t pages : sizes_of(view)) {
     std::vector<Cell> row = {std::uint64_t{pages}};
@@ -113,8 +111,9 @@ std::string forecast_conclusion(const ForecastView& view) {
   }
   const std::string with = "With caches of " + counted(twice->cache_pages, "page") + " in place of " + grouped(view.cache_pages) +
                            " the run would take ";
-  return twice->is_narrow() ? with + amount_text(twice->least_ns, "ns") + " to " + amount_text(twice->most_ns, "ns") + "."
-                            : with + "a time that is not predicted: the two readings lie " + share_text(twice->width()) + " apart.";
+  return twice->is_narrow()
+             ? with + amount_text(twice->least_ns, "ns") + " to " + amount_text(twice->most_ns, "ns") + "."
+             : with + "a time that is not predicted: the two readings lie " + share_text(twice->width()) + " apart.";
 }
 
 }  // namespace
@@ -129,8 +128,7 @@ std::optional<ForecastView> forecast_view(const RenderRecord& record) {
                         .node_count = static_cast<std::uint32_t>(account.nodes.size()),
                         .cache_pages = report->plan.frames,
                         .faults = report->pages().faults};
-  CacheForecast forecast =
-      forecast_caches(run, *record.view->misses, static_cast<std::uint32_t>(record.database.page_count()));
+  CacheForecast forecast = forecast_caches(run, *record.view->misses, static_cast<std::uint32_t>(record.database.page_count()));
   if (forecast.sizes.empty()) {
     return std::nullopt;
   }

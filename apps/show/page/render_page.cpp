@@ -110,8 +110,9 @@ void add_misses(Page& page, const RenderRecord& record, const MissEstimate& miss
   if (const std::optional<ForecastView> forecast = forecast_view(record)) {
     add_forecast(page, *forecast);
   } else if (!report.virtual_time) {
-    page.add_text("How long the run would take with other caches is predicted on modelled machines (`--runner=virtual`) alone: times by "
-                  "the wall clock compare schedules of this computer.");
+    page.add_text(
+        "How long the run would take with other caches is predicted on modelled machines (`--runner=virtual`) alone: times by "
+        "the wall clock compare schedules of this computer.");
   }
 }
 

@@ -27,7 +27,7 @@ struct Sweep {
   std::string title;
   std::vector<std::string> texts;  ///< paragraphs
   std::vector<SweepPart> parts;
-  Facts results = {};  ///< by which another run is known to be the same
+  Facts results = {};                         ///< by which another run is known to be the same
   std::optional<ForecastView> forecast = {};  ///< from one of its runs, beside all of them
 };
 

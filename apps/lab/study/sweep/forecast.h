@@ -16,8 +16,8 @@ namespace dmpc::apps {
 /// travel on a modelled machine.
 std::optional<std::size_t> predicting_run(const SweepSettings& settings, const std::vector<SweepResult>& results);
 
-/// What that run's page predicts, for which it is rendered once more, beside all runs. Nothing if there is no such run, or nothing
-/// can be told from it. Throws as RenderProcesses::run().
+/// What that run's page predicts, for which it is rendered once more, beside all runs. Nothing if there is no such run, or
+/// nothing can be told from it. Throws as RenderProcesses::run().
 std::optional<html::ForecastView> sweep_forecast(const SweepSettings& settings, const std::vector<SweepResult>& results,
                                                  const Interrupt& interrupt);
 

@@ -15,7 +15,7 @@ const startWhatIf = (box, {cache: own, widest, why, points, runs}, state, settle
     picture.append(element);
   };
   box.append(picture);
-  make("p", {class: "note"}, box, "Band: predicted from the run with " + pagesText(own) + " alone. Dots: runs that were made. " + why);
+  make("p", {class: "note"}, box, "Band: predicted from the run with " + pagesText(own) + " alone, and not where it would be wider than " + percentText(widest) + ". Dots: runs that were made. " + why);
 
   const words = ([pages, faults, least, most]) => {
     const run = state.dots && runs.find(([size]) => size === pages);

@@ -73,8 +73,8 @@ TEST_CASE("sizes are four for each doubling up to all pages, and the run's own, 
 TEST_CASE("where the curve misses the run's own faults the band has both proportions") {
   const CacheForecast forecast = forecast_caches(run_of_100_ns(4, 20), cycle(8, 2), 16);
   CHECK(forecast.curve_error == doctest::Approx(0.2));
-  CHECK(with(forecast, 8).least_ns == doctest::Approx(40 + 60 * 0.4));   // 8 of the run's 20
-  CHECK(with(forecast, 8).most_ns == doctest::Approx(100 - 40 * 0.5));   // 8 of the curve's 16
+  CHECK(with(forecast, 8).least_ns == doctest::Approx(40 + 60 * 0.4));  // 8 of the run's 20
+  CHECK(with(forecast, 8).most_ns == doctest::Approx(100 - 40 * 0.5));  // 8 of the curve's 16
   CHECK(with(forecast, 4).width() == 0);
 }
 

@@ -107,7 +107,8 @@ TEST_CASE("by script a page says in words what is asked for in its address, with
   CHECK(told(page, "") == "4 pages: the run from which all else is predicted, 10 ms. 3 dots, 2 bands");
   CHECK(told(page, "#cache=2") == "2 pages: predicted 20 to 21 ms, with 500 faults; a run took 20.5 ms. 3 dots, 2 bands");
   CHECK(told(page, "#cache=2&dots=0") == "2 pages: predicted 20 to 21 ms, with 500 faults. 0 dots, 2 bands");
-  CHECK(told(page, "#cache=9") == "8 pages: not predicted, as the two readings lie 20.0 % apart, more than 10.0 %. 3 dots, 2 bands");
+  CHECK(told(page, "#cache=9") ==
+        "8 pages: not predicted, as the two readings lie 20.0 % apart, more than 10.0 %. 3 dots, 2 bands");
   CHECK(contains(told(page, "#cache=nan&dots=-1&__proto__=1"), "4 pages: the run"));
   CHECK(contains(told(page_of(Watched(starved(modelled()))), "#cache=1e9"), " 1 dots, "));
 }
