@@ -69,7 +69,7 @@ std::vector<double> sample_errors(const MissEstimate& misses, const std::vector<
 }
 
 /// With `low` to `high` times the faults.
-Forecast forecast_of(const ForecastRun& run, std::uint32_t size, double low, double high) {
+TimeBand band_of(const ForecastRun& run, std::uint32_t size, double low, double high) {
   const Readings grows = readings_of(run);
   const auto with = [&](double grown_ns, double times) { return run.total_ns() + grown_ns * (times - 1); };
   return {.cache_pages = size,
@@ -92,13 +92,13 @@ CacheForecast forecast_caches(const ForecastRun& run, const MissEstimate& misses
   const std::vector<double> errors = sample_errors(misses, sizes, run.cache_pages);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     if (sizes[i] == run.cache_pages) {
-      forecast.sizes.push_back(forecast_of(run, sizes[i], 1, 1));
+      forecast.sizes.push_back(band_of(run, sizes[i], 1, 1));
       continue;
     }
     const double to_own = misses.misses(sizes[i]) / own, to_faults = misses.misses(sizes[i]) / static_cast<double>(run.faults);
     const double error = deviations * errors[i];
-    forecast.sizes.push_back(forecast_of(run, sizes[i], std::min(to_own, to_faults) * std::max(0.0, 1 - error),
-                                         std::max(to_own, to_faults) * (1 + error)));
+    forecast.sizes.push_back(band_of(run, sizes[i], std::min(to_own, to_faults) * std::max(0.0, 1 - error),
+                                     std::max(to_own, to_faults) * (1 + error)));
     forecast.sample_error = std::max(forecast.sample_error, error);
   }
   return forecast;

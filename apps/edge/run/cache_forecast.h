@@ -24,7 +24,7 @@ struct ForecastRun {
 };
 
 /// With a cache of another size.
-struct Forecast {
+struct TimeBand {
   std::uint32_t cache_pages = 0;
   double faults = 0;                 ///< by the run's own curve, held against its own faults
   double least_ns = 0, most_ns = 0;  ///< of both readings, as wide as the curve is uncertain
@@ -37,7 +37,7 @@ struct Forecast {
 
 struct CacheForecast {
   ForecastRun run;
-  std::vector<Forecast> sizes;  ///< four for each doubling, powers of two among them, and the run's own
+  std::vector<TimeBand> sizes;  ///< four for each doubling, powers of two among them, and the run's own
   std::uint32_t every = 1;      ///< of the curve: MissEstimate::every
   double curve_error = 0;       ///< by how much the curve misses the run's own faults, as a share of them
   double sample_error = 0;      ///< of the curve, where it is from a sample: the largest at these sizes, as a share

@@ -52,7 +52,7 @@ const Sized* of_size(const std::vector<Sized>& all, std::uint32_t pages) {
 /// Of what is predicted and of what was run.
 std::set<std::uint32_t> sizes_of(const ForecastView& view) {
   std::set<std::uint32_t> sizes;
-  for (const Forecast& size : view.sizes) {
+  for (const TimeBand& size : view.sizes) {
     sizes.insert(size.cache_pages);
   }
   for (const MadeRun& run : view.runs) {
@@ -69,7 +69,7 @@ Table forecast_table(const ForecastView& view) {
   for (const std::uint32_t pages : sizes_of(view)) {
     std::vector<Cell> row = {std::uint64_t{pages}};
     row.resize(table.columns().size());
-    if (const Forecast* const size = of_size(view.sizes, pages)) {
+    if (const TimeBand* const size = of_size(view.sizes, pages)) {
       row[1] = static_cast<std::uint64_t>(std::llround(size->faults));
       row[4] = 100 * size->width();
       if (size->is_narrow()) {
@@ -86,7 +86,7 @@ Table forecast_table(const ForecastView& view) {
   table.add_note("Predicted from the run with " + counted(view.cache_pages, "page") + " alone. " + view.why);
   if (wide > 0) {
     table.add_note("With " + std::to_string(wide) + " of " + counted(view.sizes.size(), "size") +
-                   " nothing is predicted: there the band would be wider than " + share_text(Forecast::width_max) + ".");
+                   " nothing is predicted: there the band would be wider than " + share_text(TimeBand::width_max) + ".");
   }
   return table;
 }
@@ -105,7 +105,7 @@ Plot forecast_plot() {
 /// Of a cache of twice as many pages or somewhat more.
 std::string forecast_conclusion(const ForecastView& view) {
   const auto twice = std::find_if(view.sizes.begin(), view.sizes.end(),
-                                  [&view](const Forecast& size) { return size.cache_pages >= 2 * view.cache_pages; });
+                                  [&view](const TimeBand& size) { return size.cache_pages >= 2 * view.cache_pages; });
   if (twice == view.sizes.end()) {
     return "";
   }
@@ -138,14 +138,14 @@ std::optional<ForecastView> forecast_view(const RenderRecord& record) {
 
 json json_of(const ForecastView& view) {
   json points = json::array(), made = json::array();
-  for (const Forecast& size : view.sizes) {
+  for (const TimeBand& size : view.sizes) {
     points.push_back({size.cache_pages, std::llround(size.faults), std::llround(size.least_ns), std::llround(size.most_ns)});
   }
   for (const MadeRun& run : view.runs) {
     made.push_back({run.cache_pages, std::llround(run.total_ns)});
   }
   return {{"cache", view.cache_pages},
-          {"widest", Forecast::width_max},
+          {"widest", TimeBand::width_max},
           {"why", view.why},
           {"points", std::move(points)},
           {"runs", std::move(made)}};

@@ -28,7 +28,7 @@ struct MadeRun {
 struct ForecastView {
   std::uint32_t cache_pages = 0;  ///< of the run that predicts
   std::string why;                ///< the band is as wide as it is: sentences
-  std::vector<Forecast> sizes;    ///< in ascending order, whether narrow enough to be shown or not
+  std::vector<TimeBand> sizes;    ///< in ascending order, whether narrow enough to be shown or not
   std::vector<MadeRun> runs;
 };
 

@@ -29,16 +29,16 @@ ForecastRun run_of_100_ns(std::uint32_t cache_pages, std::uint64_t faults) {
   return run;
 }
 
-const Forecast& with(const CacheForecast& forecast, std::uint32_t cache_pages) {
+const TimeBand& with(const CacheForecast& forecast, std::uint32_t cache_pages) {
   return *std::find_if(forecast.sizes.begin(), forecast.sizes.end(),
-                       [cache_pages](const Forecast& size) { return size.cache_pages == cache_pages; });
+                       [cache_pages](const TimeBand& size) { return size.cache_pages == cache_pages; });
 }
 
 }  // namespace
 
 TEST_CASE("with half the faults half of all that is no computing is left by one reading, half of what pages take by the other") {
   const CacheForecast forecast = forecast_caches(run_of_100_ns(4, 16), cycle(8, 2), 16);
-  const Forecast& larger = with(forecast, 8);
+  const TimeBand& larger = with(forecast, 8);
   CHECK(larger.faults == 8);
   CHECK(larger.least_ns == doctest::Approx(40 + 60 / 2));
   CHECK(larger.most_ns == doctest::Approx(100 - 40 / 2));
@@ -56,7 +56,7 @@ TEST_CASE("of a cache that is no better nothing but the run itself is predicted,
 }
 
 TEST_CASE("with more faults the reading that has all grow is the longer one") {
-  const Forecast smaller = with(forecast_caches(run_of_100_ns(8, 8), cycle(8, 2), 16), 4);
+  const TimeBand smaller = with(forecast_caches(run_of_100_ns(8, 8), cycle(8, 2), 16), 4);
   CHECK(smaller.least_ns == doctest::Approx(100 + 40));
   CHECK(smaller.most_ns == doctest::Approx(100 + 60));
 }
@@ -64,7 +64,7 @@ TEST_CASE("with more faults the reading that has all grow is the longer one") {
 TEST_CASE("sizes are four for each doubling up to all pages, and the run's own, each once and in order") {
   const CacheForecast forecast = forecast_caches(run_of_100_ns(9, 16), cycle(16, 2), 16);
   std::vector<std::uint32_t> sizes;
-  for (const Forecast& size : forecast.sizes) {
+  for (const TimeBand& size : forecast.sizes) {
     sizes.push_back(size.cache_pages);
   }
   CHECK(sizes == std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 16});

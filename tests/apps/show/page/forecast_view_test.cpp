@@ -26,7 +26,7 @@ std::string page_of(const Watched& watched) {
   return render_page(watched.record(), {.command = "dmpc", .words = {"dmpc", "render", "balls-2"}}, complaints);
 }
 
-Forecast from_to(std::uint32_t pages, double least_ms, double most_ms) {
+TimeBand from_to(std::uint32_t pages, double least_ms, double most_ms) {
   return {.cache_pages = pages, .faults = 1000.0 / pages, .least_ns = 1e6 * least_ms, .most_ns = 1e6 * most_ms};
 }
 
