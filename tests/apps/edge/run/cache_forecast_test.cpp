@@ -95,6 +95,16 @@ TEST_CASE("a sample widens the band by twice the error that half of it shows, th
   CHECK(with(wider, 16).width() == 0);
 }
 
+TEST_CASE("far from the run's own cache a band is not surer than nearer to it") {
+  MissEstimate sampled = cycle(12, 2);
+  sampled.every = 2;
+  sampled.half = cycle(7, 3).curve;  // with 27 pages it still misses all, where the sample misses half
+  const CacheForecast forecast = forecast_caches(run_of_100_ns(16, 48), sampled, 64);
+  CHECK(with(forecast, 27).most_ns == doctest::Approx(40 + 60 * 0.5 * 3));
+  CHECK(with(forecast, 64).most_ns == doctest::Approx(40 + 60 * 0.5 * 3));
+  CHECK(with(forecast, 64).least_ns == doctest::Approx(40));
+}
+
 TEST_CASE("nothing is predicted from a run without faults, without time, or whose cache the sample does not know") {
   CHECK(forecast_caches(run_of_100_ns(4, 0), cycle(8, 2), 16).sizes.empty());
   CHECK(forecast_caches({.parts = {}, .cache_pages = 4, .faults = 16}, cycle(8, 2), 16).sizes.empty());
