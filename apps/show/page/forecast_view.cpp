@@ -95,7 +95,7 @@ Plot forecast_plot() {
   constexpr std::size_t dashed = plot_colors.size();
   std::vector<PlotSeries> series(3);
   series[0] = {.title = "predicted, least", .column = "least", .color = dashed};
-  series[1] = {.title = "predicted, most", .column = "most", .color = dashed + 1};
+  series[1] = {.title = "predicted, most", .column = "most", .color = dashed};
   series[2] = {.title = "run", .column = "run", .mark = PlotMark::points, .color = 1};
   return curves("forecast", "Run time by the size of the caches", "cache",
                 {.label = "cache of a node (pages)", .scale = PlotScale::powers_of_10}, {.label = "ms", .least = 0},

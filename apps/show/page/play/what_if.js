@@ -24,7 +24,7 @@ const startWhatIf = (box, {cache: own, widest, why, points, runs}, state, settle
       (run && pages !== own ? `; a run took ${ms(run[1])} ms.` : ".");
   };
   const show = () => {
-    const wide = Math.max(280, box.clientWidth), high = 240, left = 64, right = wide - 24, top = 14, bottom = high - 38, at = points[number()];
+    const wide = Math.max(260, box.clientWidth - 20), high = 240, left = 64, right = wide - 14, top = 14, bottom = high - 38, at = points[number()];
     const times = [...points.filter(isNarrow).flatMap((point) => point.slice(2)), ...runs.map(([, ns]) => ns)], sizes = [...points, ...runs].map(([pages]) => pages);
     const scale = (values, from, to) => {
       const low = Math.log(Math.min(...values)), span = Math.log(Math.max(...values)) - low || 1;

@@ -6,6 +6,7 @@ const whatIfBox = byId("what-if");
 if (whatIfBox) {
   readAsked();
   const show = startWhatIf(whatIfBox, data.forecast, asked, () => history.replaceState(null, "", `#cache=${asked.cache}&dots=${asked.dots}`));
+  show();
   new ResizeObserver(show).observe(whatIfBox);
   addEventListener("hashchange", () => {
     readAsked();

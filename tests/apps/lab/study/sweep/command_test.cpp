@@ -94,20 +94,20 @@ TEST_CASE("the page of a sweep over caches alone has all its runs beside what on
   const TemporaryFolder folder;
   const std::string page = folder / "page.html";
   const auto shown = [&](const Words& more) {
-    Words words = {"balls-2", "--resolution=16x16", "--runner=virtual", "--format=csv", "--page-size=512", "--report=" + page};
+    Words words = {"balls-2", "--resolution=16x16", "--format=csv", "--page-size=512", "--report=" + page};
     words.insert(words.end(), more.begin(), more.end());
     swept(sweep_options(words));
     return apps::html::forecast_in(file_text(page));
   };
-  const auto forecast = shown({"--vary=cache-pages:4,2,1", "--vary=nodes:4"});
+  const auto forecast = shown({"--runner=virtual", "--vary=cache-pages:4,2,1", "--vary=nodes:4"});
   REQUIRE(forecast.has_value());
   CHECK(forecast->cache_pages == 2);
   REQUIRE(forecast->runs.size() == 3);
   CHECK(forecast->runs[0].cache_pages == 4);
   CHECK(forecast->runs[0].total_ns < forecast->runs[2].total_ns);
-  CHECK_FALSE(shown({"--vary=cache-pages:1,2", "--vary=nodes:2,4"}).has_value());
-  CHECK_FALSE(shown({"--vary=nodes:2,4"}).has_value());
-  CHECK_FALSE(shown({"--vary=cache-pages:1,2", "--strategy=forest", "--structure=extents"}).has_value());
+  CHECK_FALSE(shown({"--runner=virtual", "--vary=cache-pages:1,2", "--vary=nodes:2,4"}).has_value());
+  CHECK_FALSE(shown({"--runner=virtual", "--vary=nodes:2,4"}).has_value());
+  CHECK_FALSE(shown({"--vary=cache-pages:1,2", "--nodes=2"}).has_value());
 }
 
 TEST_CASE("rows come as JSON lines, each an object of its own") {
