@@ -86,8 +86,8 @@ struct NamedIndex {
   Vec3d value;
 };
 
-/// At red, green and blue, as tables that renderers share have them; nobody has held them against measurements here. Of glasses at
-/// the yellow line of sodium.
+/// At red, green and blue, as tables that renderers share have them; nobody has held them against measurements here. Of glasses
+/// at the yellow line of sodium.
 constexpr std::array<NamedIndex, 22> named_indices{
     {{"metal-Ag-eta", {0.155275, 0.116723, 0.138342}}, {"metal-Ag-k", {4.828384, 3.122506, 2.146966}},
      {"metal-Al-eta", {1.657460, 0.880369, 0.521229}}, {"metal-Al-k", {9.223869, 6.269523, 4.837001}},

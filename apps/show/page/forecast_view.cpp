@@ -30,8 +30,8 @@ std::string why_wide(const CacheForecast& forecast) {
       "service of interrupts and messages alone.";
   if (forecast.curve_error >= told_error_least) {
     text += " It is wider by " + share_text(forecast.curve_error) +
-            ", by which the curve misses that run's own faults, as where several pixels wait for one page or lru is not what "
-            "replaces.";
+            ", by which the curve misses that run's own faults, as where several pixels wait for one page, lru is not what "
+            "replaces, or it is from a sample.";
   }
   if (forecast.sample_error > 0) {
     text += " It is wider by up to " + share_text(forecast.sample_error) +
