@@ -160,6 +160,9 @@ class Patch {
   void add_flat(PolygonMesh& mesh) const {
     for (const std::size_t corner : {0U, 1U, 3U, 2U}) {
       add_corner(corners_, index(corner), mesh);
+      if (corners_.places.empty()) {
+        mesh.places.push_back(place_at(static_cast<double>(corner % 2), static_cast<double>(corner / 2)));
+      }
     }
     mesh.faces.ends.push_back(static_cast<std::uint32_t>(mesh.faces.corners.size()));
   }

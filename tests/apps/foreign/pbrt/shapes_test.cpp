@@ -79,6 +79,19 @@ TEST_CASE("a bilinear patch is a quad where it is flat, and 64 where it is bent"
   }
 }
 
+TEST_CASE("a bilinear patch lies on its texture as a whole where it does not say how, flat or bent") {
+  const std::string checks = "Texture \"c\" \"spectrum\" \"checkerboard\" Material \"diffuse\" \"texture reflectance\" \"c\" ";
+  const std::string patch = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 ";
+  const core::Scene flat = read_pbrt(checks + patch + "0]").scene, bent = read_pbrt(checks + patch + "1]").scene;
+  REQUIRE(flat.corners.size() == 4);
+  REQUIRE(bent.corners.size() == 4 * 64);
+  // From u = v = 0 to u = 1, and to u = v = 1; of the bent one of the last quad.
+  const auto u = [](const core::TexturedCorner& corner) { return corner.place[0]; };
+  CHECK(u(flat.corners[1]) - u(flat.corners[0]) == u(bent.corners[4 * 63 + 2]) - u(bent.corners[0]));
+  CHECK(flat.corners[2].place == bent.corners[4 * 63 + 2].place);
+  CHECK(flat.corners[0].place == bent.corners[0].place);
+}
+
 TEST_CASE("a mesh that is subdivided ends on the limit of its surface") {
   // Of an octahedron all vertices have four neighbours: the limit of (1, 0, 0) is (1 - 4 g) (1, 0, 0) + g times the sum of its
   // neighbours, which is 0, with g = 1 / (4 + 3 / (8 * 3/32)) = 1/8: a half.
