@@ -281,8 +281,7 @@ core::View plain_view(const BoundingSphere& bounds, const UpAxis& up, const Mesh
 
 /// By a sky, or, by paths, by what shines in it: other transports show that, but not what it lights.
 bool is_lit_without_lights(const core::Scene& scene, const MeshOptions& options) {
-  const auto shines = [](const core::Material& material) { return material.emission != core::Vec3d{}; };
-  return options.is_below_sky || (options.is_by_paths && std::any_of(scene.materials.begin(), scene.materials.end(), shines));
+  return options.is_below_sky || (options.is_by_paths && std::ranges::any_of(scene.materials, &core::Material::shines));
 }
 
 /// `file` may have cameras and lights, if it is there.

@@ -233,7 +233,7 @@ class PlacedScene {
       return;
     }
     const bool is_by_paths = options_.is_below_sky || options_.is_below_own_sky;
-    const auto shines = [](const PlacedMaterial& material) { return material.surface.material.emission != Vec3d{}; };
+    const auto shines = [](const PlacedMaterial& material) { return material.surface.material.shines(); };
     const auto shining = std::count_if(file_.materials.begin(), file_.materials.end(), shines);
     note_count(result_.notes, "materials that shine, which light other things by paths alone",
                is_by_paths ? 0 : static_cast<std::uint64_t>(shining));

@@ -70,12 +70,13 @@ ProcessorTime processor_time() {
 }
 
 /// What an interruption of the run means; where there are several frames, of the one under way.
-const char* consequence_of(const Checkpoints& checkpoints, bool are_frames) {
+const char* consequence_of(const Checkpoints* checkpoints, bool are_frames) {
+  const bool has_checkpoint = checkpoints != nullptr && checkpoints->has_one();
   if (are_frames) {
-    return checkpoints.has_one() ? "this frame was not written, those before it were; --resume goes on from the checkpoint"
-                                 : "this frame was not written, those before it were; --resume leaves them out";
+    return has_checkpoint ? "this frame was not written, those before it were; --resume goes on from the checkpoint"
+                          : "this frame was not written, those before it were; --resume leaves them out";
   }
-  return checkpoints.has_one() ? "no picture was written; --resume goes on from the checkpoint" : "no picture was written";
+  return has_checkpoint ? "no picture was written; --resume goes on from the checkpoint" : "no picture was written";
 }
 
 core::Continuation continuation_of(Checkpoints* checkpoints, bool are_frames, LiveView* live, Interrupt& interrupt) {
@@ -86,7 +87,7 @@ core::Continuation continuation_of(Checkpoints* checkpoints, bool are_frames, Li
     continuation.keep = [keep = continuation.keep, checkpoints, are_frames, &interrupt](
                             const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
       keep(film, pass, done);
-      interrupt.set_consequence(consequence_of(*checkpoints, are_frames));
+      interrupt.set_consequence(consequence_of(checkpoints, are_frames));
     };
   }
   if (live != nullptr) {
@@ -329,10 +330,8 @@ class Rendering {
   }
 
   void render() {
-    if (checkpoints_) {
-      interrupt_.set_consequence(consequence_of(*checkpoints_, asked_.frames.are_several()));
-    } else if (asked_.frames.are_several()) {
-      interrupt_.set_consequence("this frame was not written, those before it were; --resume leaves them out");
+    if (checkpoints_ || asked_.frames.are_several()) {
+      interrupt_.set_consequence(consequence_of(checkpoints_ ? &*checkpoints_ : nullptr, asked_.frames.are_several()));
     }
     if (live_) {
       live_->say(asked_.frames.are_several()

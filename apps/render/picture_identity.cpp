@@ -159,11 +159,6 @@ void add_samples(std::vector<PictureFact>& facts, const PictureOptions& picture)
   }
 }
 
-bool shines(const core::Scene& scene) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(),
-                     [](const core::Material& material) { return !(material.emission == core::Vec3d{}); });
-}
-
 /// Of a picture what it shows, whatever its file is called.
 std::string sky_text(const core::SkyTexels& sky) {
   Digest digest;
@@ -192,7 +187,7 @@ void add_transport(std::vector<PictureFact>& facts, const TransportOptions& tran
   }
   if (transport.occlusion) {
     facts.push_back({"occlusion", text_of(*transport.occlusion)});
-  } else if (shines(scene)) {
+  } else if (std::ranges::any_of(scene.materials, &core::Material::shines)) {
     facts.push_back({"emitters", std::to_string(transport.emitters)});
   }
 }

@@ -39,12 +39,21 @@ bool is_below_light(const core::Scene& scene, const SkyChoice& sky) {
                           : sky.horizon != black || sky.zenith.value_or(black) != black;
 }
 
+bool has_what_shines(const core::Scene& scene) { return std::ranges::any_of(scene.materials, &core::Material::shines); }
+
 /// By paths a sky lights, and what shines by itself.
 bool is_lit(const core::Scene& scene, const TransportOptions& transport) {
-  const auto shines = [](const core::Material& material) { return material.emission != core::Vec3d{}; };
   return !scene.lights.empty() || scene.ambient != core::Vec3d{} || transport.occlusion ||
-         (transport.sky && is_below_light(scene, *transport.sky)) ||
-         (transport.is_by_paths() && std::any_of(scene.materials.begin(), scene.materials.end(), shines));
+         (transport.sky && is_below_light(scene, *transport.sky)) || (transport.is_by_paths() && has_what_shines(scene));
+}
+
+/// Of a scene that is not lit.
+std::string dark_text(const core::Scene& scene, const TransportOptions& transport) {
+  if (has_what_shines(scene)) {
+    return "no light is in it but what shines by itself, which lights other things by --transport=paths alone";
+  }
+  return std::string("no light is in it: what reflects none is black; --light=X,Y,Z adds one") +
+         (transport.is_by_paths() ? ", --sky=1 a sky" : "");
 }
 
 /// Warns of pictures that are black, or nothing but background, because the scene is.
@@ -52,8 +61,7 @@ void say_what_is_missing(const core::Scene& scene, const TransportOptions& trans
   if (scene.objects.empty()) {
     say_once({scene.name + ": there is nothing in it: the picture shows the background alone"});
   } else if (!is_lit(scene, transport)) {
-    say_once({scene.name + ": no light is in it: what reflects none is black; --light=X,Y,Z adds one" +
-              (transport.is_by_paths() ? ", --sky=1 a sky" : "")});
+    say_once({scene.name + ": " + dark_text(scene, transport)});
   }
 }
 

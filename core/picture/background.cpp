@@ -6,6 +6,7 @@
 #include "core/database/overlap.h"
 #include "core/record/directory.h"
 #include "core/record/records.h"
+#include "core/record/sky.h"
 #include "core/record/voxel_list.h"
 
 namespace dmpc::core {
@@ -147,7 +148,9 @@ BackgroundTiles::BackgroundTiles(const Camera& camera, const Bits& bits)
 
 BackgroundTiles find_background(const Database& database, const Camera& camera) {
   const BoxProjector projector(camera);
-  return projector.is_certain() ? BackgroundTiles(camera, Finder(database, projector).find()) : BackgroundTiles();
+  return projector.is_certain() && !has_sky_picture(database.header())
+             ? BackgroundTiles(camera, Finder(database, projector).find())
+             : BackgroundTiles();
 }
 
 }  // namespace dmpc::core

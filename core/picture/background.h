@@ -47,8 +47,9 @@ class BackgroundTiles {
 };
 
 /// Projects the boxes of the database's bricks, and those of primitives in blocks, onto the camera's film, from the top down, as
-/// long as they may fall on a tile on which none has fallen. Reads database.bytes(). Takes less than a millisecond for a million
-/// primitives. Thread safety: pure.
+/// long as they may fall on a tile on which none has fallen. Below a sky's picture there are none, since each ray that meets
+/// nothing asks for a record of its own. Reads database.bytes(). Takes less than a millisecond for a million primitives. Thread
+/// safety: pure.
 BackgroundTiles find_background(const Database& database, const Camera& camera);
 
 }  // namespace dmpc::core

@@ -12,8 +12,7 @@ RenderSettings seen_by(const Camera& camera, const RenderSettings& settings, con
          "frames are of one size");
   RenderSettings seen = settings;
   seen.camera = camera;
-  seen.background =
-      settings.skips.background && !has_sky_picture(database.header()) ? find_background(database, camera) : BackgroundTiles();
+  seen.background = settings.skips.background ? find_background(database, camera) : BackgroundTiles();
   seen.shade.one_child_from = 0;
   seen.shade.one_child_from = settings.shade.transport.is_by_paths() ? std::uint8_t{0} : find_one_child_depth(database, seen);
   return seen;

@@ -66,11 +66,8 @@ struct RenderSettings {
   bool is_beyond_alike() const { return !shade.transport.has_gradient && !has_sky_picture(header); }
   /// Whether a ray that meets nothing shows what a record says.
   bool asks_sky(const Ray& ray) const { return has_sky_picture(header) && ray.kind != RayKind::shadow; }
-  /// Whether the pixel's primary rays are certain to miss, and need not be traced. Below a sky's picture all are, since each asks
-  /// for a record of its own.
-  bool shows_background(std::uint32_t pixel) const {
-    return skips.background && background.has(pixel) && !has_sky_picture(header);
-  }
+  /// Whether the pixel's primary rays are certain to miss, and need not be traced.
+  bool shows_background(std::uint32_t pixel) const { return skips.background && background.has(pixel); }
   /// Settings of this picture for a tracer that is to be asked about every ray.
   RenderSettings with_every_ray_traced() const {
     RenderSettings settings = *this;

@@ -66,6 +66,8 @@ struct Material {
 
   /// Whether NFF cannot say all of it: then the database has a FinishRecord for it.
   bool has_finish() const;
+  /// Whether it has light of its own.
+  bool shines() const { return emission != Vec3d{}; }
   /// Whether light may come through it somewhere.
   bool lets_through() const { return transmittance > 0 || alpha != AlphaUse::none; }
   /// The most of highlight and mirror in any channel, if `color` is multiplied by no more than `texture_max`.

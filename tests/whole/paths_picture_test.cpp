@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <optional>
 #include <stop_token>
-#include <utility>
 
 #include "core/picture/partial_picture.h"
 #include "nodes/chaos.h"
 #include "tests/support/faceted_surfaces.h"
 #include "tests/support/mesh_surfaces.h"
+#include "tests/support/one_film.h"
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
@@ -69,22 +69,6 @@ core::Scene shining(bool is_faceted = false) {
 
 constexpr core::Transport indoors{.kind = core::TransportKind::paths};
 
-/// By svm with room for much and for one page, by dataflow with much and with the least, by all.
-void check_strategies(const Subject& subject, const std::optional<nodes::Chaos>& chaos = {}) {
-  for (const std::uint32_t nodes : {1U, 3U, 16U}) {
-    CAPTURE(nodes);
-    const nodes::ComputerRequest computer{.node_count = nodes, .chaos = chaos};
-    CHECK(outcome_of(run_replicated(subject, {.computer = computer})) == subject.outcome());
-    CHECK(outcome_of(run_svm(subject, {.computer = computer})) == subject.outcome());
-    CHECK(outcome_of(run_svm(subject, {.computer = computer, .pages = {.cache_pages = 1, .in_flight = 1}})) == subject.outcome());
-    CHECK(outcome_of(run_svm(subject, {.computer = computer, .pages = {.cache_pages = 1, .in_flight = 40}})) ==
-          subject.outcome());
-    CHECK(outcome_of(run_dataflow(subject, {.computer = computer})) == subject.outcome());
-    const dataflow::RayOptions least{.ray_batch = 1, .ray_credits = nodes % 2, .queue_packets = 0};
-    CHECK(outcome_of(run_dataflow(subject, {.computer = computer, .rays = least})) == subject.outcome());
-  }
-}
-
 }  // namespace
 
 TEST_CASE("paths under a sky, with mirrors, glass, tiny mirrors, textures and what shines, give one picture by every strategy") {
@@ -123,12 +107,7 @@ TEST_CASE("paths that aim at what shines give one picture by every strategy, wha
   for (std::uint64_t seed = 1; seed <= scaled(4); ++seed) {
     check_strategies(subject, nodes::chaos_of(seed));
   }
-  for (const core::Skip& skip : core::all_skips) {
-    CAPTURE(skip.name);
-    CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 3}}, without(skip))).film_hash == subject.outcome().film_hash);
-    CHECK(outcome_of(run_dataflow(subject, {.computer = {.node_count = 3}}, without(skip))).film_hash ==
-          subject.outcome().film_hash);
-  }
+  check_skips(subject);
 }
 
 TEST_CASE("a sky that changes is what each pixel where nothing is shows of it, though no ray is traced there") {
@@ -167,31 +146,12 @@ TEST_CASE("paths give one picture under chaos") {
 
 TEST_CASE("paths give one picture whatever is left out on the way") {
   const Subject subject(mirrors_and_glass(), size_of(under_sky(), 2));
-  for (const core::Skip& skip : core::all_skips) {
-    CAPTURE(skip.name);
-    CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 3}}, without(skip))).film_hash == subject.outcome().film_hash);
-    CHECK(outcome_of(run_dataflow(subject, {.computer = {.node_count = 3}}, without(skip))).film_hash ==
-          subject.outcome().film_hash);
-  }
+  check_skips(subject);
 }
 
 TEST_CASE("a picture by paths that was stopped goes on to the film of one run, by another strategy") {
   const Subject subject(shining(), size_of(under_sky(), 3), {.emitters_max = 1024});
-  std::optional<core::PartialPicture> kept;
-  std::stop_source stop;
-  bool asked = false;  // with the first light: of small pictures little comes
-  const core::Continuation continuation{nullptr, [&] { return !std::exchange(asked, true); },
-                                        [&](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
-                                          kept.emplace(core::partial_picture(film, pass, done));
-                                          stop.request_stop();
-                                        }};
-  svm::run_svm(subject.database(), subject.settings(), {.computer = {.node_count = 3}, .continuation = continuation},
-               stop.get_token());
-  REQUIRE(kept);
-  REQUIRE(kept->done.count() > 0);
-  const core::Continuation rest{&*kept, [] { return false; }, {}};
-  CHECK(run_svm(subject, {.computer = {.node_count = 2}, .continuation = rest}).film.hash() == subject.outcome().film_hash);
-  CHECK(run_dataflow(subject, {.computer = {.node_count = 2}, .continuation = rest}).film.hash() == subject.outcome().film_hash);
+  check_going_on(subject);
 }
 
 TEST_CASE("a picture by paths that is refined is one by every strategy, under chaos, too") {

@@ -2,19 +2,15 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
-#include <optional>
-#include <stop_token>
-#include <utility>
 
-#include "core/picture/partial_picture.h"
 #include "core/record/sky.h"
 #include "nodes/chaos.h"
 #include "tests/support/faceted_surfaces.h"
 #include "tests/support/mesh_surfaces.h"
+#include "tests/support/one_film.h"
 #include "tests/support/scaled.h"
 #include "tests/support/sky_pictures.h"
 #include "tests/support/small_scenes.h"
-#include "tests/support/strategies.h"
 #include "tests/support/subject.h"
 
 namespace dmpc::tests::sky_picture_test {
@@ -48,22 +44,6 @@ core::Scene much_of_all() {
   return below_picture(scene);
 }
 
-/// By svm with room for much and for one page, by dataflow with much and with the least.
-void check_strategies(const Subject& subject, const std::optional<nodes::Chaos>& chaos = {}) {
-  for (const std::uint32_t nodes : {1U, 3U, 16U}) {
-    CAPTURE(nodes);
-    const nodes::ComputerRequest computer{.node_count = nodes, .chaos = chaos};
-    CHECK(outcome_of(run_replicated(subject, {.computer = computer})) == subject.outcome());
-    CHECK(outcome_of(run_svm(subject, {.computer = computer})) == subject.outcome());
-    CHECK(outcome_of(run_svm(subject, {.computer = computer, .pages = {.cache_pages = 1, .in_flight = 1}})) == subject.outcome());
-    CHECK(outcome_of(run_svm(subject, {.computer = computer, .pages = {.cache_pages = 1, .in_flight = 40}})) ==
-          subject.outcome());
-    CHECK(outcome_of(run_dataflow(subject, {.computer = computer})) == subject.outcome());
-    const dataflow::RayOptions least{.ray_batch = 1, .ray_credits = nodes % 2, .queue_packets = 0};
-    CHECK(outcome_of(run_dataflow(subject, {.computer = computer, .rays = least})) == subject.outcome());
-  }
-}
-
 core::BuildOptions options_of(std::size_t page_bytes, core::Structure structure = core::Structure::grid) {
   return {.page_size_bytes = page_bytes, .structure = structure, .emitters_max = 1024, .for_paths = true};
 }
@@ -95,12 +75,7 @@ TEST_CASE("below a sky's picture paths give one film under chaos, and whatever i
     CAPTURE(seed);
     check_strategies(subject, nodes::chaos_of(seed));
   }
-  for (const core::Skip& skip : core::all_skips) {
-    CAPTURE(skip.name);
-    CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 3}}, without(skip))).film_hash == subject.outcome().film_hash);
-    CHECK(outcome_of(run_dataflow(subject, {.computer = {.node_count = 3}}, without(skip))).film_hash ==
-          subject.outcome().film_hash);
-  }
+  check_skips(subject);
 }
 
 TEST_CASE("paths of 253 bounces below a sky's picture, and of none, give one film, as does one that nothing but the eye sees") {
@@ -117,21 +92,7 @@ TEST_CASE("paths of 253 bounces below a sky's picture, and of none, give one fil
 
 TEST_CASE("a film below a sky's picture that was stopped goes on to that of one run, by another strategy") {
   const Subject subject(much_of_all(), size_of(3), options_of(1024));
-  std::optional<core::PartialPicture> kept;
-  std::stop_source stop;
-  bool asked = false;  // with the first light: of small pictures little comes
-  const core::Continuation continuation{nullptr, [&] { return !std::exchange(asked, true); },
-                                        [&](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
-                                          kept.emplace(core::partial_picture(film, pass, done));
-                                          stop.request_stop();
-                                        }};
-  svm::run_svm(subject.database(), subject.settings(), {.computer = {.node_count = 3}, .continuation = continuation},
-               stop.get_token());
-  REQUIRE(kept);
-  REQUIRE(kept->done.count() > 0);
-  const core::Continuation rest{&*kept, [] { return false; }, {}};
-  CHECK(run_svm(subject, {.computer = {.node_count = 2}, .continuation = rest}).film.hash() == subject.outcome().film_hash);
-  CHECK(run_dataflow(subject, {.computer = {.node_count = 2}, .continuation = rest}).film.hash() == subject.outcome().film_hash);
+  check_going_on(subject);
 }
 
 TEST_CASE("a film below a sky's picture that is refined is one by every strategy") {

@@ -104,10 +104,12 @@ PlacedFile Statements::read(const std::optional<Resolution>& size) {
   const Camera camera = camera_.value_or(Camera{});
   const bool is_turned = sees_left_handed(camera);
   const Transform turn = is_turned ? scaling(Vec3d{-1, 1, 1}) : Transform{};
-  notes_.count("scenes in left-handed coordinates, shown with x turned round", is_turned ? 1 : 0);
   file_.view = view_of(camera, film_, size, turn);
   turn_round(turn);
   file_.coordinate_rounding = float_rounding;
+  if (is_turned) {
+    file_.notes.emplace_back("the scene's coordinates are left-handed: x is turned round");
+  }
   notes_.add_to(file_.notes);
   return std::move(file_);
 }

@@ -17,7 +17,16 @@ namespace {
 
 const std::string nff_view = "v\nfrom 0 0 9\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0\nresolution 8 8\n";
 
-/// On stderr, when a scene file of this text is loaded with these lights of the command line, or by this transport.
+/// On stderr, when the scene is loaded.
+std::string said_of(const PictureOptions& picture) {
+  std::ostringstream said;
+  std::streambuf* const usual = std::cerr.rdbuf(said.rdbuf());
+  load_scene(picture);
+  std::cerr.rdbuf(usual);
+  return said.str();
+}
+
+/// Of an NFF file of this text, with these lights of the command line, or by this transport.
 std::string said_of(const std::string& text, const std::vector<core::PointLight>& lights = {},
                     const TransportOptions& transport = {}) {
   const tests::TemporaryFolder folder;
@@ -25,11 +34,7 @@ std::string said_of(const std::string& text, const std::vector<core::PointLight>
   PictureOptions picture{.scene = folder / "a.nff"};
   picture.staging.lights = lights;
   picture.transport = transport;
-  std::ostringstream said;
-  std::streambuf* const usual = std::cerr.rdbuf(said.rdbuf());
-  load_scene(picture);
-  std::cerr.rdbuf(usual);
-  return said.str();
+  return said_of(picture);
 }
 
 }  // namespace
@@ -53,6 +58,17 @@ TEST_CASE("by paths a sky lights a scene, and occlusion needs no light") {
   CHECK(said_of(sphere, {}, paths).empty());
   paths = {.kind = core::TransportKind::paths, .occlusion = 1};
   CHECK(said_of(sphere, {}, paths).empty());
+}
+
+TEST_CASE("of a scene that has no light but what shines by itself it is said which transport shows what that lights") {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "a.pbrt",
+                    "LookAt 0 0 5 0 0 0 0 1 0\nCamera \"perspective\"\nWorldBegin\nAttributeBegin\n"
+                    "AreaLightSource \"diffuse\" \"rgb L\" [4 4 4]\nShape \"sphere\"\nAttributeEnd\n");
+  PictureOptions picture{.scene = folder / "a.pbrt"};
+  CHECK(tests::contains(said_of(picture), "what shines by itself, which lights other things by --transport=paths alone"));
+  picture.transport.kind = core::TransportKind::paths;
+  CHECK(!tests::contains(said_of(picture), "no light"));
 }
 
 TEST_CASE("lights that no radius makes larger are said") {
