@@ -9,6 +9,7 @@
 #include "apps/edge/system/digest.h"
 #include "apps/picture/film_image.h"
 #include "apps/run/render_record.h"
+#include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps {
 
@@ -50,6 +51,22 @@ std::string objects_text(const core::Scene& scene) {
   add_all(digest, scene.corners);
   add_all(digest, scene.spheres);
   add_all(digest, scene.cones);
+  return text_of(digest);
+}
+
+/// What is decided of meshes by themselves, and so does not follow from the objects (core/scene/kept_meshes.h).
+std::string meshes_text(const core::KeptMeshes& kept) {
+  Digest digest;
+  for (const core::Scene& mesh : kept.meshes) {
+    digest.add(objects_text(mesh));
+  }
+  for (const core::KeptPlace& place : kept.places) {
+    for (const core::Vec3d& row : place.world.rows) {
+      add(digest, row);
+    }
+    add(digest, place.world.shift);
+    digest.add(std::uint64_t{place.mesh} << 32U | place.first);
+  }
   return text_of(digest);
 }
 
@@ -212,6 +229,9 @@ PictureIdentity identity_of(const RenderOptions& options, const core::Scene& sce
            {"convention", picture.convention == core::Convention::haines ? "haines" : "paper"},
            {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
            {"grid-axes", name_of(options.database.axes)}};
+  if (scene.kept != nullptr) {
+    facts.push_back({"meshes in several places", meshes_text(*scene.kept)});  // judged where they stand before there was this
+  }
   add_samples(facts, picture);
   add_transport(facts, picture.transport, scene);
   if (picture.transport.is_by_paths() && has_microfacets(scene)) {
@@ -237,6 +257,9 @@ std::uint64_t scene_digest(const core::Scene& scene) {
   for (const std::string& text :
        {objects_text(scene), materials_text(scene), textures_text(scene), lights_text(scene), view_text(scene.view)}) {
     digest.add(text);
+  }
+  if (scene.kept != nullptr) {
+    digest.add(meshes_text(*scene.kept));
   }
   if (scene.sky.is_there()) {
     digest.add(sky_text(scene.sky));

@@ -7,6 +7,7 @@
 
 #include "core/base/altitude.h"
 #include "core/base/box.h"
+#include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/database/overlap.h"
 #include "core/record/cone_floats.h"
@@ -14,6 +15,8 @@
 #include "core/record/curved_values.h"
 #include "core/record/passing_surface.h"
 #include "core/scene/frame.h"
+#include "core/scene/kept_meshes.h"
+#include "core/scene/placing.h"
 #include "core/scene/triangulate.h"
 
 namespace dmpc::core {
@@ -157,7 +160,8 @@ Vec3f unit_normal(const Vec3d& normal) {
 /// Appends some objects of a scene to a conversion.
 class Converter {
  public:
-  Converter(const Scene& scene, const GridFrame& frame, Conversion& result) : scene_(scene), frame_(frame), result_(result) {}
+  Converter(const Scene& scene, const GridFrame& frame, bool keeps_corners, Conversion& result)
+      : scene_(scene), frame_(frame), keeps_corners_(keeps_corners), result_(result) {}
 
   void add_object(std::uint32_t index) {
     const Object& object = scene_.objects[index];
@@ -170,6 +174,22 @@ class Converter {
         return add_sphere(index, object, scene_.spheres[object.first]);
       case ObjectKind::cone:
         return add_cone(index, object, scene_.cones[object.first]);
+    }
+  }
+  /// A triangle of a mesh's copy. `plane`: PrimitiveValues::plane().
+  void add_copy(const MeshTriangle& triangle, std::uint32_t first, bool is_mirrored, std::uint32_t plane) {
+    const std::uint32_t index = first + triangle.object;
+    const Object& object = scene_.objects[index];
+    const auto vertices = std::span(scene_.vertices).subspan(object.first, object.vertex_count);
+    const auto corners = placed_triangle(is_mirrored, object.vertex_count, triangle.corner);
+    if (!std::all_of(corners.begin(), corners.end(), [&](std::uint32_t i) { return usable(vertices[i]); })) {
+      ++result_.dropped;
+      return;
+    }
+    const std::size_t before = result_.primitives.size();
+    add_triangle(index, object, vertices, corners);
+    if (result_.primitives.size() > before) {
+      result_.primitives.back().lie_in(plane);
     }
   }
 
@@ -220,6 +240,9 @@ class Converter {
     }
     if (object.kind == ObjectKind::textured && !degenerate) {
       add_texture(object, corners);
+    }
+    if (keeps_corners_ && !degenerate) {
+      result_.corners.push_back(corners);
     }
     const std::array<Vec3d, 3> corner{vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]};
     add(triangle, index, degenerate, object.material, corner[0], [&] {
@@ -297,7 +320,106 @@ class Converter {
 
   const Scene& scene_;
   const GridFrame& frame_;
+  bool keeps_corners_;
   Conversion& result_;
+};
+
+/// What is converted one by one: objects, and in place of the copies of a mesh its triangles.
+class Steps {
+ public:
+  Steps(const Scene& scene, std::span<const MeshFaces> meshes) : scene_(scene), meshes_(meshes) {
+    std::uint32_t next = 0;
+    if (scene.kept != nullptr) {
+      expect(meshes.size() == scene.kept->meshes.size(), "each kept mesh has been judged");
+      for (const KeptPlace& place : scene.kept->places) {
+        add_objects(next, place.first);
+        runs_.push_back({count_, place.first, &place, {}});
+        count_ += meshes[place.mesh].triangles.size();
+        next = place.first + static_cast<std::uint32_t>(scene.kept->meshes[place.mesh].objects.size());
+      }
+    }
+    add_objects(next, static_cast<std::uint32_t>(scene.objects.size()));
+  }
+
+  std::size_t size() const { return count_; }
+
+  /// What places have beside their triangles.
+  void add_planes(const GridFrame& frame, Conversion& all) {
+    for (Run& run : runs_) {
+      if (run.place != nullptr) {
+        const MeshFaces& faces = meshes_[run.place->mesh];
+        const Placing placing(run.place->world, frame);
+        for (const MeshPlane& plane : faces.planes) {
+          run.planes.push_back(number_of(plane, placing, all.planes));
+        }
+        add_reports(faces, placing, all);
+      }
+    }
+  }
+
+  void convert(std::size_t begin, std::size_t end, Converter& converter) const {
+    auto run =
+        std::upper_bound(runs_.begin(), runs_.end(), begin, [](std::size_t step, const Run& one) { return step < one.begin; });
+    for (std::size_t step = begin; step < end; ++step) {
+      while (run != runs_.end() && run->begin <= step) {
+        ++run;
+      }
+      add(*(run - 1), step - (run - 1)->begin, converter);
+    }
+  }
+
+ private:
+  /// Steps from `begin` on: objects from `first` on, or the triangles of a place.
+  struct Run {
+    std::size_t begin;
+    std::uint32_t first;
+    const KeptPlace* place;
+    std::vector<std::uint32_t> planes;  ///< by the mesh's: PrimitiveValues::plane()
+  };
+
+  void add_objects(std::uint32_t first, std::uint32_t end) {
+    if (first < end) {
+      runs_.push_back({count_, first, nullptr, {}});
+      count_ += end - first;
+    }
+  }
+  static std::uint32_t number_of(const MeshPlane& plane, const Placing& placing, std::vector<KeptPlane>& planes) {
+    if (placing.stays_level(plane)) {
+      return PrimitiveValues::level_plane;
+    }
+    const auto placed = placing.plane(plane);
+    if (!placed) {
+      return 0;
+    }
+    planes.push_back({*placed, plane.kept_as});
+    return static_cast<std::uint32_t>(planes.size());
+  }
+  static void add_reports(const MeshFaces& faces, const Placing& placing, Conversion& all) {
+    const auto unit = static_cast<float>(placing.size_of_unit());
+    const auto placed = [&](const Vec3f& place) { return Vec3f(placing.corner(Vec3d(place))); };
+    for (const CollapsedPrimitive& one : faces.collapsed) {
+      all.collapsed.push_back({placed(one.place), one.size * unit});
+    }
+    for (const CloseFaces& one : faces.close_faces) {
+      all.close_faces.push_back({placed(one.place), one.size * unit, one.least * unit, one.most * unit, one.layers});
+    }
+    all.dropped += faces.dropped;
+    all.duplicates += faces.duplicates;
+    all.shared_planes += faces.shared_planes;
+  }
+  void add(const Run& run, std::size_t step, Converter& converter) const {
+    if (run.place == nullptr) {
+      return converter.add_object(run.first + static_cast<std::uint32_t>(step));
+    }
+    const MeshTriangle& triangle = meshes_[run.place->mesh].triangles[step];
+    converter.add_copy(triangle, run.first, run.place->world.determinant() < 0,
+                       triangle.plane == 0 ? 0 : run.planes[triangle.plane - 1]);
+  }
+
+  const Scene& scene_;
+  std::span<const MeshFaces> meshes_;
+  std::vector<Run> runs_;
+  std::size_t count_ = 0;
 };
 
 Box bounds_of_vertices(const std::vector<Vec3d>& vertices, const GridAxes& axes, const Parallel& parallel) {
@@ -339,6 +461,7 @@ void append(Conversion& all, const Conversion& more) {
   append(all.sources, more.sources);
   append(all.collapsed, more.collapsed);
   append(all.shading, more.shading);
+  append(all.corners, more.corners);
   for (const Conversion::Smooth& smooth : more.smooth) {
     all.smooth.push_back({before + smooth.primitive, smooth.normals});
   }
@@ -353,6 +476,7 @@ void clear(Conversion& conversion) {
   conversion.primitives.clear();
   conversion.sources.clear();
   conversion.shading.clear();
+  conversion.corners.clear();
   conversion.smooth.clear();
   conversion.textured.clear();
   conversion.collapsed.clear();
@@ -380,22 +504,21 @@ Box bounds_of(const Scene& scene, const GridAxes& axes, const Parallel& parallel
   return box;
 }
 
-Conversion convert(const Scene& scene, const GridFrame& frame, const Parallel& parallel) {
+Conversion convert(const Scene& scene, const GridFrame& frame, const Parallel& parallel, const ConversionWishes& wishes) {
   Conversion all;
+  Steps steps(scene, wishes.meshes);
+  steps.add_planes(frame, all);
   const std::size_t count = primitive_count_max(scene);
   all.primitives.reserve(count);
   all.sources.reserve(count);
   all.shading.reserve(count);
   std::vector<Conversion> chunks(chunks_together);
-  const std::size_t objects_together = chunk_size * chunks_together;
-  for (std::size_t first = 0; first < scene.objects.size(); first += objects_together) {
+  for (std::size_t first = 0; first < steps.size(); first += chunk_size * chunks_together) {
     parallel.for_each(chunks.size(), [&](std::size_t chunk) {
       clear(chunks[chunk]);
-      Converter converter(scene, frame, chunks[chunk]);
+      Converter converter(scene, frame, wishes.keeps_corners, chunks[chunk]);
       const std::size_t begin = first + chunk * chunk_size;
-      for (std::size_t object = begin; object < std::min(begin + chunk_size, scene.objects.size()); ++object) {
-        converter.add_object(static_cast<std::uint32_t>(object));
-      }
+      steps.convert(begin, std::min(begin + chunk_size, steps.size()), converter);
     });
     for (const Conversion& chunk : chunks) {
       append(all, chunk);
@@ -420,6 +543,9 @@ void rearrange(Conversion& conversion, const std::vector<std::uint32_t>& from) {
   taken(conversion.primitives);
   taken(conversion.sources);
   taken(conversion.shading);
+  if (!conversion.corners.empty()) {
+    taken(conversion.corners);
+  }
   const auto follow = [&](auto& list) {
     for (auto& item : list) {
       item.primitive = to[item.primitive];

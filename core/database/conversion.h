@@ -1,11 +1,14 @@
 // A scene's objects as the primitives that records hold.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/box.h"
 #include "core/database/database.h"
+#include "core/database/mesh_faces.h"
 #include "core/database/parallel.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
@@ -29,11 +32,13 @@ struct Conversion {
   std::vector<PrimitiveValues> primitives;
   std::vector<PrimitiveSource> sources;
   std::vector<ShadingReference> shading;  ///< that of flat ones
+  /// Where it was asked for: of triangles which corners of their objects they have.
+  std::vector<std::array<std::uint32_t, 3>> corners;
   std::vector<Smooth> smooth;
   std::vector<Textured> textured;
   std::vector<CollapsedPrimitive> collapsed;  ///< of those, what was not degenerate before it was rounded
   std::uint32_t dropped = 0;                  ///< degenerate: zero area or length, radius 0, not finite
-  // What settle_coplanar() adds, and drop_twins():
+  // What places of meshes bring along, and settle_coplanar() and drop_twins() add:
   std::vector<KeptPlane> planes;    ///< by PrimitiveValues::plane() - 1
   std::uint32_t shared_planes = 0;  ///< in all: `planes`, and those that a coordinate tells
   std::uint32_t duplicates = 0;     ///< triangles left out
@@ -43,8 +48,14 @@ struct Conversion {
 /// The bounds of what is finite in the scene, in the directions of `axes`.
 Box bounds_of(const Scene& scene, const GridAxes& axes, const Parallel& parallel);
 
-/// Triangulates and brings all into the grid's coordinates. The same whatever the number of threads.
-Conversion convert(const Scene& scene, const GridFrame& frame, const Parallel& parallel);
+struct ConversionWishes {
+  std::span<const MeshFaces> meshes = {};  ///< of Scene::kept, all of them
+  bool keeps_corners = false;              ///< of a scene that keeps no meshes
+};
+
+/// Triangulates and brings all into the grid's coordinates. A place of a kept mesh has that one's triangles, in its order, but
+/// for those of which rounding leaves nothing here, and its planes. The same whatever the number of threads.
+Conversion convert(const Scene& scene, const GridFrame& frame, const Parallel& parallel, const ConversionWishes& wishes = {});
 
 /// Gives primitives other places: at `i` comes what is at `from[i]`, which may be shorter than the lists.
 void rearrange(Conversion& conversion, const std::vector<std::uint32_t>& from);

@@ -13,6 +13,7 @@
 #include "core/database/plane_buckets.h"
 #include "core/database/twins.h"
 #include "core/scene/frame.h"
+#include "core/scene/kept_meshes.h"
 
 namespace dmpc::core {
 namespace {
@@ -74,14 +75,15 @@ bool is_smooth(const Conversion& conversion, const Face& face) {
   return found != conversion.smooth.end() && found->primitive == face.id;
 }
 
-/// Those of a top cell.
+/// Those of a top cell, but for copies of a mesh, which has been judged by itself.
 CoveringPairs covering_pairs(const Exactly& exactly, std::span<const std::uint32_t> ids) {
   const Conversion& conversion = exactly.conversion;
   std::vector<Face> faces;
   faces.reserve(ids.size());
   for (const std::uint32_t id : ids) {
-    if (conversion.primitives[id].kind == PrimitiveKind::triangle) {
-      faces.emplace_back(conversion.primitives[id], id, conversion.sources[id].object);
+    const std::uint32_t object = conversion.sources[id].object;
+    if (conversion.primitives[id].kind == PrimitiveKind::triangle && place_of(exactly.scene, object) == nullptr) {
+      faces.emplace_back(conversion.primitives[id], id, object);
     }
   }
   CoveringPairs pairs;
@@ -367,7 +369,7 @@ class Settler {
   void finish() {
     std::sort(duplicates_.begin(), duplicates_.end());
     std::erase_if(from_, [&](std::uint32_t id) { return std::binary_search(duplicates_.begin(), duplicates_.end(), id); });
-    conversion_.shared_planes = planes_.level_count() + planes_.count() + stacked_shared_;
+    conversion_.shared_planes += planes_.level_count() + planes_.count() + stacked_shared_;
     conversion_.duplicates += static_cast<std::uint32_t>(duplicates_.size());
     rearrange(conversion_, from_);
   }

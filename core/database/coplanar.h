@@ -27,6 +27,8 @@ namespace dmpc::core {
 /// Where very many lie in a plane, those are taken to cover each other, and where in very many planes next to each other, those
 /// for which there is no time are said to be in no order (Conversion::close_faces). Takes time in proportion to the triangles.
 ///
+/// Copies of kept meshes are not looked at: they come with the planes that they have in their mesh (core/database/mesh_faces.h).
+///
 /// `cells` lists the triangles of `scene`, which still has its objects. Returns whether there are any: then ids are others.
 bool settle_coplanar(Conversion& conversion, const TopCells& cells, const Scene& scene, const GridFrame& frame,
                      const Parallel& parallel);

@@ -14,6 +14,7 @@
 #include "core/database/emitters.h"
 #include "core/database/empty_space.h"
 #include "core/database/material_records.h"
+#include "core/database/mesh_faces.h"
 #include "core/database/parallel.h"
 #include "core/database/record_writer.h"
 #include "core/database/sky_records.h"
@@ -39,6 +40,7 @@ void forget_objects(Scene& scene) {
   forget(scene.spheres);
   forget(scene.cones);
   forget(scene.corners);
+  scene.kept.reset();
 }
 
 void forget_texels(Scene& scene) {
@@ -70,7 +72,9 @@ class DatabaseBuilder {
 
   Database build() {
     fit();
-    conversion_ = convert(scene_, header().frame, parallel_);
+    const std::vector<MeshFaces> meshes = faces_of_meshes(scene_, options_.cells_per_primitive, parallel_);
+    conversion_ = convert(scene_, header().frame, parallel_, {.meshes = meshes});
+    set_pad();  // places of meshes may have brought layers
     TopCells cells = sort_into_top_cells();
     if (settle_coplanar(conversion_, cells, scene_, header().frame, parallel_)) {
       set_pad();                      // there are layers now
@@ -192,11 +196,7 @@ class DatabaseBuilder {
   }
 
   void coarsen() {
-    GridFrame& frame = header().frame;
-    for (std::int32_t& cells : frame.resolution) {
-      cells = ceil_divide(cells, 2);
-    }
-    frame.finest_cell *= 2;
+    core::coarsen(header().frame);
     set_pad();
   }
 

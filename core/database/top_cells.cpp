@@ -21,6 +21,13 @@ constexpr std::int64_t cells_one_by_one = 16;
 
 }  // namespace
 
+void coarsen(GridFrame& frame) {
+  for (std::int32_t& cells : frame.resolution) {
+    cells = ceil_divide(cells, 2);
+  }
+  frame.finest_cell *= 2;
+}
+
 class TopCells::Lister {
  public:
   Lister(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad, bool lists_boxes = false)

@@ -12,6 +12,9 @@
 
 namespace dmpc::core {
 
+/// Makes cells twice as large, for where the lists of a frame's would be long.
+void coarsen(GridFrame& frame);
+
 /// A list for every occupied top cell, the cells in Morton order; of voxels, if so asked for, in that of their directory.
 class TopCells {
  public:

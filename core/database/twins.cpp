@@ -8,6 +8,7 @@
 
 #include "core/database/exact_corners.h"
 #include "core/database/face.h"
+#include "core/scene/kept_meshes.h"
 
 namespace dmpc::core {
 namespace {
@@ -87,7 +88,7 @@ SortedCorners sorted_corners(const PrimitiveValues& triangle) {
 bool drop_twins(Conversion& conversion, const Scene& scene, const GridFrame& frame) {
   std::vector<Twin> triangles;
   for (std::uint32_t id = 0; id < conversion.primitives.size(); ++id) {
-    if (conversion.primitives[id].kind == PrimitiveKind::triangle) {
+    if (conversion.primitives[id].kind == PrimitiveKind::triangle && place_of(scene, conversion.sources[id].object) == nullptr) {
       const bool transmits = scene.materials[conversion.shading[id].material()].lets_through();
       triangles.push_back({sorted_corners(conversion.primitives[id]), transmits, id});
     }

@@ -1,12 +1,15 @@
 #include "core/scene/instances.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 
 #include "core/base/expect.h"
 #include "core/scene/face_normals.h"
+#include "core/scene/kept_meshes.h"
 
 namespace dmpc::core {
 namespace {
@@ -38,17 +41,77 @@ void check(const ExpandedSize& size) {
   }
 }
 
-/// What an instance does to every object of its mesh.
-struct Placing {
-  explicit Placing(const Transform& to_world)
-      : world(to_world), normals(to_world.of_normals()), determinant(to_world.determinant()) {}
+constexpr std::uint32_t nowhere = 0xffffffffU;
 
+/// What an instance does to every object of its mesh, which is kept as one of KeptMeshes::meshes or not at all.
+struct Placing {
+  Placing(const Transform& to_world, std::uint32_t kept)
+      : world(to_world), normals(to_world.of_normals()), determinant(to_world.determinant()), kept_as(kept) {}
+
+  bool is_kept() const { return kept_as != nowhere; }
   /// Which of an object's corners becomes the i-th.
-  std::uint32_t corner(const Object& object, std::uint32_t i) const { return determinant < 0 ? object.vertex_count - 1 - i : i; }
+  std::uint32_t corner(const Object& object, std::uint32_t i) const {
+    return placed_corner(determinant < 0, object.vertex_count, i);
+  }
 
   const Transform& world;
   Transform normals;
   double determinant;
+  std::uint32_t kept_as;
+};
+
+/// Takes a mesh out of a scene by itself, and decides what its normals say: both have none where those are the faces' own.
+class MeshTaker {
+ public:
+  explicit MeshTaker(Scene& scene) : scene_(scene) {}
+
+  Scene take(const SharedMesh& shared) {
+    Scene mesh;
+    mesh.coordinate_rounding = scene_.coordinate_rounding;
+    for (std::uint32_t i = shared.first; i < shared.end; ++i) {
+      Object& object = scene_.objects[i];
+      drop_the_faces_own(object);
+      Object own = object;
+      append(own.first, mesh.vertices, std::span<const Vec3d>(scene_.vertices), object.first, object.vertex_count);
+      if (object.kind == ObjectKind::patch) {
+        append(own.first_normal, mesh.normals, std::span<const Vec3d>(scene_.normals), object.first_normal, object.vertex_count);
+      } else if (object.kind == ObjectKind::textured) {
+        append(own.first_normal, mesh.corners, std::span<const TexturedCorner>(scene_.corners), object.first_normal,
+               object.vertex_count);
+      }
+      mesh.objects.push_back(own);
+    }
+    return mesh;
+  }
+
+ private:
+  template <class T>
+  static void append(std::uint32_t& first, std::vector<T>& pool, std::span<const T> from, std::uint32_t begin,
+                     std::uint32_t count) {
+    first = static_cast<std::uint32_t>(pool.size());
+    const auto some = from.subspan(begin, count);
+    pool.insert(pool.end(), some.begin(), some.end());
+  }
+
+  void drop_the_faces_own(Object& object) const {
+    const auto vertices = std::span(scene_.vertices).subspan(object.first, object.vertex_count);
+    if (object.kind == ObjectKind::patch) {
+      if (are_the_faces_own(std::span(scene_.normals).subspan(object.first_normal, object.vertex_count), vertices)) {
+        object.kind = ObjectKind::polygon;
+        object.first_normal = 0;
+      }
+    } else if (object.kind == ObjectKind::textured) {
+      const auto corners = std::span(scene_.corners).subspan(object.first_normal, object.vertex_count);
+      std::vector<Vec3d> normals;
+      std::transform(corners.begin(), corners.end(), std::back_inserter(normals),
+                     [](const TexturedCorner& corner) { return corner.normal; });
+      if (are_the_faces_own(normals, vertices)) {
+        std::for_each(corners.begin(), corners.end(), [](TexturedCorner& corner) { corner.normal = {}; });
+      }
+    }
+  }
+
+  Scene& scene_;
 };
 
 /// One pool after the other, so that but one is there twice at a time.
@@ -59,23 +122,54 @@ class Expansion {
   void run() {
     const ExpandedSize size = expanded_size(scene_, instances_);
     check(size);
+    keep_meshes();
     old_ = std::exchange(scene_.objects, {});
     scene_.objects.reserve(size.objects);
     expand_vertices(size.vertices);
     expand_shading(size);
     scene_.objects.shrink_to_fit();
+    if (!kept_.places.empty()) {
+      scene_.kept = std::make_shared<const KeptMeshes>(std::move(kept_));
+    }
   }
 
  private:
-  /// Calls `own` with each object that stands where it is, and `placed` with each of an instance's and its Placing, in order.
-  template <class Own, class Placed>
-  void for_each(const Own& own, const Placed& placed) const {
+  /// Those that are large and stand in several places, while they still have all that they need.
+  void keep_meshes() {
+    std::vector<std::uint64_t> uses(instances_.meshes.size());
+    for (const Instance& place : instances_.places) {
+      uses[place.mesh] += can_be_kept(place.world) ? 1 : 0;
+    }
+    kept_as_.assign(instances_.meshes.size(), nowhere);
+    MeshTaker taker(scene_);
+    for (std::size_t i = 0; i < instances_.meshes.size(); ++i) {
+      if (uses[i] > 1 && triangle_count(instances_.meshes[i]) > copied_triangles_max) {
+        kept_as_[i] = static_cast<std::uint32_t>(kept_.meshes.size());
+        kept_.meshes.push_back(taker.take(instances_.meshes[i]));
+      }
+    }
+  }
+  std::uint64_t triangle_count(const SharedMesh& mesh) const {
+    std::uint64_t count = 0;
+    for (std::uint32_t i = mesh.first; i < mesh.end; ++i) {
+      count += scene_.objects[i].vertex_count - std::uint64_t{2};
+    }
+    return count;
+  }
+
+  /// Calls `own` with each object that stands where it is, and `placed` with each of an instance's and its Placing, in order;
+  /// before those of a kept mesh `begun` with that.
+  template <class Begun, class Own, class Placed>
+  void for_each(const Begun& begun, const Own& own, const Placed& placed) const {
     auto place = instances_.places.begin();
     auto mesh = instances_.meshes.begin();
     for (std::size_t i = 0; i <= old_.size();) {
       for (; place != instances_.places.end() && place->before <= i; ++place) {
         const SharedMesh& shared = instances_.meshes[place->mesh];
-        const Placing placing(place->world);
+        const Placing placing(place->world, can_be_kept(place->world) ? kept_as_[place->mesh] : nowhere);
+        if (placing.is_kept()) {
+          begun(placing);
+        }
         for (std::size_t object = shared.first; object < shared.end; ++object) {
           placed(old_[object], placing);
         }
@@ -100,6 +194,9 @@ class Expansion {
       scene_.objects.push_back(object);
     };
     for_each(
+        [&](const Placing& placing) {
+          kept_.places.push_back({placing.world, placing.kept_as, static_cast<std::uint32_t>(scene_.objects.size())});
+        },
         [&](const Object& object) {
           add(object);
           const auto corners = std::span(old).subspan(object.first, object.vertex_count);
@@ -120,23 +217,23 @@ class Expansion {
     scene_.normals.reserve(size.normals);
     scene_.corners.reserve(size.corners);
     std::size_t next = 0;
-    for_each(
-        [&](const Object& object) {
-          Object& result = scene_.objects[next++];
-          if (object.kind == ObjectKind::patch) {
-            append(result, scene_.normals, std::span(normals).subspan(object.first_normal, object.vertex_count));
-          } else if (object.kind == ObjectKind::textured) {
-            append(result, scene_.corners, std::span(corners).subspan(object.first_normal, object.vertex_count));
-          }
-        },
-        [&](const Object& object, const Placing& placing) {
-          Object& result = scene_.objects[next++];
-          if (object.kind == ObjectKind::patch) {
-            place_patch(result, object, placing, normals);
-          } else if (object.kind == ObjectKind::textured) {
-            place_textured(result, object, placing, corners);
-          }
-        });
+    for_each([](const Placing&) {},
+             [&](const Object& object) {
+               Object& result = scene_.objects[next++];
+               if (object.kind == ObjectKind::patch) {
+                 append(result, scene_.normals, std::span(normals).subspan(object.first_normal, object.vertex_count));
+               } else if (object.kind == ObjectKind::textured) {
+                 append(result, scene_.corners, std::span(corners).subspan(object.first_normal, object.vertex_count));
+               }
+             },
+             [&](const Object& object, const Placing& placing) {
+               Object& result = scene_.objects[next++];
+               if (object.kind == ObjectKind::patch) {
+                 place_patch(result, object, placing, normals);
+               } else if (object.kind == ObjectKind::textured) {
+                 place_textured(result, object, placing, corners);
+               }
+             });
   }
 
   template <class T>
@@ -158,7 +255,8 @@ class Expansion {
       is_flat = is_flat && before == Vec3d{};
       placed_.push_back(placing.normals.direction(before));
     }
-    if (is_flat || are_the_faces_own(placed_, std::span(scene_.vertices).subspan(result.first, result.vertex_count))) {
+    if (is_flat || (!placing.is_kept() &&
+                    are_the_faces_own(placed_, std::span(scene_.vertices).subspan(result.first, result.vertex_count)))) {
       placed_.clear();
     }
   }
@@ -185,6 +283,8 @@ class Expansion {
   Scene& scene_;
   const Instances& instances_;
   std::vector<Object> old_;
+  std::vector<std::uint32_t> kept_as_;  ///< by mesh
+  KeptMeshes kept_;
   std::vector<Vec3d> placed_;  ///< the normals of one object
 };
 

@@ -45,7 +45,8 @@ ExpandedSize expanded_size(const Scene& scene, const Instances& instances);
 /// Puts a copy of each mesh in each of its places, where the file's order has it, and takes the meshes themselves away. Corners
 /// are placed in double; normals by the inverse transpose; a mirror's faces are turned back; what is pressed flat has the normals
 /// of its plane, and so has a face whose normals say no more than that (core/scene/face_normals.h). All pools are in the order
-/// of the objects. Throws RoomError if they outgrow 32 bits.
+/// of the objects. Of meshes that are large and stand in several places it leaves what is decided of them by themselves in
+/// Scene::kept. Throws RoomError if pools outgrow 32 bits.
 void expand(Scene& scene, const Instances& instances);
 
 }  // namespace dmpc::core

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -126,6 +127,8 @@ struct Object {
   std::uint32_t first_normal = 0;
 };
 
+struct KeptMeshes;
+
 struct Scene {
   std::string name;  ///< the file's path or the built-in name, for messages
   View view;
@@ -145,6 +148,9 @@ struct Scene {
   /// What the file's coordinates have lost of those that were meant, as a share of them: 0x1p-25 where it keeps them in single
   /// precision. So much does not tell two planes apart.
   double coordinate_rounding = 0;
+  /// Which of the objects are copies of meshes that stand in several places (core/scene/kept_meshes.h); null if none are. Copies
+  /// of a scene have it in common.
+  std::shared_ptr<const KeptMeshes> kept;
 };
 
 /// What a light of the scene shines with. One without a colour shines with 1 / sqrt(number of lights): twice Haines' suggestion,

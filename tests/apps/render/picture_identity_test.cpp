@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/instances.h"
+#include "core/scene/kept_meshes.h"
 #include "tests/support/faceted_surfaces.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/text.h"
@@ -81,6 +83,19 @@ TEST_CASE("a picture that is refined has an error and a bound more") {
                    options.picture.refinement.kind = core::ErrorKind::noise;
                  }),
                  "estimate of noise is by former changes, too, here there is none"));
+}
+
+TEST_CASE("a scene with meshes in several places is told from one in which all that was judged where it stands") {
+  core::Scene scene;
+  core::SceneBuilder builder(scene);
+  for (int i = 0; i < 65; ++i) {
+    builder.polygon({{i * 1.0, 0, 0}, {i + 1.0, 0, 0}, {i * 1.0, 1, 0}});
+  }
+  core::expand(scene, {.meshes = {{0, 65}}, .places = {{{}, 0, 65}, {{.shift = {0, 0, 1}}, 0, 65}}});
+  core::Scene before = scene;
+  before.kept.reset();
+  CHECK(contains(difference_text(identity_of({}, before).facts, identity_of({}, scene).facts), "no meshes in several places"));
+  CHECK(scene_digest(scene) != scene_digest(before));
 }
 
 TEST_CASE("a picture by paths is told from Whitted's, which has the facts that it had before there were paths") {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/base/expect.h"
-#include "core/scene/triangulate.h"
+#include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps {
 namespace {
@@ -63,7 +63,7 @@ void add_corners(AccurateScene& to, const core::Scene& scene, const core::Object
 
 void add_polygon(AccurateScene& to, const core::Scene& scene, const core::Object& object, AccurateBody body) {
   const auto vertices = std::span(scene.vertices).subspan(object.first, object.vertex_count);
-  for (const auto& corners : core::triangulate(vertices)) {
+  for (const auto& corners : core::triangles_of(scene, body.object)) {
     body.corner = corners;
     for (std::size_t k = 0; k < 3; ++k) {
       body.place[k] = vertices[corners[k]];

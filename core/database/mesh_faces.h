@@ -1,0 +1,40 @@
+// The triangles of a mesh that stands in several places, as all of these have them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/database/database.h"
+#include "core/database/parallel.h"
+#include "core/scene/placing.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::core {
+
+struct MeshTriangle {
+  std::uint32_t object = 0;               ///< of the mesh's
+  std::array<std::uint32_t, 3> corner{};  ///< which of that object's
+  std::uint32_t plane = 0;                ///< which of MeshFaces::planes it shares, from 1 on; 0: none
+};
+
+/// Of a mesh by itself: what settle_coplanar() makes of it.
+struct MeshFaces {
+  std::vector<MeshTriangle> triangles;  ///< in the order of their ids
+  std::vector<MeshPlane> planes;
+  // What its places count for and report, in the mesh's coordinates:
+  std::vector<CollapsedPrimitive> collapsed;
+  std::vector<CloseFaces> close_faces;
+  std::uint32_t dropped = 0, duplicates = 0, shared_planes = 0;
+};
+
+/// Judges a mesh in a grid of its own, as if it were a scene, so that nothing depends on where it stands. `materials`: what its
+/// objects' indices are of.
+MeshFaces faces_of_mesh(const Scene& mesh, std::span<const Material> materials, double cells_per_primitive,
+                        const Parallel& parallel);
+
+/// Of all that are kept, in their order.
+std::vector<MeshFaces> faces_of_meshes(const Scene& scene, double cells_per_primitive, const Parallel& parallel);
+
+}  // namespace dmpc::core

@@ -1,0 +1,64 @@
+#include "core/scene/kept_meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "core/scene/triangulate.h"
+
+namespace dmpc::core {
+namespace {
+
+std::span<const Vec3d> vertices_of(const Scene& scene, const Object& object) {
+  return std::span(scene.vertices).subspan(object.first, object.vertex_count);
+}
+
+}  // namespace
+
+bool can_be_kept(const Transform& world) {
+  // Placed normals are off by what doubles round off products of two of the rows, beside the volume of what the three span.
+  constexpr double share_least = 0x1p-24, size_least = 0x1p-200, size_max = 0x1p200;
+  double square = 0;
+  for (const Vec3d& row : world.rows) {
+    square += dot(row, row);
+  }
+  const double size = std::sqrt(square);
+  return size > size_least && size < size_max && std::fabs(world.determinant()) >= share_least * size * size * size;
+}
+
+const KeptPlace* place_of(const Scene& scene, std::uint32_t object) {
+  if (scene.kept == nullptr) {
+    return nullptr;
+  }
+  const auto& [meshes, places] = *scene.kept;
+  const auto behind = std::upper_bound(places.begin(), places.end(), object,
+                                       [](std::uint32_t index, const KeptPlace& place) { return index < place.first; });
+  if (behind == places.begin()) {
+    return nullptr;
+  }
+  const KeptPlace& place = *(behind - 1);
+  return object - place.first < meshes[place.mesh].objects.size() ? &place : nullptr;
+}
+
+std::array<std::uint32_t, 3> placed_triangle(bool is_mirrored, std::uint32_t corner_count,
+                                             const std::array<std::uint32_t, 3>& corners) {
+  const auto placed = [&](std::size_t i) { return placed_corner(is_mirrored, corner_count, corners[i]); };
+  return is_mirrored ? std::array{placed(2), placed(1), placed(0)} : corners;
+}
+
+std::vector<std::array<std::uint32_t, 3>> triangles_of(const Scene& scene, std::uint32_t object) {
+  const Object& copy = scene.objects[object];
+  const KeptPlace* const place = place_of(scene, object);
+  if (place == nullptr) {
+    return triangulate(vertices_of(scene, copy));
+  }
+  const Scene& mesh = scene.kept->meshes[place->mesh];
+  auto triangles = triangulate(vertices_of(mesh, mesh.objects[object - place->first]));
+  for (auto& corners : triangles) {
+    corners = placed_triangle(place->world.determinant() < 0, copy.vertex_count, corners);
+  }
+  return triangles;
+}
+
+}  // namespace dmpc::core

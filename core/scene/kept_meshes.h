@@ -1,0 +1,49 @@
+// Meshes of a scene that stand in several places of it, as they are by themselves.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "core/scene/transform.h"
+
+namespace dmpc::core {
+
+/// A copy of a mesh in Scene::objects.
+struct KeptPlace {
+  Transform world;          ///< from the mesh's coordinates
+  std::uint32_t mesh = 0;   ///< index into KeptMeshes::meshes
+  std::uint32_t first = 0;  ///< the copy's first object: as many come as the mesh has, in its order
+};
+
+/// What is decided of a mesh, and not of each of its places: how its polygons are divided, what its normals say, and which of its
+/// faces lie in one plane. So it looks alike wherever it stands and however large it is there, and whether its places are copies
+/// or not. Across places nobody looks for faces in one plane, nor between a place and the rest of the scene.
+struct KeptMeshes {
+  std::vector<Scene> meshes;      ///< objects and their pools alone, in coordinates of their own; materials are the scene's
+  std::vector<KeptPlace> places;  ///< by `first`, ascending
+};
+
+/// A mesh of no more triangles is copied and then forgotten, as one that stands in one place is.
+inline constexpr std::uint64_t copied_triangles_max = 64;
+
+/// Whether a place may have a mesh that is decided on elsewhere: one that presses it flat, or all but flat, may not, nor one that
+/// takes it where doubles end.
+bool can_be_kept(const Transform& world);
+
+/// The place that an object is of; null if it is of none.
+const KeptPlace* place_of(const Scene& scene, std::uint32_t object);
+
+/// The i-th corner of a copy is this one of the mesh's polygon, and the reverse: mirrors turn faces back.
+constexpr std::uint32_t placed_corner(bool is_mirrored, std::uint32_t corner_count, std::uint32_t i) {
+  return is_mirrored ? corner_count - 1 - i : i;
+}
+/// The same of a triangle's three.
+std::array<std::uint32_t, 3> placed_triangle(bool is_mirrored, std::uint32_t corner_count,
+                                             const std::array<std::uint32_t, 3>& corners);
+
+/// triangulate() of an object's corners or, if it is a copy, of its mesh's.
+std::vector<std::array<std::uint32_t, 3>> triangles_of(const Scene& scene, std::uint32_t object);
+
+}  // namespace dmpc::core
