@@ -37,6 +37,9 @@ std::uint32_t pair_kinds(Strategy strategy) {
 std::vector<core::HeatKind> heat_kinds_of(const RenderOptions& options) {
   using core::HeatKind;
   std::vector<HeatKind> kinds = kinds_of(options.heat_maps);
+  if (options.strip) {
+    kinds.push_back(HeatKind::done);
+  }
   if (options.report) {
     kinds.insert(kinds.end(), {HeatKind::done, HeatKind::node, HeatKind::rays});
     if (options.strategy == Strategy::svm) {

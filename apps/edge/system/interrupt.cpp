@@ -47,7 +47,8 @@ struct UnderWay {
   bool is_folder;
 };
 
-/// A render has a picture, counters, a trace, a page, a checkpoint, its lock, and up to 32 heat maps under way, no command more.
+/// A render has a picture, counters, a trace, a page, a strip, a checkpoint, its lock, and 32 heat maps under way, no command
+/// more.
 constexpr std::size_t slot_count = 40;
 
 /// Whoever takes one out of its slot owns it.

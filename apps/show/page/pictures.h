@@ -18,7 +18,4 @@ void add_picture(Page& page, const Image& image, const std::string& description,
 /// The picture as a PNG within its own address. Throws core::InputError if no temporary file can be written.
 std::string picture_url(const Image& image);
 
-/// Each pixel the mean of a square of them, so that neither side is longer than `side_max`.
-Image shrunk(const Image& image, int side_max);
-
 }  // namespace dmpc::apps::html

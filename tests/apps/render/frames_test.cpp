@@ -53,6 +53,17 @@ TEST_CASE("frames leave a picture each, and each is, byte by byte, the picture o
   CHECK(file_text(folder / "a.0001.png") != file_text(folder / "a.0002.png"));
 }
 
+TEST_CASE("each frame has a strip of its own, the same on a modelled machine as of that frame alone") {
+  const TemporaryFolder folder;
+  const Said all = render(folder, {"--frames=2", "--turntable=9", "--runner=virtual", "--strip=@s#.png", "-o", "@a#.png"});
+  REQUIRE_MESSAGE(all.status == 0, all.errors);
+  CHECK(file_text(folder / "s1.png") != file_text(folder / "s2.png"));
+  const Said one = render(folder, {"--frames=1..1", "--turntable=9", "--runner=virtual", "--strip=@s.png", "-o", "@a.png"});
+  REQUIRE_MESSAGE(one.status == 0, one.errors);
+  CHECK(file_text(folder / "s.png") == file_text(folder / "s1.png"));
+  CHECK(contains(render(folder, {"--frames=2", "--turntable=9", "--strip=@s.png", "-o", "@b#.png"}).errors, "--strip="));
+}
+
 TEST_CASE("a keyframe's picture is that of --camera") {
   const TemporaryFolder folder;
   write_text(folder / "path", "2 4,1,3/0,0,0/0,0,1/30\n9 1,4,3/0,0,0/0,0,1/30\n");

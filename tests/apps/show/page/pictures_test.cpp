@@ -33,19 +33,6 @@ TEST_CASE("what a picture shows is told as it is to those who do not see it") {
   CHECK(contains(text, "<figcaption>&lt;i&gt; <a "));
 }
 
-TEST_CASE("a picture that is too large is shrunk to means of squares") {
-  Image image(5, 2);
-  for (std::size_t i = 0; i < image.rgb.size(); ++i) {
-    image.rgb[i] = static_cast<float>(i);
-  }
-  const Image small = shrunk(image, 3);
-  CHECK(small.width == 3);
-  CHECK(small.height == 1);
-  CHECK(small.rgb[0] == (0 + 3 + 15 + 18) / 4.0F);
-  CHECK(small.rgb[8] == (14 + 29) / 2.0F);  // the last column is half a square
-  CHECK(shrunk(image, 5).rgb == image.rgb);
-}
-
 TEST_CASE("a page says that it shows a picture smaller than it is") {
   const auto with_side = [](int side) { return page_of(Image(side, 1), "", "Black."); };
   CHECK(contains(with_side(1024), "width=\"1024\" height=\"1\""));
