@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,13 @@ struct Typed {
   Lines shown;
 };
 
-bool is_command(const std::string& line) { return line.starts_with("    dmpc ") || line.starts_with("    passing_ring "); }
+constexpr const char* first_words[] = {"dmpc", "passing_ring", "broadcast", "for"};
+
+/// As apps/labs/lab.py finds them.
+bool is_command(const std::string& line) {
+  return std::any_of(std::begin(first_words), std::end(first_words),
+                     [&line](const char* word) { return line.starts_with("    " + std::string(word) + " "); });
+}
 
 std::string trimmed(const std::string& line) {
   const std::size_t begin = line.find_first_not_of(' ');
@@ -100,6 +107,7 @@ TEST_CASE("the lab of the working set shows what comes of it" * doctest::test_su
 TEST_CASE("the lab of granularity shows what comes of it" * doctest::test_suite("slow")) { check_page("granularity"); }
 TEST_CASE("the lab of speedup shows what comes of it" * doctest::test_suite("slow")) { check_page("speedup"); }
 TEST_CASE("the lab of balance shows what comes of it" * doctest::test_suite("slow")) { check_page("balance"); }
+TEST_CASE("the lab of latency shows what comes of it" * doctest::test_suite("slow")) { check_page("latency"); }
 TEST_CASE("the lab of deadlock shows what comes of it" * doctest::test_suite("slow")) { check_page("deadlock"); }
 
 TEST_CASE("every lab is in the list of them, and no other") {
@@ -107,7 +115,20 @@ TEST_CASE("every lab is in the list of them, and no other") {
   const std::string list = text_of(lines_of(folder / "README.md"));
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename();
-    CHECK_MESSAGE((name == "README.md" || list.find("](" + name + ")") != std::string::npos), name);
+    CHECK_MESSAGE((!name.ends_with(".md") || name == "README.md" || list.find("](" + name + ")") != std::string::npos), name);
+  }
+}
+
+TEST_CASE("every lab says what it is for, what it takes, and where solutions are") {
+  const fs::path folder = fs::path(DMPC_SOURCE_DIR) / "apps/labs";
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().stem(), text = text_of(lines_of(entry.path()));
+    if (entry.path().extension() == ".md" && name != "README") {
+      for (const std::string& part : Lines{"**You learn** ", "**Before** ", "**Time** ", "**Asked.** ", "**Questions.**",
+                                           "WORDS.md#", "](solutions/" + name + ".md)", "](notebooks/" + name + ".ipynb)"}) {
+        CHECK_MESSAGE(text.find(part) != std::string::npos, name, ": ", part);
+      }
+    }
   }
 }
 

@@ -1,0 +1,150 @@
+// Node 0 has data that all are to have: a broadcast, down a tree of any shape, in one piece or in many.
+//
+//   broadcast --bytes=65536 --runner=virtual --machine=hdr --nodes=16
+//
+// goes down a binomial tree, in which who has the data gives them to one that has not, round after round. With --children=1 the
+// tree is a chain, with --children=15 node 0 sends to everybody itself. What one learns: a short message takes what its tree is
+// deep, a long one what each node has to send, and --pieces=N makes a chain the best tree for the longest, since a node passes a
+// piece on while the next one comes (R. Thakur, R. Rabenseifner, W. Gropp, "Optimization of Collective Communication Operations
+// in MPICH", 2005). On two nodes it measures what a message takes.
+#include <dmpc/computer.h>
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+enum Packets : dmpc::Index { piece };
+enum Memory : dmpc::Index { pieces, order };
+
+struct Tree {
+  std::uint32_t bytes = 65536, children = 0, pieces = 1;
+
+  /// Of a piece with its number in front.
+  std::size_t piece_bytes() const { return sizeof(std::uint32_t) + (bytes + pieces - 1) / pieces; }
+
+  /// The `i`-th to whom `node` sends, if that is below the number of nodes. In a binomial tree all nodes below 2^r send to the
+  /// one 2^r further in round r.
+  std::uint64_t child(std::uint32_t node, std::uint32_t i) const {
+    return children > 0 ? std::uint64_t{node} * children + i + 1 : node + (std::uint64_t{1} << (std::bit_width(node) + i));
+  }
+  std::uint32_t child_count(std::uint32_t node, std::uint32_t node_count) const {
+    std::uint32_t count = 0;
+    while ((children == 0 || count < children) && child(node, count) < node_count) {
+      ++count;
+    }
+    return count;
+  }
+};
+
+/// What the data are: byte `i` of a piece.
+std::byte byte_of(std::uint32_t number, std::size_t i) { return static_cast<std::byte>((7 * std::size_t{number} + i) % 251); }
+
+class Broadcast final : public dmpc::Program {
+ public:
+  Broadcast(dmpc::Node& node, const Tree& tree)
+      : node_(node),
+        tree_(tree),
+        child_count_(tree.child_count(node.id(), node.node_count())),
+        pieces_(node.allocate<std::byte>(pieces, tree.pieces * tree.piece_bytes())),
+        order_(node.allocate<std::uint32_t>(order, tree.pieces)) {
+    if (node.id() == 0) {
+      for (std::uint32_t number = 0; number < tree.pieces; ++number) {
+        fill(number);
+      }
+    }
+  }
+
+  void receive(const dmpc::Packet& packet) override {
+    std::uint32_t number = 0;
+    std::memcpy(&number, packet.payload.data(), sizeof(number));
+    packet.copy_to(at(number));
+    order_[here_++] = number;
+  }
+
+  /// Sends one piece to one child; all children get a piece before the next one.
+  bool work() override {
+    if (sent_ == here_ * child_count_) {
+      return false;
+    }
+    const std::uint32_t number = order_[sent_ / child_count_];
+    const auto child = static_cast<std::uint32_t>(tree_.child(node_.id(), sent_ % child_count_));
+    if (!node_.try_send(child, piece, std::span<const std::byte>(at(number)))) {
+      throw dmpc::ProgramError("a child takes each piece once");
+    }
+    ++sent_;
+    return sent_ < here_ * child_count_;
+  }
+
+  bool finished() const override { return here_ == tree_.pieces && sent_ == here_ * child_count_; }
+  std::string describe() const override {
+    return std::to_string(here_) + " pieces here, " + std::to_string(sent_) + " sent to " + std::to_string(child_count_) +
+           " children";
+  }
+
+  /// Whether all that is here is as node 0 had it.
+  std::uint32_t outcome() const {
+    for (std::uint32_t number = 0; number < tree_.pieces; ++number) {
+      for (std::size_t i = sizeof(number); i < tree_.piece_bytes(); ++i) {
+        if (at(number)[i] != byte_of(number, i)) {
+          return 0;
+        }
+      }
+    }
+    return 1;
+  }
+
+ private:
+  std::span<std::byte> at(std::uint32_t number) const {
+    return pieces_.subspan(number * tree_.piece_bytes(), tree_.piece_bytes());
+  }
+
+  void fill(std::uint32_t number) {
+    const std::span<std::byte> bytes = at(number);
+    std::memcpy(bytes.data(), &number, sizeof(number));
+    for (std::size_t i = sizeof(number); i < bytes.size(); ++i) {
+      bytes[i] = byte_of(number, i);
+    }
+    order_[here_++] = number;
+  }
+
+  dmpc::Node& node_;
+  Tree tree_;
+  std::uint32_t child_count_, here_ = 0, sent_ = 0;
+  std::span<std::byte> pieces_;     ///< each behind its number
+  std::span<std::uint32_t> order_;  ///< in which they came
+};
+
+int main(int count, char** words) {
+  Tree tree;
+  const auto needs = [&tree](std::uint32_t) -> dmpc::Needs {
+    if (tree.pieces > tree.bytes) {
+      throw dmpc::UsageError("--pieces=" + std::to_string(tree.pieces) + ": expected at most one for each of the " +
+                             std::to_string(tree.bytes) + " bytes");
+    }
+    const auto senders = [&tree](std::uint32_t source, std::uint32_t target, std::uint32_t node_count) {
+      for (std::uint32_t i = 0; i < tree.child_count(source, node_count); ++i) {
+        if (tree.child(source, i) == target) {
+          return tree.pieces;
+        }
+      }
+      return 0U;
+    };
+    return {.packets = {{.name = "piece", .bytes_max = tree.piece_bytes(), .senders = senders}},
+            .memory = {{"pieces", dmpc::bytes_of<std::byte>(tree.pieces * tree.piece_bytes())},
+                       {"order", dmpc::bytes_of<std::uint32_t>(tree.pieces)}}};
+  };
+  const auto result = [&tree](const std::vector<std::uint32_t>& are_right) {
+    const auto right = static_cast<std::size_t>(std::count(are_right.begin(), are_right.end(), 1U));
+    return std::to_string(right) + " of " + std::to_string(are_right.size()) + " nodes have the " + std::to_string(tree.bytes) +
+           " bytes" + (right == are_right.size() ? "" : ", WRONG");
+  };
+  return dmpc::run<Broadcast>(
+      count, words,
+      {.description = "Give data of node 0 to all nodes",
+       .options = {{"--bytes", &tree.bytes, 1, 1U << 24U, "Of the data"},
+                   {"--children", &tree.children, 0, 4095, "Of a node of the tree: 1 is a chain, 0 a binomial tree"},
+                   {"--pieces", &tree.pieces, 1, 1024, "In which the data are sent, one behind the other"}},
+       .needs = needs,
+       .make = [&tree](dmpc::Node& node) { return std::make_unique<Broadcast>(node, tree); },
+       .result = result});
+}

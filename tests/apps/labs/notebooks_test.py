@@ -1,0 +1,104 @@
+"""The labs' notebooks: `notebooks_test.py PROGRAM EXAMPLES SOURCES [unittest's words]`. Ends with 77 where packages are missing.
+
+Solutions are executed from the first cell to the last; notebooks with blanks stop at the first of them."""
+
+import json
+import os
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+PROGRAM, EXAMPLES, SOURCES = sys.argv[1:4]
+LABS = pathlib.Path(SOURCES, "apps/labs")
+sys.path.insert(0, str(LABS))
+sys.dont_write_bytecode = True
+from importlib.machinery import SourceFileLoader  # noqa: E402
+
+import lab  # noqa: E402
+
+make_notebooks = SourceFileLoader("make_notebooks", str(LABS / "make_notebooks")).load_module()
+
+try:
+    import nbclient
+    import nbformat
+except ModuleNotFoundError as error:
+    print(f"skipped: {error}; tests/run installs what is missing")
+    sys.exit(77)
+
+os.environ["PATH"] = os.pathsep.join([str(pathlib.Path(PROGRAM).parent), EXAMPLES, os.environ["PATH"]])
+os.environ["PYTHONPATH"] = str(pathlib.Path(SOURCES, "apps/python"))
+os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # of which the debugger of notebooks warns
+
+
+def executed(cells):
+    """The notebook after it has run in a folder of its own, and what its cells have printed."""
+    notebook = nbformat.reads(json.dumps(cells), as_version=4)
+    with tempfile.TemporaryDirectory() as folder:
+        nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": folder}}).execute()
+    return "".join(output.get("text", "") for cell in notebook.cells for output in cell.get("outputs", []))
+
+
+class NotebookTest(unittest.TestCase):
+    def test_each_notebook_is_made_of_its_page_and_its_solutions(self):
+        self.assertEqual(sorted(path.stem for path in (LABS / "notebooks").iterdir()), lab.NAMES)
+        for name in lab.NAMES:
+            self.assertEqual((LABS / "notebooks" / f"{name}.ipynb").read_text(), make_notebooks.text_of(lab.read(name)),
+                             f"{name}: apps/labs/make_notebooks makes it anew")
+
+    def test_each_notebook_is_a_notebook_with_blanks_and_without_solutions_or_outputs(self):
+        for name in lab.NAMES:
+            notebook = nbformat.read(LABS / "notebooks" / f"{name}.ipynb", as_version=4)
+            nbformat.validate(notebook)
+            code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+            self.assertTrue(any(re.search(r"(=|return) \.\.\.$", cell.source, re.MULTILINE) for cell in code), name)
+            self.assertFalse(any("# blank" in cell.source or cell.outputs for cell in code), name)
+            for question in lab.read(name).questions:
+                self.assertNotIn(question.answer, "".join(cell.source for cell in notebook.cells))
+
+    def test_each_page_has_two_pictures_or_more_and_all_are_there(self):
+        shown = set()
+        for name in lab.NAMES:
+            pictures = [file for typed in lab.read(name).typed() for file, _ in typed.pictures]
+            self.assertGreaterEqual(len(pictures), 2, name)
+            self.assertEqual(len(pictures), (LABS / f"{name}.md").read_text().count("!["), name)
+            for file in pictures:
+                self.assertIn((LABS / file).read_bytes()[:4], (b"\x89PNG", b"<?xm", b"<svg"), file)
+            shown.update(pictures)
+        self.assertEqual({f"figures/{path.name}" for path in (LABS / "figures").iterdir()}, shown)
+
+    def test_a_blank_is_a_line_whose_right_side_is_left_out(self):
+        question = lab.Question("", code="a = 1\nb[0], c = f(2)  # blank\ndef g():\n    return 3  # blank\nassert a == 1\n")
+        self.assertEqual(question.with_blanks(), "a = 1\nb[0], c = ...\ndef g():\n    return ...\nassert a == 1\n")
+
+    def test_a_command_of_a_page_becomes_a_call_or_a_line_of_the_shell(self):
+        typed = lab.Typed("dmpc study sweep balls-1 --nodes=3 --in-flight=1 --vary=page-size:512B,1KiB --columns=a.b,c")
+        self.assertEqual(make_notebooks.words_of(typed, "frame_1"),
+                         'frame_1 = dmpc.sweep("balls-1", nodes=3, in_flight=1, page_size=["512B", "1KiB"],\n'
+                         '                     columns=["a.b", "c"])\nframe_1')
+        self.assertEqual(make_notebooks.words_of(lab.Typed("for a in 1; do b; done"), ""), "!for a in 1; do b; done")
+
+
+class SolvedTest(unittest.TestCase):
+    def test_blanks_stop_a_notebook(self):
+        for name in ("latency", "deadlock"):
+            with self.assertRaises(nbclient.exceptions.CellExecutionError):
+                executed(make_notebooks.notebook(lab.read(name)))
+
+
+def solved(name):
+    def test(self):
+        one = lab.read(name)
+        printed = [line.rstrip() for line in executed(make_notebooks.notebook(one, with_solutions=True)).splitlines()]
+        for question in one.questions:
+            for line in question.shown.splitlines():
+                self.assertIn(line.rstrip(), printed)
+    return test
+
+
+for each in lab.NAMES:
+    setattr(SolvedTest, f"test_the_solutions_of_{each}_hold", solved(each))
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])
