@@ -72,6 +72,14 @@ TEST_CASE("the examples are built from an installed prefix with all warnings, an
   CHECK(has(ranked("128", "fifo"), "2.9 % of them faults"));
   CHECK(has(ranked("256"), "8 nodes of hdr: 2.54 ms"));
   CHECK(has(ranked("256"), "0.6 % of them faults"));
+  const auto sent = [&](const Words& words) {
+    Words all = {build + "/broadcast", "--runner=virtual", "--machine=hdr", "--nodes=16", "--bytes=1000000"};
+    all.insert(all.end(), words.begin(), words.end());
+    return run(all);
+  };
+  CHECK(has(sent({}), "16 of 16 nodes have the 1000000 bytes\n16 nodes of hdr: 173 us"));
+  CHECK(has(sent({"--children=1"}), "16 nodes of hdr: 648 us"));
+  CHECK(has(sent({"--children=1", "--pieces=64"}), "16 nodes of hdr: 75.3 us"));
   const auto passed = [&](const Words& words) {
     Words all = {build + "/passing_ring", "--runner=virtual", "--machine=hdr", "--nodes=16"};
     all.insert(all.end(), words.begin(), words.end());

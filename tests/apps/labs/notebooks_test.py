@@ -18,7 +18,8 @@ from importlib.machinery import SourceFileLoader  # noqa: E402
 
 import lab  # noqa: E402
 
-make_notebooks = SourceFileLoader("make_notebooks", str(LABS / "make_notebooks")).load_module()
+make_notebooks, make_pages, pictures = (SourceFileLoader(name, str(LABS / name)).load_module()
+                                        for name in ("make_notebooks", "make_pages", "pictures"))
 
 try:
     import nbclient
@@ -78,6 +79,37 @@ class NotebookTest(unittest.TestCase):
                          'frame_1 = dmpc.sweep("balls-1", nodes=3, in_flight=1, page_size=["512B", "1KiB"],\n'
                          '                     columns=["a.b", "c"])\nframe_1')
         self.assertEqual(make_notebooks.words_of(lab.Typed("for a in 1; do b; done"), ""), "!for a in 1; do b; done")
+
+
+class PageTest(unittest.TestCase):
+    def page(self, text, pages=None):
+        return make_pages.page_of(text, pages or {}, LABS)
+
+    def test_a_page_has_headings_paragraphs_commands_tables_and_questions(self):
+        page = self.page("# Lab: <a>\n\n**Asked.** a `b<c` & d\n\n    dmpc x < y\n        z\n\n| a | b |\n|---|--:|\n| 1 | 2 |\n\n"
+                         "1. Why?\n2. How,\n   then?\n")
+        for part in ("<h1>Lab: &lt;a&gt;</h1>", "<p><b>Asked.</b> a <code>b&lt;c</code> &amp; d</p>", "<pre>dmpc x &lt; y\n    z</pre>",
+                     '<th>a</th><th class="number">b</th>', '<td>1</td><td class="number">2</td>', '<p id="q1"><b>1.</b> Why?</p>',
+                     '<p id="q2"><b>2.</b> How,\n   then?</p>'):
+            self.assertIn(part, page)
+
+    def test_code_in_a_fence_stays_as_it_is_with_its_blank_lines(self):
+        self.assertIn("<pre>a = 1\n\nb = `2`  # **x**\n</pre>", self.page("# L\n\n```python\na = 1\n\nb = `2`  # **x**\n```\n\n1. x\n"))
+
+    def test_links_lead_to_labs_and_others_are_words(self):
+        page = self.page("# L\n\nSee [the lab](balance.md) and [words](../../WORDS.md#work).\n", {"balance.md": "balance.html"})
+        self.assertIn('See <a href="balance.html">the lab</a> and words.', page)
+
+    def test_pictures_are_within_the_page(self):
+        page = self.page('# L\n\n![Who "waits"](figures/deadlock-circle.svg "circle")\n')
+        self.assertIn('<img alt="Who &quot;waits&quot;" src="data:image/svg+xml;base64,PHN2Zy', page)
+
+    def test_the_circle_is_drawn_from_the_words_of_a_standstill(self):
+        drawn = pictures.circle("x\nin a circle: node 5 waits for node 7, that for node 6, that for node 5\n")
+        self.assertEqual(re.findall(r'middle">(\d+)<', drawn), ["5", "7", "6"])
+        self.assertEqual(drawn.count("<line "), 3)
+        with self.assertRaisesRegex(ValueError, "nobody told a circle"):
+            pictures.circle("64 items have come\n")
 
 
 class SolvedTest(unittest.TestCase):

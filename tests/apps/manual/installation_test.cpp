@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <vector>
 
+#include "tests/support/documents.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -17,6 +19,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The labs' pages open by a double click: whatever they show is in them, and whatever they lead to lies beside them.
+void check_labs(const fs::path& folder) {
+  static const std::regex links("(?:href|src)=\"([^\"]*)\"");
+  std::size_t pages = 0, bytes = 0;
+  for (const fs::directory_entry& page : fs::directory_iterator(folder)) {
+    const std::string text = file_text(page.path());
+    for (const std::string& link : found_in(text, links)) {
+      CHECK_MESSAGE((link.starts_with("data:image/") || fs::exists(folder / link)), page.path(), ": ", link.substr(0, 80));
+    }
+    CHECK_MESSAGE(contains(text, "default-src 'none'"), page.path());
+    CHECK_MESSAGE(!contains(text, "!["), page.path());
+    bytes += text.size();
+    ++pages;
+  }
+  CHECK(pages == 13);  // six labs, their solutions, and the list
+  CHECK(bytes < 1'000'000);
+}
+
 /// Everything that is to be installed is below `root`, with zsh's completion in a folder of this name.
 void check_installed(const fs::path& root, const std::string& zsh_folder) {
   const fs::path share = root / "share";
@@ -24,9 +44,11 @@ void check_installed(const fs::path& root, const std::string& zsh_folder) {
                                share / "doc/dmpc/copyright", share / "doc/dmpc/apps/teapot.png", share / "dmpc/stats.schema.json",
                                share / "doc/dmpc/apps/teapot-heat.png", share / "doc/dmpc/core/README.md",
                                share / "doc/dmpc/apps/lab/study/paper/RESULTS.md", share / "fish/vendor_completions.d/dmpc.fish",
-                               share / "zsh" / zsh_folder / "_dmpc"}) {
+                               share / "zsh" / zsh_folder / "_dmpc", share / "doc/dmpc/apps/scenes.png",
+                               share / "doc/dmpc/apps/labs/notebooks/latency.ipynb"}) {
     CHECK_MESSAGE(fs::file_size(file) > 0, file);
   }
+  check_labs(share / "doc/dmpc/labs");
   const Said completed = run({"bash", "--norc", "-c",
                               "source '" + (share / "bash-completion/completions/dmpc").string() +
                                   "'; COMP_WORDS=(dmpc ren); COMP_CWORD=1; _dmpc; echo \"${COMPREPLY[@]}\""});
@@ -125,7 +147,7 @@ TEST_CASE("the first call of apps/dmpc builds the renderer for those who render,
   REQUIRE(graph.status == 0);
   const std::string build = DMPC_BUILD_DIR "/";
   std::string script;
-  for (const std::string folder : {"apps", "apps/main", "apps/modules", "apps/foreign", "apps/manual"}) {
+  for (const std::string folder : {"apps", "apps/main", "apps/modules", "apps/foreign", "apps/manual", "apps/labs"}) {
     script += file_text(build + folder + "/cmake_install.cmake");
   }
   std::size_t files = 0;
