@@ -20,6 +20,7 @@
 #include "apps/show/page/path_table.h"
 #include "apps/show/page/play_cells.h"
 #include "apps/show/page/typed_array.h"
+#include "apps/show/stats/stats.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
 
@@ -319,9 +320,21 @@ void add_exchange(json& head, const RenderRecord& record) {
   }
 }
 
+/// Without its lists: each has a figure or more a node or a link, and other pages' data have those.
+json stats_of(const RenderRecord& record) {
+  json stats = json::parse(stats_json(record));
+  for (const char* const list : {"nodes", "ranks", "pairs", "heat_maps"}) {
+    stats.erase(list);
+  }
+  if (stats["links"].is_object()) {
+    stats["links"].erase("rows");
+  }
+  return stats;
+}
+
 }  // namespace
 
-std::string play_data(const RenderRecord& record, const Origin& origin) {
+json play_data(const RenderRecord& record, const Origin& origin) {
   core::expect(record.view != nullptr && record.heat != nullptr && record.heat->has(HeatKind::done),
                "what is played was recorded");
   const Account account = account_of(record.report);
@@ -357,7 +370,8 @@ std::string play_data(const RenderRecord& record, const Origin& origin) {
   if (record.view->exchange) {
     add_over_time(head, *record.view->exchange, *account.virtual_time);
   }
-  return head.dump(-1, ' ', true, json::error_handler_t::replace);
+  head["stats"] = stats_of(record);
+  return head;
 }
 
 }  // namespace dmpc::apps::html

@@ -1,7 +1,7 @@
 // What the page of a render plays: one JSON text with a head and arrays, which the scripts in apps/show/page/play read.
 #pragma once
 
-#include <string>
+#include <nlohmann/json.hpp>
 
 #include "apps/edge/show/page/origin.h"
 #include "apps/run/render_record.h"
@@ -17,7 +17,7 @@ inline constexpr std::size_t play_cells_max = std::size_t{1} << 17U;
 /// When cells are done is told in so many parts of the run.
 inline constexpr std::uint64_t done_parts = 65'535;
 
-/// The text. Requires record.view, and record.heat with the time at which pixels were done. Keys, times in nanoseconds:
+/// Requires record.view, and record.heat with the time at which pixels were done. Keys, times in nanoseconds:
 ///
 /// - format, scene, computer, clock ("virtual time", "wall clock"), total_ns, words (of the command), nodes, step_ns, steps
 /// - width, height (pixels), cell (pixels a side), wide, high (cells); the last cells of a row or column may have fewer pixels
@@ -44,7 +44,8 @@ inline constexpr std::uint64_t done_parts = 65'535;
 ///   levels: [{name, ...}]: the most of each node in a step, summed
 /// - links: [[from, to, messages, bytes, held_ns, waited_ns]], the busiest (modelled machines)
 /// - forecast (svm on modelled machines, if references were kept): json_of() of a ForecastView
+/// - stats: what --stats writes, without lists of nodes, links, ranks, pairs and heat maps
 /// - pages: [[number, home, fetched]], the hottest (svm); fetched: of all pages
-std::string play_data(const RenderRecord& record, const Origin& origin);
+nlohmann::json play_data(const RenderRecord& record, const Origin& origin);
 
 }  // namespace dmpc::apps::html

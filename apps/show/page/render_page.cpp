@@ -24,7 +24,7 @@
 #include "apps/show/page/path_table.h"
 #include "apps/show/page/pictures.h"
 #include "apps/show/page/play_data.h"
-#include "apps/show/page/play_parts.h"
+#include "apps/show/page/player.h"
 #include "apps/show/page/render_tables.h"
 #include "apps/show/strip.h"
 #include "core/picture/heat_kind.h"
@@ -208,13 +208,6 @@ void add_memory(Page& page, const Account& account, std::size_t database_bytes) 
   page.add_table(table);
 }
 
-/// What shows the run as it went, where the reader lets scripts run; print is without.
-void add_player(Page& page, const RenderRecord& record, const Origin& origin) {
-  page.add_style(play_style);
-  page.add_data("data", play_data(record, origin));
-  page.add_script(play_script);
-}
-
 }  // namespace
 
 std::string render_page(const RenderRecord& record, const Origin& origin, std::ostream& complaints) {
@@ -238,7 +231,7 @@ std::string render_page(const RenderRecord& record, const Origin& origin, std::o
   add_memory(page, account, record.database.page_count() * record.database.page_size());
   page.add_origin(origin, results_of(account));
   if (record.view != nullptr && !record.view->steps.nodes.front().empty()) {
-    add_player(page, record, origin);
+    add_player(page, play_data(record, origin));
   }
   return page.text();
 }

@@ -1,42 +1,32 @@
 // The picture as far as it is done, and a heat map over it.
 const darkColor = packedColor(26, 26, 26);
-const pixels = {film: null, lit: null, field: null, most: 1, tinted: ""};
 
-const startPixels = async (box) => {
-  const canvas = pixels.canvas = makeCanvas("shot", "The picture, as far as it is done at the time shown. The table of nodes below has what each did.", box,
-    (x, y) => pixelAt(x * data.wide, y * data.high), (right, down) => state.x < 0 ? pixelAt(data.wide / 2, data.high / 2) : pixelAt(state.x + right, state.y + down));
-  canvas.width = data.wide;
-  canvas.height = data.high;
-  const image = document.querySelector("img.picture");
+const startPixels = async (run, box) => {
+  const {wide, high, index} = run, pixelAt = (x, y) => ({x: within(x, wide), y: within(y, high)});
+  const canvas = makeCanvas(run, "shot", "The picture, as far as it is done at the time shown. The table of nodes below has what each did.", box,
+    (x, y) => pixelAt(x * wide, y * high), (right, down) => state.x < 0 ? pixelAt(wide / 2, high / 2) : pixelAt(state.x + right, state.y + down));
+  canvas.className = "shot";
+  [canvas.width, canvas.height] = [wide, high];
+  const image = document.querySelectorAll("img.picture")[index], pen = canvas.getContext("2d", {willReadFrequently: true});
   await image.decode();
-  const pen = pixels.pen = canvas.getContext("2d", {willReadFrequently: true});
-  pen.drawImage(image, 0, 0, data.wide, data.high);
-  pixels.film = pen.getImageData(0, 0, data.wide, data.high).data;
-  pixels.frame = pen.createImageData(data.wide, data.high);
-  pixels.out = new Uint32Array(pixels.frame.data.buffer);
-  pixels.lit = new Uint32Array(pixels.out.length);
-};
-/// A choice: the cell, and the node that it belongs to.
-const pixelAt = (column, row) => {
-  const x = within(column, data.wide), y = within(row, data.high);
-  return {x, y, node: fields.node ? fields.node.values[y * data.wide + x] : -1};
+  pen.drawImage(image, 0, 0, wide, high);
+  const film = pen.getImageData(0, 0, wide, high).data, frame = pen.createImageData(wide, high), out = new Uint32Array(frame.data.buffer);
+  run.pixels = {canvas, pen, film, frame, out, lit: new Uint32Array(out.length), tinted: ""};
+  part(() => [state.t, state.heat, state.mix, choiceKey(chosen())].join(), () => drawPixels(run));
 };
 
-/// Where a cell's number lies on the scale of colours, which is logarithmic.
-const heatFieldOf = (name) => {
-  const values = name === "done" ? done : fields[name].values;
-  let most = 1;
-  for (const value of values) if (value > most) most = value;
-  return {values, colorOf: name === "node" ? (value) => nodeColors[value % 12] :
-    name === "done" ? (value) => heatColors[Math.floor(value / 65535 * 255)] :
-    (value) => heatColors[Math.round(Math.log1p(value) / Math.log1p(most) * 255)]};
+/// What a cell's number looks like: on a scale of all runs, which is logarithmic.
+const heatFieldOf = ({fields, done, total_ns}) => {
+  if (state.heat === "done") return {values: done, colorOf: (value) => heatColors[Math.floor(value / 65535 * total_ns / 1e6 / totalMs * 255)]};
+  const {values} = fields[state.heat], most = mostOf(({fields: {[state.heat]: field}}) => field ? field.most ||= largestOf(field.values) : 1);
+  return {values, colorOf: state.heat === "node" ? (value) => nodeColors[value % 12] : (value) => heatColors[Math.round(Math.log1p(value) / Math.log1p(most) * 255)]};
 };
 /// What each cell looks like once it is done; anew only where heat, mix or choice change.
-const tint = (choice) => {
-  const mix = state.heat ? state.mix / 100 : 0, bright = brightNodes(choice), dims = bright.size > 0 && fields.node && data.nodes > 1;
-  const heat = mix > 0 ? heatFieldOf(state.heat) : null, {film, lit} = pixels;
+const tint = (run, bright) => {
+  const {fields: {node}, pixels: {film, lit}} = run, heat = state.heat === "done" || run.fields[state.heat] ? heatFieldOf(run) : null;
+  const mix = heat ? state.mix / 100 : 0, dims = bright.size > 0 && node && run.nodes > 1;
   for (let p = 0, at = 0; p < lit.length; ++p, at += 4) {
-    const over = heat ? heat.colorOf(heat.values[p]) : 0, kept = dims && !bright.has(fields.node.values[p]) ? 0.3 : 1;
+    const over = mix > 0 ? heat.colorOf(heat.values[p]) : 0, kept = dims && !bright.has(node.values[p]) ? 0.3 : 1;
     let color = 0xff;
     for (let channel = 2; channel >= 0; --channel) {
       const value = film[at + channel] * (1 - mix) + (over >>> 8 * channel & 255) * mix;
@@ -45,32 +35,26 @@ const tint = (choice) => {
     lit[p] = color;
   }
 };
-const drawPixels = () => {
-  const choice = chosen(), key = [state.heat, state.mix, ...brightNodes(choice)].join();
-  if (key !== pixels.tinted) {
-    tint(choice);
-    pixels.tinted = key;
-  }
-  const {out, lit} = pixels, now = Math.floor(state.t / totalMs * 65535 + 1e-6), fresh = state.t < totalMs ? now - 600 : now;
-  for (let p = 0; p < out.length; ++p) {
-    out[p] = done[p] > now ? darkColor : done[p] > fresh ? lit[p] | 0x404040 : lit[p];
-  }
-  pixels.pen.putImageData(pixels.frame, 0, 0);
+const drawPixels = (run) => {
+  const {pixels, done} = run, {canvas, pen, out, lit} = pixels, choice = chosen(), bright = brightNodes(run, choice), key = [state.heat, state.mix, ...bright].join();
+  if (key !== pixels.tinted) tint(run, bright);
+  pixels.tinted = key;
+  const now = Math.min(65535, Math.floor(state.t * 1e6 / run.total_ns * 65535 + 1e-6)), fresh = now < 65535 ? now - 600 : now;
+  for (let p = 0; p < out.length; ++p) out[p] = done[p] > now ? darkColor : done[p] > fresh ? lit[p] | 0x404040 : lit[p];
+  pen.putImageData(pixels.frame, 0, 0);
   if (choice.x >= 0) {
-    pixels.pen.strokeStyle = "#fff";
-    pixels.pen.strokeRect(choice.x - 1.5, choice.y - 1.5, 4, 4);
+    pen.strokeStyle = "#fff";
+    pen.strokeRect(choice.x - 1.5, choice.y - 1.5, 4, 4);
   }
+  // Whole multiples of its size where there is room for one
+  const room = canvas.parentElement.clientWidth, times = Math.max(1, Math.floor(Math.min(room, 512) / run.wide));
+  canvas.style.width = Math.min(room, times * run.wide) + "px";
 };
-/// Whole multiples of its size where there is room for one.
-const sizePixels = () => {
-  const room = pixels.canvas.parentElement.clientWidth, times = Math.max(1, Math.floor(Math.min(room, 512) / data.wide));
-  pixels.canvas.style.width = Math.min(room, times * data.wide) + "px";
-};
-const pixelText = ({x, y}) => {
-  const p = y * data.wide + x, part = done[p];
-  const facts = data.fields.filter(({name}) => name !== "node").map(({name, unit, scale}) =>
-    numberText(fields[name].values[p] * scale) + " " + unit + (name === "time" ? " of computing" : ""));
-  const where = data.cell > 1 ? `Pixels from ${x * data.cell}, ${y * data.cell}, ${data.cell} a side` : `Pixel ${x}, ${y}`;
-  return `${where}: ${fields.node ? "node " + fields.node.values[p] + ", " : ""}` +
-    `${part > 0 ? "done at " + timeText(part / 65535 * totalMs) : "nothing to do"}, ${facts.join(", ")}.`;
+const pixelText = (run, {x, y}) => {
+  if (x >= run.wide || y >= run.high) return "No such pixel.";
+  const p = y * run.wide + x, done = run.done[p], {node, ...fields} = run.fields;
+  const facts = Object.values(fields).map(({name, unit, scale, values}) => numberText(values[p] * scale) + " " + unit + (name === "time" ? " of computing" : ""));
+  const where = run.cell > 1 ? `Pixels from ${x * run.cell}, ${y * run.cell}, ${run.cell} a side` : `Pixel ${x}, ${y}`;
+  return `${where}: ${node ? "node " + node.values[p] + ", " : ""}` +
+    `${done > 0 ? "done at " + timeText(done / 65535 * run.total_ns / 1e6) : "nothing to do"}, ${facts.join(", ")}.`;
 };

@@ -1,11 +1,11 @@
 // The player: its controls, what lies under the pointer in words, the view's command, and the clock.
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
-const player = {playing: false, last: 0, waits: false, frames: [], keys: new Map()};
+const player = {playing: false, last: 0, waits: false, frames: []};
 
 /// Where in an element the pointer is, 0 to 1 each way.
 const placeIn = (element, event) => {
   const box = element.getBoundingClientRect();
-  return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height].map((part) => Math.max(0, Math.min(1, part)));
+  return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height].map((share) => Math.max(0, Math.min(1, share)));
 };
 /// A cleared canvas as wide as there is room, in its own pixels: pen and width. Square unless `high`.
 const square = (canvas, high = 0) => {
@@ -26,23 +26,27 @@ const point = (choice) => {
 };
 const settle = (choice) => {
   pointed = null;
-  choose(choice);
-  writeAddress();
-  changed();
+  change({...nothing, ...choice});
 };
 const partText = () => state.to > state.from ? `from ${timeText(state.from)} to ${timeText(state.to)}` : "at " + timeText(state.t);
-const wordsOf = (choice) => choice.x >= 0 ? pixelText(choice) : choice.peer >= 0 ? pairText(choice) : choice.link >= 0 ? linkText(choice.link) :
-  choice.page >= 0 ? pageText(choice.page) : choice.node >= 0 ? nodeText(choice.node) :
-  "Point at a pixel, a node, a link or a page, or move over them by arrow keys. A click keeps it chosen, Escape lets go.";
+/// Of all runs, but what one alone has.
+const wordsOf = (choice) => {
+  const isOfAll = choice.x >= 0 || (choice.node >= 0 && choice.peer < 0);
+  const said = runs.filter(({index}) => isOfAll || index === choice.run).map((run) => {
+    const text = choice.x >= 0 ? pixelText(run, choice) : sayings.map((say) => say(run, choice)).find((words) => words);
+    return text && letterOf(run) ? letterOf(run) + ": " + text : text;
+  });
+  return said.filter((text) => text).join(" ") || "Point at a pixel, a node, a link or a page, or move over them by arrow keys. A click keeps it chosen, Escape lets go.";
+};
 
-/// The run's own command, with what writes this view down.
-const commandText = () => {
-  const own = data.words.filter((word) => !/^'?--(trace|trace-window|trace-nodes)=/.test(word));
+/// A run's own command, with what writes this view down.
+const commandText = (run) => {
+  const own = run.words.filter((word) => !/^'?--(trace|trace-window|trace-nodes)=/.test(word));
   const added = state.heat && !own.some((word) => word.startsWith(`--heatmap=${state.heat}:`)) ? [`--heatmap=${state.heat}:${state.heat}.png`] : [];
   if (state.to > state.from) {
     added.push("--trace=part.json", `--trace-window=${state.from.toFixed(6)},${state.to.toFixed(6)}`);
-    const nodes = summed(state);
-    if (nodes.length < data.nodes) added.push("--trace-nodes=" + nodes.join(","));
+    const nodes = summed(run, state);
+    if (nodes.length < run.nodes) added.push("--trace-nodes=" + nodes.join(","));
   }
   return [...own, ...added].join(" ");
 };
@@ -54,15 +58,12 @@ const part = (keyOf, draw) => parts.push({keyOf, draw, key: null});
 const draw = () => {
   for (const each of parts) {
     const key = each.keyOf();
-    if (key !== each.key) {
-      each.key = key;
-      each.draw();
-    }
+    if (key === each.key) continue;
+    each.key = key;
+    each.draw();
   }
 };
 const drawAll = () => {
-  sizePixels();
-  sizeTime();
   for (const each of parts) each.key = null;
   draw();
 };
@@ -75,68 +76,75 @@ const changed = () => {
     draw();
   });
 };
-const stepKey = () => stepsShown().join();
+const stepKey = () => runs.map((run) => stepsShown(run).join()).join();
 
+/// Of each run a share and a bar.
 const startNames = (box) => {
   const table = make("table", {id: "names"}, box), head = make("tr", {}, make("thead", {}, table)), body = make("tbody", {}, table);
-  for (const [text, type] of [["what", "text"], ["share", ""], ["", "bar"]]) make(text ? "th" : "td", text ? {scope: "col", class: type} : {}, head, text);
-  const rows = [...works.map((work) => work.name), restName].map((name) => {
+  make("th", {scope: "col", class: "text"}, head, "what");
+  for (const run of runs) {
+    make("th", {scope: "col"}, head, letterOf(run) || "share");
+    make("td", {}, head);
+  }
+  const names = [...new Set(runs.flatMap(({works}) => works.map(({name}) => name))), ...new Set(runs.map(({rest}) => rest))].map((name) => {
     const row = make("tr", {}, body);
     make("th", {scope: "row", class: "text"}, row, name);
-    const share = make("td", {}, row), bar = make("div", {class: "bar"}, make("td", {class: "bars"}, row));
-    bar.style.background = workColors[name] || "var(--line)";
-    return {share, bar};
+    return {name, cells: runs.map(() => {
+      const text = make("td", {}, row), bar = make("div", {class: "bar"}, make("td", {class: "bars"}, row));
+      bar.style.background = colorOf(name);
+      return {text, bar};
+    })};
   });
   const whose = make("p", {class: "note"}, box);
   part(() => stepKey() + choiceKey(chosen()), () => {
-    const nodes = summed(chosen()), [first, last] = stepsShown(), shares = works.map((work, k) => nodes.reduce((sum, node) => sum + shareOf(k, node, first, last), 0) / nodes.length);
-    [...shares, Math.max(0, 1 - shares.reduce((a, b) => a + b, 0))].forEach((share, i) => {
-      rows[i].share.textContent = percentText(share);
-      rows[i].bar.style.width = 100 * share + "%";
+    const nodes = summed(runs[0], chosen());
+    runs.forEach((run, i) => {
+      const shares = Object.fromEntries(sharesOf(run, summed(run, chosen())));
+      for (const {name, cells} of names) {
+        cells[i].text.textContent = name in shares ? percentText(shares[name]) : "";
+        cells[i].bar.style.width = 100 * (shares[name] || 0) + "%";
+      }
     });
-    whose.textContent = (nodes.length < data.nodes ? "Of node " + nodes.join(" and ") : "Of all nodes") + ", " + partText() + ".";
+    whose.textContent = (nodes.length < runs[0].nodes ? "Of node " + nodes.join(" and ") : "Of all nodes") + ", " + partText() + ".";
   });
 };
 
 // Controls
 
+/// One that follows the state at `key`.
+const chooser = (bar, text, key, options) => {
+  const select = control(bar, text, "select", {id: key});
+  for (const [value, name] of options) make("option", {value}, select, name);
+  select.addEventListener("change", () => change({[key]: key === "run" ? +select.value : select.value}));
+  part(() => state[key], () => { select.value = state[key]; });
+};
+/// A slider that follows the state at `key`, said as text.
+const slider = (bar, text, key, id, whole, textOf) => {
+  const range = control(bar, text, "input", {id, type: "range", min: 0, max: whole, step: "any"});
+  range.addEventListener("input", () => {
+    state[key] = +range.value;
+    changed();
+  });
+  range.addEventListener("change", writeAddress);
+  part(() => state[key], () => {
+    range.value = state[key];
+    range.setAttribute("aria-valuetext", textOf(state[key]));
+  });
+  return range;
+};
 const startBar = (bar) => {
   const button = make("button", {type: "button", id: "play"}, bar, "Play");
   button.addEventListener("click", () => play(!player.playing));
-  const slider = control(bar, "Time", "input", {id: "time", type: "range", min: 0, max: 1000, step: "any"});
-  slider.addEventListener("input", () => {
-    state.t = slider.value / 1000 * totalMs;
-    changed();
-  });
-  slider.addEventListener("change", writeAddress);
+  slider(bar, "Time", "t", "time", totalMs, timeText);
   const now = make("output", {id: "now", for: "time"}, bar);
+  part(() => state.t, () => { now.textContent = `${timeText(state.t)} of ${timeText(totalMs)}`; });
   const speed = player.speed = control(bar, "Whole run in", "select", {id: "speed"});
-  for (const [seconds, text] of [[60, "60 s"], [20, "20 s"], [8, "8 s"]]) make("option", {value: seconds}, speed, text);
+  for (const seconds of [60, 20, 8]) make("option", {value: seconds}, speed, seconds + " s");
   speed.value = "20";
-  const heat = control(bar, "Over the picture", "select", {id: "heat"});
-  for (const name of ["", ...Object.keys(fields), "done"]) make("option", {value: name}, heat, name || "nothing");
-  heat.addEventListener("change", () => {
-    state.heat = heat.value;
-    writeAddress();
-    changed();
-  });
-  const mix = control(bar, "Mix", "input", {id: "mix", type: "range", min: 0, max: 100});
-  mix.addEventListener("input", () => {
-    state.mix = +mix.value;
-    changed();
-  });
-  mix.addEventListener("change", writeAddress);
-  part(() => state.t, () => {
-    now.textContent = `${timeText(state.t)} of ${timeText(totalMs)}`;
-    slider.value = state.t / totalMs * 1000;
-    slider.setAttribute("aria-valuetext", timeText(state.t));
-  });
-  part(() => state.heat + state.mix, () => {
-    heat.value = state.heat;
-    mix.value = state.mix;
-    mix.setAttribute("aria-valuetext", state.mix + " %");
-    mix.disabled = !state.heat;
-  });
+  chooser(bar, "Over the picture", "heat", ["", ...heats].map((name) => [name, name || "nothing"]));
+  const mix = slider(bar, "Mix", "mix", "mix", 100, (value) => value.toFixed() + " %");
+  part(() => state.heat, () => { mix.disabled = !state.heat; });
+  if (runs.length > 1) chooser(bar, "Cards of", "run", runs.map((run) => [run.index, letterOf(run)]));
 };
 
 // The clock
@@ -145,14 +153,13 @@ const play = (on) => {
   player.playing = on;
   byId("play").textContent = on ? "Pause" : "Play";
   byId("said").setAttribute("aria-live", on ? "off" : "polite");
-  if (on) {
-    if (state.t >= totalMs) state.t = 0;
-    player.last = performance.now();
-    requestAnimationFrame(tick);
-  } else {
+  if (!on) {
     writeAddress();
-    changed();
+    return;
   }
+  if (state.t >= totalMs) state.t = 0;
+  player.last = performance.now();
+  requestAnimationFrame(tick);
 };
 const tick = (now) => {
   if (!player.playing) return;
@@ -167,75 +174,48 @@ const tick = (now) => {
   else requestAnimationFrame(tick);
 };
 
-const startKeys = (section) => {
-  document.addEventListener("keydown", (event) => {
-    const isFree = event.target === document.body || event.target.tagName === "CANVAS";
-    if (event.key === " " && isFree) {
-      event.preventDefault();
-      play(!player.playing);
-    } else if (event.key === "Escape") {
-      Object.assign(state, {from: 0, to: 0, why: -1});
-      settle(nothing);
-    }
-  });
-  for (const canvas of section.querySelectorAll("canvas")) {
-    canvas.addEventListener("pointerleave", () => point(nothing));
-    canvas.addEventListener("click", () => { if (pointed) settle(pointed); });
-  }
-};
+const startKeys = () => document.addEventListener("keydown", (event) => {
+  if (event.key === "Escape") settle({from: 0, to: 0, why: -1});
+  if (event.key !== " " || (event.target !== document.body && event.target.tagName !== "CANVAS")) return;
+  event.preventDefault();
+  play(!player.playing);
+});
 
 const card = (parent, heading, id) => {
   const box = make("section", {"aria-labelledby": id}, parent);
   make("h3", {id}, box, heading);
   return make("div", {}, box);
 };
+/// What only one run has: of several those of the chosen one are shown.
+const startCards = (run, grid) => {
+  for (const {id, headingOf, isWide, start} of cards) {
+    const heading = headingOf(run);
+    if (!heading) continue;
+    const box = card(grid, (letterOf(run) && letterOf(run) + ": ") + heading, id + "-head" + (run.index || "")), section = box.parentElement;
+    section.className = isWide ? "wide" : "";
+    if (runs.length > 1) part(() => state.run, () => { section.hidden = state.run !== run.index; });
+    start(run, box);
+  }
+};
 const start = async () => {
   const begin = performance.now(), section = make("section", {id: "player", "aria-labelledby": "player-head"});
   (document.querySelector("nav") || document.querySelector("h1")).after(section);
-  make("h2", {id: "player-head"}, section, "The run, as it went");
+  make("h2", {id: "player-head"}, section, runs.length > 1 ? "The runs, on one clock" : "The run, as it went");
   startBar(make("div", {id: "bar", role: "group", "aria-label": "Playing"}, section));
-  const said = make("p", {id: "said", role: "status"}, section);
-  const run = make("div", {class: "run"}, section), left = make("div", {}, run), right = make("div", {}, run);
-  await startPixels(left);
-  startTime(right);
-  const legend = make("p", {class: "note"}, right, data.clock === "virtual time" ? "Virtual time. " : "By the wall clock, which compares schedules. ");
-  for (const work of works) {
-    make("span", {class: "swatch"}, legend).style.background = workColors[work.name];
-    legend.append(` ${work.name} `);
-  }
-  startLevels(right);
-  const cards = make("div", {class: "cards"}, section);
-  startNames(card(cards, "What the time goes to", "names-head"));
-  const place = card(cards, "The machine", "machine-head");
-  startMachine(place);
-  make("p", {class: "note"}, place, "Discs: computing at that time. " + (over.links ? "Links: bytes at that time." : data.links.length ? "Links: held over the whole run." : "Links are known of modelled machines."));
-  placeMachine();
-  if (data.pairs && data.pairs.side > 1) {
-    const box = card(cards, data.pairs.what === "pages" ? "Who fetches from whom" : "Who sends rays to whom", "pairs-head");
-    startPairs(box);
-    make("p", {class: "note"}, box, `Rows: ${data.pairs.row}. Columns: ${data.pairs.column}. ${over.pairs ? `At that time, at most ${numberText(over.pairs.most)} ${data.over.pairs.what} in ${timeText(over.pairs.step_ns / 1e6)}` :
-      `The whole run, at most ${numberText(machine.mostPairs)} ${data.pairs.what}`}.`);
-    part(() => (over.pairs ? stepKey() : "") + choiceKey(chosen()), drawPairs);
-  }
-  if (data.pages.length) {
-    startPages(card(cards, "The hottest pages", "pages-head"));
-    part(() => (over.pages ? stepKey() : "") + choiceKey(chosen()), drawPages);
-  }
-  if (causes) {
-    const box = card(cards, "Why it took so long", "why-head");
-    box.parentElement.className = "wide";
-    startWhy(box);
-  }
+  const said = make("p", {id: "said", role: "status"}, section), grid = make("div", {class: runs.length > 1 ? "run two" : "run"}, section);
+  const boxOf = (run, name) => make("div", {class: name}, grid, letterOf(run) && `${letterOf(run)}: ${run.name}, ${timeText(run.total_ns / 1e6)}`);
+  for (const run of runs) await startPixels(run, boxOf(run, "picture"));
+  for (const run of runs) startTime(run, boxOf(run, "rows"));
+  const places = make("div", {class: "cards"}, section);
+  startNames(card(places, "What the time goes to", "names-head"));
+  for (const run of runs) startCards(run, places);
   const view = card(section, "This view", "view-head"), command = make("pre", {class: "copy", id: "command", tabindex: 0, role: "region", "aria-label": "The command of this view"}, view);
+  Object.assign(usual, state);
   readAddress();
-  const whatIfBox = byId("what-if");
-  if (whatIfBox) part(() => [state.cache, state.dots, whatIfBox.clientWidth].join(), startWhatIf(whatIfBox, data.forecast, state, writeAddress));
-  part(() => [state.t, state.heat, state.mix, choiceKey(chosen())].join(), drawPixels);
-  part(() => [state.t, state.from, state.to, state.why, choiceKey(chosen())].join(), drawTime);
-  part(() => stepKey() + choiceKey(chosen()), drawMachine);
-  part(() => choiceKey(chosen()) + (hasChoice(chosen()) && chosen().x < 0 ? stepKey() : ""), () => { said.textContent = wordsOf(chosen()); });
-  part(() => [state.from, state.to, state.heat, choiceKey(state)].join(), () => { command.textContent = commandText(); });
-  startKeys(section);
+  for (const act of starters) act();
+  part(() => choiceKey(chosen()) + (hasChoice(chosen()) ? stepKey() : ""), () => { said.textContent = wordsOf(chosen()); });
+  part(() => [state.from, state.to, state.heat, choiceKey(state)].join(), () => { command.textContent = commandText(runs[state.run]); });
+  startKeys();
   drawAll();
   new ResizeObserver(drawAll).observe(section);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);

@@ -1,98 +1,91 @@
 // What is shown: one state, from which all that is drawn follows and which stands in the address.
 
-/// Whole numbers as the page has them: little-endian, as are all computers that browsers run on.
-const unpacked = ({type, data: text}) => {
-  const letters = atob(text), bytes = new Uint8Array(letters.length);
-  for (let i = 0; i < letters.length; ++i) bytes[i] = letters.charCodeAt(i);
-  return new {u1: Uint8Array, u2: Uint16Array, u4: Uint32Array, f8: Float64Array}[type](bytes.buffer);
-};
-const done = unpacked(data.done);
-const fields = Object.fromEntries(data.fields.map((field) => [field.name, {...field, values: unpacked(field.values)}]));
-const restName = data.clock === "virtual time" ? "idle at the end" : "waiting for a core";
-/// What nodes did, then what they waited for; what is left of a step is the rest.
-const works = [...data.works, ...data.waits.filter(({name}) => name !== restName)].map((work) => ({...work, shares: unpacked(work.shares)}));
-const totalMs = data.total_ns / 1e6, stepMs = data.step_ns / 1e6;
-const stepCount = Math.min(data.steps, Math.ceil(data.total_ns / data.step_ns));
-
 /// What is chosen, or under the pointer: nothing where a number is -1. A pair is a node and a peer.
 const nothing = {node: -1, peer: -1, link: -1, page: -1, x: -1, y: -1};
-const state = {t: totalMs, from: 0, to: 0, heat: "", mix: 70, why: -1, ...asked, ...nothing};
+const state = {t: totalMs, from: 0, to: 0, heat: "", mix: 70, run: 0, why: -1, ...nothing};
 let pointed = null;
 const chosen = () => pointed || state;
-const choose = (choice) => Object.assign(state, nothing, choice);
 const hasChoice = ({node, link, page}) => node >= 0 || link >= 0 || page >= 0;
+const choiceKey = ({run, node, peer, link, page, x, y}) => [run, node, peer, link, page, x, y].join();
 
-const hostOr = (node) => node >= data.nodes ? "the host" : "node " + node;
-/// "node 3" and "host" as numbers; -1: a switch, or a place without a node.
-const nodeOf = (name) => name === "host" ? data.nodes : name.startsWith("node ") ? Number(name.slice(5)) : -1;
-/// The nodes that stay bright.
-const brightNodes = ({node, peer, link, page}) => {
-  const all = page >= 0 ? [data.pages[page][1]] : link >= 0 ? data.links[link].slice(0, 2).map(nodeOf) : [node, peer];
+/// The nodes of a run that stay bright. A link and a page are of the run that is chosen.
+const brightNodes = (run, {run: of, node, peer, link, page, x, y}) => {
+  const [hot, busy] = of === run.index ? [run.pages[page], run.links[link]] : [];
+  const all = x >= 0 ? [run.fields.node && x < run.wide && y < run.high ? run.fields.node.values[y * run.wide + x] : -1] :
+    page >= 0 ? hot ? [hot[1]] : [] : link >= 0 ? busy ? busy.slice(0, 2).map((name) => nodeOf(run, name)) : [] : [node, peer];
   return new Set(all.filter((number) => number >= 0));
 };
 /// Those of which sums are shown: the bright ones, or all.
-const summed = (choice) => {
-  const bright = [...brightNodes(choice)].filter((node) => node < data.nodes);
-  return bright.length ? bright : [...Array(data.nodes).keys()];
+const summed = (run, choice) => {
+  const bright = [...brightNodes(run, choice)].filter((node) => node < run.nodes);
+  return bright.length ? bright : [...Array(run.nodes).keys()];
 };
-const choiceKey = (choice) => [choice.node, choice.peer, choice.link, choice.page, choice.x, choice.y].join();
 
 // The address: #t=15&from=10&to=14&heat=faults&mix=85&node=6; one without "=" leads to a section.
-const usual = {...state}, most = {t: totalMs, from: totalMs, to: totalMs, mix: 100, cache: Infinity, dots: 1, node: data.nodes, peer: data.nodes,
-  link: data.links.length - 1, page: data.pages.length - 1, x: data.wide - 1, y: data.high - 1};
-const isNumber = (key) => key in nothing || key === "why";
+const usual = {}, most = {t: totalMs, from: totalMs, to: totalMs, mix: 100, run: runs.length - 1, node: mostOf(({nodes}) => nodes), peer: mostOf(({nodes}) => nodes),
+  link: mostOf(({links}) => links.length) - 1, page: mostOf(({pages}) => pages.length) - 1, x: mostOf(({wide}) => wide) - 1, y: mostOf(({high}) => high) - 1, why: -1};
+const heats = [...new Set(runs.flatMap(({fields}) => Object.keys(fields))), "done"];
 const readAddress = () => {
   for (const [key, text] of new URLSearchParams(location.hash.includes("=") ? location.hash.slice(1) : "")) {
-    const value = Math.max(isNumber(key) ? -1 : 0, Math.min(most[key], parseFloat(text)));
-    if (key === "heat" ? text === "done" || Object.hasOwn(fields, text) : value >= -1) state[key] = key === "heat" ? text : isNumber(key) ? Math.round(value) : value;
+    const least = key in nothing || key === "why" ? -1 : 0, value = Math.max(least, Math.min(most[key], parseFloat(text)));
+    if (key === "heat") state.heat = heats.includes(text) ? text : state.heat;
+    else if (value >= -1) state[key] = least < 0 || key === "run" ? Math.round(value) : value;
   }
   state.to = Math.max(state.from, state.to);
 };
 const writeAddress = () => {
   const said = Object.entries(state).filter(([key, value]) => value !== usual[key]);
   history.replaceState(null, "", "#" + (said.map(([key, value]) => key + "=" + (Number.isInteger(value) || key === "heat" ? value : value.toPrecision(6))).join("&") || "t=" + totalMs));
+  changed();
+};
+const change = (parts) => {
+  Object.assign(state, parts);
+  writeAddress();
 };
 
-/// Steps of the brush, or else the one of now: first and last.
-const stepsShown = () => {
-  const step = (ms) => Math.max(0, Math.min(stepCount - 1, Math.floor(ms / stepMs)));
-  return state.to > state.from ? [step(state.from), step(state.to * (1 - 1e-9))] : [step(state.t), step(state.t)];
+/// Steps of the brush, or else the one of now: first and last. Beyond the end of a run there is none.
+const stepsShown = ({step_ns, steps, total_ns}) => {
+  const [from, to] = state.to > state.from ? [state.from, state.to * (1 - 1e-9)] : [state.t, state.t];
+  const stepOf = (ms) => Math.max(0, Math.min(steps - 1, Math.ceil(total_ns / step_ns) - 1, Math.floor(ms * 1e6 / step_ns)));
+  return from > total_ns / 1e6 ? [0, -1] : [stepOf(from), stepOf(to)];
 };
-/// What passed over time, by row and step: in the steps shown how many of a row, and how that is to the most of any row.
-const overTime = ({step_ns, steps, most, values: packed}) => {
-  const values = unpacked(packed), stepOf = (ms) => Math.max(0, Math.min(steps - 1, Math.floor(ms * 1e6 / step_ns)));
-  const shown = () => state.to > state.from ? [stepOf(state.from), stepOf(state.to * (1 - 1e-9))] : [stepOf(state.t), stepOf(state.t)];
-  let largest = 1;
-  for (const value of values) if (value > largest) largest = value;
-  const sum = (row) => {
-    let all = 0;
-    for (let [step, last] = shown(); step <= last; ++step) all += values[row * steps + step];
-    return all;
-  };
-  return {count: (row) => Math.round(sum(row) * most / 255), share: (row) => sum(row) / largest / (shown()[1] - shown()[0] + 1),
-    at: (step) => values[step] / largest, most: largest * most / 255, step_ns, steps};
+const lengthOf = ([first, last]) => last - first + 1;
+/// In the steps shown how many of a row, and how that is to the most of any row of any run.
+const countOf = (rows, row) => Math.round(sumOf(rows, row, stepsShown(rows)) * rows.most / 255);
+const heatOf = (name, {[name]: rows}, row) => {
+  const shown = stepsShown(rows), peak = mostOf(({over}) => over[name] ? over[name].peak : 0);
+  return sumOf(rows, row, shown) / rows.largest / Math.max(1, lengthOf(shown)) * rows.peak / peak;
 };
-const {levels = [], ...overs} = data.over || {};
-const over = Object.fromEntries(Object.entries(overs).map(([name, rows]) => [name, overTime(rows)]));
 /// The share of a node's time in steps that it did a work, 0 to 1.
-const shareOf = (work, node, first, last) => {
-  let sum = 0;
-  for (let step = first, at = node * data.steps; step <= last; ++step) sum += works[work].shares[at + step];
-  return sum / 255 / (last - first + 1);
+const shareOf = (work, node, shown) => sumOf(work, node, shown) / 255 / Math.max(1, lengthOf(shown));
+/// Of all works of some nodes, in the steps shown, and what is left.
+const sharesOf = (run, nodes) => {
+  const shown = stepsShown(run), shares = run.works.map((work) => [work.name, nodes.reduce((sum, node) => sum + shareOf(work, node, shown), 0) / nodes.length]);
+  return [...shares, [run.rest, Math.max(0, 1 - shares.reduce((sum, [, share]) => sum + share, 0))]];
 };
+
+/// Further parts of a run that scripts bring: {id, headingOf(run), which is nothing where a run has none, start(run, box), isWide}.
+const cards = [];
+/// What they do when all else is there.
+const starters = [];
+/// What they say of what is chosen: nothing where they do not know it.
+const sayings = [];
 
 const timeText = (ms) => ms.toFixed(totalMs < 1 ? 4 : totalMs < 1000 ? 2 : 0) + " ms";
 
 /// A canvas for those who see it, with words for those who do not. What is at a place, 0 to 1 each way, is chosen by the pointer,
 /// what lies so many steps to the right and down from what was chosen before by arrow keys.
-const makeCanvas = (id, label, parent, at, beside) => {
-  const canvas = make("canvas", {id, role: "img", tabindex: 0, "aria-label": label}, parent);
-  if (at) canvas.addEventListener("pointermove", (event) => point({...nothing, ...at(...placeIn(canvas, event))}));
+const makeCanvas = (run, id, label, parent, at, beside) => {
+  const letter = letterOf(run), canvas = make("canvas", {id: id + (run.index || ""), role: "img", tabindex: 0, "aria-label": (letter && letter + ": ") + label}, parent);
+  const chosenBy = (choice) => ({...nothing, run: run.index, ...choice});
+  if (at) canvas.addEventListener("pointermove", (event) => point(chosenBy(at(...placeIn(canvas, event)))));
+  canvas.addEventListener("pointerleave", () => point(nothing));
+  canvas.addEventListener("click", () => { if (pointed) settle(pointed); });
   if (beside) canvas.addEventListener("keydown", (event) => {
     const move = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
     if (!move) return;
     event.preventDefault();
-    settle({...nothing, ...beside(...move)});
+    settle(chosenBy(beside(...move)));
   });
   return canvas;
 };
@@ -113,3 +106,4 @@ const nodeColors = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b
 /// Work strong, waits pale.
 const workColors = {tracing: "#0072b2", shading: "#56b4e9", paging: "#009e73", packing: "#cc79a7", messages: "#e69f00", control: "#8c6d46", "page wait": "#009e7370", "answer wait": "#009e7370",
   "ray wait": "#cc79a780", "work wait": "#e6c30070", "token wait": "#6a4fb080", "credit wait": "#d55e0080", "film wait": "#56b4e980", "other waits": "#80808080", "idle at the end": "#80808040"};
+const colorOf = (name) => workColors[name] || "#80808060";

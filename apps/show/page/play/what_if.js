@@ -1,5 +1,4 @@
 // What if caches had another size: the band of predicted run time, drawn where it is narrow enough, and runs as dots.
-const asked = {cache: data.forecast ? data.forecast.cache : 0, dots: 1};
 /// Fills `box`. What is asked for is in `state`: cache (pages) and dots (1 or 0); `settle` is told when it changed. Gives what draws it anew.
 const startWhatIf = (box, {cache: own, widest, why, points, runs}, state, settle) => {
   const isNarrow = ([, , least, most]) => most / least - 1 <= widest, pagesText = (count) => count === 1 ? "1 page" : numberText(count) + " pages";

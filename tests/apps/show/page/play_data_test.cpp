@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/edge/run/work.h"
+#include "apps/show/page/player.h"
 #include "apps/show/stats/stats.h"
 #include "tests/apps/show/page/numbers_in.h"
 #include "tests/apps/show/watched.h"
@@ -24,7 +25,7 @@ using tests::numbers_in;
 
 Origin origin() { return {.words = {"dmpc", "render", "'<b> \xe2\x80\xa8.nff'"}}; }
 
-std::string text_of(const Watched& watched) { return play_data(watched.record(), origin()); }
+std::string text_of(const Watched& watched) { return data_text(play_data(watched.record(), origin())); }
 
 std::uint64_t sum_of(const json& array) {
   const std::vector<std::uint64_t> numbers = numbers_in(array);
