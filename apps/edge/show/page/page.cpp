@@ -120,8 +120,8 @@ void Page::add_table(const Table& table) {
   const bool is_folded = count > open_rows_max;
   const bool is_named_before = !headings_.empty() && headings_.back() == table.title();
   body_ += is_folded ? "<details>\n<summary>" + escaped(table.title()) + " (" + counted(count, "row") + ")</summary>\n" : "";
-  body_ += "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"" + escaped(table.title()) + "\">\n" +
-           table_element(table, !is_folded && !is_named_before) + "</div>\n" + notes_of(table) + "<p class=\"saves\">" +
+  body_ += "<section class=\"scroll\" tabindex=\"0\" aria-label=\"" + escaped(table.title()) + "\">\n" +
+           table_element(table, !is_folded && !is_named_before) + "</section>\n" + notes_of(table) + "<p class=\"saves\">" +
            save_link(table.title(), "CSV", data_url("text/csv", text_of(table, TableFormat::csv))) + "</p>\n";
   body_ += is_folded ? "</details>\n" : "";
   words_ += "\n" + words_of(table);

@@ -8,6 +8,7 @@
   for (const link of document.querySelectorAll("figure a.save[hidden]")) {
     const image = link.closest("figure").querySelector("img");
     link.href = image.src;
+    link.download = link.dataset.name;
     link.addEventListener("click", () => { link.href = onWhite(image.src); });
     link.hidden = false;
   }

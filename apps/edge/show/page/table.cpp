@@ -145,13 +145,13 @@ std::string file_stem(const std::string& title) {
   return stem.substr(0, stem.find_last_not_of('-') + 1);
 }
 
-/// Saves under a name made of title and ending.
-std::string link_with(const std::string& attribute, const std::string& title, const std::string& ending) {
+/// Saves under a name made of title and ending, which is the value of `attributes`' last.
+std::string link_with(const std::string& attributes, const std::string& title, const std::string& ending) {
   std::string name = ending;
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return "<a class=\"save\" download=\"" + file_stem(title) + "." + name + "\" " + attribute + " title=\"Save as " + ending +
-         ": " + escaped(title) + "\">" + ending + "</a>";
+  return "<a class=\"save\" " + attributes + "=\"" + file_stem(title) + "." + name + "\" title=\"Save as " + ending + ": " +
+         escaped(title) + "\">" + ending + "</a>";
 }
 
 }  // namespace
@@ -183,9 +183,11 @@ std::string words_of(const Table& table) {
 }
 
 std::string save_link(const std::string& title, const std::string& ending, const std::string& url) {
-  return link_with("href=\"" + url + "\"", title, ending);
+  return link_with("href=\"" + url + "\" download", title, ending);
 }
 
-std::string shown_save_link(const std::string& title, const std::string& ending) { return link_with("hidden", title, ending); }
+std::string shown_save_link(const std::string& title, const std::string& ending) {
+  return link_with("hidden data-name", title, ending);
+}
 
 }  // namespace dmpc::apps::html

@@ -159,7 +159,8 @@ TEST_CASE("what is between backticks is code, in paragraphs, cells and notes") {
 
 TEST_CASE("tables can be saved without a script") {
   const std::string text = page_with([](Page& page) { page.add_table(table_of(1)); });
-  CHECK(contains(text, "download=\"ta-ble.csv\" href=\"data:text/csv;base64,"));
+  CHECK(contains(text, "href=\"data:text/csv;base64,"));
+  CHECK(contains(text, "download=\"ta-ble.csv\""));
   CHECK(contains(text, data_url("text/csv", "na<me,time (s),count\na<b,0.125,1234567\n")));
 }
 
