@@ -1,12 +1,16 @@
 #include "apps/lab/compare/command.h"
 
+#include <array>
+#include <cstdint>
 #include <iostream>
+#include <optional>
 #include <string>
 
 #include "apps/edge/line/exit_status.h"
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/distinct_files.h"
 #include "apps/edge/system/output_file.h"
+#include "apps/lab/compare/pages.h"
 #include "apps/lab/compare/report.h"
 #include "apps/picture/image_file.h"
 #include "core/base/expect.h"
@@ -14,7 +18,12 @@
 namespace dmpc::apps {
 namespace {
 
-bool holds_counters(const std::filesystem::path& path) { return path.extension() == ".json"; }
+enum class Kind : std::uint8_t { pictures, counters, pages };
+
+Kind kind_of(const std::filesystem::path& path) {
+  const std::filesystem::path ending = path.extension();
+  return ending == ".json" ? Kind::counters : ending == ".html" || ending == ".htm" ? Kind::pages : Kind::pictures;
+}
 
 void check_outputs(const CompareOptions& options) {
   std::vector<NamedFile> outputs;
@@ -24,9 +33,16 @@ void check_outputs(const CompareOptions& options) {
   if (options.flip) {
     outputs.push_back({"--flip", *options.flip});
   }
+  const std::vector<NamedFile> pictures = outputs;
+  if (options.report) {
+    outputs.push_back({"--report", *options.report});
+  }
   check_distinct({{"A", options.a}, {"B", options.reference}}, outputs);
-  for (const NamedFile& output : outputs) {
-    check_image_path(output.path, output.name);
+  for (const NamedFile& picture : pictures) {
+    check_image_path(picture.path, picture.name);
+  }
+  if (options.report) {
+    check_output_path(*options.report, "--report");
   }
 }
 
@@ -66,8 +82,8 @@ int compare_pictures(const CompareOptions& options, Interrupt& interrupt, std::o
   return status_after(options, passed);
 }
 
-int compare_counters(const CompareOptions& options, std::ostream& output) {
-  const FigureComparison comparison = compare_figures(read_figures(options.a), read_figures(options.reference), options.figures);
+/// What `compared` says is printed.
+int tell_counters(const CompareOptions& options, const FigureComparison& comparison, std::ostream& output) {
   if (options.format == CompareFormat::json) {
     print_json(output, {options.a, options.reference}, comparison);
   } else {
@@ -81,22 +97,50 @@ int compare_counters(const CompareOptions& options, std::ostream& output) {
   return status_after(options, sentences);
 }
 
+int compare_counters(const CompareOptions& options, std::ostream& output) {
+  return tell_counters(options, compare_figures(read_figures(options.a), read_figures(options.reference), options.figures),
+                       output);
+}
+
+int compare_pages(const CompareOptions& options, Interrupt& interrupt, std::ostream& output) {
+  const std::array<PlayedPage, 2> pages = {read_page(options.a), read_page(options.reference)};
+  const std::optional<FigureComparison> counters = compare_counters_of(pages, options.figures, options.report.has_value());
+  if (options.report) {
+    OutputFile file(*options.report);
+    file.write(page_of(pages, counters, options.sandbox, std::cerr));
+    interrupt.set_consequence("the output may be incomplete");
+    file.commit();
+  }
+  if (counters) {
+    return tell_counters(options, *counters, output);
+  }
+  std::cerr << "dmpc: " << without_counters(pages) << '\n';
+  return 0;
+}
+
 /// Options of the one kind of file do not go with the other.
 void check_together(const OptionSet& set, const CompareOptions& compare) {
-  const bool counters = holds_counters(compare.a);
-  if (counters != holds_counters(compare.reference)) {
+  const Kind kind = kind_of(compare.a);
+  if (kind != kind_of(compare.reference)) {
     throw core::UsageError("A " + compare.a.string() + " and B " + compare.reference.string() +
-                           ": expected two pictures, or two files of counters, which end in .json");
+                           ": expected two pictures, two files of counters, which end in .json, or two pages of renders, which "
+                           "end in .html");
   }
   for (const char* const option : {"--difference", "--flip", "--fail-above"}) {
-    if (counters && set.is_given(option)) {
+    if (kind != Kind::pictures && set.is_given(option)) {
       throw core::UsageError(std::string(option) + " goes with pictures: of counters --tolerance says what may differ");
     }
   }
   for (const char* const option : {"--only", "--tolerance"}) {
-    if (!counters && set.is_given(option)) {
+    if (kind == Kind::pictures && set.is_given(option)) {
       throw core::UsageError(std::string(option) + " goes with counters: of pictures --fail-above says how far they may differ");
     }
+  }
+  if (kind != Kind::pages && set.is_given("--report")) {
+    throw core::UsageError(
+        "--report goes with two pages that dmpc render --report=FILE.html wrote, whose runs it puts on one clock: " +
+        std::string(kind == Kind::pictures ? "of pictures --difference and --flip show where they differ"
+                                           : "counters alone have nothing that plays"));
   }
 }
 
@@ -104,11 +148,13 @@ void check_together(const OptionSet& set, const CompareOptions& compare) {
 
 void add_options(OptionSet options, CompareOptions& compare) {
   options.add_argument(
-      "A", [&compare](const std::string& text) { compare.a = text; }, "A picture, or what --stats of a render wrote (.json)");
+      "A", [&compare](const std::string& text) { compare.a = text; },
+      "A picture, or what --stats (.json) or --report (.html) of a render wrote");
   options.add_argument(
       "B", [&compare](const std::string& text) { compare.reference = text; }, "Another of the same size, the reference");
   options.add_path("--difference", "IMAGE", compare.difference, "Write the absolute differences as a picture");
   options.add_path("--flip", "IMAGE", compare.flip, "Write the differences that an eye perceives, by FLIP, as a picture");
+  options.add_path("--report", "FILE", compare.report, "Write a page on which the runs of two pages (.html) play on one clock");
   options.add_texts(
       "--fail-above", "MEASURE:NUMBER", [&compare](const std::string& text) { compare.limits.push_back(parse_limit(text)); },
       "End with status 5 if the pictures lie further apart, by " + measure_names() + "; may be given several times");
@@ -130,6 +176,7 @@ void add_options(OptionSet options, CompareOptions& compare) {
       "  dmpc compare new.exr kept.exr --fail-above=rmse:1/255 --fail-above=max:0.1\n"
       "  dmpc compare new.json kept.json\n"
       "  dmpc compare new.json kept.json --only=film_hash --only=pages --tolerance=pages.faults:0.05\n"
+      "  dmpc compare a.html b.html --report=ab.html\n"
       "  dmpc compare new.json kept.json --only=seconds --tolerance=seconds:0.5\n"
       "Status 5 says that they differ. Seconds of the wall clock are left out unless there is a tolerance for them. With "
       "threads\n"
@@ -139,7 +186,15 @@ void add_options(OptionSet options, CompareOptions& compare) {
 int compare_command(const CompareOptions& options, Interrupt& interrupt, std::ostream& output) {
   check_outputs(options);
   const Interrupt::EndAtOnce end_at_once(interrupt);
-  return holds_counters(options.a) ? compare_counters(options, output) : compare_pictures(options, interrupt, output);
+  switch (kind_of(options.a)) {
+    case Kind::counters:
+      return compare_counters(options, output);
+    case Kind::pages:
+      return compare_pages(options, interrupt, output);
+    case Kind::pictures:
+      break;
+  }
+  return compare_pictures(options, interrupt, output);
 }
 
 }  // namespace dmpc::apps

@@ -1,13 +1,12 @@
 #include "apps/lab/figures/figures_file.h"
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "apps/edge/line/json_format.h"
 #include "apps/edge/line/number_text.h"
-#include "apps/edge/system/text_input.h"
+#include "apps/edge/system/bounded_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -67,21 +66,6 @@ struct ValueText {
   std::string operator()(const std::string& value) const { return value; }
 };
 
-/// Not a byte more of one that is too long.
-std::string bounded_text(TextInput& stream) {
-  std::string text;
-  std::array<char, 65536> part;
-  std::uint64_t bytes = stream.file_bytes();
-  while (bytes <= figures_bytes_max && (stream.read(part.data(), part.size()) || stream.gcount() > 0)) {
-    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
-    bytes = std::max<std::uint64_t>(bytes, text.size());
-  }
-  if (bytes > figures_bytes_max) {
-    throw core::InputError("has more than " + mebibytes_text(figures_bytes_max) + ", expected what dmpc render --stats writes");
-  }
-  return text;
-}
-
 /// What stands before the next dot, which goes with it.
 std::string_view take_word(std::string_view& words) {
   const std::size_t dot = words.find('.');
@@ -108,13 +92,7 @@ std::vector<Figure> parse_figures(std::string_view text, const std::string& file
 }
 
 std::vector<Figure> read_figures(const std::filesystem::path& file) {
-  try {
-    TextInput stream(file);
-    return parse_figures(bounded_text(stream), file.string());
-  } catch (const core::InputError& error) {
-    const std::string sentence = error.what();
-    throw core::InputError(sentence.starts_with(file.string()) ? sentence : file.string() + ": " + sentence);
-  }
+  return parse_figures(bounded_text(file, figures_bytes_max, "what dmpc render --stats writes"), file.string());
 }
 
 std::string text_of(const FigureValue& value) { return std::visit(ValueText{}, value); }

@@ -13,7 +13,8 @@
 #include "apps/edge/table/plot.h"
 #include "apps/edge/table/table.h"
 #include "apps/run/report.h"
-#include "core/base/expect.h"
+#include "apps/show/page/page_data.h"
+#include "apps/show/page/typed_array.h"
 
 namespace dmpc::apps::html {
 
@@ -21,6 +22,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t sizes_max = 4096;     ///< that are read back
 constexpr double told_error_least = 0.001;  ///< less is not worth a sentence
 
 std::string why_wide(const CacheForecast& forecast) {
@@ -151,25 +153,27 @@ json json_of(const ForecastView& view) {
           {"runs", std::move(made)}};
 }
 
-std::optional<ForecastView> forecast_in(std::string_view page) {
-  constexpr std::string_view begin = "<script type=\"application/json\" id=\"data\">", end = "</script>";
-  const std::size_t at = page.find(begin);
-  if (at == std::string_view::npos) {
+std::optional<ForecastView> forecast_in(std::string_view page, const std::string& file) {
+  const std::optional<json> data = data_in(page, file);
+  if (!data || !data->contains("forecast")) {
     return std::nullopt;
   }
-  page.remove_prefix(at + begin.size());
-  const json data = json::parse(page.substr(0, page.find(end)), nullptr, false);
-  core::expect(data.is_object(), "a page's data are whole");
-  if (!data.contains("forecast")) {
-    return std::nullopt;
+  const DataPart forecast = DataPart(*data, file + ": data").at("forecast");
+  const auto cache = [](const DataPart& list) {
+    return static_cast<std::uint32_t>(list.at(std::size_t{0}).whole(~std::uint32_t{0}, 1));
+  };
+  const auto number = [](const DataPart& list, std::size_t place) {
+    return static_cast<double>(list.at(place).whole(exact_number_max));
+  };
+  ForecastView view{
+      static_cast<std::uint32_t>(forecast.at("cache").whole(~std::uint32_t{0}, 1)), forecast.at("why").text(), {}, {}};
+  for (std::size_t i = 0; i < forecast.at("points").size(sizes_max); ++i) {
+    const DataPart point = forecast.at("points").at(i);
+    view.sizes.push_back(
+        {.cache_pages = cache(point), .faults = number(point, 1), .least_ns = number(point, 2), .most_ns = number(point, 3)});
   }
-  const json& forecast = data["forecast"];
-  ForecastView view{forecast["cache"], forecast["why"], {}, {}};
-  for (const json& point : forecast["points"]) {
-    view.sizes.push_back({.cache_pages = point[0], .faults = point[1], .least_ns = point[2], .most_ns = point[3]});
-  }
-  for (const json& run : forecast["runs"]) {
-    view.runs.push_back({.cache_pages = run[0], .total_ns = run[1]});
+  for (std::size_t i = 0; i < forecast.at("runs").size(sizes_max); ++i) {
+    view.runs.push_back({.cache_pages = cache(forecast.at("runs").at(i)), .total_ns = number(forecast.at("runs").at(i), 1)});
   }
   return view;
 }

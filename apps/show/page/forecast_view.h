@@ -38,8 +38,9 @@ std::optional<ForecastView> forecast_view(const RenderRecord& record);
 
 /// For scripts: {cache, widest (share), why, points: [[pages, faults, least_ns, most_ns]], runs: [[pages, ns]]}.
 nlohmann::json json_of(const ForecastView& view);
-/// What the page of a render says, read back; nothing if that has none.
-std::optional<ForecastView> forecast_in(std::string_view page);
+/// What the page of a render says, read back; nothing if that has none. `file` is what messages call it. Throws core::InputError
+/// for data that do not hold together.
+std::optional<ForecastView> forecast_in(std::string_view page, const std::string& file);
 
 /// Says it in a sentence and a table, and draws it: by gnuplot, and where scripts run by them, in a place of its own.
 void add_forecast(Page& page, const ForecastView& view);

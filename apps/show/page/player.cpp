@@ -7,7 +7,8 @@
 namespace dmpc::apps::html {
 
 extern const WebPart play_style, what_if_style;
-extern const WebPart play_script, levels_script, pairs_script, pages_script, why_script, what_if_played_script, player_script;
+extern const WebPart play_script, levels_script, links_script, pairs_script, pages_script, why_script, what_if_played_script,
+    player_script;
 
 namespace {
 
@@ -29,6 +30,9 @@ void add_player(Page& page, const json& data) {
   page.add_script(play_script);
   if (any(has_levels)) {
     page.add_script(levels_script);
+  }
+  if (any_has("topology")) {
+    page.add_script(links_script);
   }
   if (any_has("pairs")) {
     page.add_script(pairs_script);

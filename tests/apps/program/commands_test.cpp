@@ -37,7 +37,12 @@ std::string command_complaint(std::initializer_list<std::string> arguments) {
 }  // namespace
 
 TEST_CASE("compare takes two pictures or two files of counters, and each has options of its own") {
-  CHECK(contains(command_complaint({"compare", "a.exr", "b.json"}), "expected two pictures, or two files of counters"));
+  CHECK(contains(command_complaint({"compare", "a.exr", "b.json"}), "expected two pictures, two files of counters"));
+  CHECK(contains(command_complaint({"compare", "a.html", "b.json"}), "or two pages of renders, which end in .html"));
+  CHECK(contains(command_complaint({"compare", "a.html", "b.html", "--flip=f.png"}), "--flip goes with pictures"));
+  CHECK(
+      contains(command_complaint({"compare", "a.exr", "b.exr", "--report=ab.html"}), "of pictures --difference and --flip show"));
+  CHECK(contains(command_complaint({"compare", "a.json", "b.json", "--report=ab.html"}), "have nothing that plays"));
   CHECK(contains(command_complaint({"compare", "a.json", "b.json", "--fail-above=max:1"}), "--fail-above goes with pictures"));
   CHECK(contains(command_complaint({"compare", "a.json", "b.json", "--flip=f.png"}), "--flip goes with pictures"));
   CHECK(contains(command_complaint({"compare", "a.exr", "b.exr", "--only=rays"}), "--only goes with counters"));

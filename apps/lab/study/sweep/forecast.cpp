@@ -62,7 +62,7 @@ std::optional<html::ForecastView> sweep_forecast(const SweepSettings& settings, 
   std::vector<std::string> words = results[*number].run.words;
   words.push_back("--report=" + page.string());
   RenderProcesses(settings.program, interrupt).run(words, "forecast");
-  std::optional<html::ForecastView> view = html::forecast_in(text_in(page));
+  std::optional<html::ForecastView> view = html::forecast_in(text_in(page), page.string());
   if (view) {
     view->runs.clear();
     for (const SweepResult& result : results) {

@@ -66,7 +66,7 @@ cards.push({id: "why", isWide: true, headingOf: ({causes, path}) => causes && pa
   const button = make("button", {type: "button", id: id("path")}, box, "Show the critical path");
   button.addEventListener("click", () => change({run: index, why: isPath() ? -1 : pathEndOf(run)}));
   run.time.clicked.push((node) => change({run: index, why: waitAt(run, node, state.t * 1e6)}));
-  const sum = make("p", {id: id("why-sum")}, box), list = make("ol", {id: id("why"), class: "why", tabindex: 0, role: "region", "aria-label": "The chain of causes" + letterOf(run)}, box);
+  const sum = make("p", {id: id("why-sum")}, box), place = make("div", {class: "why", tabindex: 0, role: "region", "aria-label": "The chain of causes" + letterOf(run)}, box), list = make("ol", {id: id("why")}, place);
   make("p", {class: "note"}, box, "Exact, of the whole run: " + [...path.parts, ...path.kinds.map(({name, ns}) => ({name: "for " + name, ns}))]
     .map(({name, ns}) => `${name} ${percentText(ns / total_ns)}`).join(", ") + `; ${numberText(path.messages)} messages.` +
     (causes.left_out_ns > 0 ? ` Chains leave out waits up to ${msText(causes.left_out_ns)}: ${numberText(causes.node.length)} of ${numberText(causes.count)} are kept.` : ""));

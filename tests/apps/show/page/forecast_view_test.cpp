@@ -80,10 +80,10 @@ TEST_CASE("the page of a run says in a table what its data say: the run itself, 
 TEST_CASE("what a page says is read back from it, and of a page without it nothing") {
   const Watched watched(starved(modelled()));
   const std::string page = page_of(watched);
-  const ForecastView read = forecast_in(page).value();
+  const ForecastView read = forecast_in(page, "a.html").value();
   CHECK(json_of(read) == json_of(forecast_view(watched.record()).value()));
-  CHECK_FALSE(forecast_in(page_of(Watched(modelled(Strategy::dataflow)))).has_value());
-  CHECK_FALSE(forecast_in("<p>No data.</p>").has_value());
+  CHECK_FALSE(forecast_in(page_of(Watched(modelled(Strategy::dataflow))), "a.html").has_value());
+  CHECK_FALSE(forecast_in("<p>No data.</p>", "a.html").has_value());
 }
 
 TEST_CASE("of threads no time is predicted, and their page says why") {

@@ -9,11 +9,12 @@
 
 #include "apps/show/page/render_page.h"
 #include "tests/apps/show/page/numbers_in.h"
+#include "tests/apps/show/page/played.h"
 #include "tests/apps/show/watched.h"
-#include "tests/support/browser.h"
-#include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps::html::player_test {
+
+using tests::told;
 
 namespace {
 
@@ -23,24 +24,6 @@ std::string page_of(const std::string& scene = "balls-2") {
   watched.options.picture.scene = scene;
   std::ostringstream complaints;
   return render_page(watched.record(), {.command = "dmpc", .words = {"dmpc", "render", "balls-2"}}, complaints);
-}
-
-/// Puts `expression` of the page `p` within, once its player is there, into the window's title. `act` is done before.
-std::string script(const std::string& act, const std::string& expression) {
-  return "<script>addEventListener('load',()=>{const frame=document.querySelector('iframe'),p=frame.contentDocument,"
-         "w=frame.contentWindow,id=(name)=>p.getElementById(name),key=(target,key)=>target.dispatchEvent(new "
-         "w.KeyboardEvent('keydown',"
-         "{key,bubbles:true,cancelable:true})),lit=()=>{const "
-         "c=id('shot'),d=c.getContext('2d').getImageData(0,0,c.width,c.height)"
-         ".data;let n=0;for(let i=0;i<d.length;i+=4)n+=!(d[i]===26&&d[i+1]===26&&d[i+2]===26);return n};"
-         // The browser's virtual clock runs on without frames, for which the page would wait.
-         "setTimeout(()=>{w.requestAnimationFrame=(f)=>w.setTimeout(()=>f(w.performance.now()),16);" +
-         act + ";setTimeout(()=>{document.title=String(" + expression + ")},500)},1000)})</script>";
-}
-
-std::string told(const std::string& page, const std::string& act, const std::string& expression, const std::string& state = "") {
-  const tests::TemporaryFolder folder;
-  return tests::told_by_browser(page, 1280, false, folder / "shot.png", script(act, expression), state);
 }
 
 }  // namespace
@@ -113,6 +96,25 @@ TEST_CASE("names that would be script do nothing") {
       told(page_of("</script><script>document.title='run'</script>\xe2\x80\xa8<img src=x onerror=alert(1)>"), "", counts);
   CHECK(hostile == told(page_of(), "", counts));
   CHECK(hostile.starts_with("true,0,"));
+}
+
+TEST_CASE("each part of the page has a name of its own, and words for those who do not see it") {
+  CHECK(told(page_of(), "", tests::broken_rules) == "0,0,0,0,0");
+}
+
+TEST_CASE("a page has the scripts of what it plays, and no others") {
+  const auto scripts = [](const RenderOptions& options) {
+    std::ostringstream complaints;
+    const std::string page = render_page(Watched(options).record(), {.command = "dmpc"}, complaints);
+    std::string found;
+    for (const char* const part : {"startWhatIf", "chainOf", "pairText", "pageText", "linkText", "levelColors"}) {
+      found += tests::contains(page, std::string("const ") + part + " =") ? '1' : '0';
+    }
+    return found;
+  };
+  CHECK(scripts(starved(modelled())) == "111111");
+  CHECK(scripts(modelled(Strategy::dataflow)) == "011011");
+  CHECK(scripts(starved(small())) == "001100");
 }
 
 TEST_CASE("an address that says nonsense is taken as far as it makes sense") {

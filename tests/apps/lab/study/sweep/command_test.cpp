@@ -97,7 +97,7 @@ TEST_CASE("the page of a sweep over caches alone has all its runs beside what on
     Words words = {"balls-2", "--resolution=16x16", "--format=csv", "--page-size=512", "--report=" + page};
     words.insert(words.end(), more.begin(), more.end());
     swept(sweep_options(words));
-    return apps::html::forecast_in(file_text(page));
+    return apps::html::forecast_in(file_text(page), page);
   };
   const auto forecast = shown({"--runner=virtual", "--vary=cache-pages:4,2,1", "--vary=nodes:4"});
   REQUIRE(forecast.has_value());

@@ -1,0 +1,37 @@
+// Two pages of renders held against each other: their counters, and a page with both runs on one clock.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "apps/lab/compare/differences.h"
+#include "apps/reader/confinement.h"
+#include "apps/show/page/played_run.h"
+
+namespace dmpc::apps {
+
+struct PlayedPage {
+  std::string file;  ///< as it was typed
+  html::PlayedRun run;
+};
+
+/// Reads what a page plays. Throws core::InputError if it cannot be read, is none of a render, or does not hold together.
+PlayedPage read_page(const std::filesystem::path& file);
+
+/// Of the counters that pages have kept; where one has none, nothing if `may_be_absent` and none are asked for, else
+/// core::InputError.
+std::optional<FigureComparison> compare_counters_of(const std::array<PlayedPage, 2>& pages, const FigureChoice& choice,
+                                                    bool may_be_absent);
+
+/// Says which of them has no counters, and what to do.
+std::string without_counters(const std::array<PlayedPage, 2>& pages);
+
+/// The page. Throws core::InputError if a picture cannot be read within `sandbox`, or their clocks differ. `complaints`: as
+/// html::comparison_page().
+std::string page_of(const std::array<PlayedPage, 2>& pages, const std::optional<FigureComparison>& counters, Sandbox sandbox,
+                    std::ostream& complaints);
+
+}  // namespace dmpc::apps

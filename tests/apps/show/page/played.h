@@ -1,0 +1,42 @@
+// A page that plays, in a real browser: what its script draws when something is done there.
+#pragma once
+
+#include <string>
+
+#include "tests/support/browser.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmpc::tests {
+
+/// Puts `expression` of the page `p` within, once its player is there, into the window's title. `act` is done before.
+inline std::string acting_script(const std::string& act, const std::string& expression) {
+  return "<script>addEventListener('load',()=>{const frame=document.querySelector('iframe'),p=frame.contentDocument,"
+         "w=frame.contentWindow,id=(name)=>p.getElementById(name),key=(target,key)=>target.dispatchEvent(new "
+         "w.KeyboardEvent('keydown',"
+         "{key,bubbles:true,cancelable:true})),lit=(name='shot')=>{const "
+         "c=id(name),d=c.getContext('2d').getImageData(0,0,c.width,c.height)"
+         ".data;let n=0;for(let i=0;i<d.length;i+=4)n+=!(d[i]===26&&d[i+1]===26&&d[i+2]===26);return n};"
+         // The browser's virtual clock runs on without frames, for which the page would wait.
+         "setTimeout(()=>{w.requestAnimationFrame=(f)=>w.setTimeout(()=>f(w.performance.now()),16);" +
+         act + ";setTimeout(()=>{document.title=String(" + expression + ")},500)},1000)})</script>";
+}
+
+inline std::string told(const std::string& page, const std::string& act, const std::string& expression,
+                        const std::string& state = "") {
+  const TemporaryFolder folder;
+  return told_by_browser(page, 1280, false, folder / "shot.png", acting_script(act, expression), state);
+}
+
+/// What of the rules that tests/pages asks others about is broken: ids that stand twice, elements without the words or the role
+/// that those need who do not see them, controls without a label, targets of less than 24 pixels, headings that skip a level.
+inline constexpr const char* broken_rules =
+    "(()=>{const "
+    "ids=[...p.querySelectorAll('[id]')].map(e=>e.id),levels=[...p.querySelectorAll('h1,h2,h3')].map(e=>+e.tagName[1]);"
+    "return [ids.length-new Set(ids).size,"
+    "p.querySelectorAll('canvas:not([role=img][aria-label]),img:not([alt]),a[download]:not([href]),"
+    "section:not([aria-label],[aria-labelledby]),ol[role],ul[role],div[aria-label]:not([role])').length,"
+    "[...p.querySelectorAll('input,select')].filter(e=>!e.labels.length).length,"
+    "[...p.querySelectorAll('#player button')].filter(e=>e.offsetHeight>0&&e.offsetHeight<24).length,"
+    "levels.filter((level,i)=>i>0&&level>levels[i-1]+1).length].join()})()";
+
+}  // namespace dmpc::tests

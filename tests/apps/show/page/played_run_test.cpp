@@ -1,0 +1,138 @@
+#include "apps/show/page/played_run.h"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/show/page/page_data.h"
+#include "apps/show/page/play_data.h"
+#include "apps/show/page/player.h"
+#include "apps/show/page/render_page.h"
+#include "apps/show/page/sweep_page.h"
+#include "core/base/expect.h"
+#include "tests/apps/show/page/numbers_in.h"
+#include "tests/apps/show/watched.h"
+#include "tests/support/text.h"
+
+namespace dmpc::apps::html::played_run_test {
+
+namespace {
+
+using nlohmann::json;
+using tests::contains;
+
+Origin origin() { return {.command = "dmpc", .words = {"dmpc", "render", "balls-2"}}; }
+
+std::string page_of(const Watched& watched) {
+  std::ostringstream complaints;
+  return render_page(watched.record(), origin(), complaints);
+}
+
+/// A page with such data alone.
+std::string page_with(const std::string& data) {
+  return "<html><script type=\"application/json\" id=\"data\">" + data + "</script></html>";
+}
+
+/// What is said of a page that is refused; empty if it is not.
+std::string refusal(const std::string& page) {
+  try {
+    played_run(page, "a.html");
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("what the page of a render plays is read back, all of it, with its counters and its picture") {
+  for (const RenderOptions& options :
+       {starved(modelled()), starved(small()), modelled(Strategy::dataflow), modelled(Strategy::forest)}) {
+    const Watched watched(options);
+    json data = json::parse(data_text(play_data(watched.record(), origin())));
+    const PlayedRun run = played_run(page_of(watched), "a.html");
+    REQUIRE(run.stats.has_value());
+    CHECK(json::parse(*run.stats) == data["stats"]);
+    data.erase("stats");
+    data.erase("forecast");
+    CHECK(run.data == data);
+    CHECK(run.picture.starts_with("\x89PNG\r\n"));
+  }
+}
+
+TEST_CASE("a page that plays no run is refused, with what it is") {
+  CHECK(contains(refusal("no page at all"), "a.html: this is no page"));
+  CHECK(contains(refusal("<html><p>Nothing.</p></html>"), "a.html: this page plays no run; expected a page that dmpc render"));
+  CHECK(contains(refusal(page_with(R"({"runs": []})")), "two runs side by side already"));
+  CHECK(contains(refusal(page_with(R"({"forecast": {}})")), "the page of a study, which plays no run"));
+  CHECK(contains(refusal(page_with(R"({"format": 7})")), "its data have format 7, expected format 2; compare it with the dmpc"));
+  CHECK(contains(refusal(page_with("[1]")), "no object of JSON"));
+  CHECK(contains(refusal(page_with("{")), "no object of JSON"));
+  CHECK(contains(refusal(page_with("{\"a\":" + std::string(100'000, '['))), "objects in each other"));
+  CHECK(
+      contains(refusal("<script type=\"application/json\" id=\"data\">{\"format\": 2"), "ends within its data, it was cut off"));
+}
+
+TEST_CASE("data that do not hold together are refused, with where, and no browser sees them") {
+  const json data = json::parse(data_text(play_data(Watched(starved(modelled())).record(), origin())));
+  REQUIRE(refusal(page_with(data.dump())).empty());
+  const std::vector<std::pair<std::string, json>> changes = {
+      {"/nodes", 0},
+      {"/nodes", 1'000'000},
+      {"/steps", data["steps"].get<int>() + 1},
+      {"/step_ns", 0},
+      {"/total_ns", -1},
+      {"/clock", "sundial"},
+      {"/wide", data["wide"].get<int>() + 1},
+      {"/width", 1'000'000},
+      {"/scene", 3},
+      {"/words", "dmpc"},
+      {"/words/1", json::array()},
+      {"/done/data", "AAAA"},
+      {"/done/data", "<b>"},
+      {"/done/type", "u3"},
+      {"/fields/0/values/data", ""},
+      {"/fields/0/scale", "1"},
+      {"/works/0/shares/type", "u2"},
+      {"/works/0/name", std::string(5000, 'x')},
+      {"/waits", json::object()},
+      {"/links/0", json::array({"node 0", "node 1"})},
+      {"/links/0/0", "nowhere"},
+      {"/links/0/2", 0.5},
+      {"/pages/0/1", 1'000'000},
+      {"/pairs/side", 1'000'000},
+      {"/pairs/counts/data", "AAAA"},
+      {"/over/links/steps", 65'000},
+      {"/over/levels", 3},
+      {"/over/pairs/most", 0},
+      {"/causes/node/data", "////"},
+      {"/causes/kinds", json::array()},
+      {"/path/parts", 1},
+      {"/topology", nullptr},
+  };
+  for (const auto& [place, value] : changes) {
+    CAPTURE(place);
+    json changed = data;
+    changed[json::json_pointer(place)] = value;
+    const std::string said = refusal(page_with(changed.dump()));
+    CHECK(contains(said, "a.html: data"));
+    CHECK(contains(said, "expected "));
+  }
+}
+
+TEST_CASE("what is not known is not taken, and texts are taken whatever they contain") {
+  json data = json::parse(data_text(play_data(Watched(starved(modelled())).record(), origin())));
+  data["onload"] = "alert(1)";
+  data["works"][0]["more"] = 1;
+  data["scene"] = "</script>\xe2\x80\xa8<b>";
+  const PlayedRun run = played_run(page_with(json(data).dump(-1, ' ', true)), "a.html");
+  CHECK_FALSE(run.data.contains("onload"));
+  CHECK_FALSE(run.data["works"][0].contains("more"));
+  CHECK(run.picture.empty());
+}
+
+}  // namespace dmpc::apps::html::played_run_test
