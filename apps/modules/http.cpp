@@ -33,8 +33,10 @@ using Clock = std::chrono::steady_clock;
 // As apps/edge/web/web_server.h has them.
 constexpr std::chrono::seconds request_patience{2}, deaf_patience{1}, end_patience{2};
 constexpr std::size_t request_bytes_max = std::size_t{32} << 10U, bytes_a_second_least = std::size_t{16} << 10U;
-/// Nothing is sent here.
+/// Of what a request brings.
 constexpr std::size_t payload_bytes_max = 4096;
+/// Of those that may bring something: paths of ours are short.
+constexpr std::size_t path_bytes_max = 256;
 /// Longer ones are sent in parts, between which a stream may end.
 constexpr std::size_t part_bytes = std::size_t{16} << 10U;
 
@@ -216,9 +218,13 @@ class LocalServer final : public WebServer, private httplib::Server {
     set_payload_max_length(payload_bytes_max);
     set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       forget_wishes(const_cast<httplib::Request&>(request));
-      answer(request, response);
+      if (brings_json(request)) {
+        return HandlerResponse::Unhandled;  // it is read first
+      }
+      answer(request, response, false);
       return HandlerResponse::Handled;
     });
+    Post(".*", [this](const httplib::Request& request, httplib::Response& response) { answer(request, response, true); });
   }
   ~LocalServer() override {
     end_.come();
@@ -264,19 +270,29 @@ class LocalServer final : public WebServer, private httplib::Server {
     }
   }
 
-  /// Pages would be packed by Brotli, anew for each viewer, or given many times over, in pieces.
+  /// Nothing else is read: no text without a length, no form of many parts.
+  static bool brings_json(const httplib::Request& request) {
+    return request.method == "POST" && request.path.size() <= path_bytes_max && request.has_header("Content-Length") &&
+           !request.has_header("Transfer-Encoding") && request.get_header_value("Content-Type") == "application/json";
+  }
+
+  /// Pages would be packed by Brotli, anew for each viewer, or given many times over, in pieces; and what is brought would be
+  /// unpacked, to any length.
   static void forget_wishes(httplib::Request& request) {
     request.headers.erase("Accept-Encoding");
+    request.headers.erase("Content-Encoding");
     request.headers.erase("Range");
     request.ranges.clear();
   }
 
-  void answer(const httplib::Request& request, httplib::Response& response) {
+  void answer(const httplib::Request& request, httplib::Response& response, bool is_json_read) {
     WebAnswer made = answer_({.method = request.method,
                               .path = request.path,
                               .host = request.get_header_value("Host"),
                               .origin = request.get_header_value("Origin"),
-                              .fetch_site = request.get_header_value("Sec-Fetch-Site")});
+                              .fetch_site = request.get_header_value("Sec-Fetch-Site"),
+                              .brings_json = is_json_read,
+                              .json = is_json_read ? request.body : ""});
     response.status = made.status;
     for (const auto& [name, value] : made.headers) {
       response.set_header(name.c_str(), value);

@@ -4,6 +4,7 @@
 #include "apps/program/commands.h"
 #include "apps/render/command.h"
 #include "apps/scene/scene_command.h"
+#include "apps/view/command.h"
 
 namespace dmpc::apps {
 
@@ -12,6 +13,7 @@ void declare_renderer(Commands& commands) {
                [](const RenderOptions& options, Interrupt& interrupt, std::ostream& output) {
                  return render_command(options, interrupt, output);
                });
+  commands.add("view", "Look round a scene in a browser", ViewOptions(), view_command);
   commands.add("info", "Tell what a scene is, and what a render of it would take", InfoOptions(), info_command);
   commands.add("scene", "Write a built-in scene as an NFF file, or a landscape as glTF", SceneOptions(), scene_command);
   commands.add("machine", "Print a machine's figures as JSON, to read or to start from", MachineOptions(), machine_command);

@@ -1,22 +1,17 @@
 #include "apps/render/live_view.h"
 
-#include <cerrno>
 #include <condition_variable>
-#include <cstring>
 #include <exception>
 #include <utility>
 #include <vector>
 
 #include "apps/edge/run/work.h"
 #include "apps/show/page/live_page.h"
-#include "core/base/expect.h"
 
 namespace dmpc::apps {
 
 namespace {
 
-/// For pages: a stream holds a thread.
-constexpr std::size_t other_threads = 4;
 constexpr std::chrono::seconds patience_at_the_end{2};
 constexpr std::chrono::milliseconds look_interval{20};
 
@@ -24,27 +19,10 @@ constexpr std::size_t steps_max = 240;
 /// Places of events.
 enum : std::size_t { head_place, state_place, first_step, first_tile = first_step + steps_max };
 
-std::string why_not(std::uint16_t port, int error) {
-  const std::string named = "--serve=" + std::to_string(port) + ": this port of 127.0.0.1 cannot be had: " + std::strerror(error);
-  return port == 0 ? named : named + "; give another, from 1024 on, or --serve alone, which takes one that is free";
-}
-
 }  // namespace
 
 LiveView::LiveView(std::uint16_t port, const std::string& title) : title_(title), feed_(first_tile), steps_(steps_max) {
-  // Nobody knows the token before it is said, so that nothing can be asked before there is a gate.
-  const std::string token = random_token();
-  server_ =
-      web_library().listen({.port = port, .threads = viewers_max + other_threads, .answer = [this](const WebRequest& request) {
-                              return answer(request);
-                            }});
-  if (!server_) {
-    throw core::InputError(why_not(port, errno));
-  }
-  {
-    const std::lock_guard lock(mutex_);
-    gate_.emplace(token, server_->port());
-  }
+  server_.emplace(port, "--serve", feed_, PageServer::Service{.page = [this] { return page(); }});
   publisher_ = std::jthread([this](const std::stop_token& stop) { publish(stop); });
 }
 
@@ -205,51 +183,14 @@ void LiveView::wait(const std::stop_token& stop) {
   }
 }
 
-WebAnswer LiveView::answer(const WebRequest& request) {
-  constexpr int not_found = 404, come_later = 503;
-  std::string place;
-  {
-    const std::lock_guard lock(mutex_);
-    const int refusal = gate_ ? gate_->refusal(request) : come_later;
-    if (refusal != 0) {
-      return {.status = refusal, .body = "This is for who has the whole address, as dmpc has said it.\n"};
-    }
-    place = gate_->place_of(request);
-  }
-  if (place == "events") {
-    return events();
-  }
-  return place.empty() ? page() : WebAnswer{.status = not_found, .body = "There is nothing here.\n"};
-}
-
-WebAnswer LiveView::events() {
-  has_had_visitors_.store(true, std::memory_order_relaxed);
-  std::shared_ptr<const LiveFeed::Seat> seat = feed_.take_seat(viewers_max);
-  if (!seat) {
-    constexpr int come_later = 503;
-    return {.status = come_later, .body = std::to_string(viewers_max) + " look on already, and there is room for no more.\n"};
-  }
-  return {.type = "text/event-stream",
-          .body = "",
-          .headers = {{"Cache-Control", "no-store"}, {"X-Content-Type-Options", "nosniff"}},
-          .stream = [this, seat = std::move(seat)](WebStream& viewer) { feed_.follow(viewer); }};
-}
-
 /// The live one, or the last.
-WebAnswer LiveView::page() {
+PageServer::Page LiveView::page() {
   const std::lock_guard lock(mutex_);
-  has_had_visitors_.store(true, std::memory_order_relaxed);
   if (last_page_) {
     pages_given_.fetch_add(1, std::memory_order_relaxed);
+    return {.html = *last_page_, .policy = "frame-ancestors 'none'"};
   }
-  return {.type = "text/html; charset=utf-8",
-          .body = last_page_ ? *last_page_ : html::live_page(title_),
-          .headers = {{"Cache-Control", "no-store"},
-                      {"Referrer-Policy", "no-referrer"},
-                      {"X-Content-Type-Options", "nosniff"},
-                      {"X-Frame-Options", "DENY"},
-                      {"Cross-Origin-Resource-Policy", "same-origin"},
-                      {"Content-Security-Policy", last_page_ ? "frame-ancestors 'none'" : html::live_policy()}}};
+  return {.html = html::live_page(title_), .policy = html::live_policy()};
 }
 
 }  // namespace dmpc::apps

@@ -14,8 +14,7 @@
 #include <thread>
 
 #include "apps/edge/web/live_feed.h"
-#include "apps/edge/web/web_gate.h"
-#include "apps/edge/web/web_server.h"
+#include "apps/edge/web/page_server.h"
 #include "apps/render/live_events.h"
 #include "apps/render/live_picture.h"
 #include "apps/render/live_steps.h"
@@ -37,9 +36,6 @@ struct LiveEnd {
 /// Thread safety: one thread makes it, begins, ends and destroys it; watch() and update() are the host's.
 class LiveView {
  public:
-  /// Who comes when so many look on is told to come later.
-  static constexpr std::size_t viewers_max = 48;
-
   /// Listens, on any port if that is 0. Throws core::InputError, naming --serve, if the port cannot be had, and as open_module().
   LiveView(std::uint16_t port, const std::string& title);
   /// Whoever looks on is told that this is the end, unless that was said, and is left alone within three seconds.
@@ -48,9 +44,9 @@ class LiveView {
   LiveView& operator=(const LiveView&) = delete;
 
   /// Where a browser finds it.
-  std::string address() const { return gate_->address(); }
+  std::string address() const { return server_->address(); }
   /// Whether anybody has come.
-  bool has_had_visitors() const { return has_had_visitors_.load(std::memory_order_relaxed); }
+  bool has_had_visitors() const { return server_->has_had_visitors(); }
   /// Why nobody was told anything any more; empty if nothing went wrong.
   std::string complaint();
 
@@ -76,9 +72,7 @@ class LiveView {
  private:
   using Clock = std::chrono::steady_clock;
 
-  WebAnswer answer(const WebRequest& request);
-  WebAnswer page();
-  WebAnswer events();
+  PageServer::Page page();
   void publish(const std::stop_token& stop);
   void publish_all(bool is_last = false);
   LiveState state(bool is_last);
@@ -94,7 +88,6 @@ class LiveView {
   std::unique_ptr<nodes::LiveCounts> counts_;
   std::atomic<std::uint32_t> done_ = 0, total_ = 0, pass_ = 1;
   std::atomic<std::size_t> pages_given_ = 0;  ///< of the last page
-  std::atomic<bool> has_had_visitors_ = false;
   bool has_ended_ = false;
   std::mutex mutex_;  ///< guards what follows
   std::string phase_ = "The scene is read and built.";
@@ -103,8 +96,7 @@ class LiveView {
   LiveSteps steps_;
   std::optional<LiveMoment> last_;
   std::optional<std::string> last_page_;
-  std::optional<WebGate> gate_;        ///< set before anything can be asked
-  std::unique_ptr<WebServer> server_;  ///< ends before what its threads use
+  std::optional<PageServer> server_;  ///< ends before what its threads use
   std::jthread publisher_;
 };
 

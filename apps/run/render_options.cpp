@@ -106,13 +106,8 @@ constexpr Conflict conflicts[] = {
     {"--topology", RunnerKind::virtual_time, "the machine has a topology of its own, onto which regions are mapped"},
 };
 
-void check_runner(const OptionSet& options, const RenderOptions& render) {
+void check_tracer_and_runner(const RenderOptions& render) {
   const RunnerKind runner = render.runner.kind;
-  for (const Conflict& conflict : conflicts) {
-    if (options.is_given(conflict.option) && conflict.runner == runner) {
-      throw UsageError(std::string(conflict.option) + " does not go with --runner=" + name_of(runner) + ": " + conflict.reason);
-    }
-  }
   if (render.tracer == TracerChoice::embree && runner == RunnerKind::virtual_time) {
     throw UsageError("--tracer=embree does not go with --runner=virtual: nobody knows what Embree's operations would cost");
   }
@@ -178,7 +173,8 @@ void check_frames(const OptionSet& options, const RenderOptions& render) {
 void check(const OptionSet& options, const RenderOptions& render) {
   check_together(options, render);
   check_tracer(render);
-  check_runner(options, render);
+  check_runner(options, render.runner.kind);
+  check_tracer_and_runner(render);
   check_heat(render.heat_maps, render.strategy);
   check_strip(render);
   check_trace(options, render.trace, render.computer.node_count);
@@ -196,6 +192,14 @@ void check(const OptionSet& options, const RenderOptions& render) {
 }
 
 }  // namespace
+
+void check_runner(const OptionSet& options, RunnerKind runner) {
+  for (const Conflict& conflict : conflicts) {
+    if (options.is_given(conflict.option) && conflict.runner == runner) {
+      throw UsageError(std::string(conflict.option) + " does not go with --runner=" + name_of(runner) + ": " + conflict.reason);
+    }
+  }
+}
 
 bool counts_pages(const RenderOptions& render) {
   return render.pages.count_pages ||

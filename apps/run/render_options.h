@@ -39,6 +39,9 @@ struct RenderOptions : StrategyOptions {
 /// Whether the nodes' pagers count the pages of each pixel, for --count-pages or a heat map: then they do not note references.
 bool counts_pages(const RenderOptions& render);
 
+/// For OptionSet::check_in_the_end(): throws core::UsageError for an option that does not go with the runner.
+void check_runner(const OptionSet& options, RunnerKind runner);
+
 /// Declares them, and which go together.
 void add_options(OptionSet options, RenderOptions& render);
 

@@ -52,6 +52,10 @@ class WebClient {
     }
     return heard_;
   }
+  /// All so far.
+  const std::string& heard() const { return heard_; }
+  /// Waits for more; false at the end, or after a minute.
+  bool hear_more() { return hear(); }
   /// All until the other side ends it, which is_over() then.
   const std::string& heard_all() {
     while (hear()) {

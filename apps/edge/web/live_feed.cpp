@@ -1,6 +1,7 @@
 #include "apps/edge/web/live_feed.h"
 
 #include <algorithm>
+#include <thread>
 #include <utility>
 
 namespace dmpc::apps {
@@ -37,6 +38,14 @@ void LiveFeed::close(std::string_view name, std::string_view data) {
     last_ = std::move(event);
   }
   closed_.notify_all();
+}
+
+void LiveFeed::see_off(std::chrono::milliseconds patience) const {
+  constexpr std::chrono::milliseconds look_interval{5};
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  while (seats_taken() > 0 && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(look_interval);
+  }
 }
 
 std::shared_ptr<const LiveFeed::Seat> LiveFeed::take_seat(std::size_t seats) {

@@ -48,6 +48,9 @@ class LiveFeed {
   /// What is new goes out, then this event, and nothing more. Only the first call counts.
   void close(std::string_view name, std::string_view data);
 
+  /// After close(): waits until nobody follows any more, but so long at most.
+  void see_off(std::chrono::milliseconds patience) const;
+
   /// nullptr if so many look on already. The seat does not outlive the feed.
   std::shared_ptr<const Seat> take_seat(std::size_t seats);
   std::size_t seats_taken() const { return taken_.load(std::memory_order_relaxed); }

@@ -35,11 +35,14 @@ bool WebGate::has_token(std::string_view path) const {
 }
 
 int WebGate::refusal(const WebRequest& request) const {
-  constexpr int forbidden = 403, wrong_method = 405;
+  constexpr int forbidden = 403, wrong_method = 405, wrong_type = 415;
   const bool is_from_here = request.origin.empty() || request.origin == "http://" + request.host;
   const bool is_site_known = request.fetch_site.empty() || request.fetch_site == "none" || request.fetch_site == "same-origin";
   if (!is_host(request.host) || !is_from_here || !is_site_known || !has_token(request.path)) {
     return forbidden;
+  }
+  if (request.method == "POST") {
+    return request.brings_json ? 0 : wrong_type;
   }
   return request.method == "GET" ? 0 : wrong_method;
 }

@@ -22,7 +22,8 @@ class WebGate {
 
   /// Where the page is.
   std::string address() const { return "http://127.0.0.1:" + port_ + "/" + token_ + "/"; }
-  /// 0 if the request may be answered; else the status by which it is refused.
+  /// 0 if the request, a GET or a POST that brings JSON, may be answered; else the status by which it is refused. No page of
+  /// another site can send JSON without asking first, which nobody answers.
   int refusal(const WebRequest& request) const;
   /// What stands behind the token. Requires a request that is not refused.
   std::string place_of(const WebRequest& request) const { return request.path.substr(token_.size() + 2); }

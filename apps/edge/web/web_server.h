@@ -18,6 +18,8 @@ namespace dmpc::apps {
 struct WebRequest {
   std::string method, path;
   std::string host, origin, fetch_site;  ///< of the headers Host, Origin, Sec-Fetch-Site
+  bool brings_json = false;              ///< a POST whose type is application/json, of at most 4 KiB, as it says beforehand
+  std::string json = {};                 ///< what it brings; whatever else brings something is not listened to
 };
 
 /// Where an answer goes that has no end yet.

@@ -86,7 +86,8 @@ TEST_CASE("who has not the address, or comes from elsewhere, is told nothing") {
   CHECK(contains(small.got("events", "Origin: http://evil.example\r\n"), "403 Forbidden"));
   CHECK(contains(small.got("", "Sec-Fetch-Site: cross-site\r\n"), "403 Forbidden"));
   WebClient sender(small.port());
-  sender.send("POST " + small.path() + " HTTP/1.1\r\nHost: " + small.host() + "\r\nContent-Length: 2\r\n\r\n{}");
+  sender.send("POST " + small.path() + " HTTP/1.1\r\nHost: " + small.host() +
+              "\r\nContent-Type: application/json\r\nContent-Length: 2\r\n\r\n{}");
   CHECK(contains(sender.heard_all(), "405 Method Not Allowed"));
   CHECK_FALSE(small.view->has_had_visitors());
 }
@@ -176,7 +177,7 @@ TEST_CASE("where it is not shown what nodes do nobody looks on at them, and the 
 TEST_CASE("as many look on as there are places, ten of them deaf, and who comes then is told so until one goes") {
   SmallView small;
   std::vector<std::unique_ptr<WebClient>> viewers;
-  for (std::size_t i = 0; i < LiveView::viewers_max; ++i) {
+  for (std::size_t i = 0; i < PageServer::viewers_max; ++i) {
     viewers.push_back(small.viewer());
     if (i >= 10) {
       viewers.back()->heard_until("event: state");
@@ -204,7 +205,7 @@ TEST_CASE("a port that another program has is said with what to do") {
     FAIL("a port is had twice");
   } catch (const core::InputError& error) {
     CHECK_MESSAGE(contains(error.what(), expected), error.what());
-    CHECK(contains(error.what(), "give another, from 1024 on, or --serve alone, which takes one that is free"));
+    CHECK(contains(error.what(), "give another, from 1024 on, or --serve=0, which takes one that is free"));
   }
 }
 

@@ -1,14 +1,11 @@
 // --serve by the program itself: what it says, what it shows, and that the picture is what it is without.
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <csignal>
-#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "tests/support/child_process.h"
-#include "tests/support/scaled.h"
+#include "tests/support/served_page.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -18,34 +15,21 @@ namespace dmpc::tests::render_serve_test {
 
 namespace {
 
-/// A render that is served, in a script, as nobody's terminal is its stderr.
-class Served {
- public:
-  explicit Served(const std::vector<std::string>& options, const std::string& scene = "balls-2") {
-    std::vector<std::string> line = {DMPC_PROGRAM, "render",  scene, "--nodes=3",
-                                     "--quiet",    "--serve", "-o",  (folder / "a.%d.png").string()};
-    line.insert(line.end(), options.begin(), options.end());
-    process.emplace(line);
-    while (!contains(process->errors(), "/\n")) {
-      REQUIRE(::kill(process->id(), 0) == 0);
-      ::usleep(1000);
-    }
-    const std::string said = process->errors();
-    address = said.substr(said.find("http://"), said.find('\n') - said.find("http://"));
-    host = address.substr(7, address.find('/', 7) - 7);
-    port = static_cast<std::uint16_t>(std::stoi(host.substr(host.find(':') + 1)));
+/// A render that is served.
+struct Served {
+  explicit Served(const std::vector<std::string>& options, const std::string& scene = "balls-2")
+      : page(line(options, scene, folder / "a.%d.png")) {}
+
+  static std::vector<std::string> line(const std::vector<std::string>& options, const std::string& scene,
+                                       const std::string& picture) {
+    std::vector<std::string> words = {DMPC_PROGRAM, "render", scene, "--nodes=3", "--quiet", "--serve", "-o", picture};
+    words.insert(words.end(), options.begin(), options.end());
+    return words;
   }
-  /// An answer to who asks for this place behind the token.
-  std::string got(const std::string& place) const {
-    WebClient client(port);
-    client.get(address.substr(7 + host.size()) + place, host);
-    return client.heard_all();
-  }
+  std::string got(const std::string& place) const { return page.got(place); }
 
   TemporaryFolder folder;
-  std::optional<ChildProcess> process;
-  std::string address, host;
-  std::uint16_t port = 0;
+  ServedPage page;
 };
 
 /// A picture that takes longer than a test.
@@ -58,13 +42,13 @@ TEST_CASE("the address is said in one line, and the picture is what it is withou
   REQUIRE(run({DMPC_PROGRAM, "render", "balls-2", "--nodes=3", "--quiet", "--resolution=64x64", "-o", folder / "a.png"}).status ==
           0);
   Served nobody({"--resolution=64x64"});
-  CHECK(nobody.process->status() == 0);
-  CHECK(nobody.process->errors() == "dmpc: to be seen at " + nobody.address + "\n");
-  CHECK(nobody.process->output().empty());
+  CHECK(nobody.page.process.status() == 0);
+  CHECK(nobody.page.process.errors() == "dmpc: to be seen at " + nobody.page.address + "\n");
+  CHECK(nobody.page.process.output().empty());
   CHECK(file_text(nobody.folder / "a.%d.png") == file_text(folder / "a.png"));
   Served looked_at({"--resolution=64x64", "--samples=64"});
   const std::string events = looked_at.got("events");
-  CHECK(looked_at.process->status() == 0);
+  CHECK(looked_at.page.process.status() == 0);
   CHECK(contains(events, "event: head\ndata: {\"frame\":0,\"height\":64"));
   CHECK(contains(events, "event: tile"));
   CHECK(contains(events, "event: end\ndata: {\"figures\":\"scene    balls-2"));
@@ -76,7 +60,7 @@ TEST_CASE("with --report who looks on has that page in the end") {
   Served served({"--resolution=64x64", "--samples=64", "--report=" + (folder / "a.html").string()});
   const std::string events = served.got("events");
   const std::string page = served.got("");
-  CHECK(served.process->status() == 0);
+  CHECK(served.page.process.status() == 0);
   CHECK(contains(events, "\"page\":true,\"said\":\"The picture is done.\"}"));
   for (const std::string& one : {page, file_text(folder / "a.html")}) {
     CHECK(contains(one, "<h1>Render of balls-2</h1>"));
@@ -85,27 +69,27 @@ TEST_CASE("with --report who looks on has that page in the end") {
 
 TEST_CASE("who looks on when a signal ends the run is told so, and what it means") {
   Served served(endless);
-  WebClient viewer(served.port);
-  viewer.get(served.address.substr(7 + served.host.size()) + "events", served.host);
+  WebClient viewer(served.page.port);
+  viewer.get(served.page.path("events"), served.page.host);
   viewer.heard_until("The picture comes.");
-  served.process->send(SIGTERM);
+  served.page.process.send(SIGTERM);
   CHECK(
       contains(viewer.heard_all(),
                "event: end\ndata: {\"figures\":\"\",\"page\":false,\"said\":\"The run was interrupted: nothing was written.\"}"));
-  CHECK(served.process->status() == 130);
+  CHECK(served.page.process.status() == 130);
 }
 
 TEST_CASE("who looks on when the run fails is told why") {
   Served served({"--resolution=8x8", "--node-memory=1KiB"}, "mount-6");
   const std::string events = served.got("events");
-  CHECK(served.process->status() == 4);
+  CHECK(served.page.process.status() == 4);
   CHECK(contains(events, "event: end\ndata: {\"figures\":\"\",\"page\":false,\"said\":\"The run has failed: "));
 }
 
 TEST_CASE("of several frames the one under way is shown, and no page follows the last") {
   Served served({"--frames=3", "--turntable=10", "--resolution=32x32", "--samples=64"});
   const std::string events = served.got("events");
-  CHECK(served.process->status() == 0);
+  CHECK(served.page.process.status() == 0);
   CHECK(contains(events, "\"frame\":3"));
   CHECK(contains(events, "event: end\ndata: {\"figures\":\"frame 1  "));
   CHECK(contains(events, "\"page\":false,\"said\":\"All frames are done.\"}"));
@@ -123,7 +107,7 @@ TEST_CASE("a port that is none, or has somebody, and the viewer that was before,
                   wrong.errors);
   }
   const Served served(endless);
-  const Said taken = said("--serve=" + std::to_string(served.port));
+  const Said taken = said("--serve=" + std::to_string(served.page.port));
   CHECK(taken.status == 1);
   CHECK_MESSAGE(contains(taken.errors, "this port of 127.0.0.1 cannot be had: Address already in use; give another"),
                 taken.errors);

@@ -37,16 +37,6 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-/// Empty if the system does not tell.
-std::vector<std::string> own_words() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> words;
-  for (std::string word; std::getline(file, word, '\0');) {
-    words.push_back(word);
-  }
-  return words;
-}
-
 std::uint64_t processor_count() { return static_cast<std::uint64_t>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN))); }
 
 std::string processor_name() {
@@ -83,6 +73,15 @@ std::vector<std::string> shell_words(std::span<const std::string> words) {
 }
 
 }  // namespace
+
+std::vector<std::string> own_words() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) {
+    words.push_back(word);
+  }
+  return words;
+}
 
 Origin this_origin(std::optional<std::uint64_t> scene_digest) {
   const std::vector<std::string> words = own_words();

@@ -22,6 +22,9 @@ struct Origin {
 /// The origin of what this process makes now. The date is that of SOURCE_DATE_EPOCH (seconds since 1970) where this is a number.
 Origin this_origin(std::optional<std::uint64_t> scene_digest = {});
 
+/// Those of the command line, as this process was given them; none if the system does not tell.
+std::vector<std::string> own_words();
+
 /// The words as a shell takes them, in quotes where they need some; the program without its folder.
 std::string command_text(std::span<const std::string> words);
 

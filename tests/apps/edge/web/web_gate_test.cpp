@@ -57,10 +57,19 @@ TEST_CASE("a name that leads here, another page, or another site may not") {
   }
 }
 
-TEST_CASE("nothing is sent here") {
+TEST_CASE("JSON may be sent here, and nothing else") {
   WebRequest request = ours();
   request.method = "POST";
-  CHECK(gate.refusal(request) == 405);
+  CHECK(gate.refusal(request) == 415);
+  request.brings_json = true;
+  CHECK(gate.refusal(request) == 0);
+  request.origin = "http://evil.example";
+  CHECK(gate.refusal(request) == 403);
+  request.origin = "";
+  for (const char* const method : {"PUT", "HEAD", "OPTIONS", ""}) {
+    request.method = method;
+    CHECK_MESSAGE(gate.refusal(request) == 405, method);
+  }
 }
 
 TEST_CASE("each token has 128 bits of its own") {

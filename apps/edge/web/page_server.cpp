@@ -1,0 +1,90 @@
+#include "apps/edge/web/page_server.h"
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// For pages: a stream holds a thread.
+constexpr std::size_t other_threads = 4;
+constexpr int not_found = 404, wrong_method = 405, come_later = 503;
+
+std::string why_not(const std::string& option, std::uint16_t port, int error) {
+  const std::string named =
+      option + "=" + std::to_string(port) + ": this port of 127.0.0.1 cannot be had: " + std::strerror(error);
+  return port == 0 ? named : named + "; give another, from 1024 on, or " + option + "=0, which takes one that is free";
+}
+
+}  // namespace
+
+PageServer::PageServer(std::uint16_t port, const std::string& option, LiveFeed& feed, Service service)
+    : feed_(feed), service_(std::move(service)) {
+  // Nobody knows the token before it is said, so that nothing can be asked before there is a gate.
+  const std::string token = random_token();
+  server_ =
+      web_library().listen({.port = port, .threads = viewers_max + other_threads, .answer = [this](const WebRequest& request) {
+                              return answer(request);
+                            }});
+  if (!server_) {
+    throw core::InputError(why_not(option, port, errno));
+  }
+  const std::lock_guard lock(mutex_);
+  gate_.emplace(token, server_->port());
+}
+
+WebAnswer PageServer::answer(const WebRequest& request) {
+  std::string place;
+  {
+    const std::lock_guard lock(mutex_);
+    const int refusal = gate_ ? gate_->refusal(request) : come_later;
+    if (refusal != 0) {
+      return {.status = refusal, .body = "This is for who has the whole address, as dmpc has said it.\n"};
+    }
+    place = gate_->place_of(request);
+  }
+  return answer_at(place, request);
+}
+
+WebAnswer PageServer::answer_at(const std::string& place, const WebRequest& request) {
+  if (request.brings_json) {
+    const auto take = service_.takes.find(place);
+    return take != service_.takes.end() ? take->second(request.json)
+                                        : WebAnswer{.status = wrong_method, .body = "Nothing is sent here.\n"};
+  }
+  if (place == "events") {
+    return events();
+  }
+  return place.empty() ? page() : WebAnswer{.status = not_found, .body = "There is nothing here.\n"};
+}
+
+WebAnswer PageServer::events() {
+  has_had_visitors_.store(true, std::memory_order_relaxed);
+  std::shared_ptr<const LiveFeed::Seat> seat = feed_.take_seat(viewers_max);
+  if (!seat) {
+    return {.status = come_later, .body = std::to_string(viewers_max) + " look on already, and there is room for no more.\n"};
+  }
+  return {.type = "text/event-stream",
+          .body = "",
+          .headers = {{"Cache-Control", "no-store"}, {"X-Content-Type-Options", "nosniff"}},
+          .stream = [this, seat = std::move(seat)](WebStream& viewer) { feed_.follow(viewer); }};
+}
+
+WebAnswer PageServer::page() {
+  has_had_visitors_.store(true, std::memory_order_relaxed);
+  Page page = service_.page();
+  return {.type = "text/html; charset=utf-8",
+          .body = std::move(page.html),
+          .headers = {{"Cache-Control", "no-store"},
+                      {"Referrer-Policy", "no-referrer"},
+                      {"X-Content-Type-Options", "nosniff"},
+                      {"X-Frame-Options", "DENY"},
+                      {"Cross-Origin-Resource-Policy", "same-origin"},
+                      {"Content-Security-Policy", std::move(page.policy)}}};
+}
+
+}  // namespace dmpc::apps

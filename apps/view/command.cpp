@@ -1,0 +1,224 @@
+#include "apps/view/command.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <iostream>
+#include <limits>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/show/page/origin.h"
+#include "apps/edge/system/stopwatch.h"
+#include "apps/picture/film_image.h"
+#include "apps/scene/load_scene.h"
+#include "apps/scene/subject.h"
+#include "apps/view/render_words.h"
+#include "apps/view/view_server.h"
+#include "apps/view/warm_nodes.h"
+#include "core/base/expect.h"
+#include "core/base/srgb.h"
+#include "core/database/conversion.h"
+#include "core/picture/frame_settings.h"
+#include "core/picture/rounding_loss.h"
+#include "core/scene/frame.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// Pictures are kept and sent whole.
+constexpr std::uint32_t pixels_max = std::uint32_t{1} << 22U;
+constexpr int moving_samples_by_paths = 4;
+/// How often it is told how far a picture is.
+constexpr std::chrono::milliseconds tell_interval{100};
+
+CameraChoice whole_camera(const core::View& view) {
+  return {.from = view.from, .at = view.at, .up = view.up, .degrees = view.angle_degrees};
+}
+
+/// The scene as the shown command sees it, by a camera that stands in place of the file's own: of a mesh the axis of its sky and
+/// lights that it has not itself follow from whose camera it is.
+core::Scene load(PictureOptions& picture, bool is_quiet) {
+  core::Scene scene = load_scene(picture, is_quiet ? LoadNotes::silent : LoadNotes::said);
+  picture.resolution = picture.resolution.value_or(Resolution{scene.view.width, scene.view.height});
+  const bool is_seen_by_own = !picture.staging.camera;
+  picture.staging.camera = whole_camera(scene.view);
+  return is_seen_by_own && is_mesh(picture.scene) ? load_scene(picture, LoadNotes::silent) : std::move(scene);
+}
+
+/// Primitives are listed in cells with a pad that grows with the distance from which they are seen, up to a bound: with that of
+/// an eye beyond it they are listed for every eye, and no picture has other bits.
+void put_eye_far_away(core::Scene& scene) {
+  const core::Box bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0));
+  if (!bounds.empty()) {
+    scene.view.at = bounds.center();
+    scene.view.from = bounds.center() + core::Vec3d{0, 0, 4 * core::far_eye_diagonals * length(bounds.high - bounds.low)};
+    scene.view.up = {0, 1, 0};
+  }
+}
+
+/// A quarter of the pixels, of few samples.
+core::RenderSettings moving_settings(const core::RenderSettings& resting, const core::View& view) {
+  core::RenderSettings settings = resting;
+  const bool is_by_paths = resting.shade.transport.is_by_paths();
+  const int samples = is_by_paths ? std::min(moving_samples_by_paths, resting.camera.samples()) : 1;
+  const auto half = [](int side) { return (side + 1) / 2; };
+  settings.camera =
+      core::Camera(view, resting.header.frame, half(resting.camera.width()), half(resting.camera.height()), samples);
+  settings.refinement = {};
+  settings.shade.first_samples = static_cast<std::uint32_t>(samples);
+  return settings;
+}
+
+std::string srgb_of(const core::Film& film) {
+  const Image image = image_of(film);
+  std::string bytes;
+  bytes.reserve(image.rgb.size());
+  for (const float value : image.rgb) {
+    bytes += static_cast<char>(core::srgb_byte(value));
+  }
+  return bytes;
+}
+
+/// One call of `view`.
+class Viewing {
+ public:
+  Viewing(const ViewOptions& options, Interrupt& interrupt) : options_(options), interrupt_(interrupt) {}
+
+  int run() {
+    interrupt_.set_consequence("nobody is shown anything any more");
+    choose_machine(options_);
+    server_.emplace(options_.port, "dmpc view " + options_.picture.scene);
+    std::cerr << "dmpc: to be seen at " + server_->address() + "\n";  // at once
+    try {
+      build();
+      show();
+      throw Interrupted{};
+    } catch (const Interrupted&) {
+      server_->tell_end("dmpc was told to end. What stands here is the last picture.");
+      throw;
+    } catch (const std::exception& error) {
+      server_->tell_end("dmpc has failed: " + std::string(error.what()));
+      throw;
+    }
+  }
+
+ private:
+  /// Once; a signal ends the process here and now.
+  void build() {
+    server_->tell(ViewState{.said = "The scene is read and built."});
+    const Interrupt::EndAtOnce end_at_once(interrupt_);
+    core::Scene scene = load(options_.picture, options_.quiet);
+    home_ = scene.view;
+    check_size();
+    put_eye_far_away(scene);
+    subject_.emplace(build_subject_quietly(std::move(scene), options_.picture, options_.database));
+    const core::RenderSettings& built = subject_->settings;
+    const core::Camera camera(home_, built.header.frame, built.camera.width(), built.camera.height(), built.camera.samples());
+    say({dropped_text(subject_->database.dropped()), loss_text(core::find_rounding_loss(subject_->database, camera)),
+         duplicates_text(subject_->database.duplicates()), subject_->gain, subject_->emitters});
+    subject_->database.forget_primitives();
+    resting_.emplace(options_, subject_->database, core::seen_by(camera, built, subject_->database));
+    moving_.emplace(options_, subject_->database, moving_settings(built, home_));
+  }
+
+  void check_size() const {
+    const Resolution& size = *options_.picture.resolution;
+    const auto pixels = static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+    if (pixels > pixels_max) {
+      throw core::InputError("a picture of " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                             " is too large to be looked round in: expected at most " + grouped(pixels_max) +
+                             " pixels: give --resolution=WxH");
+    }
+  }
+
+  /// What is asked for, until a signal comes: at first the scene's own view, roughly, and then as it is.
+  void show() {
+    const core::Camera& camera = resting_->camera();
+    server_->tell(ViewHead{.width = static_cast<std::uint32_t>(camera.width()),
+                           .height = static_cast<std::uint32_t>(camera.height()),
+                           .home = text_of(whole_camera(home_))});
+    show({.camera = whole_camera(home_), .is_moving = true});
+    show({.camera = whole_camera(home_), .is_moving = false});
+    while (const std::optional<Wish> wish = server_->take_wish(interrupt_.token())) {
+      show(*wish);
+    }
+  }
+
+  /// One picture; a whole one goes when another is wished for.
+  void show(const Wish& wish) {
+    std::stop_source stop;
+    const std::stop_callback at_signal(interrupt_.token(), [&stop] { stop.request_stop(); });
+    if (!wish.is_moving) {
+      server_->stop_at_next_wish(stop);
+    }
+    core::View view = home_;
+    view.from = wish.camera.from;
+    view.at = wish.camera.at;
+    view.up = *wish.camera.up;
+    view.angle_degrees = *wish.camera.degrees;
+    Stopwatch stopwatch;
+    const std::optional<Report> report = (wish.is_moving ? *moving_ : *resting_).render(view, teller(wish), stop.get_token());
+    interrupt_.check();
+    if (report) {
+      tell(wish, account_of(*report).film, stopwatch.lap());
+    }
+  }
+
+  nodes::Progress teller(const Wish& wish) {
+    if (wish.is_moving) {
+      return [](std::uint32_t, std::uint32_t) {};
+    }
+    return [this, last = std::chrono::steady_clock::now()](std::uint32_t done, std::uint32_t total) mutable {
+      if (const auto now = std::chrono::steady_clock::now(); now - last >= tell_interval) {
+        last = now;
+        server_->tell(ViewState{.said = "The picture comes.", .done = done, .total = total});
+      }
+    };
+  }
+
+  void tell(const Wish& wish, const core::Film& film, double seconds) {
+    const std::string camera = text_of(wish.camera);
+    const auto pixels = static_cast<std::uint32_t>(film.pixel_count());
+    const std::vector<std::string> words = own_words();
+    server_->tell(
+        ViewPicture{.camera = camera,
+                    .is_moving = wish.is_moving,
+                    .width = static_cast<std::uint32_t>(film.width()),
+                    .height = static_cast<std::uint32_t>(film.height()),
+                    .rgb = srgb_of(film),
+                    .ms = seconds * 1000,
+                    .film = wish.is_moving ? "" : hash_text(film.hash()),
+                    .command = wish.is_moving ? "" : command_text(render_words(words, camera, *options_.picture.resolution))});
+    server_->tell(
+        ViewState{.said = wish.is_moving ? "The camera moves." : "The picture is done.", .done = pixels, .total = pixels});
+  }
+
+  void say(const std::vector<std::string>& notes) const {
+    for (const std::string& note : notes) {
+      if (!options_.quiet && !note.empty()) {
+        std::cerr << "dmpc: " << note << '\n';
+      }
+    }
+  }
+
+  ViewOptions options_;
+  Interrupt& interrupt_;
+  core::View home_;  ///< the scene's own, or that of --camera
+  std::optional<Subject> subject_;
+  std::optional<WarmNodes> resting_, moving_;
+  std::optional<ViewServer> server_;  ///< ends before what it shows
+};
+
+}  // namespace
+
+int view_command(const ViewOptions& options, Interrupt& interrupt, std::ostream& /*output*/) {
+  return Viewing(options, interrupt).run();
+}
+
+}  // namespace dmpc::apps
