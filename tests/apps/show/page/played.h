@@ -16,9 +16,10 @@ inline std::string acting_script(const std::string& act, const std::string& expr
          "{key,bubbles:true,cancelable:true})),lit=(name='shot')=>{const "
          "c=id(name),d=c.getContext('2d').getImageData(0,0,c.width,c.height)"
          ".data;let n=0;for(let i=0;i<d.length;i+=4)n+=!(d[i]===26&&d[i+1]===26&&d[i+2]===26);return n};"
-         // The browser's virtual clock runs on without frames, for which the page would wait.
-         "setTimeout(()=>{w.requestAnimationFrame=(f)=>w.setTimeout(()=>f(w.performance.now()),16);" +
-         act + ";setTimeout(()=>{document.title=String(" + expression + ")},500)},1000)})</script>";
+         // The browser's virtual clock runs on without frames, for which the page would wait, and while pictures are decoded.
+         "const begin=(tries)=>{if(tries>0&&!p.documentElement.dataset.loaded){setTimeout(()=>begin(tries-1),100);return}"
+         "w.requestAnimationFrame=(f)=>w.setTimeout(()=>f(w.performance.now()),16);" +
+         act + ";setTimeout(()=>{document.title=String(" + expression + ")},500)};begin(30)})</script>";
 }
 
 inline std::string told(const std::string& page, const std::string& act, const std::string& expression,

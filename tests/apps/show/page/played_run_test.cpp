@@ -33,7 +33,10 @@ std::string page_of(const Watched& watched) {
 }
 
 /// A page with such data alone.
-std::string page_with(const std::string& data) {
+std::string page_with(std::string data) {
+  for (std::size_t at = data.find('<'); at != std::string::npos; at = data.find('<', at)) {
+    data.replace(at, 1, "\\u003c");
+  }
   return "<html><script type=\"application/json\" id=\"data\">" + data + "</script></html>";
 }
 
@@ -129,7 +132,7 @@ TEST_CASE("what is not known is not taken, and texts are taken whatever they con
   data["onload"] = "alert(1)";
   data["works"][0]["more"] = 1;
   data["scene"] = "</script>\xe2\x80\xa8<b>";
-  const PlayedRun run = played_run(page_with(json(data).dump(-1, ' ', true)), "a.html");
+  const PlayedRun run = played_run(page_with(data.dump(-1, ' ', true)), "a.html");
   CHECK_FALSE(run.data.contains("onload"));
   CHECK_FALSE(run.data["works"][0].contains("more"));
   CHECK(run.picture.empty());
