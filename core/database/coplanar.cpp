@@ -9,6 +9,7 @@
 #include "core/database/cover_finder.h"
 #include "core/database/exact_corners.h"
 #include "core/database/face.h"
+#include "core/database/face_lanes.h"
 #include "core/database/face_stack.h"
 #include "core/database/plane_buckets.h"
 #include "core/database/twins.h"
@@ -78,16 +79,18 @@ bool is_smooth(const Conversion& conversion, const Face& face) {
 /// Those of a top cell, but for copies of a mesh, which has been judged by itself.
 CoveringPairs covering_pairs(const Exactly& exactly, std::span<const std::uint32_t> ids) {
   const Conversion& conversion = exactly.conversion;
-  std::vector<Face> faces;
-  faces.reserve(ids.size());
-  for (const std::uint32_t id : ids) {
-    const std::uint32_t object = conversion.sources[id].object;
-    if (conversion.primitives[id].kind == PrimitiveKind::triangle && place_of(exactly.scene, object) == nullptr) {
-      faces.emplace_back(conversion.primitives[id], id, object);
-    }
+  Ids apart;
+  if (exactly.scene.kept != nullptr) {
+    std::copy_if(ids.begin(), ids.end(), std::back_inserter(apart),
+                 [&](std::uint32_t id) { return place_of(exactly.scene, conversion.sources[id].object) == nullptr; });
+    ids = apart;
   }
+  std::vector<Face> faces = faces_of(conversion, ids);
   CoveringPairs pairs;
   pairs.look_at_planes(faces, fine_buckets);
+  if (std::none_of(faces.begin(), faces.end(), [](const Face& face) { return face.altitude < low_altitude; })) {
+    return pairs;
+  }
   if (put_exact_corners(exactly.scene, exactly.frame, conversion, faces)) {
     pairs.look_at_planes(faces, coarse_buckets);
   }

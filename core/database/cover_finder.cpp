@@ -77,19 +77,6 @@ class CoverFinder::Raster {
   double scale_ = 1;
 };
 
-CoverFinder::CoverFinder(std::span<const Face> faces) : faces_(faces), coplanar_(faces), close_(faces), reached_(faces) {
-  extents_.reserve(faces.size());
-  for (const Face& face : faces) {
-    const auto& corner = face.corner;
-    Extent extent{.low = {}, .high = {}, .object = face.object};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      extent.low[axis] = std::min({corner[0][axis], corner[1][axis], corner[2][axis]});
-      extent.high[axis] = std::max({corner[0][axis], corner[1][axis], corner[2][axis]});
-    }
-    extents_.push_back(extent);
-  }
-}
-
 void CoverFinder::look_at(std::span<const std::uint32_t> some, std::size_t axis) {
   see(some, axis);
   if (!look_at_pairs(axis)) {
@@ -114,8 +101,10 @@ void CoverFinder::see(std::span<const std::uint32_t> some, std::size_t axis) {
   const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
   seen_.clear();
   for (const std::uint32_t face : some) {
-    const Extent& all = extents_[face];
-    seen_.push_back({{all.low[next], all.low[last]}, {all.high[next], all.high[last]}, face, all.object});
+    const auto& corner = faces_[face].corner;
+    const auto low = [&](std::size_t along) { return std::min({corner[0][along], corner[1][along], corner[2][along]}); };
+    const auto high = [&](std::size_t along) { return std::max({corner[0][along], corner[1][along], corner[2][along]}); };
+    seen_.push_back({{low(next), low(last)}, {high(next), high(last)}, face, faces_[face].object});
   }
 }
 
@@ -278,7 +267,7 @@ void CoverFinder::merge(std::uint32_t a, std::uint32_t b, bool are_coplanar) {
 
 void CoverFinder::merge_in(Found& found, std::uint32_t a, std::uint32_t b) {
   if (!found.leads(a, b)) {
-    found.sets.merge(a, b);
+    found.merge(a, b, faces_.size());
     found.pairs.emplace_back(faces_[a].id, faces_[b].id);
   }
 }

@@ -30,7 +30,7 @@ class MergedSets {
 class CoverFinder {
  public:
   /// The faces, of ascending ids, outlive the finder.
-  explicit CoverFinder(std::span<const Face> faces);
+  explicit CoverFinder(std::span<const Face> faces) : faces_(faces) {}
 
   /// Looks at some of the faces, ascending, which can be looked at along `axis`.
   void look_at(std::span<const std::uint32_t> some, std::size_t axis);
@@ -46,11 +46,6 @@ class CoverFinder {
   const std::vector<std::uint32_t>& unseen() const { return unseen_; }
 
  private:
-  /// Of a face what is looked at first, on one line of the processor's cache; the face itself takes three.
-  struct alignas(64) Extent {
-    std::array<double, 3> low, high;
-    std::uint32_t object;
-  };
   /// A face as seen along the axis.
   struct Seen {
     std::array<double, 2> low, high;
@@ -63,11 +58,15 @@ class CoverFinder {
   class Raster;
   /// What is found.
   struct Found {
-    explicit Found(std::span<const Face> faces) : sets(faces.size()) {}
+    bool leads(std::uint32_t a, std::uint32_t b) { return !pairs.empty() && sets.least_with(a) == sets.least_with(b); }
+    void merge(std::uint32_t a, std::uint32_t b, std::size_t face_count) {
+      if (pairs.empty()) {
+        sets = MergedSets(face_count);
+      }
+      sets.merge(a, b);
+    }
 
-    bool leads(std::uint32_t a, std::uint32_t b) { return sets.least_with(a) == sets.least_with(b); }
-
-    MergedSets sets;
+    MergedSets sets{0};  ///< of all faces, once there are pairs
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   };
 
@@ -85,7 +84,6 @@ class CoverFinder {
   void merge_in(Found& found, std::uint32_t a, std::uint32_t b);
 
   std::span<const Face> faces_;
-  std::vector<Extent> extents_;  ///< of the faces
   Found coplanar_, close_, reached_;
   std::vector<std::uint32_t> unseen_;
   std::vector<Seen> seen_;

@@ -2,203 +2,176 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
 
 #include "core/base/box.h"
+#include "core/base/expect.h"
 #include "core/base/sampling.h"
+#include "core/database/plane_lanes.h"
 
 namespace dmpc::core {
 namespace {
 
-/// A bucket that a face is in. Two buckets have one key by chance alone, and then lose nothing by it.
+/// A bucket that some faces are in.
+struct Bucket {
+  static constexpr std::uint32_t several = 0xffffffffU;
+
+  std::uint64_t key;     ///< its place; the lowest bits: the axis
+  std::uint32_t object;  ///< of its faces, or several
+  std::uint32_t count;   ///< of its faces
+};
+
+/// That a face is in a bucket.
 struct Filing {
-  std::uint64_t key;  ///< the lowest bits: the axis
-  std::uint32_t face;
-
-  bool operator<(const Filing& other) const { return std::tie(key, face) < std::tie(other.key, other.face); }
+  std::uint32_t bucket, face;
 };
 
-/// The space that the faces take: heights are measured from its middle, in parts of its size.
-struct Surroundings {
-  explicit Surroundings(std::span<const Face> faces) {
-    Box box;
-    for (const Face& face : faces) {
-      box.include(face.corner[0]);
-    }
-    middle = box.center();
-    const Vec3d extent = box.high - box.low;
-    size = std::max({extent.x, extent.y, extent.z, 1e-6});
+Surroundings surroundings_of(std::span<const Face> faces) {
+  Box box;
+  for (const Face& face : faces) {
+    box.include(face.corner[0]);
   }
-
-  Vec3d middle;
-  double size;
-};
-
-/// Buckets along one of the space's dimensions, so many a unit, which is a power of two: to multiply by it rounds nothing.
-struct Range {
-  Range(double value, double error, double per_unit)
-      : first(bucket_of(value - error, per_unit)), last(bucket_of(value + error, per_unit)) {}
-
-  /// Planes along an axis, which many are, lie in the middle of one. Rounds down, quicker than std::floor() does.
-  static std::int32_t bucket_of(double value, double per_unit) {
-    const double place = value * per_unit + 0.5;
-    const auto towards_zero = static_cast<std::int32_t>(place);
-    return towards_zero - (place < static_cast<double>(towards_zero) ? 1 : 0);
-  }
-
-  std::int32_t first, last;
-};
-
-std::uint64_t key_of(std::size_t axis, std::int32_t slope, std::int32_t other_slope, std::int32_t height) {
-  const std::uint64_t high = static_cast<std::uint32_t>(slope), low = static_cast<std::uint32_t>(other_slope);
-  const std::uint64_t mixed = mix(mix(high << 32U | low) + static_cast<std::uint32_t>(height));
-  return (mixed & ~std::uint64_t{3}) | axis;
+  const Vec3d extent = box.high - box.low;
+  return {box.center(), std::max({extent.x, extent.y, extent.z, 1e-6})};
 }
 
-/// Finds the buckets of faces, and sorts out what is alone in its bucket, or with others of its object: that is most of a scene.
+constexpr std::uint32_t dimension_bits = 20;
+constexpr std::int32_t place_middle = 1 << (dimension_bits - 1);
+
+std::uint64_t key_of(std::size_t axis, std::int32_t slope, std::int32_t other_slope, std::int32_t height) {
+  const auto bits = [](std::int32_t place) { return std::uint64_t{static_cast<std::uint32_t>(place + place_middle)}; };
+  return ((bits(slope) << dimension_bits | bits(other_slope)) << dimension_bits | bits(height)) << 2U | axis;
+}
+
+/// Finds the buckets of faces, by a table of those that there are.
 class BucketFiller {
  public:
-  BucketFiller(std::span<const Face> faces, const BucketSize& size)
-      : faces_(faces), size_(size), per_unit_(1 / size.edge), around_(faces) {
+  explicit BucketFiller(std::span<const Face> faces) : faces_(faces), slots_(std::bit_ceil(2 * faces.size() + 1), vacant) {
+    buckets_.reserve(faces.size());
     filings_.reserve(2 * faces.size());
   }
 
-  std::vector<Filing> fill() {
-    for (std::uint32_t i = 0; i < faces_.size(); ++i) {
-      add(faces_[i], i);
+  void fill(const BucketSize& size) {
+    PlaneLanes lanes(size, surroundings_of(faces_));
+    for (std::size_t first = 0; first < faces_.size(); first += PlaneLanes::count_max) {
+      const std::size_t count = std::min(PlaneLanes::count_max, faces_.size() - first);
+      lanes.find(faces_.subspan(first, count));
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          if (lanes.is_seen(lane, axis)) {
+            add(static_cast<std::uint32_t>(first + lane), axis, lanes.place(lane, axis));
+          }
+        }
+      }
     }
-    return sifted();
+  }
+
+  /// Hands the faces of each bucket of several objects on, in an order that depends on the buckets' places alone.
+  template <class Take>
+  void take_shared(const Take& take) const {
+    const std::vector<std::uint32_t> shared = shared_buckets();
+    if (shared.empty()) {
+      return;
+    }
+    std::vector<std::uint32_t> next(buckets_.size(), vacant);
+    std::uint32_t end = 0;
+    for (const std::uint32_t bucket : shared) {
+      next[bucket] = end;
+      end += buckets_[bucket].count;
+    }
+    std::vector<std::uint32_t> faces(end);
+    for (const Filing& filing : filings_) {
+      if (next[filing.bucket] != vacant) {
+        faces[next[filing.bucket]++] = filing.face;
+      }
+    }
+    for (const std::uint32_t bucket : shared) {
+      const std::size_t count = buckets_[bucket].count;
+      take(buckets_[bucket].key & 3U, std::span<const std::uint32_t>(faces).subspan(next[bucket] - count, count));
+    }
   }
 
  private:
-  static constexpr std::uint32_t vacant = 0xffffffffU, several = 0xfffffffeU;
-  /// So few keys of a slot are put one behind the other by going through it for each.
-  static constexpr std::size_t keys_counted = 4;
+  static constexpr std::uint32_t vacant = 0xffffffffU;
 
-  void add(const Face& face, std::uint32_t index) {
-    const std::size_t main = face.main_axis();
-    const bool is_level = face.is_level();
-    // Corners that move across the plane turn the normal; slopes change by up to three times as much.
-    const double turned = 8 * face.moved / face.altitude, by_rounding = is_level || face.is_by_doubles ? 0.0 : turned;
-    const double error = is_level ? 0.0 : std::max(by_rounding, std::min(near_roundings * turned, size_.leaning));
-    if (!(error < size_.edge)) {
-      return;
-    }
-    // A plane between two axes may face either, for another triangle.
-    const double most = std::fabs(face.plane.normal[main]) * (1 - 4 * error) - 1e-12;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (std::fabs(face.plane.normal[axis]) >= most) {
-        add_along(face, index, axis, error);
-      }
-    }
-  }
-
-  void add_along(const Face& face, std::uint32_t index, std::size_t axis, double error) {
-    const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
-    const Vec3d& normal = face.plane.normal;
-    const double one_over = 1 / normal[axis], slope = -normal[next] * one_over, other_slope = -normal[last] * one_over;
-    const Vec3d away = around_.middle - face.corner[0];
-    const double height = (slope * away[next] + other_slope * away[last] - away[axis]) / around_.size;
-    const double near = 8 * (near_roundings * face.moved + layers_reach_of(face.altitude));
-    const double height_error =
-        std::min((near + error * (std::fabs(away[next]) + std::fabs(away[last]))) / around_.size, size_.edge);
-    const Range slopes(slope, error, per_unit_), other_slopes(other_slope, error, per_unit_),
-        heights(height, height_error, per_unit_);
-    for (std::int32_t i = slopes.first; i <= slopes.last; ++i) {
-      for (std::int32_t j = other_slopes.first; j <= other_slopes.last; ++j) {
-        for (std::int32_t k = heights.first; k <= heights.last; ++k) {
-          filings_.push_back({key_of(axis, i, j, k), index});
+  void add(std::uint32_t face, std::size_t axis, const PlanePlace& place) {
+    for (std::int32_t i = place.slopes.first; i <= place.slopes.last; ++i) {
+      for (std::int32_t j = place.other_slopes.first; j <= place.other_slopes.last; ++j) {
+        for (std::int32_t k = place.heights.first; k <= place.heights.last; ++k) {
+          add(face, key_of(axis, i, j, k));
         }
       }
     }
   }
 
-  /// What a table of a few slots for each bucket finds beside others, and a little more; what has one key comes together.
-  std::vector<Filing> sifted() {
-    look_for_company();
-    std::erase_if(filings_, [&](const Filing& filing) { return objects_[slot_of(filing)] != several; });
-    if (filings_.empty()) {
-      return {};
-    }
-    std::vector<std::uint32_t> next(objects_.size());  // by slot: how many of it there are, then where the next of it goes
-    for (const Filing& filing : filings_) {
-      ++next[slot_of(filing)];
-    }
-    std::uint32_t end = 0;
-    for (std::uint32_t& of_slot : next) {
-      end += std::exchange(of_slot, end);
-    }
-    std::vector<Filing> result(end);
-    for (const Filing& filing : filings_) {
-      result[next[slot_of(filing)]++] = filing;
-    }
-    std::size_t first = 0;
-    for (const std::uint32_t last : next) {
-      sort_if_mixed(std::span(result).subspan(first, last - first));
-      first = last;
-    }
-    return result;
-  }
-
-  std::size_t slot_of(const Filing& filing) const { return filing.key >> 2U & (objects_.size() - 1); }
-
-  /// Finds the object of each slot, or that it has several: in a table of its own, which is the more likely to stay in the
-  /// processor's cache.
-  void look_for_company() {
-    objects_.assign(std::bit_ceil(2 * filings_.size() + 1), vacant);
-    for (const Filing& filing : filings_) {
-      std::uint32_t& in_slot = objects_[slot_of(filing)];
-      const std::uint32_t object = faces_[filing.face].object;
-      in_slot = in_slot == vacant || in_slot == object ? object : several;
-    }
-  }
-
-  /// A slot has several keys where planes lie alike along several axes, and else by chance alone. Within a key they are in order.
-  void sort_if_mixed(std::span<Filing> filings) {
-    keys_.clear();
-    for (const Filing& filing : filings) {
-      auto place = place_of(filing.key);
-      if (place == keys_.end()) {
-        if (keys_.size() == keys_counted) {
-          return std::sort(filings.begin(), filings.end());
-        }
-        place = keys_.insert(place, {filing.key, 0});
-      }
-      ++place->next;
-    }
-    if (keys_.size() < 2) {
+  void add(std::uint32_t face, std::uint64_t key) {
+    std::uint32_t& slot = slot_of(key);
+    const std::uint32_t object = faces_[face].object;
+    filings_.push_back({slot, face});
+    if (slot != vacant) {
+      Bucket& bucket = buckets_[slot];
+      bucket.object = bucket.object == object ? object : Bucket::several;
+      ++bucket.count;
       return;
     }
-    std::sort(keys_.begin(), keys_.end(), [](const KeyPlace& a, const KeyPlace& b) { return a.key < b.key; });
-    std::size_t end = 0;
-    for (KeyPlace& place : keys_) {
-      end += std::exchange(place.next, end);
-    }
-    mixed_.assign(filings.begin(), filings.end());
-    for (const Filing& filing : mixed_) {
-      filings[place_of(filing.key)->next++] = filing;
+    filings_.back().bucket = slot = static_cast<std::uint32_t>(buckets_.size());
+    buckets_.push_back({key, object, 1});
+    if (2 * buckets_.size() > slots_.size()) {
+      grow();
     }
   }
 
-  /// A key of a slot: how many of it there are, then where the next of it goes.
-  struct KeyPlace {
-    std::uint64_t key;
-    std::size_t next;
-  };
-  std::vector<KeyPlace>::iterator place_of(std::uint64_t key) {
-    return std::find_if(keys_.begin(), keys_.end(), [key](const KeyPlace& place) { return place.key == key; });
+  /// Where the bucket's number is, or is to be.
+  std::uint32_t& slot_of(std::uint64_t key) {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = (key * 0x9e3779b97f4a7c15U >> 32U) & mask;
+    while (slots_[at] != vacant && buckets_[slots_[at]].key != key) {
+      at = (at + 1) & mask;
+    }
+    return slots_[at];
+  }
+
+  void grow() {
+    slots_.assign(2 * slots_.size(), vacant);
+    for (std::uint32_t bucket = 0; bucket < buckets_.size(); ++bucket) {
+      slot_of(buckets_[bucket].key) = bucket;
+    }
+  }
+
+  std::vector<std::uint32_t> shared_buckets() const {
+    const std::uint64_t mask = std::bit_ceil(2 * filings_.size() + 1) - 1;
+    std::vector<std::tuple<std::uint64_t, std::uint64_t, std::uint32_t>> shared;
+    for (std::uint32_t bucket = 0; bucket < buckets_.size(); ++bucket) {
+      if (buckets_[bucket].object == Bucket::several) {
+        const std::uint64_t mixed = mixed_key(buckets_[bucket].key);
+        shared.emplace_back(mixed >> 2U & mask, mixed, bucket);
+      }
+    }
+    std::sort(shared.begin(), shared.end());
+    std::vector<std::uint32_t> buckets;
+    buckets.reserve(shared.size());
+    for (const auto& [slot, key, bucket] : shared) {
+      buckets.push_back(bucket);
+    }
+    return buckets;
+  }
+
+  /// In which order they come.
+  static std::uint64_t mixed_key(std::uint64_t key) {
+    const auto place = [&](std::uint32_t dimension) {
+      constexpr std::uint64_t all = (std::uint64_t{1} << dimension_bits) - 1;
+      return static_cast<std::uint32_t>(static_cast<std::int32_t>(key >> (2 + dimension * dimension_bits) & all) - place_middle);
+    };
+    const std::uint64_t mixed = mix(mix(std::uint64_t{place(2)} << 32U | place(1)) + place(0));
+    return (mixed & ~std::uint64_t{3}) | (key & 3U);
   }
 
   std::span<const Face> faces_;
-  BucketSize size_;
-  double per_unit_;  ///< buckets
-  Surroundings around_;
-  std::vector<Filing> filings_, mixed_;
-  std::vector<KeyPlace> keys_;
-  std::vector<std::uint32_t> objects_;  ///< by slot
+  std::vector<std::uint32_t> slots_;  ///< numbers of buckets, as a table of open addresses
+  std::vector<Bucket> buckets_;
+  std::vector<Filing> filings_;
 };
 
 /// Tells which buckets have the faces of one before them: planes at a bucket's border, and those that lean alike along two axes,
@@ -208,18 +181,17 @@ class SameFaces {
   explicit SameFaces(const PlaneBuckets& all) : all_(all) {}
 
   /// Whether some bucket has these; else the one that is added next does.
-  bool are_known(std::span<const Filing> faces) {
+  bool are_known(std::span<const std::uint32_t> faces) {
     std::uint64_t hash = 0;
-    for (const Filing& filing : faces) {
-      hash = (hash ^ filing.face) * 0x9e3779b97f4a7c15U;
+    for (const std::uint32_t face : faces) {
+      hash = (hash ^ face) * 0x9e3779b97f4a7c15U;
     }
     const auto [found, is_new] = by_hash_.try_emplace(hash, all_.buckets.size());
     if (is_new) {
       return false;
     }
     const auto known = all_.faces_of(all_.buckets[found->second]);
-    return std::equal(known.begin(), known.end(), faces.begin(), faces.end(),
-                      [](std::uint32_t face, const Filing& filing) { return face == filing.face; });
+    return std::equal(known.begin(), known.end(), faces.begin(), faces.end());
   }
 
  private:
@@ -230,23 +202,17 @@ class SameFaces {
 }  // namespace
 
 PlaneBuckets fill_plane_buckets(std::span<const Face> faces, const BucketSize& size) {
+  BucketFiller filler(faces);
+  filler.fill(size);
   PlaneBuckets result;
   SameFaces same(result);
-  const std::vector<Filing> filings = BucketFiller(faces, size).fill();
-  for (std::size_t first = 0, last = 0; first < filings.size(); first = last) {
-    bool has_several = false;
-    for (last = first; last < filings.size() && filings[last].key == filings[first].key; ++last) {
-      has_several = has_several || faces[filings[last].face].object != faces[filings[first].face].object;
-    }
-    const auto bucket = std::span(filings).subspan(first, last - first);
-    if (has_several && !same.are_known(bucket)) {
+  filler.take_shared([&](std::size_t axis, std::span<const std::uint32_t> shared) {
+    if (!same.are_known(shared)) {
       const std::size_t begin = result.faces.size();
-      for (const Filing& filing : bucket) {
-        result.faces.push_back(filing.face);
-      }
-      result.buckets.push_back({bucket.front().key & 3U, begin, result.faces.size()});
+      result.faces.insert(result.faces.end(), shared.begin(), shared.end());
+      result.buckets.push_back({axis, begin, result.faces.size()});
     }
-  }
+  });
   return result;
 }
 

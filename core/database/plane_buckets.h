@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/database/face.h"
+#include "core/database/plane_place.h"
 
 namespace dmpc::core {
 
@@ -25,15 +26,6 @@ struct PlaneBuckets {
     return std::span(faces).subspan(bucket.first, bucket.last - bucket.first);
   }
 };
-
-/// A bucket's edge in slopes, and in heights as a share of the space that the faces take; two planes that are near meet in one if
-/// they lean towards each other by no more than twice `leaning`.
-struct BucketSize {
-  double edge, leaning;
-};
-inline constexpr BucketSize fine_buckets{0x1p-9, 0x1p-13};
-/// Where triangles are so small that rounding moves one plane far from another one: for those whose doubles are known.
-inline constexpr BucketSize coarse_buckets{0x1p-5, 0x1p-7};
 
 /// Buckets of faces of more than one object; of several with the same faces the first.
 PlaneBuckets fill_plane_buckets(std::span<const Face> faces, const BucketSize& size = fine_buckets);

@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "core/base/vec.h"
+#include "core/base/vector_width.h"
 #include "core/trace/bundle.h"
-#include "core/trace/vector_width.h"
 
 namespace dmpc::core {
 
@@ -43,27 +43,6 @@ inline void fill_up(VectorRows& rows, std::size_t count) {
   fill_up(rows.x, count);
   fill_up(rows.y, count);
   fill_up(rows.z, count);
-}
-
-template <class Loop>
-[[gnu::target("arch=x86-64-v4"), gnu::flatten]] void run_by_512(const Loop& loop) {
-  loop();
-}
-template <class Loop>
-[[gnu::target("arch=x86-64-v3"), gnu::flatten]] void run_by_256(const Loop& loop) {
-  loop();
-}
-/// Calls loop(), which is compiled for each width. Requires a processor that has it.
-template <class Loop>
-void run_by(VectorWidth width, const Loop& loop) {
-  switch (width) {
-    case VectorWidth::bits_512:
-      return run_by_512(loop);
-    case VectorWidth::bits_256:
-      return run_by_256(loop);
-    case VectorWidth::any:
-      return loop();
-  }
 }
 
 }  // namespace dmpc::core

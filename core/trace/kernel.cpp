@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/trace/vector_width.h"
+#include "core/base/vector_width.h"
 
 // clang-format off
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
@@ -237,13 +237,6 @@ const TriangleKernel hit_triangles = [] {
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   return HWY_DYNAMIC_DISPATCH(triangles);
 }();
-
-VectorWidth vector_width() {
-  static const auto targets = hwy::SupportedTargets();
-  return (targets & (HWY_AVX3 | HWY_AVX3_DL)) != 0 ? VectorWidth::bits_512
-         : (targets & HWY_AVX2) != 0               ? VectorWidth::bits_256
-                                                   : VectorWidth::any;
-}
 
 const char* simd_name() {
   constexpr std::array<const char*, 3> names{"scalar", "AVX2", "AVX3"};
