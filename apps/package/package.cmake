@@ -22,14 +22,15 @@ endif()
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME dmpc)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION ${CPACK_PACKAGE_DESCRIPTION})
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS gnuplot-nox)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS dmpc-mpi)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "dmpc-mpi, python3")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-dmpc)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "dmpc (= ${PROJECT_VERSION}), python3, python3-numpy, python3-pandas, python3-openimageio")
-set(CPACK_DEBIAN_PYTHON_DESCRIPTION "dmpc from Python: renders and sweeps as frames and arrays
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-matplotlib)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "dmpc from Python: renders and studies as frames and arrays
 A pure module that runs the program dmpc and hands back its counters, the
 figures of its nodes, its film and heat maps, and tables of many runs; a
 notebook shows them.")

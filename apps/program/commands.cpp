@@ -132,6 +132,7 @@ void Commands::declare_values() {
   line_.suggest("KIND", kinds);
   line_.suggest("KIND:FILE", heats);
   line_.suggest("FOLDER", {.folders = true});
+  line_.suggest("python:FILE", {.words = {"python:"}});
   for (const char* const name : {"FILE", "IMAGE", "A", "B"}) {
     line_.suggest(name, {.files = true});
   }

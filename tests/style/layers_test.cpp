@@ -33,18 +33,20 @@ const std::map<std::string, Names> stands_on = {
     {"svm/forest", {"svm", "svm/pages", "nodes", "core", "core/base"}},
     {"dataflow", {"nodes", "core", "core/base"}},
     {"apps/edge", {"svm/pages", "nodes", "core/base"}},
+    {"apps/policy", {"apps/edge", "svm/pages", "nodes", "core/base"}},
     {"apps/computer", {"apps/edge", "svm/pages", "nodes", "core/base"}},
     {"apps/computer/scenes", {"apps/computer", "apps/edge", "svm/pages", "nodes", "core", "core/base"}},
     {"apps/computer/examples", {}},
     {"apps", {"apps/edge", "svm/forest", "svm", "svm/pages", "dataflow", "nodes", "core", "core/base"}},
     {"apps/modules", {"apps", "apps/edge", "nodes", "core/base"}},
     {"apps/foreign", {"apps", "apps/edge", "core", "core/base"}},
-    {"apps/lab", {"apps", "apps/edge", "svm/forest", "svm", "svm/pages", "dataflow", "nodes", "core", "core/base"}},
+    {"apps/lab",
+     {"apps", "apps/policy", "apps/edge", "svm/forest", "svm", "svm/pages", "dataflow", "nodes", "core", "core/base"}},
     {"apps/main", {"apps/lab", "apps", "apps/edge", "core", "core/base"}},
     {"apps/manual", {"apps/main", "apps", "apps/edge", "core/base"}},
     {"tests",
-     {"apps/manual", "apps/main", "apps/lab", "apps/foreign", "apps/modules", "apps", "apps/computer/scenes", "apps/computer",
-      "apps/edge", "dataflow", "svm/forest", "svm", "svm/pages", "nodes", "core", "core/base"}},
+     {"apps/manual", "apps/main", "apps/lab", "apps/foreign", "apps/modules", "apps", "apps/policy", "apps/computer/scenes",
+      "apps/computer", "apps/edge", "dataflow", "svm/forest", "svm", "svm/pages", "nodes", "core", "core/base"}},
 };
 
 /// What libraries that are installed without core may use of it: names and numbers, that need nothing of it when they are linked.

@@ -45,19 +45,28 @@ struct Start {
   std::vector<std::string> words;
   std::vector<char*> pointers;
   const char* folder;
-  int errors;
+  int input, output, errors;
   bool has_own_group;
   pid_t parent = ::getpid();
 
   Start(const ChildSettings& settings, int its_errors)
-      : words{settings.program}, folder(settings.folder.c_str()), errors(its_errors), has_own_group(!settings.gets_ctrl_c) {
+      : words{settings.program},
+        folder(settings.folder.c_str()),
+        input(settings.input),
+        output(settings.output),
+        errors(its_errors),
+        has_own_group(!settings.gets_ctrl_c) {
     words.insert(words.end(), settings.arguments.begin(), settings.arguments.end());
     std::transform(words.begin(), words.end(), std::back_inserter(pointers), [](std::string& word) { return word.data(); });
     pointers.push_back(nullptr);
   }
 };
 
-bool opens_as(int number, int mode) {
+/// `file`, or nothing, becomes the child's `number`.
+bool opens_as(int number, int file, int mode) {
+  if (file >= 0) {
+    return file == number ? ::fcntl(file, F_SETFD, 0) == 0 : ::dup2(file, number) >= 0;
+  }
   const int opened = ::open("/dev/null", mode);
   return opened >= 0 && ::dup2(opened, number) >= 0 && (opened <= STDERR_FILENO || ::close(opened) == 0);
 }
@@ -76,8 +85,9 @@ bool unblocks_signals() {
   if (::getppid() != start.parent) {
     ::_exit(0);  // it has died before
   }
-  if (is_tied && ::chdir(start.folder) == 0 && opens_as(STDIN_FILENO, O_RDONLY) && opens_as(STDOUT_FILENO, O_WRONLY) &&
-      ::dup2(start.errors, STDERR_FILENO) >= 0 && (!start.has_own_group || ::setpgid(0, 0) == 0) && unblocks_signals()) {
+  if (is_tied && ::chdir(start.folder) == 0 && opens_as(STDIN_FILENO, start.input, O_RDONLY) &&
+      opens_as(STDOUT_FILENO, start.output, O_WRONLY) && ::dup2(start.errors, STDERR_FILENO) >= 0 &&
+      (!start.has_own_group || ::setpgid(0, 0) == 0) && unblocks_signals()) {
     ::execvp(start.pointers.front(), start.pointers.data());
   }
   const int error = errno;

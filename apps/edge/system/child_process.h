@@ -1,4 +1,4 @@
-// A program as a process of its own, with nothing to read and nobody to write to but whoever started it.
+// A program as a process of its own, with nothing to read but what whoever started it gives it, and nobody else to write to.
 #pragma once
 
 #include <sys/types.h>
@@ -18,6 +18,7 @@ struct ChildSettings {
   std::vector<std::string> arguments;
   std::filesystem::path folder = ".";  ///< where it runs
   bool gets_ctrl_c = true;             ///< the terminal's Ctrl-C reaches it, too
+  int input = -1, output = -1;         ///< opened files that are its stdin and stdout; below 0: /dev/null
 };
 
 /// Killed and waited for in the end, unless it has ended before; ended (SIGTERM) where the thread that made it ends before, by

@@ -29,13 +29,16 @@ std::string loader_complaint() {
 
 }  // namespace
 
-void* open_library(const std::string& path) {
+void* open_library(const std::string& path, std::string* complaint) {
   const LoadsLibrary loads_library;
 #if defined(__SANITIZE_ADDRESS__)
   is_any_opened = true;
 #endif
   void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   core::use_usual_arithmetic();
+  if (library == nullptr && complaint != nullptr) {
+    *complaint = loader_complaint();
+  }
   return library;
 }
 

@@ -15,8 +15,9 @@ struct Module {
 };
 
 /// Opens a shared library, which is never closed again; nullptr if it cannot be opened. Its libraries may start threads as they
-/// are loaded, and change the arithmetic, which then is as usual again. Thread-safe.
-void* open_library(const std::string& path);
+/// are loaded, and change the arithmetic, which then is as usual again. `complaint` becomes
+/// what the loader says if it cannot. Thread-safe.
+void* open_library(const std::string& path, std::string* complaint = nullptr);
 /// What an opened library exports by this name; nullptr if it has none of it. Thread-safe.
 void* exported_by(void* library, const char* name);
 

@@ -1,5 +1,6 @@
 #include "apps/edge/system/trusted_path.h"
 
+#include <fcntl.h>
 #include <grp.h>
 #include <pwd.h>
 #include <sys/stat.h>
@@ -14,6 +15,8 @@
 #include <string_view>
 #include <system_error>
 #include <vector>
+
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
@@ -50,10 +53,13 @@ bool is_own_group(gid_t id) {
   return name == members.gr_name;
 }
 
+/// What of a folder where everybody may write, but remove only what is his own.
+enum class Sticky { keeps_apart, is_open };
+
 /// Of one file or folder.
 class Trust {
  public:
-  Trust() {
+  explicit Trust(Sticky sticky) : sticky_(sticky) {
     std::error_code unknown;
     program_ = fs::read_symlink("/proc/self/exe", unknown);
     for (const fs::path& place : {fs::path("/proc/self/exe"), program_.parent_path()}) {
@@ -72,8 +78,11 @@ class Trust {
     if (::lstat(place.c_str(), &found) != 0) {
       return std::string("whose it is cannot be told (") + std::strerror(errno) + ")";
     }
+    return why_not(place, found);
+  }
+  std::optional<std::string> why_not(const fs::path& place, const struct stat& found) const {
     const bool is_folder = S_ISDIR(found.st_mode), holds_program = is_folder && is_above_program(place);
-    const bool keeps_apart = is_folder && (found.st_mode & S_ISVTX) != 0;
+    const bool keeps_apart = is_folder && (found.st_mode & S_ISVTX) != 0 && sticky_ == Sticky::keeps_apart;
     if (!holds_program && !is_trusted(found.st_uid)) {
       return "it belongs to user " + std::to_string(found.st_uid);
     }
@@ -85,6 +94,17 @@ class Trust {
       return "group " + std::to_string(found.st_gid) + " may write to it";
     }
     return std::nullopt;
+  }
+  /// Nothing if no folder above `path` lets others put something else in its place.
+  std::optional<std::string> why_not_above(const fs::path& path) const {
+    for (fs::path place = path.parent_path();; place = place.parent_path()) {
+      if (const auto why = why_not(place)) {
+        return "of " + place.string() + ", where it lies: " + *why;
+      }
+      if (place == place.parent_path()) {
+        return std::nullopt;
+      }
+    }
   }
 
  private:
@@ -99,6 +119,7 @@ class Trust {
     return program_.string().starts_with(above);
   }
 
+  Sticky sticky_;
   fs::path program_;
   std::optional<uid_t> program_owner_, unknown_owner_ = unknown_owner();
   std::vector<gid_t> program_groups_;  ///< that may replace the program
@@ -107,15 +128,37 @@ class Trust {
 }  // namespace
 
 std::optional<std::string> why_untrusted(const fs::path& path) {
-  const Trust trust;
-  for (fs::path place = path;; place = place.parent_path()) {
-    if (const auto why = trust.why_not(place)) {
-      return place == path ? *why : "of " + place.string() + ", where it lies: " + *why;
-    }
-    if (place == place.parent_path()) {
-      return std::nullopt;
-    }
+  const Trust trust(Sticky::keeps_apart);
+  const auto why = trust.why_not(path);
+  return why ? why : trust.why_not_above(path);
+}
+
+Descriptor open_trusted(const std::string& path) {
+  constexpr const char* expected = "; expected the full path of a file that you alone, or root, can write";
+  if (!fs::path(path).is_absolute()) {
+    throw core::InputError(path + ": it does not begin with /" + expected);
   }
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));  // which a pipe does not hold up
+  struct stat found {};
+  if (!file.is_open() || ::fstat(file.number(), &found) != 0) {
+    throw core::InputError(path + " cannot be opened: " + std::strerror(errno));
+  }
+  if (!S_ISREG(found.st_mode)) {
+    throw core::InputError(path + ": it is no ordinary file" + expected);
+  }
+  std::error_code unknown;
+  const fs::path lies_at = fs::read_symlink("/proc/self/fd/" + std::to_string(file.number()), unknown);
+  if (lies_at != path) {
+    throw core::InputError(path + ": it is reached by links or dots; name " +
+                           (lies_at.empty() ? "the file that it is" : lies_at.string()));
+  }
+  const Trust trust(Sticky::is_open);
+  auto why = trust.why_not(lies_at, found);
+  why = why ? why : trust.why_not_above(lies_at);
+  if (why) {
+    throw core::InputError(path + ": others can write what it says, since " + *why + expected);
+  }
+  return file;
 }
 
 }  // namespace dmpc::apps

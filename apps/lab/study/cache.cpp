@@ -106,6 +106,7 @@ void add_cache_pages(OptionSet set, std::vector<std::uint32_t>& cache_pages) {
 void CacheStudy::add_options(StudyLine line) {
   line.set.add_number("--nodes", node_count, 2, nodes::node_count_max, "32", "Nodes, each with a cache of its own");
   add_cache_pages(line.set, cache_pages);
+  add_policies(line.set, policy_places);
   line.set.add_text(
       "--machine", "MACHINE|FILE.json",
       [this, &file = line.machine_name](const std::string& text) {
@@ -120,7 +121,7 @@ void CacheStudy::add_options(StudyLine line) {
 }
 
 std::vector<Column> CacheStudy::columns() const {
-  std::vector<Column> columns = CacheCurves::columns("share of database");
+  std::vector<Column> columns = CacheCurves::columns("share of database", policies);
   if (machine) {
     const std::vector<Column> timed = heads_of(timed_cache_columns());
     columns.insert(columns.end(), timed.begin(), timed.end());
@@ -130,7 +131,7 @@ std::vector<Column> CacheStudy::columns() const {
 
 std::vector<Plot> CacheStudy::plots() const {
   const PlotAxis rate{.label = "", .least = 0};
-  std::vector<Plot> plots = {CacheCurves::plot()};
+  std::vector<Plot> plots = {CacheCurves::plot(policies)};
   if (machine) {
     plots.push_back(curves("cache_efficiency", "Efficiency", "cache pages", CacheCurves::size_axis(), percent_axis("efficiency"),
                            {{"on " + machine->name, "efficiency"}}));
@@ -152,8 +153,8 @@ void CacheStudy::measure(StudyRuns& runs, Table& table) const {
   const std::uint32_t page_count = recorded.plan.request.page_count;
   const CacheCurves curves(
       references_of(recorded), recorded.pages().references,
-      cache_pages.empty() ? geometric_sizes(page_count - page_count / node_count, standard_size_count) : cache_pages,
-      [&runs] { runs.check(); });
+      cache_pages.empty() ? geometric_sizes(page_count - page_count / node_count, standard_size_count) : cache_pages, policies,
+      {.check = [&runs] { runs.check(); }});
   recorded = {.film = core::Film(1, 1)};  // the references take much memory
   if (machine) {
     add_timed_rows(*this, curves, page_count, runs, table);

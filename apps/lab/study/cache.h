@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "apps/edge/table/plot.h"
 #include "apps/effort/planned_run.h"
 #include "apps/lab/study/engine/study_line.h"
+#include "apps/lab/study/policies.h"
 #include "apps/lab/study/runs.h"
 #include "nodes/machine.h"
 
@@ -23,6 +25,11 @@ struct CacheStudy {
   std::uint32_t node_count = 32;           ///< at least 2
   std::vector<std::uint32_t> cache_pages;  ///< sizes in pages; empty: about 12, from 1 to all pages that are not at home
   std::optional<nodes::Machine> machine;   ///< without it nothing is timed
+  std::vector<std::string> policy_places;  ///< of policies that are not dmpc's own
+  std::vector<ForeignPolicy> policies;     ///< those, once load() has been called
+
+  /// Loads the policies. Throws as they do.
+  void load(const std::function<void()>& check) { policies = load_policies(policy_places, check); }
 
   void add_options(StudyLine line);
   std::vector<Column> columns() const;

@@ -1,6 +1,8 @@
 #include "apps/lab/study/cache_curves.h"
 
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
@@ -13,7 +15,7 @@ namespace dmpc::apps {
 namespace {
 
 using svm::Replacement;
-/// By size: of each of the other policies, then of the optimum.
+/// By size: of each of the other policies, then of those that are not dmpc's own, then of the optimum.
 using Faults = std::vector<std::vector<std::uint64_t>>;
 
 /// Those beside lru, whose misses are known for all sizes at once, in the order of their columns.
@@ -27,20 +29,34 @@ std::vector<Replacement> other_policies() {
   return policies;
 }
 
-/// `distinct_pages`: of the references.
-Faults faults_of(CacheCurves::NodeReferences references, std::uint32_t distinct_pages, std::uint32_t node,
-                 const std::vector<std::uint32_t>& sizes, const std::function<void()>& check) {
+/// Whoever has room for all pages takes each in once.
+std::vector<std::uint32_t> bounded(std::vector<std::uint32_t> sizes, std::uint32_t distinct_pages) {
+  for (std::uint32_t& size : sizes) {
+    size = std::min(size, std::max(1U, distinct_pages));
+  }
+  return sizes;
+}
+
+/// `sizes`: bounded by the references' pages.
+Faults faults_of(CacheCurves::NodeReferences references, std::uint32_t node, const std::vector<std::uint32_t>& sizes,
+                 CacheCurves::Policies more, const CacheCurves::Watch& watch) {
   const svm::Optimum optimum(references);
-  Faults faults;
-  for (const std::uint32_t asked : sizes) {
-    const std::uint32_t size =
-        std::min(asked, std::max(1U, distinct_pages));  // whoever has room for all pages takes each in once
-    std::vector<std::uint64_t>& row = faults.emplace_back();
+  Faults faults(sizes.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
     for (const Replacement policy : other_policies()) {
-      check();
-      row.push_back(svm::policy_misses(policy, references, size, node));
+      watch.check();
+      faults[i].push_back(svm::policy_misses(policy, references, sizes[i], node));
+      watch.fed();
     }
-    row.push_back(optimum.misses(size));
+  }
+  for (const ForeignPolicy& policy : more) {
+    const std::vector<std::uint64_t> misses = policy.misses(references, sizes, node, watch.check, watch.fed);
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      faults[i].push_back(misses[i]);
+    }
+  }
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    faults[i].push_back(optimum.misses(sizes[i]));
   }
   return faults;
 }
@@ -51,18 +67,28 @@ void add(const Faults& more, Faults& sums) {
   }
 }
 
-std::string fault_column(Replacement policy) { return "faults " + std::string(svm::name_of(policy)); }
+std::string fault_column(std::string_view policy) { return "faults " + std::string(policy); }
+
+/// Those with columns between lru's and the optimum's, in their order.
+std::vector<std::string> names_beside_lru(CacheCurves::Policies more) {
+  std::vector<std::string> names;
+  for (const Replacement policy : other_policies()) {
+    names.emplace_back(svm::name_of(policy));
+  }
+  std::transform(more.begin(), more.end(), std::back_inserter(names), [](const ForeignPolicy& policy) { return policy.name(); });
+  return names;
+}
 
 }  // namespace
 
 CacheCurves::CacheCurves(const std::vector<NodeReferences>& nodes, std::uint64_t reference_count,
-                         std::vector<std::uint32_t> sizes, const std::function<void()>& check)
+                         std::vector<std::uint32_t> sizes, Policies more, const Watch& watch)
     : sizes_(std::move(sizes)),
       reference_count_(reference_count),
-      faults_(sizes_.size(), std::vector<std::uint64_t>(other_policies().size() + 1)) {
+      faults_(sizes_.size(), std::vector<std::uint64_t>(other_policies().size() + more.size() + 1)) {
   side_by_side(nodes.size(), [&](std::size_t node) -> std::function<void()> {
     svm::MissCurve lru(nodes[node]);
-    Faults faults = faults_of(nodes[node], lru.distinct_pages(), static_cast<std::uint32_t>(node), sizes_, check);
+    Faults faults = faults_of(nodes[node], static_cast<std::uint32_t>(node), bounded(sizes_, lru.distinct_pages()), more, watch);
     return [this, faults = std::move(faults), lru = std::move(lru)] {
       lru_ += lru;
       add(faults, faults_);
@@ -70,27 +96,28 @@ CacheCurves::CacheCurves(const std::vector<NodeReferences>& nodes, std::uint64_t
   });
 }
 
-std::uint64_t CacheCurves::check_count(std::size_t node_count, std::size_t size_count) {
-  return std::uint64_t{node_count} * size_count * other_policies().size();
+std::uint64_t CacheCurves::cache_count(std::size_t node_count, std::size_t size_count, Policies more) {
+  return std::uint64_t{node_count} * size_count * names_beside_lru(more).size();
 }
 
-std::vector<Column> CacheCurves::columns(const std::string& share) {
-  std::vector<Column> columns = {{"cache pages"}, {share, "%", 2}, {"misses lru", "%", 4}, {fault_column(Replacement::lru)}};
-  for (const Replacement policy : other_policies()) {
-    columns.push_back({fault_column(policy)});
+std::vector<Column> CacheCurves::columns(const std::string& share, Policies more) {
+  std::vector<Column> columns = {{"cache pages"}, {share, "%", 2}, {"misses lru", "%", 4}, {fault_column("lru")}};
+  for (const std::string& name : names_beside_lru(more)) {
+    columns.push_back({fault_column(name)});
   }
-  columns.push_back({"faults optimum"});
+  columns.push_back({fault_column("optimum")});
   return columns;
 }
 
 PlotAxis CacheCurves::size_axis() { return {.label = "cache of a node (pages)", .scale = PlotScale::powers_of_10}; }
 
-Plot CacheCurves::plot() {
-  std::vector<PlotSeries> policies = {{"lru", fault_column(Replacement::lru)}};
-  for (const Replacement policy : other_policies()) {
-    policies.push_back({.title = std::string(svm::name_of(policy)), .column = fault_column(policy), .color = policies.size()});
+Plot CacheCurves::plot(Policies more) {
+  std::vector<PlotSeries> policies = {{"lru", fault_column("lru")}};
+  std::vector<std::string> names = names_beside_lru(more);
+  names.emplace_back("optimum");
+  for (const std::string& name : names) {
+    policies.push_back({.title = name, .column = fault_column(name), .color = policies.size()});
   }
-  policies.push_back({.title = "optimum", .column = "faults optimum", .color = policies.size()});
   return curves("cache_faults", "Page faults", "cache pages", size_axis(), {.label = "faults", .scale = PlotScale::powers_of_10},
                 std::move(policies));
 }

@@ -10,6 +10,7 @@
 
 #include "apps/edge/table/plot.h"
 #include "apps/edge/table/table.h"
+#include "apps/policy/foreign_policy.h"
 #include "svm/pages/page.h"
 #include "svm/pages/watch/miss_curve.h"
 
@@ -21,15 +22,23 @@ class CacheCurves {
   /// The references of one node, in order; those of one page in a row may be one.
   using NodeReferences = std::span<const svm::PageId>;
 
-  /// `reference_count`: those that a share of misses is of. `sizes`: in pages. `check` is called check_count()
-  /// times, from any thread, and may throw. On all cores.
-  CacheCurves(const std::vector<NodeReferences>& nodes, std::uint64_t reference_count, std::vector<std::uint32_t> sizes,
-              const std::function<void()>& check);
+  /// Beside dmpc's own.
+  using Policies = std::span<const ForeignPolicy>;
+  /// Called from any thread while caches are fed.
+  struct Watch {
+    std::function<void()> check;        ///< often; may throw
+    std::function<void()> fed = [] {};  ///< once for each of cache_count()
+  };
 
-  static std::uint64_t check_count(std::size_t node_count, std::size_t size_count);
+  /// `reference_count`: those that a share of misses is of. `sizes`: in pages. On all cores. Throws what a policy or check()
+  /// does.
+  CacheCurves(const std::vector<NodeReferences>& nodes, std::uint64_t reference_count, std::vector<std::uint32_t> sizes,
+              Policies more, const Watch& watch);
+
+  static std::uint64_t cache_count(std::size_t node_count, std::size_t size_count, Policies more);
   /// The columns of the cells that row() has. `share`: what the second says that the cache is a share of.
-  static std::vector<Column> columns(const std::string& share);
-  static Plot plot();
+  static std::vector<Column> columns(const std::string& share, Policies more);
+  static Plot plot(Policies more);
   static PlotAxis size_axis();
   /// Where the figures come from.
   static std::string note();
@@ -45,7 +54,7 @@ class CacheCurves {
   std::vector<std::uint32_t> sizes_;
   std::uint64_t reference_count_;
   svm::MissCurve lru_;
-  std::vector<std::vector<std::uint64_t>> faults_;  ///< by size: of each of the other policies, then of the optimum
+  std::vector<std::vector<std::uint64_t>> faults_;  ///< by size: of each of the other policies, of more, then of the optimum
 };
 
 }  // namespace dmpc::apps

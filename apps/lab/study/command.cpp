@@ -174,6 +174,9 @@ void give_scene(SystemsStudy& study, const core::Scene& scene, const StudyOption
 /// Returns the exit status.
 template <class OneStudy>
 int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& files, Interrupt& interrupt, std::ostream& output) {
+  if constexpr (std::is_same_v<OneStudy, CacheStudy>) {
+    study.load([&interrupt] { interrupt.check(); });
+  }
   const auto [subject, digest, scene, view, bounds] = load(options, files, interrupt);
   if constexpr (std::is_same_v<OneStudy, SystemsStudy>) {
     give_scene(study, *scene, options);

@@ -14,6 +14,7 @@
 #include "apps/lab/study/cache.h"
 #include "apps/lab/study/cache_curves.h"
 #include "apps/lab/study/engine/tabled_job.h"
+#include "apps/lab/study/policies.h"
 #include "apps/lab/study/references/gzip_text.h"
 
 namespace dmpc::apps {
@@ -27,7 +28,7 @@ TableFiles files_of(const ReferencesOptions& options) {
   if (options.file != "-") {
     inputs.push_back({"FILE", options.file});
   }
-  return {options.table, {names_of(references_data_file, {CacheCurves::plot()})}, {.inputs = std::move(inputs)}};
+  return {options.table, {names_of(references_data_file, {CacheCurves::plot({})})}, {.inputs = std::move(inputs)}};
 }
 
 /// How many caches have been fed, on a terminal. Thread safety: count() from any thread.
@@ -36,8 +37,7 @@ class CachesFed {
   CachesFed(std::uint64_t total, bool is_shown) : progress_(std::cerr, is_shown, "study references: ", "caches"), total_(total) {}
   void count() {
     const std::scoped_lock lock(mutex_);
-    progress_.update(fed_, total_);
-    ++fed_;
+    progress_.update(++fed_, total_);
   }
 
  private:
@@ -50,17 +50,16 @@ std::vector<CacheCurves::NodeReferences> references_of(const ReferenceTrace& tra
   return {trace.nodes.begin(), trace.nodes.end()};
 }
 
-Table table_of(const ReferenceTrace& trace, const ReferencesOptions& options, const Interrupt& interrupt) {
+Table table_of(const ReferenceTrace& trace, const ReferencesOptions& options, CacheCurves::Policies policies,
+               const Interrupt& interrupt) {
   Table table("Study references of " + options.file + ": " + counted(trace.reference_count, "reference") + " of " +
                   counted(trace.page_count, "page") + " by " + counted(trace.nodes.size(), "node"),
-              CacheCurves::columns("share of pages"));
+              CacheCurves::columns("share of pages", policies));
   const std::vector<std::uint32_t> sizes =
       options.cache_pages.empty() ? geometric_sizes(trace.page_count, references_size_count) : options.cache_pages;
-  CachesFed fed(CacheCurves::check_count(trace.nodes.size(), sizes.size()), !options.quiet && stderr_is_terminal());
-  const CacheCurves curves(references_of(trace), trace.reference_count, sizes, [&interrupt, &fed] {
-    interrupt.check();
-    fed.count();
-  });
+  CachesFed fed(CacheCurves::cache_count(trace.nodes.size(), sizes.size(), policies), !options.quiet && stderr_is_terminal());
+  const CacheCurves curves(references_of(trace), trace.reference_count, sizes, policies,
+                           {.check = [&interrupt] { interrupt.check(); }, .fed = [&fed] { fed.count(); }});
   curves.add_rows(trace.page_count, table);
   table.add_note(
       "Each node has a cache of its own, and faults are those of all. Share of pages: the cache of one node over all "
@@ -85,6 +84,7 @@ void add_options(OptionSet set, ReferencesOptions& options) {
       "--node-column", "NAME [node]", [&options](const std::string& text) { options.columns.node = text; },
       "The column that has the node; without one all references are one node's");
   add_cache_pages(set, options.cache_pages);
+  add_policies(set, options.policies);
   add_options(set, options.table, TableExtras::plots_and_report);
   set.add_quiet(options.quiet);
   set.set_examples(
@@ -93,11 +93,13 @@ void add_options(OptionSet set, ReferencesOptions& options) {
       "  dmpc study references trace.csv.gz --page-column=block --node-column=thread\n"
       "  zstdcat trace.csv.zst | dmpc study references -\n"
       "  dmpc study references trace.csv --cache-pages=16,64,256 --plots=plots --format=csv -o misses.csv\n"
+      "  dmpc study references trace.csv --policy=python:$HOME/oldest.py:Oldest\n"
       "A page is a whole number, whatever it stands for: the references may be any program's.");
 }
 
 int study_references_command(const ReferencesOptions& options, Interrupt& interrupt, std::ostream& output) {
   const TableFiles files = files_of(options);
+  const std::vector<ForeignPolicy> policies = load_policies(options.policies, [&interrupt] { interrupt.check(); });
   const ReferenceTrace trace = [&] {
     const Interrupt::EndAtOnce end_at_once(interrupt);
     return read_references(std::filesystem::path(options.file), options.columns,
@@ -108,11 +110,12 @@ int study_references_command(const ReferencesOptions& options, Interrupt& interr
     return study_result({.title = "Study references of " + options.file,
                          .table = *table,
                          .data_file = references_data_file,
-                         .plots = {CacheCurves::plot()}},
+                         .plots = {CacheCurves::plot(policies)}},
                         options.table.format);
   };
-  return run_tabled({.measure = [&] { table = table_of(trace, options, interrupt); }, .consequence = "nothing was written"},
-                    result, files, interrupt, output);
+  return run_tabled(
+      {.measure = [&] { table = table_of(trace, options, policies, interrupt); }, .consequence = "nothing was written"}, result,
+      files, interrupt, output);
 }
 
 }  // namespace dmpc::apps

@@ -17,6 +17,7 @@ struct ReferencesOptions {
   std::string file;                        ///< "-": the standard input
   ReferenceColumns columns;                ///< what those of the file are called
   std::vector<std::uint32_t> cache_pages;  ///< sizes in pages; empty: about 12, from 1 to all pages
+  std::vector<std::string> policies;       ///< that are not dmpc's own, as ForeignPolicy takes them
   TableOutput table;
   bool quiet = false;  ///< no progress
 };

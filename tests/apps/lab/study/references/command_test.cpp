@@ -128,9 +128,27 @@ TEST_CASE("the study of references draws its curves, in a folder and on a page")
   apps::Interrupt interrupt;
   std::ostringstream output;
   CHECK(apps::study_references_command(options, interrupt, output) == 0);
-  const apps::Plot plot = apps::CacheCurves::plot();
+  const apps::Plot plot = apps::CacheCurves::plot({});
   CHECK(file_text(folder / "plots" / (plot.name + ".gnuplot")).size() > 100);
   CHECK(contains(file_text(folder / "page.html"), "Plot: " + apps::html::escaped(plot.title)));
+}
+
+TEST_CASE("a policy of one's own has a column beside dmpc's, on plots, too") {
+  const TemporaryFolder folder;
+  write_text(folder / "trace.csv", "node,page\n0,1\n0,2\n0,3\n0,4\n0,1\n0,2\n0,5\n0,1\n0,2\n0,3\n0,4\n0,5\n1,7\n");
+  const std::string clock =
+      "python:" + std::filesystem::canonical(DMPC_SOURCE_DIR "/apps/python/examples/clock.py").string() + ":Clock";
+  const apps::ReferencesOptions options{.file = folder / "trace.csv",
+                                        .cache_pages = {3, 4},
+                                        .policies = {clock},
+                                        .table = {.format = apps::TableFormat::csv, .plots = folder / "plots"},
+                                        .quiet = true};
+  apps::Interrupt interrupt;
+  std::ostringstream output;
+  CHECK(apps::study_references_command(options, interrupt, output) == 0);
+  CHECK(contains(output.str(), "faults s3-fifo,faults Clock,faults optimum"));
+  CHECK(contains(output.str(), ",10,8\n"));  // fifo's anomaly, as the clock has it, and the optimum
+  CHECK(contains(file_text(folder / "plots" / "cache_faults.gnuplot"), "Clock"));
 }
 
 TEST_CASE("a file that cannot be read leaves no table") { CHECK_THROWS_AS(output_of("x\n", {}), core::InputError); }

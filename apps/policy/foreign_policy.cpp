@@ -1,0 +1,188 @@
+#include "apps/policy/foreign_policy.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include "apps/edge/system/child_process.h"
+#include "apps/edge/system/companion_path.h"
+#include "apps/edge/system/memory_file.h"
+#include "apps/edge/system/trusted_path.h"
+#include "apps/policy/policy_driver.h"
+#include "apps/policy/request.h"
+#include "core/base/expect.h"
+#include "svm/pages/replacement.h"
+
+namespace dmpc::apps {
+namespace {
+
+constexpr std::string_view python = "python:";
+constexpr std::size_t source_bytes_max = std::size_t{1} << 20U, said_bytes_max = std::size_t{1} << 20U,
+                      complaint_bytes_max = 4000, name_bytes_max = 32;
+constexpr const char* places = "expected /FULL/PATH/FILE.so or python:/FULL/PATH/FILE.py:CLASS";
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool is_identifier(const std::string& text) {
+  return !text.empty() && is_letter(text.front()) &&
+         std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || is_digit(c); });
+}
+
+std::string read_source(int file) {
+  std::string source;
+  std::array<char, 4096> part{};
+  for (ssize_t count = 0; (count = ::read(file, part.data(), part.size())) != 0;) {
+    if (count < 0 && errno != EINTR) {
+      throw core::InputError(std::string("it cannot be read: ") + std::strerror(errno));
+    }
+    source.append(part.data(), count < 0 ? 0 : static_cast<std::size_t>(count));
+    if (source.size() > source_bytes_max) {
+      throw core::InputError("it has more than a megabyte, expected the source of a class");
+    }
+  }
+  return source;
+}
+
+void check_name(const std::string& name) {
+  const bool is_printable = !name.empty() && name.size() <= name_bytes_max && std::all_of(name.begin(), name.end(), [](char c) {
+    return is_letter(c) || is_digit(c) || c == '-' || c == '.';
+  });
+  if (!is_printable) {
+    throw core::InputError("the policy's name is not one that a column may have: expected 1 to 32 letters, digits, -, _ or .");
+  }
+  const auto kinds = svm::policy_kinds();
+  if (name == "optimum" ||
+      std::any_of(kinds.begin(), kinds.end(), [&](const svm::PolicyKind& kind) { return kind.name == name; })) {
+    throw core::InputError("the policy's name, " + name + ", is that of a column that there is anyway: give it another one");
+  }
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
+    lines.push_back(text.substr(at, end - at));
+  }
+  return lines;
+}
+
+/// What the process has said last, or how it ended.
+std::string complaint_of(const ChildProcess& process, int status) {
+  std::string said = process.errors();
+  said.resize(std::min(said.find_last_not_of(" \n") + 1, said.size()));
+  if (said.size() > complaint_bytes_max) {
+    said = "... " + said.substr(said.size() - complaint_bytes_max);
+  }
+  const std::string end =
+      status < 0 ? "signal " + std::to_string(-status) + " ended it" : "it ended with status " + std::to_string(status);
+  return said.empty() || status < 0 ? end + (said.empty() ? "" : ", having said: " + said) : said;
+}
+
+std::uint64_t number_in(const std::string& line) {
+  if (line.empty() || line.size() > 10 || !std::all_of(line.begin(), line.end(), is_digit)) {
+    throw core::InputError("its process tells what is no number of faults");
+  }
+  return std::stoull(line);
+}
+
+/// Whatever goes wrong with a policy is told with what names it.
+template <class Do>
+auto told_of(const std::string& place, const Do& made) {
+  try {
+    return made();
+  } catch (const core::InputError& error) {
+    throw core::InputError("--policy=" + place + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+ForeignPolicy::ForeignPolicy(const std::string& place, const std::function<void()>& check) : place_(place) {
+  told_of(place, [&] {
+    path_ = place;
+    if (place.starts_with(python)) {
+      const std::size_t colon = place.rfind(':');
+      path_ = colon < python.size() ? "" : place.substr(python.size(), colon - python.size());
+      class_name_ = place.substr(colon + 1);
+    }
+    if (!path_.starts_with('/') || (place.starts_with(python) && !is_identifier(class_name_))) {
+      throw core::InputError(places);
+    }
+    const Descriptor file = open_trusted(path_);
+    if (!class_name_.empty()) {
+      source_ = read_source(file.number());
+    }
+    name_ = answers({}, {}, 0, check, [] {}).front();
+    check_name(name_);
+  });
+}
+
+std::vector<std::uint64_t> ForeignPolicy::misses(std::span<const svm::PageId> references,
+                                                 std::span<const std::uint32_t> cache_pages, std::uint32_t node,
+                                                 const std::function<void()>& check, const std::function<void()>& fed) const {
+  return told_of(place_, [&] {
+    const std::vector<std::string> lines = answers(references, cache_pages, node, check, fed);
+    std::vector<std::uint64_t> misses;
+    std::transform(lines.begin() + 1, lines.end(), std::back_inserter(misses), number_in);
+    return misses;
+  });
+}
+
+/// What is told comes by files in memory: neither side ever waits for the other to take it.
+std::vector<std::string> ForeignPolicy::answers(std::span<const svm::PageId> references,
+                                                std::span<const std::uint32_t> cache_pages, std::uint32_t node,
+                                                const std::function<void()>& check, const std::function<void()>& fed) const {
+  const MemoryFile request, answer;
+  put_request(request, node, cache_pages, references, source_);
+  ChildSettings settings{.folder = "/", .gets_ctrl_c = false, .input = request.descriptor(), .output = answer.descriptor()};
+  if (class_name_.empty()) {
+    settings.program =
+        companion_path("dmpc_policy_host", "../libexec/dmpc", "the program dmpc_policy_host, which loads policies,");
+    settings.arguments = {path_};
+  } else {
+    settings.program = "python3";
+    settings.arguments = {"-I", "-X", "utf8", "-c", policy_driver, path_, class_name_};
+  }
+  ChildProcess process(settings);
+  std::size_t told = 0;
+  const auto take = [&] {
+    std::vector<std::string> lines = lines_of(answer.bytes());
+    for (; told + 1 < lines.size() && told < cache_pages.size(); ++told) {
+      fed();
+    }
+    return lines;
+  };
+  std::optional<int> status;
+  for (int nap_ms = 1; !(status = process.status()); nap_ms = std::min(2 * nap_ms, 100)) {
+    check();
+    take();
+    if (process.errors().size() > said_bytes_max || answer.bytes().size() > said_bytes_max) {
+      throw core::InputError("it prints more than a megabyte, expected no more than a complaint");
+    }
+    ::poll(nullptr, 0, nap_ms);
+  }
+  std::vector<std::string> lines = take();
+  if (*status != 0 || lines.size() != 1 + cache_pages.size()) {
+    throw core::InputError(complaint_of(process, *status));
+  }
+  return lines;
+}
+
+void check_names_differ(std::span<const ForeignPolicy> policies) {
+  for (std::size_t i = 0; i < policies.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (policies[i].name() == policies[j].name()) {
+        throw core::InputError("--policy: two policies are called " + policies[i].name() + ": give one of them another name");
+      }
+    }
+  }
+}
+
+}  // namespace dmpc::apps
