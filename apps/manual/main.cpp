@@ -1,4 +1,5 @@
-// Writes the manual page, the completion scripts and the schema of --stats, when the program is built: dmpc_manual FOLDER.
+// Writes the manual page, the completion scripts, the schema of --stats and the calls of the module for Python, when the program
+// is built: dmpc_manual FOLDER.
 
 #include <exception>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include "apps/edge/manual/completion.h"
 #include "apps/edge/manual/man_page.h"
 #include "apps/main/commands.h"
+#include "apps/manual/python_module.h"
 #include "apps/show/stats/schema.h"
 #include "core/base/expect.h"
 
@@ -32,6 +34,9 @@ void write_manual(const std::filesystem::path& folder) {
   write(folder / "_dmpc", zsh_completion(program));
   write(folder / "dmpc.fish", fish_completion(program));
   write(folder / "stats.schema.json", stats_schema());
+  write(folder / "calls.py", python_calls(program));
+  write(folder / "study.py", python_studies(program));
+  write(folder / "commas.py", python_commas(program));
 }
 
 }  // namespace

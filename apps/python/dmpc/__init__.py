@@ -4,12 +4,20 @@
     render = dmpc.render("teapot-12", nodes=8, heat=["faults"])
     render.stats["pages"]["faults"], render.nodes, render.film, render.heat["faults"]
     dmpc.sweep("rings-3-t1", nodes=[8, 64], page_size=["1KiB", "4KiB"], runner="virtual")
+    dmpc.study.cache("rings-3-t1", nodes=8)
+    dmpc.references("rings-3-t1", nodes=8), dmpc.trace("rings-3-t1", runner="virtual")
+    dmpc.compare("new.json", "kept.json")["differs"]
+    dmpc.page("rings.html").share["tracing"]
 
-Every option of `dmpc render` is a keyword, with underscores for dashes. What goes wrong is an exception with dmpc's own words.
+Every option of the program's command is a keyword, with underscores for dashes. What goes wrong is an exception with dmpc's own words.
 """
 
+from . import study
+from .calls import compare, references, render, sweep, trace
+from .pages import Page, page
+from .policies import PolicyError, simulate
 from .program import Error, InputError, InternalError, RoomError, UsageError
-from .rendering import Render, render
-from .sweeping import sweep
+from .rendering import Render
 
-__all__ = ["Error", "InputError", "InternalError", "Render", "RoomError", "UsageError", "render", "sweep"]
+__all__ = ["Error", "InputError", "InternalError", "Page", "PolicyError", "Render", "RoomError", "UsageError", "compare", "page",
+           "references", "render", "simulate", "study", "sweep", "trace"]

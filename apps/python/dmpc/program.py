@@ -6,7 +6,10 @@ import shutil
 import signal
 import subprocess
 
+from .commas import WITH_COMMAS
+
 FORMAT = 1  # of its JSON files
+Text = str | int | float | os.PathLike  # what is typed as it is
 
 
 class Error(Exception):
@@ -52,20 +55,26 @@ def several(value):
     return list(value) if is_several(value) else [value]
 
 
-def check_scene(scene, options):
-    """Raises a UsageError for what would be an option in a scene's place, or would print help and render nothing."""
-    if str(scene).startswith("-"):
+def scene_of(options):
+    """Takes the scene out of what a call was given, and what is None or False. Raises a UsageError for what would be an option in a
+    scene's place."""
+    given = {name: value for name, value in options.items() if value is not None and value is not False}
+    scene = str(given.pop("scene"))
+    if scene.startswith("-"):
         raise UsageError(f"{scene}: expected a scene's name or file; options are named arguments, such as nodes=8")
-    if "help" in options:
-        raise UsageError("help: no option of what is called from Python; `dmpc render --help` prints what there are")
+    return scene, given
 
 
 def words(options):
-    """Options as dmpc's words: node_memory="4MiB" is --node-memory=4MiB, True a flag, a list several times the option."""
+    """Options as dmpc's words: node_memory="4MiB" is --node-memory=4MiB, True a flag, a list several times the option, or once with
+    commas between."""
     line = []
     for name, value in options.items():
         option = "--" + name.replace("_", "-")
-        for each in several(value):
+        values = several(value)
+        if name in WITH_COMMAS and len(values) > 1:
+            values = [",".join(map(str, values))]
+        for each in values:
             if each is True:
                 line.append(option)
             elif each is not None and each is not False:
@@ -101,8 +110,8 @@ def _interrupt(process):
             process.communicate()
 
 
-def run(line):
-    """What dmpc prints. Raises an Error with what it says on stderr. An exception, such as KeyboardInterrupt, ends dmpc before it
+def run(line, passing=()):
+    """What dmpc prints. Raises an Error with what it says on stderr, unless it ends with a status of `passing`. An exception, such as KeyboardInterrupt, ends dmpc before it
     goes on."""
     process = subprocess.Popen([path(), *line], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                start_new_session=True, preexec_fn=_end_with(os.getpid()))
@@ -114,7 +123,7 @@ def run(line):
         except subprocess.TimeoutExpired:
             pass
         raise
-    if process.returncode != 0:
+    if process.returncode != 0 and process.returncode not in passing:
         said = errors.decode(errors="replace").strip().removeprefix("dmpc: ")
         raise _ERRORS.get(process.returncode, Error)(said or f"dmpc ended with status {process.returncode}")
     return output.decode()

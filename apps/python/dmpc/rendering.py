@@ -70,14 +70,14 @@ def _shown(value):
     return f"{value:,}" if isinstance(value, int) else f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
-def render(scene, *, heat=(), **options):
-    """Renders `scene` and returns a Render. `heat` is a kind of heat map, such as "faults", or several; the rest are options of `dmpc
-    render`: nodes=8, strategy="dataflow", count_pages=True. Raises a program.Error with what dmpc says."""
-    program.check_scene(scene, options)
+def render(options):
+    """Renders what dmpc.render() was given. Raises a program.Error with what dmpc says."""
+    scene, options = program.scene_of(options)
+    heat = options.pop("heat", ())
     with tempfile.TemporaryDirectory(prefix="dmpc-") as folder:
         film, stats = pathlib.Path(folder, "film.exr"), pathlib.Path(folder, "stats.json")
         maps = {kind: pathlib.Path(folder, f"heat-{number}.exr") for number, kind in enumerate(program.several(heat))}
-        asked = ["render", str(scene), *program.words(options), *(f"--heatmap={kind}:{path}" for kind, path in maps.items())]
+        asked = ["render", scene, *program.words(options), *(f"--heatmap={kind}:{path}" for kind, path in maps.items())]
         program.run([*asked, "--quiet", f"--stats={stats}", f"--output={film}"])
         counters = json.loads(stats.read_bytes())
         program.check_format(counters, "--stats")

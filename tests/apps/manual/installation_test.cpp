@@ -116,6 +116,8 @@ void check_python_package(const TemporaryFolder& folder) {
   }
   CHECK(fs::file_size(folder / "python/usr/lib/python3/dist-packages/dmpc/__init__.py") > 0);
   CHECK(fs::file_size(folder / "python/usr/share/doc/python3-dmpc/tour.ipynb") > 0);
+  CHECK(fs::exists(folder / "python/usr/lib/python3/dist-packages/dmpc/py.typed"));
+  CHECK(fs::file_size(folder / "python/usr/share/doc/python3-dmpc/clock.py") > 0);
   CHECK_FALSE(fs::exists(folder / "python/usr/bin"));
 }
 
@@ -147,7 +149,8 @@ TEST_CASE("the first call of apps/dmpc builds the renderer for those who render,
   REQUIRE(graph.status == 0);
   const std::string build = DMPC_BUILD_DIR "/";
   std::string script;
-  for (const std::string folder : {"apps", "apps/main", "apps/modules", "apps/foreign", "apps/manual", "apps/labs"}) {
+  for (const std::string folder :
+       {"apps", "apps/main", "apps/modules", "apps/foreign", "apps/manual", "apps/labs", "apps/policy"}) {
     script += file_text(build + folder + "/cmake_install.cmake");
   }
   std::size_t files = 0;

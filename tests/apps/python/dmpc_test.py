@@ -1,7 +1,10 @@
 """The module dmpc, run by Debian's Python: `dmpc_test.py PROGRAM MODULE_FOLDER`. Ends with 77 where its packages are missing."""
 
+import inspect
+import json
 import os
 import pathlib
+import re
 import signal
 import struct
 import subprocess
@@ -16,6 +19,7 @@ os.environ["PYTHONPATH"] = MODULES
 os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # of which the debugger of notebooks warns
 sys.path.insert(0, MODULES)
 try:
+    import matplotlib  # of the tour
     import nbclient
     import nbformat
     import numpy
@@ -50,6 +54,8 @@ class RenderTest(unittest.TestCase):
         self.assertEqual(program.words({"node_memory": "4MiB", "count_pages": True, "quiet": False, "chaos": None, "nodes": 8}),
                          ["--node-memory=4MiB", "--count-pages", "--nodes=8"])
         self.assertEqual(program.words({"light": ["1,2,3", "4,5,6"]}), ["--light=1,2,3", "--light=4,5,6"])
+        self.assertEqual(program.words({"cache_pages": [1, 4], "trace_nodes": (0, "3-5"), "nodes": []}),
+                         ["--cache-pages=1,4", "--trace-nodes=0,3-5"])
 
     def test_a_notebook_shows_the_picture_and_what_it_came_to_with_texts_escaped(self):
         render = dmpc.render("balls-1", **SMALL, runner="virtual")
@@ -71,8 +77,8 @@ class RenderTest(unittest.TestCase):
 
 class FailureTest(unittest.TestCase):
     def test_what_goes_wrong_is_an_exception_with_the_words_of_dmpc(self):
-        with self.assertRaisesRegex(dmpc.UsageError, "Did you mean --nodes?"):
-            dmpc.render("balls-1", nodez=3)
+        with self.assertRaisesRegex(dmpc.UsageError, "Did you mean svm?"):
+            dmpc.render("balls-1", strategy="svn")
         with self.assertRaisesRegex(dmpc.InputError, "^none.nff: "):
             dmpc.render("none.nff", nodes=3)
         with self.assertRaisesRegex(dmpc.RoomError, "node-memory"):
@@ -82,11 +88,15 @@ class FailureTest(unittest.TestCase):
         self.assertTrue(issubclass(dmpc.RoomError, dmpc.Error))
 
     def test_what_would_render_nothing_is_refused(self):
-        for call in (dmpc.render, dmpc.sweep):
+        for call in (dmpc.render, dmpc.sweep, dmpc.references, dmpc.trace, dmpc.study.cache, dmpc.study.traffic):
             with self.assertRaisesRegex(dmpc.UsageError, "--version: expected a scene"):
                 call("--version")
-            with self.assertRaisesRegex(dmpc.UsageError, "help: no option"):
+            with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'help'"):
                 call("balls-1", help=True)
+
+    def test_an_option_that_there_is_not_is_an_error_of_the_call(self):
+        with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'nodez'"):
+            dmpc.render("balls-1", nodez=3)
 
     def test_a_program_that_is_not_there_is_told_with_what_to_do(self):
         os.environ["DMPC"] = "/none/dmpc"
@@ -182,13 +192,185 @@ class SweepTest(unittest.TestCase):
             self.assertIn("2 of 2 runs kept from before.", dmpc.sweep("balls-1", **asked).attrs["notes"])
 
 
+class StudyTest(unittest.TestCase):
+    def test_a_study_is_a_frame_with_units_and_notes(self):
+        frame = dmpc.study.cache("balls-2", nodes=3, resolution="16x12", cache_pages=[1, 4])
+        self.assertEqual(list(frame["cache_pages"]), [1, 4])
+        self.assertGreaterEqual(frame["faults_lru"][0], frame["faults_optimum"][0])
+        self.assertEqual(frame.attrs["units"]["misses_lru"], "%")
+        self.assertTrue(any("Film of every run" in note for note in frame.attrs["notes"]))
+
+    def test_a_study_of_references_takes_the_file_that_others_wrote(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "-trace.csv")
+            path.write_text("page\n1\n2\n3\n4\n1\n2\n5\n1\n2\n3\n4\n5\n")
+            frame = dmpc.study.references(path, cache_pages=[3, 4])
+            self.assertEqual(list(frame["faults_fifo"]), [9, 10])
+            os.chdir(folder)  # a name that begins with a dash is no option
+            self.assertEqual(list(dmpc.study.references("-trace.csv", cache_pages=3)["faults_fifo"]), [9])
+            os.chdir("/")
+
+    def test_what_a_study_complains_of_is_raised(self):
+        with self.assertRaisesRegex(dmpc.InputError, "--policy=/none.so: "):
+            dmpc.study.cache("balls-1", policy="/none.so")
+        with self.assertRaisesRegex(dmpc.UsageError, "--nodes"):
+            dmpc.study.cache("balls-1", nodes=0)
+
+
+class PolicyTest(unittest.TestCase):
+    CLOCK = pathlib.Path(MODULES, "examples/clock.py")
+
+    def test_a_policy_misses_in_python_what_it_misses_in_a_study_and_what_dmpcs_own_does(self):
+        references = dmpc.references("rings-2-t1", nodes=3, resolution="32x32", runner="virtual", work_item=0)
+        space = {}
+        exec(self.CLOCK.read_text(), space)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "references.csv")
+            references.to_csv(path, index=False)
+            frame = dmpc.study.references(path, cache_pages=[2, 5, 9], policy=f"python:{self.CLOCK.resolve()}:Clock")
+        self.assertEqual(list(frame["faults_Clock"]), list(frame["faults_clock"]))
+        for size, faults in zip(frame["cache_pages"], frame["faults_clock"]):
+            self.assertEqual(faults, sum(dmpc.simulate(space["Clock"], of_node["page"].to_list(), size, node)
+                                         for node, of_node in references.groupby("node")))
+
+    def test_numbers_of_numpy_are_frames_and_what_is_none_is_refused(self):
+        class Says:
+            frame = 0
+
+            def __init__(self, frame_count, node):
+                pass
+
+            def victim(self, incoming):
+                return self.frame
+
+        Says.frame = numpy.uint32(1)
+        self.assertEqual(dmpc.simulate(Says, numpy.array([1, 2, 3, 1, 2]), 2), 4)
+        for wrong in (2, -1, 0.0, True, None, "0"):
+            Says.frame = wrong
+            with self.assertRaisesRegex(dmpc.PolicyError, "expected a frame from 0 to 1"):
+                dmpc.simulate(Says, [1, 2, 3], 2)
+        with self.assertRaisesRegex(dmpc.PolicyError, "no method victim"):
+            dmpc.simulate(type("None_such", (), {"__init__": lambda *_: None}), [1], 2)
+        self.assertEqual(dmpc.simulate(Says, [1, 2, 1], 0), 3)
+
+
+class LookingTest(unittest.TestCase):
+    def test_references_are_those_that_the_run_counted(self):
+        frame = dmpc.references("rings-2-t1", nodes=3, resolution="16x12", runner="virtual", work_item=0)
+        self.assertTrue({"node", "page"} <= set(frame.columns))
+        self.assertEqual(set(frame["node"]), {0, 1, 2})
+
+    def test_a_trace_is_a_frame_of_events_by_node(self):
+        frame = dmpc.trace("balls-1", **SMALL, runner="virtual")
+        self.assertTrue({"node 0", "node 1", "node 2", "host"} <= set(frame["track"]))
+        spans = frame[frame["ph"] == "X"]
+        self.assertTrue((spans["dur"] >= 0).all())
+        self.assertEqual(frame.attrs["about"]["scene"], "balls-1")
+
+    def test_counters_of_a_run_repeated_on_a_modelled_machine_do_not_differ(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("a", "b"):
+                stats = dmpc.render("balls-1", **SMALL, runner="virtual").stats
+                pathlib.Path(folder, name + ".json").write_text(json.dumps(stats))
+            a, b = f"{folder}/a.json", f"{folder}/b.json"
+            self.assertFalse(dmpc.compare(a, b)["differs"])
+            stats["pages"]["faults"] += 1
+            pathlib.Path(b).write_text(json.dumps(stats))
+            found = dmpc.compare(a, b, only="pages.faults")
+            self.assertTrue(found["differs"])
+            self.assertEqual(found["compared"], 1)
+            with self.assertRaisesRegex(dmpc.InputError, "none.json"):
+                dmpc.compare(a, "none.json")
+
+
+class PageTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name, "page.html")
+        self.render = dmpc.render("balls-1", **SMALL, runner="virtual", heat="faults", report=self.path)
+
+    def test_a_page_has_the_shares_of_each_nodes_time_and_what_pixels_took(self):
+        page = dmpc.page(self.path)
+        self.assertEqual(page.share["tracing"].shape[0], 3)
+        total = sum(page.share.values())
+        self.assertLess(abs(total[:, 1:-1] - 1).max(), 0.05)  # a step is a whole, to the roundings of its parts
+        self.assertEqual(page.done.shape, (12, 16))
+        self.assertEqual(page.fields["faults"].sum(), self.render.heat["faults"].sum())
+        self.assertAlmostEqual(page.seconds, self.render.stats["virtual_seconds"]["total"])
+
+    def test_what_is_no_page_is_refused(self):
+        for text, said in {"": "no data of a run", "<script id='data'>7</script>": "no data of a run",
+                           '<script id="data">{</script>': "Expecting property name"}.items():
+            self.path.write_text(text)
+            with self.assertRaisesRegex(dmpc.InputError, said):
+                dmpc.page(self.path)
+        with self.assertRaisesRegex(dmpc.InputError, "none.html"):
+            dmpc.page("none.html")
+
+    def test_a_page_that_was_changed_or_is_of_another_version_is_an_error_of_dmpcs(self):
+        whole = self.path.read_text()
+        for wrong, other in {'"format":2': '"format":3', '"type":"u1"': '"type":"x9"', '"steps":': '"stops":', '"high":': '"high":1',
+                             '"data":"': '"data":"*'}.items():
+            self.assertIn(wrong, whole)
+            self.path.write_text(whole.replace(wrong, other))
+            with self.assertRaises(dmpc.Error):
+                dmpc.page(self.path)
+
+
+class SignatureTest(unittest.TestCase):
+    """What editors and notebooks offer, held against what the program says of itself."""
+
+    CALLS = {dmpc.render: ["render"], dmpc.references: ["render"], dmpc.trace: ["render"], dmpc.compare: ["compare"],
+             dmpc.sweep: ["study", "sweep"],
+             **{getattr(dmpc.study, name): ["study", name] for name in dmpc.study.__all__ if name != "sweep"}}
+    OWN = {"help", "output", "stats", "heatmap", "quiet", "references", "trace", "format", "vary"}
+
+    def _help(self, words):
+        return subprocess.run([PROGRAM, *words, "--help"], capture_output=True, text=True, check=True).stdout
+
+    def test_every_option_of_help_is_a_keyword_and_no_other(self):
+        for call, words in self.CALLS.items():
+            text = self._help(words).split("\nExamples:")[0]
+            options = {name.replace("-", "_") for name in re.findall(r"^  (?:-\w,)?--([a-z][a-z-]*)", text, re.M)}
+            keywords = {name for name, parameter in inspect.signature(call).parameters.items() if parameter.kind == parameter.KEYWORD_ONLY}
+            with self.subTest(words=words):
+                self.assertGreater(len(options), 3)
+                self.assertEqual(options - self.OWN, keywords - self.OWN - {"heat"})
+
+    def test_types_are_those_that_help_shows(self):
+        parameters = inspect.signature(dmpc.render).parameters
+        self.assertEqual(str(parameters["nodes"].annotation), "int | None")
+        self.assertIn("typing.Literal['svm', 'replicated', 'dataflow', 'forest']", str(parameters["strategy"].annotation))
+        self.assertIs(parameters["count_pages"].annotation, bool)
+        self.assertIn("Sequence", str(parameters["light"].annotation))
+        self.assertNotIn("Sequence", str(parameters["depth"].annotation))
+        self.assertIn("Sequence[int]", str(inspect.signature(dmpc.sweep).parameters["nodes"].annotation))
+
+    def test_every_study_is_a_function_with_words_on_what_it_does(self):
+        studies = re.findall(r"^  ([a-z]+) {2,}", self._help(["study"]).split("Commands:")[1], re.M)
+        self.assertEqual(set(studies), set(dmpc.study.__all__))
+        for call in self.CALLS:
+            self.assertTrue(call.__doc__.endswith("."))
+
+    def test_the_package_says_that_it_has_types(self):
+        self.assertTrue(pathlib.Path(MODULES, "dmpc/py.typed").exists())
+
+
 class NotebookTest(unittest.TestCase):
-    def test_the_tour_runs_from_its_first_cell_to_its_last_and_shows_a_picture_and_a_table(self):
+    def test_the_tour_runs_from_its_first_cell_to_its_last_and_comes_to_what_it_has_stored(self):
+        stored = nbformat.read(pathlib.Path(MODULES, "tour.ipynb"), as_version=4)
         notebook = nbformat.read(pathlib.Path(MODULES, "tour.ipynb"), as_version=4)
         nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3").execute()
-        shown = {kind for cell in notebook.cells for output in cell.get("outputs", []) for kind in output.get("data", {})}
-        self.assertIn("image/png", shown)
-        self.assertIn("text/html", shown)
+        self.assertEqual(self._shown(notebook), self._shown(stored))
+        kinds = [kind for cell in notebook.cells for output in cell.get("outputs", []) for kind in output.get("data", {})]
+        self.assertEqual(kinds.count("image/png"), 2)  # the picture, and the plot
+        self.assertIn("text/html", kinds)
+
+    def _shown(self, notebook):
+        """The words of each cell's outputs; the places of objects in memory are no words."""
+        return [[re.sub("0x[0-9a-f]+", "", output["data"]["text/plain"]) for output in cell.get("outputs", []) if "data" in output]
+                for cell in notebook.cells]
 
 
 if __name__ == "__main__":
