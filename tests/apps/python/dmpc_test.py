@@ -252,6 +252,7 @@ class PolicyTest(unittest.TestCase):
         with self.assertRaisesRegex(dmpc.PolicyError, "no method victim"):
             dmpc.simulate(type("None_such", (), {"__init__": lambda *_: None}), [1], 2)
         self.assertEqual(dmpc.simulate(Says, [1, 2, 1], 0), 3)
+        self.assertEqual(dmpc.simulate(Says, [1, 1, 2, 2, 1, 1], 2), 2)  # of one page in a row the first may miss
 
 
 class LookingTest(unittest.TestCase):
