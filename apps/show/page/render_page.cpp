@@ -71,7 +71,7 @@ void add_pictures(Page& page, const RenderRecord& record, const Account& account
   add_picture(page, image_of(account.film), "The picture of " + record.options.picture.scene, size + ".");
   if (record.view != nullptr) {
     add_picture(page, strip_picture(record, moment_side), "Six moments of the picture",
-                "As it came, each pixel from its last ray on.");
+                "Six moments of the picture as it came, each pixel from its last ray on.");
   }
   const std::vector<core::HeatKind> wanted = kinds_of(record.options.heat_maps);
   if (wanted.empty()) {
