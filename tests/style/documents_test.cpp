@@ -132,7 +132,7 @@ Faults faults_of_results(const Place& place) {
 /// As they are typed, without remarks.
 Lines commands_in(const Document& document) {
   static const std::regex command("    (apps/)?((mpirun [^#]*)?dmpc [^#]*[^# ]) *(#.*)?");
-  static const std::regex of_readers("model\\.glb|bunny\\.ply|a\\.exr|a\\.json|kept\\.");
+  static const std::regex of_readers("model\\.glb|bunny\\.ply|a\\.exr|a\\.html|kept\\.");
   Lines commands;
   for (const std::string& line : document.lines) {
     std::smatch found;

@@ -57,13 +57,12 @@ std::string refusal(const CompareOptions& options) {
 
 TEST_CASE("of two pages the counters are compared as those of --stats are, and --report puts both runs on one clock") {
   const TemporaryFolder folder;
-  render(folder / "a.html", "4");
-  render(folder / "b.html", "8");
+  render(folder / "a.html", "1");
+  render(folder / "b.html", "2");
   CompareOptions options{folder / "a.html", folder / "b.html"};
   options.report = folder / "ab.html";
   const Told told = compared(options);
   CHECK(told.status == differs_status);
-  CHECK(contains(told.output, "options.cache_pages  "));
   CHECK(contains(told.output, "pages.faults"));
   const std::string page = file_text(folder / "ab.html");
   CHECK(contains(page, "The pictures are the same in all 192 pixels, as eight bits a colour."));
