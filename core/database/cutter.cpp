@@ -23,6 +23,9 @@ struct Cut {
   std::uint32_t place = 0;  ///< how many primitives, or bins, lie before it
 };
 
+using Four = float __attribute__((vector_size(16)));
+using FourCounts = std::int32_t __attribute__((vector_size(16)));
+
 /// Bounds that grow in two registers, by name: left to itself, GCC takes numbers that are gathered in a loop one by one.
 class Gathering {
  public:
@@ -45,8 +48,6 @@ class Gathering {
   }
 
  private:
-  using Four = float __attribute__((vector_size(16)));
-
   static Four four(const std::array<float, 4>& numbers) { return std::bit_cast<Four>(numbers); }
   void include(const Four& low, const Four& high) {
     low_ = low < low_ ? low : low_;
@@ -98,7 +99,7 @@ struct Bins {
       ++bin.count;
     }
   }
-  Cut best_cut(std::size_t axis, std::uint32_t count) const;
+  Cut best_cut(std::uint32_t count) const;
   /// Of all that is in the bins of an axis from `first` on, before `last`.
   Bounds bounds_of(std::size_t axis, std::uint32_t first, std::uint32_t last) const {
     Gathering all;
@@ -109,26 +110,81 @@ struct Bins {
   }
 };
 
-/// The best cut between two bins of an axis (I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007).
-Cut Bins::best_cut(std::size_t axis, std::uint32_t count) const {
-  std::array<float, bin_count> rest{};
-  Gathering bounds;
-  std::uint32_t so_far = 0;
+/// The bins of one number along all three axes, an axis a lane.
+struct Slices {
+  std::array<Four, 3> low{}, high{};  ///< by coordinate
+  FourCounts count{};
+
+  static Slices of(const Bins& bins, std::size_t number) {
+    const auto bin = [&](std::size_t axis) -> const Bins::Bin& { return bins.bins[axis][number]; };
+    Slices slices;
+    slices.low = turned(bin(0).bounds.low, bin(1).bounds.low, bin(2).bounds.low);
+    slices.high = turned(bin(0).bounds.high, bin(1).bounds.high, bin(2).bounds.high);
+    const auto count = [&](std::size_t axis) { return static_cast<std::int32_t>(bin(axis).count); };
+    slices.count = FourCounts{count(0), count(1), count(2), 0};
+    return slices;
+  }
+
+ private:
+  static std::array<Four, 3> turned(const std::array<float, 4>& first, const std::array<float, 4>& second,
+                                    const std::array<float, 4>& third) {
+    const Four a = std::bit_cast<Four>(first), b = std::bit_cast<Four>(second), c = std::bit_cast<Four>(third);
+    const Four xy = __builtin_shufflevector(a, b, 0, 4, 1, 5), z = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    return {__builtin_shufflevector(xy, c, 0, 1, 4, 4), __builtin_shufflevector(xy, c, 2, 3, 5, 5),
+            __builtin_shufflevector(z, c, 0, 1, 6, 6)};
+  }
+};
+
+/// What lies in several bins along each axis: bounds that grow.
+class Sweep {
+ public:
+  void include(const Slices& slices) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low_[i] = slices.low[i] < low_[i] ? slices.low[i] : low_[i];
+      high_[i] = high_[i] < slices.high[i] ? slices.high[i] : high_[i];
+    }
+    count_ += slices.count;
+  }
+  const FourCounts& count() const { return count_; }
+  /// Bounds::area() times the number of primitives, 0 of none.
+  Four cost() const {
+    const Four x = high_[0] - low_[0], y = high_[1] - low_[1], z = high_[2] - low_[2];
+    return count_ > 0 ? (x * y + y * z + z * x) * __builtin_convertvector(count_, Four) : Four{};
+  }
+
+ private:
+  static constexpr Four infinity{Bounds::infinity, Bounds::infinity, Bounds::infinity, Bounds::infinity};
+
+  std::array<Four, 3> low_{infinity, infinity, infinity}, high_{-infinity, -infinity, -infinity};
+  FourCounts count_{};
+};
+
+/// The best cut between two bins of an axis (I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007), for
+/// the three axes side by side. Of equal ones the first of the first axis.
+Cut Bins::best_cut(std::uint32_t count) const {
+  std::array<Slices, bin_count> slices;
+  for (std::size_t i = 0; i < bin_count; ++i) {
+    slices[i] = Slices::of(*this, i);
+  }
+  std::array<Four, bin_count> rest{};
+  Sweep behind;
   for (std::size_t i = bin_count; i-- > 1;) {
-    bounds.include(bins[axis][i].bounds);
-    so_far += bins[axis][i].count;
-    rest[i] = so_far > 0 ? bounds.area() * static_cast<float>(so_far) : 0.0F;
+    behind.include(slices[i]);
+    rest[i] = behind.cost();
+  }
+  Four least{Cut{}.cost, Cut{}.cost, Cut{}.cost, Cut{}.cost};
+  FourCounts place{};
+  Sweep before;
+  for (std::size_t i = 1; i < bin_count; ++i) {
+    before.include(slices[i - 1]);
+    const Four cost = before.cost() + rest[i];
+    const FourCounts is_better = (before.count() > 0) & (before.count() < static_cast<std::int32_t>(count)) & (cost < least);
+    least = is_better ? cost : least;
+    place = is_better ? FourCounts{} + static_cast<std::int32_t>(i) : place;
   }
   Cut best;
-  bounds = {};
-  so_far = 0;
-  for (std::uint32_t i = 1; i < bin_count; ++i) {
-    bounds.include(bins[axis][i - 1].bounds);
-    so_far += bins[axis][i - 1].count;
-    if (so_far > 0 && so_far < count) {
-      const float cost = bounds.area() * static_cast<float>(so_far) + rest[i];
-      best = cost < best.cost ? Cut{cost, axis, i} : best;
-    }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    best = least[axis] < best.cost ? Cut{least[axis], axis, static_cast<std::uint32_t>(place[axis])} : best;
   }
   return best;
 }
@@ -304,11 +360,7 @@ std::pair<Group, Group> Cutter::cut_between_bins(const Group& whole) {
   for (const Bounds& item : items) {
     bins.add(item);
   }
-  Cut best;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Cut cut = bins.best_cut(axis, whole.count());
-    best = cut.cost < best.cost ? cut : best;
-  }
+  const Cut best = bins.best_cut(whole.count());
   if (best.place == 0) {
     return halves(whole, cut_in_the_middle(whole));
   }
