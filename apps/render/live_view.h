@@ -29,9 +29,10 @@ struct LiveEnd {
   std::string page = {};     ///< which takes the live one's place, if there is one
 };
 
-/// Serves one page, with a secret in its address, and beside it the stream of its events. A thread of its own makes them: the
-/// host and the nodes leave what they have where it finds it (LivePicture, LiveCounts), and wait neither for it nor for a viewer.
-/// Beyond what a viewer takes of the server (WebServer) it keeps 4/3 bytes a byte of the picture as it is shown.
+/// Serves one page, with a secret in its address, and beside it the stream of its events. Whoever has it may stop what goes on,
+/// as SIGTERM would. A thread of its own makes them: the host and the nodes leave what they have where it finds it (LivePicture,
+/// LiveCounts), and wait neither for it nor for a viewer. Beyond what a viewer takes of the server (WebServer) it keeps 4/3 bytes
+/// a byte of the picture as it is shown.
 ///
 /// Thread safety: one thread makes it, begins, ends and destroys it; watch() and update() are the host's.
 class LiveView {

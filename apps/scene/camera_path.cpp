@@ -105,11 +105,15 @@ CameraPath::CameraPath(std::vector<Keyframe> keyframes) : keyframes_(std::move(k
   core::expect(!keyframes_.empty(), "a path has a keyframe");
 }
 
+Vec3d pivot_of(const View& view, const core::Box& bounds) {
+  const Vec3d sight = view.at - view.from;
+  const double along = bounds.empty() ? 0 : dot(bounds.center() - view.from, sight) / dot(sight, sight);
+  return along > 0 ? view.from + sight * along : view.at;
+}
+
 void CameraPath::set_scene(const View& own, const core::Box& bounds) {
   own_ = own;
-  const Vec3d sight = own.at - own.from;
-  const double along = bounds.empty() ? 0 : dot(bounds.center() - own.from, sight) / dot(sight, sight);
-  pivot_ = along > 0 ? own.from + sight * along : own.at;
+  pivot_ = pivot_of(own, bounds);
 }
 
 /// Round the pivot.

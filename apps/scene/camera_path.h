@@ -20,13 +20,16 @@ struct Keyframe {
   CameraChoice camera;
 };
 
+/// That point before the camera, on its line of sight, which is nearest to the middle of the scene's bounds, or else what it
+/// looks at: about which it turns.
+core::Vec3d pivot_of(const core::View& view, const core::Box& bounds);
+
 /// Frame k's view depends on k, the scene's own view and its bounds alone, by + - * / sqrt, so that a frame is the same on every
 /// computer, alone or in a sequence.
 class CameraPath {
  public:
-  /// Goes round the scene: about that point before the camera, on its line of sight, which is nearest to the middle of the
-  /// scene's bounds, or else what it looks at, and round the view's up, anticlockwise as seen from above, by so many degrees from
-  /// each frame to the next; frame 1 is the scene's own view. Requires |degrees| <= 360.
+  /// Goes round the scene: about pivot_of() the scene's own view, and round the view's up, anticlockwise as seen from above, by
+  /// so many degrees from each frame to the next; frame 1 is the scene's own view. Requires |degrees| <= 360.
   static CameraPath turntable(double degrees);
   /// At each keyframe as it says, between them on a spline through all of them (E. Catmull, R. Rom, "A Class of Local
   /// Interpolating Splines", 1974), whose slope at a keyframe is that from the one before to the one behind. Requires keyframes

@@ -15,6 +15,7 @@
 #include "apps/edge/show/page/origin.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/picture/film_image.h"
+#include "apps/scene/camera_path.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/view/render_words.h"
@@ -53,8 +54,7 @@ core::Scene load(PictureOptions& picture, bool is_quiet) {
 
 /// Primitives are listed in cells with a pad that grows with the distance from which they are seen, up to a bound: with that of
 /// an eye beyond it they are listed for every eye, and no picture has other bits.
-void put_eye_far_away(core::Scene& scene) {
-  const core::Box bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0));
+void put_eye_far_away(core::Scene& scene, const core::Box& bounds) {
   if (!bounds.empty()) {
     scene.view.at = bounds.center();
     scene.view.from = bounds.center() + core::Vec3d{0, 0, 4 * core::far_eye_diagonals * length(bounds.high - bounds.low)};
@@ -116,7 +116,9 @@ class Viewing {
     core::Scene scene = load(options_.picture, options_.quiet);
     home_ = scene.view;
     check_size();
-    put_eye_far_away(scene);
+    const core::Box bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0));
+    pivot_ = pivot_of(home_, bounds);
+    put_eye_far_away(scene, bounds);
     subject_.emplace(build_subject_quietly(std::move(scene), options_.picture, options_.database));
     const core::RenderSettings& built = subject_->settings;
     const core::Camera camera(home_, built.header.frame, built.camera.width(), built.camera.height(), built.camera.samples());
@@ -142,7 +144,8 @@ class Viewing {
     const core::Camera& camera = resting_->camera();
     server_->tell(ViewHead{.width = static_cast<std::uint32_t>(camera.width()),
                            .height = static_cast<std::uint32_t>(camera.height()),
-                           .home = text_of(whole_camera(home_))});
+                           .home = text_of(whole_camera(home_)),
+                           .pivot = text_of(pivot_)});
     show({.camera = whole_camera(home_), .is_moving = true});
     show({.camera = whole_camera(home_), .is_moving = false});
     while (const std::optional<Wish> wish = server_->take_wish(interrupt_.token())) {
@@ -210,6 +213,7 @@ class Viewing {
   ViewOptions options_;
   Interrupt& interrupt_;
   core::View home_;  ///< the scene's own, or that of --camera
+  core::Vec3d pivot_;
   std::optional<Subject> subject_;
   std::optional<WarmNodes> resting_, moving_;
   std::optional<ViewServer> server_;  ///< ends before what it shows

@@ -30,7 +30,7 @@ Wish wish_in(const std::string& json) {
 }
 
 std::string json_of(const ViewHead& head) {
-  return message_of({{"width", head.width}, {"height", head.height}, {"home", head.home}});
+  return message_of({{"width", head.width}, {"height", head.height}, {"home", head.home}, {"pivot", head.pivot}});
 }
 
 std::string json_of(const ViewState& state) {

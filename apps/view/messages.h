@@ -22,6 +22,7 @@ Wish wish_in(const std::string& json);
 struct ViewHead {
   std::uint32_t width = 0, height = 0;  ///< of pictures of a camera that rests
   std::string home;                     ///< the camera at first
+  std::string pivot;                    ///< about which it turns: a point on its line of sight
 };
 
 /// What goes on.

@@ -11,6 +11,7 @@ namespace {
 constexpr const char* body =
     R"(<p id="said" role="status">This page lives by its script, which does not run here.</p>
 <progress id="done" aria-label="Pixels done" value="0" max="1"></progress>
+<p id="ways"><button type="button" id="stop">Stop the run, as Ctrl-C does</button></p>
 <div id="live"><section><h2>The picture as it comes</h2>
 <canvas id="shot" role="img" aria-label="The picture as it comes" width="1" height="1"></canvas></section>
 <section><div id="nodes"><h2>What each node does, a row a node</h2>

@@ -79,6 +79,19 @@ TEST_CASE("who looks on when a signal ends the run is told so, and what it means
   CHECK(served.page.process.status() == 130);
 }
 
+TEST_CASE("who looks on may stop the run, as a signal does, and nobody who has not the address") {
+  Served served(endless);
+  WebClient viewer(served.page.port);
+  viewer.get(served.page.path("events"), served.page.host);
+  viewer.heard_until("The picture comes.");
+  CHECK(contains(served.page.sent("stop", "{}", "Origin: http://evil.example\r\n"), "403 Forbidden"));
+  CHECK(contains(served.page.got("stop"), "404 Not Found"));
+  CHECK(contains(served.page.sent("go", "{}"), "405 Method Not Allowed"));
+  CHECK(contains(served.page.sent("stop", "{}"), "200 OK"));
+  CHECK(contains(viewer.heard_all(), "\"said\":\"The run was interrupted: nothing was written.\"}"));
+  CHECK(served.page.process.status() == 130);
+}
+
 TEST_CASE("who looks on when the run fails is told why") {
   Served served({"--resolution=8x8", "--node-memory=1KiB"}, "mount-6");
   const std::string events = served.got("events");

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/mesh_files.h"
 #include "tests/support/served_page.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
@@ -80,6 +81,7 @@ TEST_CASE("a view begins with the scene's own camera, roughly and then as it is,
   CHECK(Viewed::value(first, "width") == "32");
   CHECK(Viewed::value(first, "height") == "24");
   CHECK(contains(viewed.viewer.heard(), "event: head\ndata: {\"height\":24,\"home\":\"" + Viewed::value(first, "camera")));
+  CHECK(contains(viewed.viewer.heard(), "\"pivot\":\""));
   CHECK(contains(viewed.wish("3,2,2/0,0,0/0,0,1/40", true), "200 OK"));
   const std::string moving = viewed.picture();
   CHECK(Viewed::value(moving, "camera") == "3,2,2/0,0,0/0,0,1/40");
@@ -116,18 +118,19 @@ TEST_CASE("from very far away, too, the command makes the picture to the last bi
   CHECK(film_by(Viewed::value(far, "command")) == Viewed::value(far, "film"));
 }
 
-TEST_CASE("a mesh without camera or lights is seen as the command sees it") {
+TEST_CASE("a mesh with a camera of its own, and no light, is lit as the command lights it") {
   const TemporaryFolder folder;
-  write_text(folder / "a mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\n");
-  for (const std::string transport : {"--transport=whitted", "--transport=paths"}) {
-    CAPTURE(transport);
-    Viewed viewed((folder / "a mesh.obj").string(), {"--resolution=16x16", "--samples=4", transport});
-    const std::string own = viewed.resting_picture();
-    CHECK(film_by(Viewed::value(own, "command")) == Viewed::value(own, "film"));
-    viewed.wish("2,1,-3/0,0,0/0,1,0/45", false);
-    const std::string turned = viewed.resting_picture();
-    CHECK(film_by(Viewed::value(turned, "command")) == Viewed::value(turned, "film"));
-  }
+  const std::string lens = "<xfov>50</xfov><aspect_ratio>1</aspect_ratio><znear>0.1</znear><zfar>9</zfar>";
+  write_text(folder / "a mesh.dae", collada("<lambert/>",
+                                            R"(<library_cameras><camera id="c"><optics><technique_common><perspective>)" + lens +
+                                                R"(</perspective></technique_common></optics></camera></library_cameras>)",
+                                            R"(<node id="n"><translate>1 0 2</translate><instance_camera url="#c"/></node>)"));
+  Viewed viewed((folder / "a mesh.dae").string(), {"--resolution=16x16", "--transport=whitted", "--samples=4"});
+  const std::string own = viewed.resting_picture();
+  CHECK(film_by(Viewed::value(own, "command")) == Viewed::value(own, "film"));
+  viewed.wish("2,1,3/0.5,0,0/0,1,0/45", false);
+  const std::string turned = viewed.resting_picture();
+  CHECK(film_by(Viewed::value(turned, "command")) == Viewed::value(turned, "film"));
 }
 
 TEST_CASE("of a picture that takes long nothing is waited for when the camera moves on") {

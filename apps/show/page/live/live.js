@@ -91,6 +91,16 @@ const tellState = (told) => {
   told.shares.forEach((share, i) => { if (shares[i]) shares[i].textContent = `${(100 * share).toFixed(1)} %`; });
 };
 
+byId("stop").addEventListener("click", async () => {
+  byId("stop").disabled = true;
+  try {
+    const answer = await fetch("stop", {method: "POST", headers: {"Content-Type": "application/json"}, body: "{}"});
+    if (!answer.ok) say(await answer.text());
+  } catch {
+    say("dmpc does not answer.");
+  }
+});
+
 const source = new EventSource("events");
 const on = (name, act) => source.addEventListener(name, (event) => act(JSON.parse(event.data)));
 on("head", begin);
@@ -99,6 +109,7 @@ on("step", (step) => { if (head) drawStep(step); });
 on("tile", (tile) => { if (head) drawTile(tile); });
 on("end", ({said, figures, page}) => {
   source.close();
+  byId("ways").hidden = true;
   byId("when").textContent = "What all of them did, in parts of their time";
   say(page ? `${said} Its page comes.` : `${said} The run has ended, and what stands here is the last of it.`);
   byId("figures").textContent = figures;

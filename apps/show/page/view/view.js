@@ -37,7 +37,7 @@ const facts = (rows) => {
 const show = (told) => {
   if (!head) return;
   draw(told);
-  facts([["Picture", `${told.width} x ${told.height}`], ["Time", `${Math.round(told.ms)} ms`], ["Camera", told.camera],
+  facts([["Picture", `${told.width}x${told.height}`], ["Time", `${Math.round(told.ms)} ms`], ["Camera", told.camera],
     ["Film", told.film || "the camera moves"]]);
   if (!told.moving) byId("command").textContent = told.command;
   if (!drag && !next && !isSending && !rests) camera = cameraOf(told.camera);  // somebody else may have moved it
@@ -63,7 +63,7 @@ const wish = (moving) => {
 };
 const go = (to) => {
   if (!camera) return;
-  camera = to(camera);
+  camera = to(turning(camera));
   wish(true);
   clearTimeout(rests);
   rests = setTimeout(() => {
@@ -72,14 +72,17 @@ const go = (to) => {
   }, restMs);
 };
 
+// A scene's own camera may look at any point on its line of sight: it turns about the one in the scene's middle.
+const turning = (c) => (textOf(c) === textOf(cameraOf(head.home)) ? {...c, at: head.pivot.split(",").map(Number)} : c);
 const ways = {
-  left: (c) => orbit(c, -turnStep, 0), right: (c) => orbit(c, turnStep, 0), up: (c) => orbit(c, 0, turnStep), down: (c) => orbit(c, 0, -turnStep),
+  left: (c) => orbit(c, -turnStep, 0), right: (c) => orbit(c, turnStep, 0), up: (c) => orbit(c, 0, turnStep),
+  down: (c) => orbit(c, 0, -turnStep),
   nearer: (c) => dolly(c, nearStep), farther: (c) => dolly(c, 1 / nearStep), home: () => cameraOf(head.home),
 };
 const keys = {ArrowLeft: ways.left, ArrowRight: ways.right, ArrowUp: ways.up, ArrowDown: ways.down, "+": ways.nearer, "=": ways.nearer,
   "-": ways.farther, Home: ways.home};
-const shiftedKeys = {ArrowLeft: (c) => shift(c, -shiftStep, 0), ArrowRight: (c) => shift(c, shiftStep, 0), ArrowUp: (c) => shift(c, 0, shiftStep),
-  ArrowDown: (c) => shift(c, 0, -shiftStep)};
+const shiftedKeys = {ArrowLeft: (c) => shift(c, -shiftStep, 0), ArrowRight: (c) => shift(c, shiftStep, 0),
+  ArrowUp: (c) => shift(c, 0, shiftStep), ArrowDown: (c) => shift(c, 0, -shiftStep)};
 for (const [id, way] of Object.entries(ways)) byId(id).addEventListener("click", () => go(way));
 
 const shot = byId("shot");
