@@ -156,7 +156,8 @@ std::vector<std::byte> bytes_of_file(const std::string& path, SceneFiles& files)
 }
 
 /// Nothing for version 1, which is left to Assimp.
-std::optional<ImportedFile> import_gltf(const std::string& path, SceneFiles& files) {
+std::optional<ImportedFile> import_gltf(const std::string& path, SceneFiles& files,
+                                        const std::optional<AnimationMoment>& animation) {
   const std::unique_ptr<FileBytes> file = files.open(path);
   const gltf::Document document = gltf::parse_document(file->bytes());
   if (document.version == 1) {
@@ -169,7 +170,7 @@ std::optional<ImportedFile> import_gltf(const std::string& path, SceneFiles& fil
     const auto found = files.meant(folder, name);
     return bytes_of_file((found.empty() ? folder / name : found.front()).string(), files);
   };
-  return gltf::read_gltf(document, open);
+  return gltf::read_gltf(document, open, animation);
 }
 
 /// Assimp puts a figure of the tree of nodes in place of meshes that are not there, and marks the scene.
@@ -223,12 +224,15 @@ void import_by_assimp(const std::string& path, const std::string& ending, SceneF
 
 }  // namespace
 
-ImportedFile import_file(const std::string& path, SceneFiles& files) {
+ImportedFile import_file(const std::string& path, SceneFiles& files, const std::optional<AnimationMoment>& animation) {
   const std::string ending = ending_of(path);
   if (ending == "gltf" || ending == "glb") {
-    if (auto file = import_gltf(path, files)) {
+    if (auto file = import_gltf(path, files, animation)) {
       return *std::move(file);
     }
+  }
+  if (animation) {
+    throw core::InputError("animations are played of glTF 2.0 alone: write the file as such, or leave out --animation");
   }
   const std::unique_ptr<FileBytes> bytes = files.open(path);
   const std::string_view text = text_of(*bytes);

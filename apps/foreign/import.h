@@ -1,10 +1,12 @@
 // Reads a file by Assimp, or glTF 2 by a reader of our own.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "apps/foreign/mesh/imported_file.h"
 #include "apps/foreign/mesh/scene_files.h"
+#include "apps/formats/animation_moment.h"
 
 namespace Assimp {
 class Importer;
@@ -21,7 +23,8 @@ void keep_readers_of(const std::string& ending, Assimp::Importer& importer);
 
 /// Reads meshes, materials, lights and cameras as the file has them, by a reader for files that end as it does. Throws
 /// core::InputError with Assimp's own words if it cannot read the file, or if there is no mesh in it, std::bad_alloc if memory
-/// ends.
-ImportedFile import_file(const std::string& path, SceneFiles& files);
+/// ends. Nodes stand as they do at the moment of `animation`, if it is given: of glTF 2 alone, else core::InputError.
+ImportedFile import_file(const std::string& path, SceneFiles& files,
+                         const std::optional<AnimationMoment>& animation = std::nullopt);
 
 }  // namespace dmpc::apps

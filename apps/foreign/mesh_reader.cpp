@@ -289,7 +289,9 @@ void add_surroundings(MeshScene& result, const aiScene* file, const MeshOptions&
   core::Scene& scene = result.scene;
   std::vector<std::string>& notes = result.notes;
   const double scale = options.scale.value_or(1);
-  const BoundingSphere bounds = sphere_around(result.vertices, scene.objects, result.instances);
+  result.bounds = sphere_around(result.vertices, scene.objects, result.instances);
+  const StillScene* const still = options.animation && options.animation->still ? &*options.animation->still : nullptr;
+  const BoundingSphere bounds = still != nullptr ? still->bounds : result.bounds;
   scene.background = plain_background;
   // What is said of a view or of lights that others are put in place of would be untrue.
   std::vector<std::string> unsaid;
@@ -303,7 +305,7 @@ void add_surroundings(MeshScene& result, const aiScene* file, const MeshOptions&
     scene.lights = lights_of(*file, bounds, scale, is_lit_else, options.is_lit_otherwise ? unsaid : notes);
   }
   if (scene.lights.empty() && !is_lit_else) {
-    scene.lights = plain_lights(bounds, scene.view);
+    scene.lights = plain_lights(bounds, still != nullptr && camera ? still->view : scene.view);
   }
 }
 
@@ -362,7 +364,7 @@ MeshScene read(const std::string& path, const MeshOptions& options, SceneFiles& 
   if (auto file = read_polygon_file(path, files)) {
     return scene_of(*std::move(file), path, options, files);
   }
-  return scene_of(import_file(path, files), path, options, files);
+  return scene_of(import_file(path, files, options.animation), path, options, files);
 }
 
 }  // namespace

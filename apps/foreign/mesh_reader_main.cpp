@@ -32,6 +32,18 @@ std::optional<Resolution> take_size(Unpacker& fields) {
   return width ? std::optional(Resolution{*width, height}) : std::nullopt;
 }
 
+AnimationMoment take_moment(Unpacker& fields) {
+  AnimationMoment moment{.name = fields.take_text()};
+  moment.seconds = fields.take<double>();
+  moment.frames_per_second = fields.take<double>();
+  if (fields.take_flag()) {
+    const auto center = fields.take<core::Vec3d>();
+    const auto radius = fields.take<double>();
+    moment.still = StillScene{{center, radius}, fields.take<core::View>()};
+  }
+  return moment;
+}
+
 MeshOptions take_options(Unpacker& fields) {
   MeshOptions options;
   options.scale = take_choice<double>(fields);
@@ -44,6 +56,9 @@ MeshOptions take_options(Unpacker& fields) {
   options.is_below_sky = fields.take_flag();
   options.is_below_own_sky = fields.take_flag();
   options.is_by_paths = fields.take_flag();
+  if (!fields.is_empty()) {
+    options.animation = take_moment(fields);
+  }
   return options;
 }
 
@@ -56,6 +71,9 @@ void serve_mesh(const Message& request, Line& line) {
   MeshScene mesh = read_mesh(path, options, files);
   for (const std::string& note : mesh.notes) {
     line.send(Saying::note, Packer().add_text(note));
+  }
+  if (options.animation) {
+    line.send(Saying::bounds, Packer().add(mesh.bounds.center).add(mesh.bounds.radius));
   }
   for (const FileSky& sky : options.is_below_own_sky ? mesh.skies : std::vector<FileSky>()) {
     Packer fields_of_sky;

@@ -63,6 +63,8 @@ bool has_own_sky(const std::string& path) {
   return ending_of(path) == "pbrt" || (ending_of(path) == "gz" && ending_of(fs::path(path).stem().string()) == "pbrt");
 }
 
+bool is_played(const std::string& path) { return ending_of(path) == "gltf" || ending_of(path) == "glb"; }
+
 std::string known_mesh_formats() {
   std::string text;
   for (const std::string& extension : mesh_extensions()) {
@@ -77,6 +79,7 @@ MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, boo
 
 MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, bool shows_progress, const ReaderLimits& limits) {
   try {
+    core::expect(!options.animation || is_played(path), "animations are asked for of glTF alone");
     check_is_read(path);
     return MeshSession(path, options, shows_progress, limits).read();
   } catch (const core::RoomError& error) {

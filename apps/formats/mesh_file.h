@@ -19,6 +19,7 @@ struct MeshFile {
   core::Scene scene;
   std::vector<std::string> notes;           ///< what of the file is not shown as it is, a sentence each
   std::vector<MeshSky> skies;               ///< whose lights add up; none unless the options say that they are shown
+  BoundingSphere bounds;                    ///< where an animation is asked for: of the whole at its moment
   OpenedFiles opened;                       ///< with those of the textures
   std::optional<ReadingForecast> forecast;  ///< of the memory that reading takes, if the file's reader could tell
 };
@@ -29,6 +30,8 @@ const std::vector<std::string>& mesh_extensions();
 bool is_mesh_path(const std::string& path);
 /// Of these, whether it is a whole scene, with lights and a sky of its own (pbrt's): by paths that is what it is shown by.
 bool has_own_sky(const std::string& path);
+/// Of these, whether its animations can be played (glTF's).
+bool is_played(const std::string& path);
 /// "obj, ply, ...", for messages.
 std::string known_mesh_formats();
 

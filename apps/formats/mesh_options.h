@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "apps/formats/animation_moment.h"
 #include "apps/formats/resolution.h"
 #include "apps/formats/up_axis.h"
 #include "apps/reader/confinement.h"
@@ -22,6 +23,7 @@ struct MeshOptions {
   bool is_below_own_sky = false;  ///< the sky that the file says itself
   /// What shines by itself is a light, and textures of metal and roughness are read, which no other transport shows.
   bool is_by_paths = false;
+  std::optional<AnimationMoment> animation;  ///< of glTF; nothing: nodes stand as the file says
 };
 
 }  // namespace dmpc::apps

@@ -13,6 +13,7 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/edge/system/input_memory.h"
 #include "apps/formats/named_file.h"
+#include "apps/formats/view_faults.h"
 #include "apps/picture/texture_size.h"
 #include "core/base/expect.h"
 #include "core/scene/alpha_coverage.h"
@@ -50,6 +51,18 @@ std::uint64_t bytes_around(const std::string& path) {
     bytes += entry.is_regular_file(error) ? entry.file_size(error) : 0;
   }
   return bytes;
+}
+
+void add(Packer& fields, const auto& choice, double value) {
+  fields.add(static_cast<std::uint8_t>(choice.has_value())).add(value);
+}
+
+void add(Packer& fields, const AnimationMoment& moment) {
+  fields.add_text(moment.name);
+  fields.add(moment.seconds).add(moment.frames_per_second).add(static_cast<std::uint8_t>(moment.still.has_value()));
+  if (moment.still) {
+    fields.add(moment.still->bounds.center).add(moment.still->bounds.radius).add(moment.still->view);
+  }
 }
 
 std::string format_of(const std::string& path) {
@@ -125,9 +138,6 @@ void MeshSession::note_alpha() {
 }
 
 void MeshSession::ask() {
-  const auto add = [](Packer& fields, const auto& choice, double value) {
-    fields.add(static_cast<std::uint8_t>(choice.has_value())).add(value);
-  };
   Packer fields;
   fields.add_text(path_);
   add(fields, options_.scale, options_.scale.value_or(1));
@@ -141,6 +151,9 @@ void MeshSession::ask() {
   for (const bool flag : {options_.allows_missing, options_.is_seen_otherwise, options_.is_lit_otherwise, options_.is_below_sky,
                           options_.is_below_own_sky, options_.is_by_paths}) {
     fields.add(static_cast<std::uint8_t>(flag));
+  }
+  if (options_.animation) {
+    add(fields, *options_.animation);
   }
   process_.send(Saying::read_mesh, fields);
 }
@@ -175,6 +188,9 @@ bool MeshSession::answer(const Message& message) {
       return false;
     case Saying::sky:
       add_sky(fields);
+      return false;
+    case Saying::bounds:
+      take_bounds(fields);
       return false;
     case Saying::note:
       add_note(fields);
@@ -331,6 +347,14 @@ void MeshSession::add_sky(Unpacker fields) {
   ending.erase(0, 1);
   sky.image = pictures_.read_sky({std::move(file.descriptor), file.bytes, path, ending, true});
   result_.skies.push_back(std::move(sky));
+}
+
+void MeshSession::take_bounds(Unpacker fields) {
+  const auto center = fields.take<core::Vec3d>();
+  const auto radius = fields.take<double>();
+  fields.finish();
+  Unpacker::require(options_.animation && is_in_reach(center) && radius >= 0 && radius <= 2 * view_coordinate_max);
+  result_.bounds = {center, radius};
 }
 
 void MeshSession::add_note(Unpacker fields) {

@@ -40,6 +40,7 @@ class MeshSession {
   void spend(ProcessorStopwatch& stopwatch);
   void add_bytes(const std::string& bytes);
   void add_sky(Unpacker fields);
+  void take_bounds(Unpacker fields);
   void add_note(Unpacker fields);
   void note_alpha();
   void expect(Unpacker fields);

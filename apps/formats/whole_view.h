@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "apps/formats/bounding_sphere.h"
 #include "apps/formats/indexed_vertices.h"
 #include "apps/formats/up_axis.h"
 #include "core/base/vec.h"
@@ -12,11 +13,6 @@
 
 namespace dmpc::apps {
 
-/// A sphere around vertices.
-struct BoundingSphere {
-  core::Vec3d center;
-  double radius = 0;
-};
 /// About the middle of their box, those of `objects` in their order, of what stands in several places in all of them, with that
 /// of the spheres; without any, of radius 1 about 0. A point that no vertex has is none. Requires that no mesh of `instances`
 /// stands beside spheres.

@@ -65,15 +65,21 @@ void say_what_is_missing(const core::Scene& scene, const TransportOptions& trans
   }
 }
 
+/// What comes of a mesh file beside its scene.
+struct Surroundings {
+  std::vector<MeshSky> skies;
+  BoundingSphere bounds;  ///< if an animation is asked for
+};
+
 core::Scene load_mesh(const std::string& path, const MeshOptions& options, LoadNotes notes, OpenedFiles& opened,
-                      std::vector<MeshSky>& skies) {
+                      Surroundings& around) {
   const bool says = notes == LoadNotes::said;
   MeshFile file = read_mesh_file(path, options, says && stderr_is_terminal());
   opened.add(file.opened);
   if (says) {
     say_once(file.notes);
   }
-  skies = std::move(file.skies);
+  around = {std::move(file.skies), file.bounds};
   return std::move(file.scene);
 }
 
@@ -121,7 +127,7 @@ core::Scene load_nff(const std::string& path, bool is_seen_otherwise, std::int64
 }
 
 core::Scene read_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes,
-                     OpenedFiles& opened, std::vector<MeshSky>& skies) {
+                     OpenedFiles& opened, Surroundings& around) {
   if (const auto name = core::find_scene_name(scene)) {
     return core::built_in_scene(*name);
   }
@@ -134,14 +140,14 @@ core::Scene read_any(const std::string& scene, const MeshOptions& mesh, std::int
     }
     return core::built_in_scene(core::parse_scene_name(scene));  // throws, listing what there is
   }
-  return is_mesh_path(scene) ? load_mesh(scene, mesh, notes, opened, skies)
+  return is_mesh_path(scene) ? load_mesh(scene, mesh, notes, opened, around)
                              : load_nff(scene, mesh.is_seen_otherwise, pixels_max, notes, opened);
 }
 
 /// The sky stays where it is, whatever view is put in place of the scene's own.
 core::Scene load_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes,
-                     OpenedFiles& opened, std::vector<MeshSky>& skies) {
-  core::Scene read = read_any(scene, mesh, pixels_max, notes, opened, skies);
+                     OpenedFiles& opened, Surroundings& around) {
+  core::Scene read = read_any(scene, mesh, pixels_max, notes, opened, around);
   read.zenith = zenith_of(read);
   return read;
 }
@@ -155,6 +161,9 @@ std::string shadow_note(const Staging& staging) {
 }
 
 void check_mesh_options(const std::string& scene, const MeshOptions& options) {
+  if (options.animation && !(is_mesh(scene) && is_played(scene))) {
+    throw core::UsageError("--animation goes with glTF files (.gltf, .glb), and " + scene + " is none");
+  }
   if (!is_mesh(scene) &&
       (options.scale || options.up || options.smooth_degrees || options.allows_missing || options.opens_anywhere)) {
     throw core::UsageError("--scale, --up, --smooth, --missing=plain and --files=anywhere go with mesh files (" +
@@ -176,8 +185,8 @@ bool is_own_sky(const PictureOptions& picture) {
 
 core::Scene load_scene(const std::string& scene, std::int64_t pixels_max) {
   OpenedFiles opened;
-  std::vector<MeshSky> skies;
-  return load_any(scene, {}, pixels_max, LoadNotes::said, opened, skies);
+  Surroundings around;
+  return load_any(scene, {}, pixels_max, LoadNotes::said, opened, around);
 }
 
 void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
@@ -186,7 +195,7 @@ void add_scene_file(const std::string& scene, std::vector<NamedFile>& inputs) {
   }
 }
 
-core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened) {
+core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFiles* opened, BoundingSphere* bounds) {
   check_mesh_options(picture.scene, picture.staging.mesh);
   MeshOptions mesh = picture.staging.mesh;
   mesh.size = picture.resolution;
@@ -196,13 +205,13 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   mesh.is_below_own_sky = is_own_sky(picture);
   mesh.is_by_paths = picture.transport.is_by_paths();
   OpenedFiles read;
-  std::vector<MeshSky> skies;
+  Surroundings around;
   core::Scene scene =
       load_any(picture.scene, mesh, picture.resolution ? std::numeric_limits<std::int64_t>::max() : picture_pixels_max, notes,
-               read, skies);
+               read, around);
   const SceneKind kind = is_mesh(picture.scene) ? SceneKind::mesh : SceneKind::own;
   const std::string note = apply(picture.staging, scene, kind);
-  set_sky(skies, scene);
+  set_sky(around.skies, scene);
   const bool has_points = !scene.lights.empty();
   std::string sky_note;
   if (picture.transport.sky && picture.transport.sky->is_picture() && !mesh.is_below_own_sky) {
@@ -211,6 +220,9 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
   }
   if (opened != nullptr) {
     opened->add(read);
+  }
+  if (bounds != nullptr) {
+    *bounds = around.bounds;
   }
   const std::uint64_t points_left =
       picture.transport.light_radius ? core::make_lights_spheres(scene, *picture.transport.light_radius) : 0;

@@ -39,10 +39,23 @@ bool is_of_interest(Bytes input) {
   }
 }
 
-std::optional<core::Scene> read(Bytes input) {
-  InputFiles files(name, input);
+bool has_animation(Bytes input) {
   try {
-    apps::MeshScene mesh = apps::read_mesh(name, {.allows_missing = true}, files);
+    return !apps::gltf::parse_document(input).root().list("animations").empty();
+  } catch (const core::InputError&) {
+    return false;
+  }
+}
+
+/// At a moment of its first animation, if it has one.
+std::optional<core::Scene> read(Bytes input, bool is_animated) {
+  InputFiles files(name, input);
+  apps::MeshOptions options{.allows_missing = true};
+  if (is_animated) {
+    options.animation = apps::AnimationMoment{.seconds = 0.7};
+  }
+  try {
+    apps::MeshScene mesh = apps::read_mesh(name, options, files);
     mesh.scene.vertices = apps::expanded(mesh.vertices);
     core::expand(mesh.scene, mesh.instances);
     return std::move(mesh.scene);
@@ -59,9 +72,11 @@ void try_gltf(const std::uint8_t* data, std::size_t size) {
   if (!is_of_interest(input)) {
     return;
   }
-  std::optional<core::Scene> scene = read(input);
+  const bool is_animated = has_animation(input);
+  std::optional<core::Scene> scene = read(input, is_animated);
   covered().count("refused", !scene);
   covered().count("rendered", scene.has_value());
+  covered().count("moved by an animation", scene && is_animated);
   covered().count("with a texture", scene && !scene->textures.empty());
   if (scene) {
     tests::check_scene(*scene);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/edge/line/number_text.h"
@@ -46,11 +47,15 @@ void check_matrix(const Part& node, const std::vector<double>& columns) {
   }
 }
 
-aiMatrix4x4 transform_of(const Part& node) {
+aiMatrix4x4 transform_of(const Part& node, const NodePose& pose) {
   aiMatrix4x4 result;
   if (!node.find("matrix")) {
-    return composed(vector_of(node.numbers("translation", {0, 0, 0})),
-                    quaternion_of(node.numbers("rotation", {0, 0, 0, 1}), node), vector_of(node.numbers("scale", {1, 1, 1})));
+    const auto or_own = [&](const std::optional<std::vector<double>>& posed, const char* name, std::vector<double> plain) {
+      return posed ? *posed : node.numbers(name, std::move(plain));
+    };
+    return composed(vector_of(or_own(pose.translation, "translation", {0, 0, 0})),
+                    quaternion_of(or_own(pose.rotation, "rotation", {0, 0, 0, 1}), node),
+                    vector_of(or_own(pose.scale, "scale", {1, 1, 1})));
   }
   const std::vector<double> columns = node.numbers("matrix", std::vector<double>(16));
   check_matrix(node, columns);
@@ -80,8 +85,8 @@ void give_children(aiNode& parent, Nodes& children) {
 
 class Tree {
  public:
-  Tree(const Document& document, Accessors& accessors, const Meshes& meshes)
-      : nodes_(document.root().list("nodes")), accessors_(accessors), meshes_(meshes) {}
+  Tree(const Document& document, Accessors& accessors, const Meshes& meshes, const Pose& pose)
+      : nodes_(document.root().list("nodes")), accessors_(accessors), meshes_(meshes), pose_(pose) {}
 
   std::size_t count() const { return nodes_.size(); }
   /// The node that `where` names, with all below it. A hidden one has nothing to show, and is there for the joints among them.
@@ -100,6 +105,7 @@ class Tree {
   std::vector<Part> nodes_;
   Accessors& accessors_;
   const Meshes& meshes_;
+  const Pose& pose_;
   std::set<std::size_t> seen_;
   std::set<std::string> taken_;
 };
@@ -176,7 +182,8 @@ std::unique_ptr<aiNode> Tree::node(const Part& where, int level, bool is_below_h
   const bool hides = is_below_hidden || is_hidden(source);
   auto result = std::make_unique<aiNode>(unique_name(source));
   names.emplace(index, result->mName.C_Str());
-  result->mTransformation = transform_of(source);
+  const auto posed = pose_.find(index);
+  result->mTransformation = transform_of(source, posed == pose_.end() ? NodePose{} : posed->second);
   Nodes children;
   if (!hides) {
     add_shown(source, *result, children);
@@ -249,7 +256,7 @@ aiNode* root_of(Nodes& roots) {
 
 }  // namespace
 
-void add_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, ImportedFile& file) {
+void add_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, const Pose& pose, ImportedFile& file) {
   aiScene& scene = *file.scene;
   const Part root = document.root();
   const std::vector<Part> scenes = root.list("scenes");
@@ -257,7 +264,7 @@ void add_nodes(const Document& document, Accessors& accessors, const Meshes& mes
     root.fail("has no scene, so that nothing says what is to be shown");
   }
   const Part& shown = scenes[root.index("scene", scenes.size(), "scenes").value_or(0)];
-  Tree tree(document, accessors, meshes);
+  Tree tree(document, accessors, meshes, pose);
   Nodes roots;
   scene.mName = shown.text("name", "");
   for (const Part& where : shown.list("nodes")) {
