@@ -31,6 +31,7 @@
 #include "apps/render/checkpoints.h"
 #include "apps/render/film_notes.h"
 #include "apps/render/frame_files.h"
+#include "apps/render/frame_scenes.h"
 #include "apps/render/live_view.h"
 #include "apps/render/onlookers.h"
 #include "apps/render/outputs.h"
@@ -39,7 +40,6 @@
 #include "apps/render/self_test.h"
 #include "apps/render/unseen_note.h"
 #include "apps/run/run_strategy.h"
-#include "apps/scene/camera_path.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/show/frame_line.h"
@@ -124,6 +124,7 @@ class Rendering {
     claim();
     apart([this] { load(); });
     look_on();
+    apart([this] { foretell(); });
     apart([this] { plan(); });
     render();
     int status = apart([this] { return write(); });
@@ -144,7 +145,6 @@ class Rendering {
   /// Which frames there are to do; false if none is left.
   bool claim_frames() {
     check_frame_names(asked_);
-    path_.emplace(camera_path_of(asked_.frames));
     frames_there_ = frames_there(asked_);
     if (!frames_there_.empty() && !asked_.checkpoint.resumes) {
       throw core::InputError("-o " + options_of(asked_, *frames_there_.begin()).image.string() + ": the picture of this frame" +
@@ -195,19 +195,54 @@ class Rendering {
     options_ = options_of(asked_, *frame_);
     outputs_ = outputs_of(options_);
     check_outputs(options_, outputs_);
+    if (scenes_.are_animated()) {
+      load_next();
+    }
     settings_ = frame_settings();
     if (checkpoints_) {
-      checkpoints_->begin(identity_from(view(), *own_identity_));
+      checkpoints_->begin(own_identity());
     }
+    is_started_ ? go_on() : begin_anew();
+    return true;
+  }
+
+  /// On the same nodes.
+  void go_on() {
+    continuation_.start = nullptr;  // the first frame's
     onlookers_->begin_again();
     if (live_) {
       live_->begin(live_head(), nullptr);
     }
-    return true;
+  }
+
+  void begin_anew() {
+    look_on();
+    plan();
+  }
+
+  /// Reads the frame's scene. Where more of it differs from the last one's than the view, that and its nodes end here.
+  void load_next() {
+    interrupt_.set_consequence(consequence_of(nullptr, true));
+    const Interrupt::EndAtOnce end_at_once(interrupt_);
+    Stopwatch stopwatch;
+    core::Scene scene = read_scene();
+    seconds_.load = stopwatch.lap();
+    seconds_.build = seconds_.prepare = 0;
+    const std::uint64_t before = std::exchange(contents_, scene_digest(scene));
+    is_started_ = contents_ == before;
+    if (!is_started_) {
+      ready_ = {};
+      report_.reset();
+      onlookers_.reset();
+      subject_.reset();
+      build(std::move(scene));
+      seconds_.build = stopwatch.lap();
+    }
   }
 
   /// Of the frame under way, or the scene's own.
-  core::View view() const { return frame_ ? path_->view(*frame_) : own_view_; }
+  core::View view() const { return scenes_.view(frame_); }
+  PictureIdentity own_identity() const { return frame_ ? identity_from(view(), *own_identity_) : *own_identity_; }
 
   core::RenderSettings frame_settings() const {
     const core::RenderSettings& own = subject_->settings;
@@ -236,37 +271,57 @@ class Rendering {
   void load() {
     const Interrupt::EndAtOnce end_at_once(interrupt_);
     Stopwatch stopwatch;
-    OpenedFiles opened;
-    core::Scene scene = load_scene(options_.picture, options_.quiet ? LoadNotes::silent : LoadNotes::said, &opened);
-    check_not_read(opened, files_of(outputs_.names()));
-    own_view_ = scene.view;
-    bounds_ = core::bounds_of(scene, core::world_axes, core::Parallel(0));
-    if (path_) {
-      path_->set_scene(own_view_, bounds_);
-      path_->check(asked_.frames.range->first, asked_.frames.range->last);
+    const bool follows = follows_checkpoint();
+    if (follows && scenes_.are_animated()) {
+      OpenedFiles opened;
+      remove_old_checkpoint(identity_of(options_, scenes_.load(*frame_ - 1, opened)));
     }
+    core::Scene scene = read_scene();
+    if (follows && !scenes_.are_animated()) {
+      remove_old_checkpoint(*own_identity_);
+    }
+    contents_ = scenes_.are_animated() ? scene_digest(scene) : 0;
     if (options_.checkpoint.file) {
-      own_identity_ = identity_of(options_, scene);
-      remove_old_checkpoint();
-      checkpoints_.emplace(options_.checkpoint, frame_ ? identity_from(view(), *own_identity_) : *own_identity_, std::cerr,
-                           options_.quiet, interrupt_.token(), files_);
+      checkpoints_.emplace(options_.checkpoint, own_identity(), std::cerr, options_.quiet, interrupt_.token(), files_);
     }
     up_ = is_mesh(options_.picture.scene) ? options_.picture.staging.mesh.up.value_or(UpAxis{}) : up_of(scene.view);
     scene_digest_ = options_.report ? std::optional(scene_digest(scene)) : std::nullopt;
     seconds_.load = stopwatch.lap();
-    subject_.emplace(build_subject(std::move(scene), options_.picture, options_.database, true));
-    if (options_.tracer != TracerChoice::embree) {
-      subject_->database.forget_primitives();
-    }
+    build(std::move(scene));
     settings_ = frame_ ? frame_settings() : subject_->settings;
     seconds_.build = stopwatch.lap();
   }
 
-  /// Of the frame before, where a process was killed when that was written.
-  void remove_old_checkpoint() const {
-    if (frame_ && *frame_ > path_->first() && frames_there_.contains(*frame_ - 1)) {
-      remove_checkpoint_of(identity_from(path_->view(*frame_ - 1), *own_identity_), options_.checkpoint, files_);
+  /// Of the frame, and who it is.
+  core::Scene read_scene() {
+    OpenedFiles opened;
+    core::Scene scene = scenes_.load(frame_, opened);
+    check_not_read(opened, files_of(outputs_.names()));
+    bounds_ = core::bounds_of(scene, core::world_axes, core::Parallel(0));
+    if (options_.checkpoint.file) {
+      own_identity_ = identity_of(options_, scene);
     }
+    return scene;
+  }
+
+  void build(core::Scene scene) {
+    subject_.emplace(build_subject_quietly(std::move(scene), options_.picture, options_.database, true));
+    tell_once(notes_of(*subject_));
+    if (options_.tracer != TracerChoice::embree) {
+      subject_->database.forget_primitives();
+    }
+  }
+
+  /// Whether a checkpoint may be there of the frame before, where a process was killed when that was written.
+  bool follows_checkpoint() const {
+    std::error_code error;
+    return options_.checkpoint.file && options_.checkpoint.resumes && frame_ && *frame_ > scenes_.first() &&
+           frames_there_.contains(*frame_ - 1) && std::filesystem::exists(*options_.checkpoint.file, error);
+  }
+
+  /// That of the frame before, whose scene has just been read: `own`.
+  void remove_old_checkpoint(const PictureIdentity& own) const {
+    remove_checkpoint_of(identity_from(scenes_.view(*frame_ - 1), own), options_.checkpoint, files_);
   }
 
   /// Where somebody observes threads they read the clock twice a call, which takes a third of the processor's time more: then
@@ -295,9 +350,16 @@ class Rendering {
         continuation_of(checkpoints_ ? &*checkpoints_ : nullptr, asked_.frames.are_several(), live_.get(), interrupt_);
   }
 
-  /// Plans, and says what the user should know before waiting for the picture; a signal ends the process here and now.
-  void plan() {
+  /// What the user should know before waiting for the first picture.
+  void foretell() {
     announce_long();
+    if (frame_) {
+      say({disk_note(asked_, frames_left(), settings_->camera.pixel_count())});
+    }
+  }
+
+  /// A signal ends the process here and now.
+  void plan() {
     const Interrupt::EndAtOnce end_at_once(interrupt_);
     nodes::Watching watching = onlookers_->watching();
     if (!asked_.frames.are_several()) {  // of which each looks at the database for where it shows nothing
@@ -306,9 +368,8 @@ class Rendering {
     Stopwatch stopwatch;
     ready_ = make_ready(options_, subject_->database, *settings_, {}, watching, continuation_);
     seconds_.prepare = stopwatch.lap();
-    say(ready_.notes);
-    if (frame_) {
-      say({disk_note(asked_, frames_left(), settings_->camera.pixel_count())});
+    if (!options_.quiet) {
+      tell_once(ready_.notes);
     }
   }
 
@@ -504,6 +565,15 @@ class Rendering {
     }
   }
 
+  /// Those of `notes` that say something, and have not been said of a frame before.
+  void tell_once(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+      if (!note.empty() && told_.insert(note).second) {
+        std::cerr << "dmpc: " << note << '\n';
+      }
+    }
+  }
+
   std::uint64_t samples_found_done() const { return checkpoints_ ? checkpoints_->samples_found_done() : 0; }
 
   RenderOptions asked_;    ///< with names for all frames
@@ -512,11 +582,12 @@ class Rendering {
   std::ostream& output_;
   Files& files_;
   OutputSet<RenderRecord> outputs_ = outputs_of(options_);
-  std::optional<CameraPath> path_;               ///< of frames
+  FrameScenes scenes_{asked_};
   std::set<std::uint64_t> frames_there_;         ///< those asked for that were done before
   std::optional<std::uint64_t> frame_;           ///< under way
-  core::View own_view_;                          ///< the scene's
-  std::optional<PictureIdentity> own_identity_;  ///< that of its picture, where there is a checkpoint
+  std::uint64_t contents_ = 0;                   ///< a digest of an animated scene, whatever the view
+  std::optional<PictureIdentity> own_identity_;  ///< that of the scene's own picture, where there is a checkpoint
+  std::set<std::string> told_;                   ///< what is said once
   Seconds seconds_;
   std::optional<FileLock> lock_;
   std::unique_ptr<LiveView> live_;  ///< outlives all that it looks on at

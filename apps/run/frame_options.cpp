@@ -20,6 +20,40 @@ double parse_degrees(const std::string& text) {
   return degrees;
 }
 
+double parse_per_second(const std::string& text) {
+  constexpr double most = 1e6;
+  const double frames = amount_in(text);
+  if (!(frames > 0 && frames <= most)) {
+    throw UsageError("--fps=" + text + ": expected frames a second, above 0 and up to " + grouped(std::uint64_t{1'000'000}) +
+                     ", such as 24 or 30000/1001");
+  }
+  return frames;
+}
+
+void check(const OptionSet& options, FrameOptions& frames) {
+  if (!options.is_given("--animation")) {
+    frames.animation.reset();
+  }
+  const bool moves = frames.has_camera_path() || frames.animation;
+  if (frames.turntable_degrees && frames.camera_path) {
+    throw UsageError("--turntable does not go with --camera-path: the camera moves in one way");
+  }
+  if (frames.range && !moves) {
+    throw UsageError(
+        "--frames: expected --turntable=DEGREES or --camera-path=FILE, too, by which the camera moves, or --animation, which "
+        "moves what the scene's file says");
+  }
+  if (moves && !frames.range) {
+    throw UsageError(std::string(frames.camera_path         ? "--camera-path"
+                                 : frames.turntable_degrees ? "--turntable"
+                                                            : "--animation") +
+                     " goes with --frames, which says how many there are");
+  }
+  if (options.is_given("--fps") && !frames.animation) {
+    throw UsageError("--fps goes with --animation: nothing else takes time from frame to frame");
+  }
+}
+
 }  // namespace
 
 FrameRange parse_frames(const std::string& text) {
@@ -46,19 +80,15 @@ void add_options(OptionSet options, FrameOptions& frames) {
   options.add_path("--camera-path", "FILE", frames.camera_path,
                    "Move the camera through the keyframes of FILE, lines of a frame and what --camera takes, such as 24 "
                    "1,2,3/0,0,0, on a spline through them");
-  options.check_in_the_end([&frames] {
-    const bool moves = frames.turntable_degrees || frames.camera_path;
-    if (frames.turntable_degrees && frames.camera_path) {
-      throw UsageError("--turntable does not go with --camera-path: the camera moves in one way");
-    }
-    if (frames.range && !moves) {
-      throw UsageError("--frames: expected --turntable=DEGREES or --camera-path=FILE, too, by which the camera moves");
-    }
-    if (moves && !frames.range) {
-      throw UsageError(std::string(frames.camera_path ? "--camera-path" : "--turntable") +
-                       " goes with --frames, which says how many there are");
-    }
-  });
+  options.add_flag_with_text(
+      "--animation", "", frames.animation.emplace(),
+      "Frame K shows the scene's glTF file K - 1 frames after the beginning of its animation, the first or "
+      "--animation=NAME, by the file's camera, if it has one, unless that is moved as above. Caches stay "
+      "warm while nothing but the camera moves, else nodes begin anew");
+  options.add_text(
+      "--fps", "24", [&frames](const std::string& text) { frames.per_second = parse_per_second(text); },
+      "Frames a second of the animation");
+  options.check_in_the_end([options, &frames] { check(options, frames); });
 }
 
 CameraPath camera_path_of(const FrameOptions& frames) {

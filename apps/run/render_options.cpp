@@ -250,6 +250,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render teapot-12 --nodes=64 --runner=virtual --machine=ipsc860 --stats=teapot.json -o teapot.png\n"
       "  mpirun -n 4 dmpc render tetra-10 --runner=mpi --nodes=28 -o tetra.exr\n"
       "  dmpc render rings-4-t1 --frames=90 --turntable=1 -o rings.####.png\n"
+      "  dmpc render walk.gltf --frames=48 --animation=walk -o walk.####.png\n"
       "  dmpc render balls-6 --samples=256 --checkpoint=balls.checkpoint --resume -o balls.exr\n"
       "  dmpc render my.nff --strategy=replicated --tracer=embree --resolution=1024x768 -o my.tif\n"
       "The picture does not depend on the computer's options, to the last bit: the film_hash of --stats says so. Only\n"

@@ -31,9 +31,7 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
 
 Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options, bool shows_progress) {
   Subject subject = build(scene, picture, options, shows_progress);
-  for (const std::string& text :
-       {dropped_text(subject.database.dropped()), loss_text(subject.loss), duplicates_text(subject.database.duplicates()),
-        crowd_text(subject.settings.shade.one_child_from), subject.gain, subject.emitters}) {
+  for (const std::string& text : notes_of(subject)) {
     if (!text.empty()) {
       std::cerr << "dmpc: " << text << '\n';
     }
@@ -41,8 +39,18 @@ Subject build_subject(core::Scene scene, const PictureOptions& picture, const Da
   return subject;
 }
 
-Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options) {
-  return build(scene, picture, options, false);
+Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options,
+                              bool shows_progress) {
+  return build(scene, picture, options, shows_progress);
+}
+
+std::vector<std::string> notes_of(const Subject& subject) {
+  return {dropped_text(subject.database.dropped()),
+          loss_text(subject.loss),
+          duplicates_text(subject.database.duplicates()),
+          crowd_text(subject.settings.shade.one_child_from),
+          subject.gain,
+          subject.emitters};
 }
 
 std::string dropped_text(std::uint64_t count) {

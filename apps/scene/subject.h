@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "apps/scene/database_options.h"
 #include "apps/scene/picture_options.h"
@@ -29,7 +30,10 @@ Subject build_subject(core::Scene scene, const PictureOptions& picture, const Da
                       bool shows_progress = false);
 
 /// Builds it without a word.
-Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options);
+Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options,
+                              bool shows_progress = false);
+/// What build_subject() says: sentences, some of which may be empty.
+std::vector<std::string> notes_of(const Subject& subject);
 
 /// A sentence about the primitives that a database left out; empty if it left out none.
 std::string dropped_text(std::uint64_t count);

@@ -25,7 +25,7 @@ std::string explained(const std::string& name, const std::string& text) {
 std::string names_and_value(const OptionDescription& option) {
   std::string text;
   for (const std::string& name : option.names) {
-    text += (text.empty() ? "" : ",") + name + (option.has_optional_value ? "{" + option.standard + "}" : "");
+    text += (text.empty() ? "" : ",") + name + (option.standard.empty() ? "" : "{" + option.standard + "}");
   }
   return text + (option.value.empty() ? "" : " " + option.value);
 }

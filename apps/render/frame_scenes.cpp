@@ -1,0 +1,58 @@
+#include "apps/render/frame_scenes.h"
+
+#include "apps/scene/load_scene.h"
+#include "core/base/expect.h"
+#include "core/database/conversion.h"
+#include "core/database/parallel.h"
+
+namespace dmpc::apps {
+namespace {
+
+LoadNotes notes_for(const RenderOptions& options) { return options.quiet ? LoadNotes::silent : LoadNotes::said; }
+
+}  // namespace
+
+FrameScenes::FrameScenes(const RenderOptions& asked) : asked_(asked) {
+  if (asked.frames.range && asked.frames.has_camera_path()) {
+    path_.emplace(camera_path_of(asked.frames));
+  }
+}
+
+core::Scene FrameScenes::load(std::optional<std::uint64_t> frame, OpenedFiles& opened) {
+  core::expect(!are_animated() || frame, "an animation is shown by frames");
+  if (are_animated() && still_) {
+    core::Scene scene = load_at(asked_.frames.seconds_at(*frame), opened, nullptr);
+    moved_view_ = scene.view;
+    scene.view = own_view_;
+    return scene;
+  }
+  core::Scene scene = load_still(opened);
+  if (!are_animated() || asked_.frames.seconds_at(*frame) == 0) {
+    return scene;
+  }
+  scene = {};  // before there is another
+  return load(frame, opened);
+}
+
+/// Nothing has moved yet: what is looked at by whoever has no camera of its own.
+core::Scene FrameScenes::load_still(OpenedFiles& opened) {
+  BoundingSphere bounds;
+  core::Scene scene = are_animated() ? load_at(0, opened, &bounds) : load_scene(asked_.picture, notes_for(asked_), &opened);
+  own_view_ = moved_view_ = scene.view;
+  if (are_animated()) {
+    still_ = {bounds, own_view_};
+  }
+  if (path_) {
+    path_->set_scene(own_view_, core::bounds_of(scene, core::world_axes, core::Parallel(0)));
+    path_->check(asked_.frames.range->first, asked_.frames.range->last);
+  }
+  return scene;
+}
+
+core::Scene FrameScenes::load_at(double seconds, OpenedFiles& opened, BoundingSphere* bounds) {
+  PictureOptions picture = asked_.picture;
+  picture.staging.mesh.animation = {*asked_.frames.animation, seconds, asked_.frames.per_second, still_};
+  return load_scene(picture, notes_for(asked_), &opened, bounds);
+}
+
+}  // namespace dmpc::apps
