@@ -86,7 +86,7 @@ void add_options(OptionSet options, FrameOptions& frames) {
       "--animation=NAME, by the file's camera, if it has one, unless that is moved as above. Caches stay "
       "warm while nothing but the camera moves, else nodes begin anew");
   options.add_text(
-      "--fps", "24", [&frames](const std::string& text) { frames.per_second = parse_per_second(text); },
+      "--fps", "N [24]", [&frames](const std::string& text) { frames.per_second = parse_per_second(text); },
       "Frames a second of the animation");
   options.check_in_the_end([options, &frames] { check(options, frames); });
 }
