@@ -38,11 +38,11 @@ def render(
     None, regions: int | None = None, subsample: int | None = None, balance_grid: int | None = None, ray_batch: int | None = None,
     ray_credits: int | None = None, ray_places: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None,
     no_backpressure: bool = False, topology: Literal["hypercube", "mesh", "torus", "fat-tree", "crossbar"] | None = None, tracer:
-    Literal["grid", "embree"] | None = None, report: Text | None = None, trace: Text | None = None, trace_window: Text | Sequence[Text] |
-    None = None, trace_nodes: Text | Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int | None = None,
-    trace_keep: Literal["spread", "last", "first"] | None = None, references: Text | None = None, serve: bool | Text = False, frames: Text |
-    None = None, turntable: Text | None = None, camera_path: Text | None = None, checkpoint: Text | None = None, checkpoint_every: Text |
-    None = None, resume: bool = False, keep_checkpoint: bool = False
+    Literal["grid", "embree"] | None = None, report: Text | None = None, strip: Text | None = None, trace: Text | None = None, trace_window:
+    Text | Sequence[Text] | None = None, trace_nodes: Text | Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int
+    | None = None, trace_keep: Literal["spread", "last", "first"] | None = None, references: Text | None = None, serve: bool | Text = False,
+    frames: Text | None = None, turntable: Text | None = None, camera_path: Text | None = None, animation: bool | Text = False, fps: Text |
+    None = None, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
 ) -> Render:
     """Render a scene on N nodes."""
     return rendering.render(locals())
@@ -80,7 +80,8 @@ def sweep(
     None = None, ray_batch: int | Sequence[int] | None = None, ray_credits: int | Sequence[int] | None = None, ray_places: int |
     Sequence[int] | None = None, ray_queue: int | Sequence[int] | None = None, tested_objects: int | Sequence[int] | None = None,
     no_backpressure: bool | Sequence[bool] = False, topology: Literal["hypercube", "mesh", "torus", "fat-tree", "crossbar"] | Sequence[Text]
-    | None = None, tracer: Literal["grid", "embree"] | Sequence[Text] | None = None
+    | None = None, tracer: Literal["grid", "embree"] | Sequence[Text] | None = None, strip: Text | Sequence[Text] | None = None, animation:
+    bool | Sequence[bool] = False, fps: Text | Sequence[Text] | None = None
 ) -> pandas.DataFrame:
     """All combinations of any options of render, and the figures asked for."""
     return sweeping.sweep(locals())
@@ -110,11 +111,11 @@ def references(
     None, subsample: int | None = None, balance_grid: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None,
     ray_places: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False, topology:
     Literal["hypercube", "mesh", "torus", "fat-tree", "crossbar"] | None = None, tracer: Literal["grid", "embree"] | None = None, stats:
-    Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, trace: Text | None = None, trace_window:
-    Text | Sequence[Text] | None = None, trace_nodes: Text | Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int
-    | None = None, trace_keep: Literal["spread", "last", "first"] | None = None, serve: bool | Text = False, frames: Text | None = None,
-    turntable: Text | None = None, camera_path: Text | None = None, checkpoint: Text | None = None, checkpoint_every: Text | None = None,
-    resume: bool = False, keep_checkpoint: bool = False
+    Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, strip: Text | None = None, trace: Text |
+    None = None, trace_window: Text | Sequence[Text] | None = None, trace_nodes: Text | Sequence[Text] | None = None, trace_every: int |
+    None = None, trace_events: int | None = None, trace_keep: Literal["spread", "last", "first"] | None = None, serve: bool | Text = False,
+    frames: Text | None = None, turntable: Text | None = None, camera_path: Text | None = None, animation: bool | Text = False, fps: Text |
+    None = None, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.references(locals())
@@ -144,20 +145,20 @@ def trace(
     None, subsample: int | None = None, balance_grid: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None,
     ray_places: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False, topology:
     Literal["hypercube", "mesh", "torus", "fat-tree", "crossbar"] | None = None, tracer: Literal["grid", "embree"] | None = None, stats:
-    Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, trace_window: Text | Sequence[Text] | None
-    = None, trace_nodes: Text | Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int | None = None, trace_keep:
-    Literal["spread", "last", "first"] | None = None, references: Text | None = None, serve: bool | Text = False, frames: Text | None =
-    None, turntable: Text | None = None, camera_path: Text | None = None, checkpoint: Text | None = None, checkpoint_every: Text | None =
-    None, resume: bool = False, keep_checkpoint: bool = False
+    Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, strip: Text | None = None, trace_window:
+    Text | Sequence[Text] | None = None, trace_nodes: Text | Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int
+    | None = None, trace_keep: Literal["spread", "last", "first"] | None = None, references: Text | None = None, serve: bool | Text = False,
+    frames: Text | None = None, turntable: Text | None = None, camera_path: Text | None = None, animation: bool | Text = False, fps: Text |
+    None = None, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.trace(locals())
 
 
 def compare(
-    a: Text, b: Text, *, difference: Text | None = None, flip: Text | None = None, fail_above: Text | Sequence[Text] | None = None, only:
-    Text | Sequence[Text] | None = None, tolerance: Text | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None =
-    None
+    a: Text, b: Text, *, difference: Text | None = None, flip: Text | None = None, report: Text | None = None, fail_above: Text |
+    Sequence[Text] | None = None, only: Text | Sequence[Text] | None = None, tolerance: Text | Sequence[Text] | None = None, sandbox:
+    Literal["available", "required"] | None = None
 ) -> dict:
     """Measure how far two pictures lie apart, or where two runs' counters differ."""
     return comparing.compare(locals())
