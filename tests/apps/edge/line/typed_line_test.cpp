@@ -45,7 +45,7 @@ struct Slip {
 
 constexpr Slip slips[] = {
     // commands
-    {"rendr teapot-12 -o a.png", "rendr is no command: expected render, info"},
+    {"rendr teapot-12 -o a.png", "rendr is no command: expected render, view, info"},
     {"rendr teapot-12 -o a.png", "Did you mean render?"},
     {"Render teapot-12 -o a.png", "Did you mean render?"},
     {"speedup rings-3", "Did you mean study speedup?"},
