@@ -245,6 +245,8 @@ class LocalServer final : public WebServer, private httplib::Server {
       return false;
     }
     port_ = static_cast<std::uint16_t>(bound);
+    constexpr int many = 128;  // who comes when more than the library's five wait would come again a second later
+    ::listen(svr_sock_, many);
     listener_ = std::jthread([this] { listen_after_bind(); });
     while (!is_running()) {  // what is stopped before would go on
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

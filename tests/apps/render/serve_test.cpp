@@ -2,7 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <csignal>
+#include <cstddef>
+#include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/support/served_page.h"
@@ -53,6 +56,34 @@ TEST_CASE("the address is said in one line, and the picture is what it is withou
   CHECK(contains(events, "event: tile"));
   CHECK(contains(events, "event: end\ndata: {\"figures\":\"scene    balls-2"));
   CHECK(contains(events, "\"page\":false,\"said\":\"The picture is done.\"}"));
+}
+
+TEST_CASE("forty look on, of whom ten take nothing and ten go away: the picture is what it is without, and the rest hear of it") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> size = {"--resolution=256x256", "--samples=16"};
+  REQUIRE(run({DMPC_PROGRAM, "render", "balls-2", "--quiet", size[0], size[1], "-o", folder / "a.png"}).status == 0);
+  Served served(size);
+  std::vector<std::unique_ptr<WebClient>> viewers;
+  for (int i = 0; i < 40; ++i) {
+    viewers.push_back(std::make_unique<WebClient>(served.page.port));
+    viewers.back()->get(served.page.path("events"), served.page.host);
+  }
+  std::vector<std::jthread> hearing;
+  for (std::size_t i = 20; i < viewers.size(); ++i) {
+    hearing.emplace_back([&viewer = *viewers[i]] { viewer.heard_all(); });
+  }
+  for (std::size_t i = 0; i < 10; ++i) {
+    viewers[i]->heard_until("event: head");
+    viewers[i].reset();
+  }
+  hearing.clear();
+  for (std::size_t i = 20; i < viewers.size(); ++i) {
+    const std::string& heard = viewers[i]->heard();  // nothing where all was over when he came
+    CHECK_MESSAGE((heard.empty() || contains(heard, "\"said\":\"The picture is done.\"}")), heard.substr(0, 300));
+  }
+  CHECK_MESSAGE(contains(viewers[20]->heard(), "event: tile"), viewers[20]->heard().substr(0, 600));
+  CHECK(served.page.process.status() == 0);
+  CHECK(file_text(served.folder / "a.%d.png") == file_text(folder / "a.png"));
 }
 
 TEST_CASE("with --report who looks on has that page in the end") {
