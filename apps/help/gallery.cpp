@@ -98,6 +98,7 @@ void write_gallery(const fs::path& folder, Interrupt& interrupt) {
   const std::vector<ScenePicture> pictures = rendered_scenes(interrupt);
   interrupt.set_consequence("perhaps not all pictures were written");
   const Interrupt::EndAtOnce end_at_once(interrupt);
+  check_nothing_there(folder);  // that has come meanwhile
   for (const ScenePicture& picture : pictures) {
     write_image(folder / (picture.name + ".png"), picture.image);
   }

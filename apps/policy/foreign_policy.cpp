@@ -141,7 +141,8 @@ std::vector<std::string> ForeignPolicy::answers(std::span<const svm::PageId> ref
                                                 const std::function<void()>& check, const std::function<void()>& fed) const {
   const MemoryFile request, answer;
   put_request(request, node, cache_pages, references, source_);
-  ChildSettings settings{.folder = "/", .gets_ctrl_c = false, .input = request.descriptor(), .output = answer.descriptor()};
+  ChildSettings settings{
+      .folder = "/", .gets_ctrl_c = false, .input = request.descriptor(), .output = answer.descriptor(), .leaves_nothing = true};
   if (class_name_.empty()) {
     settings.program =
         companion_path("dmpc_policy_host", "../libexec/dmpc", "the program dmpc_policy_host, which loads policies,");

@@ -47,6 +47,7 @@ struct Start {
   const char* folder;
   int input, output, errors;
   bool has_own_group;
+  int death_signal;
   pid_t parent = ::getpid();
 
   Start(const ChildSettings& settings, int its_errors)
@@ -55,7 +56,8 @@ struct Start {
         input(settings.input),
         output(settings.output),
         errors(its_errors),
-        has_own_group(!settings.gets_ctrl_c) {
+        has_own_group(!settings.gets_ctrl_c),
+        death_signal(settings.leaves_nothing ? SIGKILL : SIGTERM) {
     words.insert(words.end(), settings.arguments.begin(), settings.arguments.end());
     std::transform(words.begin(), words.end(), std::back_inserter(pointers), [](std::string& word) { return word.data(); });
     pointers.push_back(nullptr);
@@ -81,7 +83,7 @@ bool unblocks_signals() {
 
 /// In the child. The thread that started it waits for it, and ends no sooner: what the child gets is the parent's death.
 [[noreturn]] void become(const Start& start, int complaint) {
-  const bool is_tied = ::prctl(PR_SET_PDEATHSIG, SIGTERM) == 0;
+  const bool is_tied = ::prctl(PR_SET_PDEATHSIG, start.death_signal) == 0;
   if (::getppid() != start.parent) {
     ::_exit(0);  // it has died before
   }
@@ -97,7 +99,8 @@ bool unblocks_signals() {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const ChildSettings& settings) {
+ChildProcess::ChildProcess(const ChildSettings& settings) : leaves_nothing_(settings.leaves_nothing) {
+  core::expect(!leaves_nothing_ || !settings.gets_ctrl_c, "what leaves nothing has a group of its own");
   const Start start(settings, errors_.descriptor());
   Complaint complaint;
   int error = complaint.ours.is_open() ? 0 : errno;
@@ -115,7 +118,8 @@ ChildProcess::ChildProcess(const ChildSettings& settings) {
 ChildProcess::~ChildProcess() {
   if (!status_) {
     ::kill(id_, SIGKILL);
-    wait_for_end();
+    has_ended(0);
+    take_end();
   }
 }
 
@@ -124,23 +128,42 @@ void ChildProcess::wait_for_end() const {
   }
 }
 
+/// It is still to be waited for: until then nobody else has its number, nor its group's.
+bool ChildProcess::has_ended(int options) const {
+  siginfo_t info{};
+  int waited = 0;
+  do {
+    waited = ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOWAIT | options);
+  } while (waited < 0 && errno == EINTR);
+  return waited == 0 && info.si_pid == id_;
+}
+
+void ChildProcess::end_group() const {
+  if (leaves_nothing_) {
+    ::kill(-id_, SIGKILL);
+  }
+}
+
 std::optional<int> ChildProcess::status() {
-  int status = 0;
-  if (!status_ && ::waitpid(id_, &status, WNOHANG) == id_) {
-    take(status);
+  if (!status_ && has_ended(WNOHANG)) {
+    take_end();
   }
   return status_;
 }
 
 int ChildProcess::wait() {
-  int status = 0;
-  while (!status_ && ::waitpid(id_, &status, 0) < 0) {
-    core::expect(errno == EINTR, "a child can be waited for");
+  if (!status_) {
+    core::expect(has_ended(0), "a child can be waited for");
+    take_end();
   }
-  return status_ ? *status_ : take(status);
+  return *status_;
 }
 
-int ChildProcess::take(int status) {
+int ChildProcess::take_end() {
+  end_group();
+  int status = 0;
+  while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+  }
   status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   return *status_;
 }

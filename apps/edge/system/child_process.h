@@ -19,6 +19,9 @@ struct ChildSettings {
   std::filesystem::path folder = ".";  ///< where it runs
   bool gets_ctrl_c = true;             ///< the terminal's Ctrl-C reaches it, too
   int input = -1, output = -1;         ///< opened files that are its stdin and stdout; below 0: /dev/null
+  /// Nothing of it outlives us, whatever it does: what it has started and left behind is killed when it ends, and it is, not
+  /// asked to end, when we do. Not with gets_ctrl_c.
+  bool leaves_nothing = false;
 };
 
 /// Killed and waited for in the end, unless it has ended before; ended (SIGTERM) where the thread that made it ends before, by
@@ -41,9 +44,12 @@ class ChildProcess {
 
  private:
   void wait_for_end() const;
-  int take(int status);
+  bool has_ended(int options) const;
+  void end_group() const;
+  int take_end();
 
   MemoryFile errors_;
+  bool leaves_nothing_;
   pid_t id_ = -1;
   std::optional<int> status_;
 };

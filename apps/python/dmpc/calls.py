@@ -80,8 +80,7 @@ def sweep(
     None = None, ray_batch: int | Sequence[int] | None = None, ray_credits: int | Sequence[int] | None = None, ray_places: int |
     Sequence[int] | None = None, ray_queue: int | Sequence[int] | None = None, tested_objects: int | Sequence[int] | None = None,
     no_backpressure: bool | Sequence[bool] = False, topology: Literal["hypercube", "mesh", "torus", "fat-tree", "crossbar"] | Sequence[Text]
-    | None = None, tracer: Literal["grid", "embree"] | Sequence[Text] | None = None, strip: Text | Sequence[Text] | None = None, animation:
-    bool | Sequence[bool] = False, fps: Text | Sequence[Text] | None = None
+    | None = None, tracer: Literal["grid", "embree"] | Sequence[Text] | None = None
 ) -> pandas.DataFrame:
     """All combinations of any options of render, and the figures asked for."""
     return sweeping.sweep(locals())

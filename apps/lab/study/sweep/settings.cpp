@@ -17,11 +17,30 @@ namespace {
 constexpr std::size_t runs_max = 10'000;
 
 /// Options of outputs, of what goes on from earlier ones, and of what is said meanwhile.
-constexpr const char* unsweepable[] = {
-    "--help",         "--output",      "--stats",      "--report",      "--heatmap",          "--trace",
-    "--trace-window", "--trace-nodes", "--serve",      "--trace-every", "--trace-events",     "--trace-keep",
-    "--quiet",        "--references",  "--checkpoint", "--resume",      "--checkpoint-every", "--keep-checkpoint",
-    "--frames",       "--turntable",   "--camera-path"};
+constexpr const char* unsweepable[] = {"--help",
+                                       "--output",
+                                       "--stats",
+                                       "--report",
+                                       "--heatmap",
+                                       "--trace",
+                                       "--trace-window",
+                                       "--trace-nodes",
+                                       "--serve",
+                                       "--trace-every",
+                                       "--trace-events",
+                                       "--trace-keep",
+                                       "--quiet",
+                                       "--references",
+                                       "--checkpoint",
+                                       "--resume",
+                                       "--checkpoint-every",
+                                       "--keep-checkpoint",
+                                       "--frames",
+                                       "--turntable",
+                                       "--camera-path",
+                                       "--animation",
+                                       "--fps",
+                                       "--strip"};
 
 /// `render` alone, for one line.
 class RenderLine {

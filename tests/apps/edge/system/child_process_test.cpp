@@ -1,6 +1,8 @@
 #include "apps/edge/system/child_process.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,6 +29,25 @@ TEST_CASE("a program that cannot be started, or not there, is an error with the 
   CHECK_THROWS_WITH_AS(apps::ChildProcess({.program = "/no/program"}), "/no/program cannot be started: No such file or directory",
                        core::InputError);
   CHECK_THROWS_AS(apps::ChildProcess({.program = "sh", .folder = "/no/folder"}), core::InputError);
+}
+
+TEST_CASE("what a child has started and left behind ends with it where it is to leave nothing") {
+  int ends[2];
+  REQUIRE(::pipe2(ends, O_CLOEXEC) == 0);
+  {
+    apps::ChildProcess child({.program = "sh",
+                              .arguments = {"-c", "sleep 600 & exit 3"},
+                              .gets_ctrl_c = false,
+                              .output = ends[1],
+                              .leaves_nothing = true});
+    ::close(ends[1]);
+    CHECK(child.wait() == 3);
+  }
+  pollfd heard{.fd = ends[0], .events = POLLIN, .revents = 0};
+  constexpr int minute_ms = 60'000;
+  CHECK(::poll(&heard, 1, minute_ms) == 1);  // nobody has the other end any more
+  CHECK((heard.revents & POLLHUP) != 0);
+  ::close(ends[0]);
 }
 
 TEST_CASE("a child ends when the process that made it is killed, and its scratch folder goes") {
