@@ -262,7 +262,8 @@ class Rendering {
     choose_machine(asked_);
     options_ = frame_ ? options_of(asked_, *frame_) : asked_;
     if (!options_.serve_port.empty()) {
-      live_ = std::make_unique<LiveView>(*number_in<std::uint16_t>(options_.serve_port), "dmpc render " + options_.picture.scene);
+      live_ = std::make_unique<LiveView>(*number_in<std::uint16_t>(options_.serve_port), "dmpc render " + options_.picture.scene,
+                                         [this] { interrupt_.stop_once(); });
       std::cerr << "dmpc: to be seen at " + live_->address() + "\n";  // at once
     }
   }

@@ -1,9 +1,6 @@
 #include "apps/render/live_view.h"
 
-#include <unistd.h>
-
 #include <condition_variable>
-#include <csignal>
 #include <exception>
 #include <utility>
 #include <vector>
@@ -22,18 +19,15 @@ constexpr std::size_t steps_max = 240;
 /// Places of events.
 enum : std::size_t { head_place, state_place, first_step, first_tile = first_step + steps_max };
 
-/// Means whatever a signal means to what goes on, at any time.
-WebAnswer stop_as_signal(const std::string& /*json*/) {
-  constexpr int failed = 500;
-  return ::kill(::getpid(), SIGTERM) == 0 ? WebAnswer{.body = "It stops.\n"}
-                                          : WebAnswer{.status = failed, .body = "It cannot be stopped from here.\n"};
-}
-
 }  // namespace
 
-LiveView::LiveView(std::uint16_t port, const std::string& title) : title_(title), feed_(first_tile), steps_(steps_max) {
-  server_.emplace(port, "--serve", feed_,
-                  PageServer::Service{.page = [this] { return page(); }, .takes = {{"stop", stop_as_signal}}});
+LiveView::LiveView(std::uint16_t port, const std::string& title, std::function<void()> stop)
+    : title_(title), feed_(first_tile), steps_(steps_max) {
+  const auto take_stop = [stop = std::move(stop)](const std::string& /*json*/) {
+    stop();
+    return WebAnswer{.body = "It stops.\n"};
+  };
+  server_.emplace(port, "--serve", feed_, PageServer::Service{.page = [this] { return page(); }, .takes = {{"stop", take_stop}}});
   publisher_ = std::jthread([this](const std::stop_token& stop) { publish(stop); });
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -29,16 +30,17 @@ struct LiveEnd {
   std::string page = {};     ///< which takes the live one's place, if there is one
 };
 
-/// Serves one page, with a secret in its address, and beside it the stream of its events. Whoever has it may stop what goes on,
-/// as SIGTERM would. A thread of its own makes them: the host and the nodes leave what they have where it finds it (LivePicture,
+/// Serves one page, with a secret in its address, and beside it the stream of its events. Whoever has it may stop what goes on.
+/// A thread of its own makes them: the host and the nodes leave what they have where it finds it (LivePicture,
 /// LiveCounts), and wait neither for it nor for a viewer. Beyond what a viewer takes of the server (WebServer) it keeps 4/3 bytes
 /// a byte of the picture as it is shown.
 ///
 /// Thread safety: one thread makes it, begins, ends and destroys it; watch() and update() are the host's.
 class LiveView {
  public:
-  /// Listens, on any port if that is 0. Throws core::InputError, naming --serve, if the port cannot be had, and as open_module().
-  LiveView(std::uint16_t port, const std::string& title);
+  /// Listens, on any port if that is 0; calls `stop` when a viewer asks for that, as often as one does and from any thread.
+  /// Throws core::InputError, naming --serve, if the port cannot be had, and as open_module().
+  LiveView(std::uint16_t port, const std::string& title, std::function<void()> stop);
   /// Whoever looks on is told that this is the end, unless that was said, and is left alone within three seconds.
   ~LiveView();
   LiveView(const LiveView&) = delete;

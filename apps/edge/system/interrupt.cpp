@@ -120,6 +120,12 @@ void Interrupt::check() const {
   }
 }
 
+void Interrupt::stop_once() {
+  if (source_.request_stop() && end_at_once_) {
+    end_now();
+  }
+}
+
 Interrupt::EndAtOnce::EndAtOnce(Interrupt& interrupt, Before before) : interrupt_(interrupt) {
   interrupt_.end_at_once_ = true;
   if (before == Before::counts && interrupt_.requested()) {

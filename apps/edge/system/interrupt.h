@@ -20,7 +20,8 @@ struct Interrupted {};
 /// signal handler. The first signal requests a stop, the second ends the process at once with status 130. One that was ignored
 /// when the process started, as SIGHUP is under nohup, still is. At most one at a time, made before any other thread.
 ///
-/// Thread safety: token(), requested(), set_consequence() and what is about SIGUSR1 from any thread, the rest from one at a time.
+/// Thread safety: token(), requested(), stop_once(), set_consequence() and what is about SIGUSR1 from any thread, the rest from
+/// one at a time.
 class Interrupt {
  public:
   Interrupt();
@@ -40,6 +41,9 @@ class Interrupt {
   void take_usr1_for_keep() { takes_usr1_for_keep_ = true; }
   /// Whether that has been asked since the last call.
   bool take_keep_request() { return is_keep_requested_.exchange(false); }
+
+  /// Means what the first signal means, and nothing where one has come: who asks for it knows of no other that does.
+  void stop_once();
 
   /// What an interruption from now on means for the outputs, as its message ends; at first "nothing was written". `words` is a
   /// literal.

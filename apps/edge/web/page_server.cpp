@@ -12,7 +12,14 @@ namespace {
 
 /// For pages: a stream holds a thread.
 constexpr std::size_t other_threads = 4;
-constexpr int not_found = 404, wrong_method = 405, come_later = 503;
+constexpr int not_found = 404, wrong_method = 405, wrong_type = 415, come_later = 503;
+
+const char* why_refused(int status) {
+  return status == wrong_method ? "Only GET and POST are answered here.\n"
+         : status == wrong_type ? "What is sent here is JSON, as application/json without more.\n"
+         : status == come_later ? "Nothing is here yet.\n"
+                                : "This is for who has the whole address, as dmpc has said it.\n";
+}
 
 std::string why_not(const std::string& option, std::uint16_t port, int error) {
   const std::string named =
@@ -43,7 +50,7 @@ WebAnswer PageServer::answer(const WebRequest& request) {
     const std::lock_guard lock(mutex_);
     const int refusal = gate_ ? gate_->refusal(request) : come_later;
     if (refusal != 0) {
-      return {.status = refusal, .body = "This is for who has the whole address, as dmpc has said it.\n"};
+      return {.status = refusal, .body = why_refused(refusal)};
     }
     place = gate_->place_of(request);
   }

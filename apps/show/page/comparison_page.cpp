@@ -74,11 +74,11 @@ Table bars_table(const TimeByName& times) {
   };
   const std::size_t shown = std::min(names.size(), plot_color_count - 1);
   std::stable_sort(names.begin(), names.end(), [&](const auto& a, const auto& b) { return larger(a) > larger(b); });
-  std::vector<Column> columns = {{"run"}};
+  std::vector<Column> columns = {{run_column}};
   for (std::size_t i = 0; i < shown; ++i) {
     columns.push_back({names[i], "ms", 3});
   }
-  columns.push_back({"all else", "ms", 3});
+  columns.push_back({rest_column, "ms", 3});
   Table table("What a node's time went to", std::move(columns));
   for (std::size_t side = 0; side < letters.size(); ++side) {
     std::vector<Cell> row = {std::string(letters[side])};

@@ -25,6 +25,7 @@ constexpr std::uint64_t byte_limit = 255;
 constexpr std::uint64_t picture_side_limit = std::uint64_t{1} << 20U;  ///< of a picture
 constexpr std::size_t step_count_limit = std::size_t{1} << 16U, list_size_limit = 4096;
 constexpr std::size_t word_bytes_limit = std::size_t{1} << 16U;
+constexpr double scale_limit = 1e12;
 
 [[noreturn]] void refuse(const std::string& file, const std::string& what) {
   throw core::InputError(file + ": " + what + "; expected a page that dmpc render --report=FILE.html wrote");
@@ -84,7 +85,11 @@ json head_of(const DataPart& data) {
   head["clock"] = clock;
   head["words"] = json::array();
   for (std::size_t i = 0; i < data.at("words").size(list_size_limit); ++i) {
-    head["words"].push_back(data.at("words").at(i).text(word_bytes_limit));
+    const DataPart word = data.at("words").at(i);
+    head["words"].push_back(word.text(word_bytes_limit));
+    if (!is_shell_word(word.text(word_bytes_limit))) {
+      word.refuse("a word of a command as a shell takes it, in quotes where it needs some");
+    }
   }
   head["total_ns"] = data.at("total_ns").whole(exact_number_max, 1);
   head["step_ns"] = data.at("step_ns").whole(exact_number_max, 1);
@@ -105,6 +110,15 @@ void add_picture_sizes(json& head, const DataPart& data) {
   head.update({{"width", width}, {"height", height}, {"cell", cell}, {"wide", wide}, {"high", high}});
 }
 
+/// Of numbers that are added up.
+double scale_of(const DataPart& scale) {
+  const double number = scale.number();
+  if (!(number >= 0 && number <= scale_limit)) {
+    scale.refuse("a number from 0 to 1e12");
+  }
+  return number;
+}
+
 json fields_of(const DataPart& fields, const Sizes& sizes) {
   json all = json::array();
   for (std::size_t i = 0; i < fields.size(core::heat_kind_names.size()); ++i) {
@@ -114,7 +128,7 @@ json fields_of(const DataPart& fields, const Sizes& sizes) {
     all.push_back({{"name", name},
                    {"meaning", field.at("meaning").text()},
                    {"unit", field.at("unit").text()},
-                   {"scale", field.at("scale").number()},
+                   {"scale", scale_of(field.at("scale"))},
                    {"values", field.at("values").numbers(sizes.cells, most)}});
   }
   return all;
@@ -124,7 +138,11 @@ json shares_of(const DataPart& works, const Sizes& sizes) {
   json all = json::array();
   for (std::size_t i = 0; i < works.size(byte_limit); ++i) {
     const DataPart work = works.at(i);
-    all.push_back({{"name", work.at("name").text()},
+    const std::string name = work.at("name").text();
+    if (name == run_column || name == rest_column) {
+      work.at("name").refuse("something that nodes do");
+    }
+    all.push_back({{"name", name},
                    {"ns", work.at("ns").whole(exact_number_max)},
                    {"shares", work.at("shares").numbers(sizes.nodes * sizes.steps, byte_limit)}});
   }

@@ -16,6 +16,9 @@ struct PlayedRun {
   double total_ns() const { return data["total_ns"].get<double>(); }
 };
 
+/// Columns of tables of time, which nothing is called that nodes do.
+inline constexpr const char *run_column = "run", *rest_column = "all else";
+
 /// `file` is what messages call it. Throws core::InputError for what is no page that plays a run: of a study, of two runs, of a
 /// program, of another format (both are named); for one that was cut off; and for data that do not hold together.
 PlayedRun played_run(std::string_view page, const std::string& file);

@@ -47,7 +47,7 @@ struct SmallView {
   }
 
   const LiveHead head{.width = 100, .height = 70, .node_count = 2};
-  std::unique_ptr<LiveView> view = std::make_unique<LiveView>(0, "dmpc render <small>");
+  std::unique_ptr<LiveView> view = std::make_unique<LiveView>(0, "dmpc render <small>", [] {});
   core::Film film{100, 70};
   core::Refinement pass{{}, 1, 100, 70};
 };
@@ -167,7 +167,7 @@ TEST_CASE("the next picture on the same nodes begins with nothing counted, and s
 }
 
 TEST_CASE("where it is not shown what nodes do nobody looks on at them, and the picture comes") {
-  LiveView view(0, "");
+  LiveView view(0, "", [] {});
   view.begin({.width = 100, .height = 70}, nullptr);
   CHECK(view.observer() == nullptr);
   view.begin({.width = 100, .height = 70, .frame = 2}, nullptr);
@@ -201,7 +201,7 @@ TEST_CASE("a port that another program has is said with what to do") {
   const std::string expected =
       "--serve=" + std::to_string(small.port()) + ": this port of 127.0.0.1 cannot be had: Address already";
   try {
-    const LiveView another(small.port(), "");
+    const LiveView another(small.port(), "", [] {});
     FAIL("a port is had twice");
   } catch (const core::InputError& error) {
     CHECK_MESSAGE(contains(error.what(), expected), error.what());

@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -121,6 +122,25 @@ TEST_CASE("who looks on may stop the run, as a signal does, and nobody who has n
   CHECK(contains(served.page.sent("stop", "{}"), "200 OK"));
   CHECK(contains(viewer.heard_all(), "\"said\":\"The run was interrupted: nothing was written.\"}"));
   CHECK(served.page.process.status() == 130);
+}
+
+TEST_CASE("a stop that is asked for again, or beside a signal, ends nothing at once: the checkpoint stays") {
+  for (const bool has_signal : {false, true}) {
+    CAPTURE(has_signal);
+    const TemporaryFolder folder;
+    Served served({endless[0], endless[1], "--checkpoint=" + (folder / "a.ck").string()});
+    WebClient viewer(served.page.port);
+    viewer.get(served.page.path("events"), served.page.host);
+    viewer.heard_until("The picture comes.");
+    viewer.heard_until("event: tile");
+    has_signal ? served.page.process.send(SIGINT) : static_cast<void>(served.page.sent("stop", "{}"));
+    for (int i = 0; i < 3; ++i) {
+      served.page.sent("stop", "{}");
+    }
+    viewer.heard_all();
+    CHECK(served.page.process.status() == 130);
+    CHECK(std::filesystem::exists(folder / "a.ck"));
+  }
 }
 
 TEST_CASE("who looks on when the run fails is told why") {

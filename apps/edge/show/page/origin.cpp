@@ -101,6 +101,21 @@ std::string command_text(std::span<const std::string> words) {
   return text;
 }
 
+bool is_shell_word(std::string_view text) {
+  constexpr std::string_view quote = "'\\''";
+  const bool is_quoted = text.size() >= 2 && text.front() == '\'' && text.back() == '\'';
+  std::string word;
+  std::string_view rest = is_quoted ? text.substr(1, text.size() - 2) : text;
+  while (!rest.empty()) {
+    const bool is_quote = is_quoted && rest.starts_with(quote);
+    word += rest.front();
+    rest.remove_prefix(is_quote ? quote.size() : 1);
+  }
+  const bool is_printed =
+      std::none_of(text.begin(), text.end(), [](unsigned char letter) { return letter < ' ' || letter == 0x7f; });
+  return is_printed && shell_word(word) == text;
+}
+
 std::string date_text(const char* epoch, std::int64_t now_seconds) {
   std::int64_t seconds = 0;
   const char* const end = epoch == nullptr ? nullptr : epoch + std::strlen(epoch);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dmpc::apps {
@@ -27,6 +28,9 @@ std::vector<std::string> own_words();
 
 /// The words as a shell takes them, in quotes where they need some; the program without its folder.
 std::string command_text(std::span<const std::string> words);
+
+/// Whether it is one of these words, of any command, without control characters.
+bool is_shell_word(std::string_view text);
 
 /// In UTC, to the minute; `epoch` is the text of SOURCE_DATE_EPOCH, or nullptr.
 std::string date_text(const char* epoch, std::int64_t now_seconds);

@@ -17,6 +17,16 @@ TEST_CASE("a command is as a shell takes it, without the program's folder") {
   CHECK(command_text({}).empty());
 }
 
+TEST_CASE("a word that a shell takes as one, and as it stands, is told from what it would take apart or run") {
+  for (const std::string word : {"render", "--nodes=8", "'my scene.nff'", "'it'\\''s'", "''", "'$(x)'", "'`x`'", "'\\'"}) {
+    CHECK_MESSAGE(is_shell_word(word), word);
+  }
+  for (const std::string word : {"", "my scene", "$(x)", "`x`", "a;b", "a&", "'", "'a'b'", "a'b'", "'a' 'b'", "'a\n'",
+                                 "'\x1b[0m'", "'render'", "#", "~", "*"}) {
+    CHECK_FALSE_MESSAGE(is_shell_word(word), word);
+  }
+}
+
 TEST_CASE("a page's date is that of SOURCE_DATE_EPOCH, or now where this is no number") {
   CHECK(date_text("0", 86'400) == "1970-01-01 00:00 UTC");
   CHECK(date_text("1795384800", 0) == "2026-11-22 22:00 UTC");
