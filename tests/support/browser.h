@@ -3,8 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
@@ -33,10 +35,12 @@ inline std::string window_around(const std::string& file, int width, const std::
          "\"></iframe>";
 }
 
-/// What the browser tells of the page in a window of so many pixels, of which it puts a picture into the file `shot`. `script` is
-/// an element that puts it into the window's title; `state` follows upon the page's address.
+/// What the browser tells of the page in a window of so many pixels, of which it puts a picture into the file `shot`; empty if it
+/// has not by that time of its own clock. `script` is an element that puts it into the window's title; `state` follows upon the
+/// page's address.
 inline std::string told_by_browser(const std::string& page, int width, bool is_dark, const std::filesystem::path& shot,
-                                   const std::string& script = telling_script, const std::string& state = "") {
+                                   const std::string& script = telling_script, const std::string& state = "",
+                                   std::chrono::milliseconds time = std::chrono::milliseconds(5000)) {
   const TemporaryFolder folder;
   write_text(folder / "page.html", page);
   write_text(folder / "window.html", window_around("page.html" + state, width, script));
@@ -44,14 +48,15 @@ inline std::string told_by_browser(const std::string& page, int width, bool is_d
                         "--allow-file-access-from-files", "--user-data-dir=" + (folder / "profile").string(),
                         "--window-size=" + std::to_string(width) + ",900",
                         std::string("--blink-settings=preferredColorScheme=") + (is_dark ? "0" : "1"),
-                        "--virtual-time-budget=5000", "--screenshot=" + shot.string(), "--dump-dom",
+                        "--virtual-time-budget=" + std::to_string(time.count()), "--screenshot=" + shot.string(), "--dump-dom",
                         "file://" + (folder / "window.html").string()});
   const int status = browser.status();
   REQUIRE_MESSAGE(status == 0,
                   "chromium ends with status " << status << ": is the package chromium installed? " << browser.errors());
   const std::string dom = browser.output();
-  const std::size_t begin = dom.find("<title>") + 7;
-  return dom.substr(begin, dom.find("</title>") - begin);
+  constexpr std::string_view title = "<title>";
+  const std::size_t begin = dom.find(title);
+  return begin == std::string::npos ? "" : dom.substr(begin + title.size(), dom.find("</title>") - begin - title.size());
 }
 
 /// Nothing sticks out of a page of that width, all its pictures show, and it asked for nothing; on a screen no table is cut.

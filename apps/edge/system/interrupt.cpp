@@ -145,13 +145,17 @@ int Interrupt::next_signal() const {
 }
 
 void Interrupt::wait_for_signals(const std::stop_token& closing) {
+  bool has_had_one = false;
   for (int signal = next_signal(); !closing.stop_requested(); signal = next_signal()) {
     if (signal == 0) {
       look_();
     } else if (signal == SIGUSR1 && takes_usr1_for_keep_) {
       is_keep_requested_ = true;
-    } else if (!is_ignored(signal) && (!source_.request_stop() || end_at_once_)) {
-      end_now();
+    } else if (!is_ignored(signal)) {
+      source_.request_stop();
+      if (std::exchange(has_had_one, true) || end_at_once_) {
+        end_now();
+      }
     }
   }
 }

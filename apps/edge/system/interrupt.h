@@ -42,7 +42,8 @@ class Interrupt {
   /// Whether that has been asked since the last call.
   bool take_keep_request() { return is_keep_requested_.exchange(false); }
 
-  /// Means what the first signal means, and nothing where one has come: who asks for it knows of no other that does.
+  /// Means what the first signal means, and nothing where one has come; one that comes after it is still the first. Who asks for
+  /// it knows of no other that does.
   void stop_once();
 
   /// What an interruption from now on means for the outputs, as its message ends; at first "nothing was written". `words` is a

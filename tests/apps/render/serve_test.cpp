@@ -61,7 +61,7 @@ TEST_CASE("the address is said in one line, and the picture is what it is withou
 
 TEST_CASE("forty look on, of whom ten take nothing and ten go away: the picture is what it is without, and the rest hear of it") {
   const TemporaryFolder folder;
-  const std::vector<std::string> size = {"--resolution=256x256", "--samples=16"};
+  const std::vector<std::string> size = {"--resolution=128x128", "--samples=64"};
   REQUIRE(run({DMPC_PROGRAM, "render", "balls-2", "--quiet", size[0], size[1], "-o", folder / "a.png"}).status == 0);
   Served served(size);
   std::vector<std::unique_ptr<WebClient>> viewers;
