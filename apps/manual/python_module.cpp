@@ -155,6 +155,12 @@ void collect(const CommandDescription& outer, std::set<std::string>& with_commas
   }
 }
 
+/// Options of frames, which are many pictures, and a call returns one.
+std::set<std::string> with_frames(std::set<std::string> own) {
+  own.insert({"frames", "turntable", "camera_path", "animation", "fps"});
+  return own;
+}
+
 bool prints_a_table(const CommandDescription& study) {
   return std::any_of(study.options.begin(), study.options.end(),
                      [](const OptionDescription& option) { return keyword_of(option) == "format"; });
@@ -184,12 +190,8 @@ std::string python_calls(const CommandDescription& program) {
          "from collections.abc import Sequence\nfrom typing import Literal\n\nimport pandas\n\n"
          "from . import comparing, looking, rendering, sweeping\nfrom .program import Text\nfrom .rendering import Render\n" +
          joined_calls({
-             {"render",
-              render,
-              {"help", "output", "stats", "heatmap", "quiet"},
-              "heat: Text | Sequence[Text] = ()",
-              "Render",
-              "rendering.render(locals())"},
+             {"render", render, with_frames({"help", "output", "stats", "heatmap", "quiet"}), "heat: Text | Sequence[Text] = ()",
+              "Render", "rendering.render(locals())"},
              {"sweep",
               sweep,
               {"help", "vary", "format", "output", "quiet"},
@@ -197,13 +199,10 @@ std::string python_calls(const CommandDescription& program) {
               "pandas.DataFrame",
               "sweeping.sweep(locals())",
               true},
-             {"references",
-              render,
-              {"help", "output", "references", "quiet"},
-              "",
-              "pandas.DataFrame",
+             {"references", render, with_frames({"help", "output", "references", "quiet"}), "", "pandas.DataFrame",
               "looking.references(locals())"},
-             {"trace", render, {"help", "output", "trace", "quiet"}, "", "pandas.DataFrame", "looking.trace(locals())"},
+             {"trace", render, with_frames({"help", "output", "trace", "quiet"}), "", "pandas.DataFrame",
+              "looking.trace(locals())"},
              {"compare", compare, {"help", "format"}, "", "dict", "comparing.compare(locals())"},
          });
 }

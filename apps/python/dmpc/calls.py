@@ -41,8 +41,7 @@ def render(
     Literal["grid", "embree"] | None = None, report: Text | None = None, strip: Text | None = None, trace: Text | None = None, trace_window:
     Text | Sequence[Text] | None = None, trace_nodes: Text | Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int
     | None = None, trace_keep: Literal["spread", "last", "first"] | None = None, references: Text | None = None, serve: bool | Text = False,
-    frames: Text | None = None, turntable: Text | None = None, camera_path: Text | None = None, animation: bool | Text = False, fps: Text |
-    None = None, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
+    checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
 ) -> Render:
     """Render a scene on N nodes."""
     return rendering.render(locals())
@@ -113,8 +112,7 @@ def references(
     Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, strip: Text | None = None, trace: Text |
     None = None, trace_window: Text | Sequence[Text] | None = None, trace_nodes: Text | Sequence[Text] | None = None, trace_every: int |
     None = None, trace_events: int | None = None, trace_keep: Literal["spread", "last", "first"] | None = None, serve: bool | Text = False,
-    frames: Text | None = None, turntable: Text | None = None, camera_path: Text | None = None, animation: bool | Text = False, fps: Text |
-    None = None, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
+    checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.references(locals())
@@ -147,8 +145,7 @@ def trace(
     Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None = None, strip: Text | None = None, trace_window:
     Text | Sequence[Text] | None = None, trace_nodes: Text | Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int
     | None = None, trace_keep: Literal["spread", "last", "first"] | None = None, references: Text | None = None, serve: bool | Text = False,
-    frames: Text | None = None, turntable: Text | None = None, camera_path: Text | None = None, animation: bool | Text = False, fps: Text |
-    None = None, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
+    checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.trace(locals())

@@ -48,20 +48,26 @@ def path():
 
 def is_several(value):
     """Whether it is a list, an array or whatever else has elements; text is one value, and so is a path."""
-    return hasattr(value, "__iter__") and not isinstance(value, (str, bytes, os.PathLike))
+    return hasattr(plain(value), "__iter__") and not isinstance(value, (str, bytes, os.PathLike))
 
 
 def several(value):
-    return list(value) if is_several(value) else [value]
+    return [plain(each) for each in value] if is_several(value) else [plain(value)]
+
+
+def plain(value):
+    """numpy's scalars as Python's: its False is none, but == False."""
+    return value.item() if hasattr(value, "item") and getattr(value, "ndim", 0) == 0 else value
 
 
 def scene_of(options):
     """Takes the scene out of what a call was given, and what is None or False. Raises a UsageError for what would be an option in a
     scene's place."""
-    given = {name: value for name, value in options.items() if value is not None and value is not False}
-    scene = str(given.pop("scene"))
-    if scene.startswith("-"):
-        raise UsageError(f"{scene}: expected a scene's name or file; options are named arguments, such as nodes=8")
+    given = {name: plain(value) for name, value in options.items()}
+    given = {name: value for name, value in given.items() if value is not None and value is not False}
+    scene = str(given.pop("scene", ""))
+    if not scene or scene.startswith("-"):
+        raise UsageError(f"{scene or 'no scene'}: expected a scene's name or file; options are named arguments, such as nodes=8")
     return scene, given
 
 

@@ -11,11 +11,15 @@ def sweep(options):
     """
     scene, options = program.scene_of(options)
     columns = program.several(options.pop("columns", ()))
-    varied = {name: list(value) for name, value in options.items() if program.is_several(value)}
+    varied = {name: program.several(value) for name, value in options.items() if program.is_several(value)}
     line = [scene, *program.words({name: value for name, value in options.items() if name not in varied})]
-    line += [f"--vary={name.replace('_', '-')}:{','.join(map(_typed, values))}" for name, values in varied.items()]
+    line += [f"--vary={name.replace('_', '-')}:{_between(list(map(_typed, values)))}" for name, values in varied.items()]
     line += [f"--columns={','.join(columns)}"] if columns else []
     return studying.table("sweep", line)
+
+
+def _between(values):
+    return ",".join(values) if not any("," in value for value in values) else ";".join(values) + ";"
 
 
 def _typed(value):

@@ -57,6 +57,14 @@ class RenderTest(unittest.TestCase):
         self.assertEqual(program.words({"cache_pages": [1, 4], "trace_nodes": (0, "3-5"), "nodes": []}),
                          ["--cache-pages=1,4", "--trace-nodes=0,3-5"])
 
+    def test_scalars_of_numpy_are_what_they_hold(self):
+        options = {"scene": numpy.str_("balls-1"), "count_pages": numpy.True_, "resume": numpy.False_, "nodes": numpy.int64(8),
+                   "cutoff": numpy.array(0.5)}
+        scene, given = program.scene_of(options)
+        self.assertEqual(scene, "balls-1")
+        self.assertEqual(program.words(given), ["--count-pages", "--nodes=8", "--cutoff=0.5"])
+        self.assertEqual(program.words({"cache_pages": numpy.array([1, 4])}), ["--cache-pages=1,4"])
+
     def test_a_notebook_shows_the_picture_and_what_it_came_to_with_texts_escaped(self):
         render = dmpc.render("balls-1", **SMALL, runner="virtual")
         png = render._repr_png_()
@@ -93,6 +101,11 @@ class FailureTest(unittest.TestCase):
                 call("--version")
             with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'help'"):
                 call("balls-1", help=True)
+
+        with self.assertRaisesRegex(dmpc.UsageError, "no scene: expected a scene's name"):
+            dmpc.render(None)
+        with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'frames'"):
+            dmpc.render("balls-1", frames=3)
 
     def test_an_option_that_there_is_not_is_an_error_of_the_call(self):
         with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'nodez'"):
@@ -179,6 +192,8 @@ class SweepTest(unittest.TestCase):
 
     def test_an_array_varies_and_one_column_needs_no_list(self):
         frame = dmpc.sweep("balls-1", resolution="8x8", runner="virtual", nodes=numpy.array([1, 2]), columns="pages.faults")
+        sides = dmpc.sweep("balls-1", resolution="8x8", runner="virtual", background=["0,0,0", "1,1,1"], columns="rays.total")
+        self.assertEqual(list(sides["background"]), ["0,0,0", "1,1,1"])
         self.assertEqual(list(frame["nodes"]), [1, 2])
         self.assertEqual(list(frame.columns), ["nodes", "pages.faults"])
 

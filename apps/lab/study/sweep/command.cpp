@@ -122,7 +122,8 @@ void add_options(OptionSet set, StudySweepOptions& options) {
       "  dmpc study sweep teapot-12 --nodes=16 --vary=strategy:svm,dataflow,forest --columns=packets.bytes,seconds.render\n"
       "  dmpc study sweep rings-4-t1 --runner=virtual --vary=cache-pages:16,64,256 --columns=faults,virtual_seconds \\\n"
       "      --runs=rings.runs --format=jsonl -o rings.jsonl\n"
-      "Modelled machines run side by side, threads one after the other. A value has no commas.");
+      "Modelled machines run side by side, threads one after the other. Values that have commas have\n"
+      "semicolons between: --vary='background:0,0,0;1,1,1'.");
 }
 
 int study_sweep_command(const StudySweepOptions& options, Interrupt& interrupt, std::ostream& output) {

@@ -83,7 +83,7 @@ void check_values(const VariedOption& variation, const std::string& text) {
   std::set<std::string> seen;
   for (const std::string& value : variation.values) {
     if (value.empty()) {
-      throw core::UsageError("--vary=" + text + ": a value is missing; expected values with commas between");
+      throw core::UsageError("--vary=" + text + ": a value is missing; expected values with commas between, or semicolons");
     }
     if (variation.is_flag && value != "on" && value != "off") {
       throw core::UsageError("--vary=" + text + ": " + variation.option + " is a flag; expected on, off or on,off");
@@ -92,6 +92,18 @@ void check_values(const VariedOption& variation, const std::string& text) {
       throw core::UsageError("--vary=" + text + ": " + value + " is there twice");
     }
   }
+}
+
+/// A value that has commas itself, such as a camera's place, ends with a semicolon.
+std::vector<std::string> values_in(const std::string& text) {
+  if (text.find(';') == std::string::npos) {
+    return words_between(text, ',');
+  }
+  std::vector<std::string> values = words_between(text, ';');
+  if (values.back().empty()) {
+    values.pop_back();
+  }
+  return values;
 }
 
 /// The word that gives an option one of its values; nothing for a flag that is off.
@@ -178,7 +190,7 @@ VariedOption parse_variation(const std::string& text) {
   if (colon == std::string::npos) {
     throw core::UsageError("--vary=" + text + ": the values are missing; expected " + name + ":VALUE,VALUE,...");
   }
-  VariedOption variation{"--" + name, option.value.empty(), words_between(text.substr(colon + 1), ',')};
+  VariedOption variation{"--" + name, option.value.empty(), values_in(text.substr(colon + 1))};
   check_values(variation, text);
   return variation;
 }

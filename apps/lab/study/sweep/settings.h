@@ -25,8 +25,9 @@ struct VariedOption {
   std::vector<std::string> values;  ///< as typed, each once
 };
 
-/// "page-size:1KiB,4KiB", with or without dashes before. Throws core::UsageError for an option that there is none, or that says
-/// where something goes; for no values, or one that is there twice; for values of a flag that are not on or off.
+/// "page-size:1KiB,4KiB", with or without dashes before; "background:0,0,0;1,1,1" where values have commas. Throws
+/// core::UsageError for an option that there is none, or that says where something goes; for no values, or one that is there
+/// twice; for values of a flag that are not on or off.
 VariedOption parse_variation(const std::string& text);
 
 struct SweepSettings {

@@ -210,6 +210,15 @@ TEST_CASE("what goes wrong is told before anything runs, with what was meant") {
   CHECK(contains(sweep_complaint({"--vary=nodes:2", "--nodes=2"}), "given, and varied"));
 }
 
+TEST_CASE("values that have commas have semicolons between, and one alone a semicolon behind") {
+  const std::string two = swept(tiny_sweep({"--vary=background:0,0,0;1,1,1", "--columns=rays.total"}));
+  CHECK(contains(two, "\"0,0,0\","));
+  CHECK(contains(two, "\"1,1,1\","));
+  CHECK(count(two, "\n") == 3);
+  CHECK(count(swept(tiny_sweep({"--vary=background:0,0,0;", "--columns=rays.total"})), "\n") == 2);
+  CHECK(contains(sweep_complaint({"--vary=background:0,0,0;;1,1,1"}), "a value is missing"));
+}
+
 TEST_CASE("a run that fails ends the sweep with the combination, and the rows before it are written") {
   const TemporaryFolder folder;
   apps::Interrupt interrupt;
