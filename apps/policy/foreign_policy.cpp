@@ -80,8 +80,9 @@ std::string complaint_of(const ChildProcess& process, int status) {
   if (said.size() > complaint_bytes_max) {
     said = "... " + said.substr(said.size() - complaint_bytes_max);
   }
-  const std::string end =
-      status < 0 ? "signal " + std::to_string(-status) + " ended it" : "it ended with status " + std::to_string(status);
+  const std::string end = status < 0    ? "signal " + std::to_string(-status) + " ended it"
+                          : status == 0 ? "it ended, as if all were well, before it had answered for every cache"
+                                        : "it ended with status " + std::to_string(status);
   return said.empty() || status < 0 ? end + (said.empty() ? "" : ", having said: " + said) : said;
 }
 

@@ -4,6 +4,7 @@
 #include <grp.h>
 #include <pwd.h>
 #include <sys/stat.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,6 +34,25 @@ std::optional<uid_t> unknown_owner() {
   return count >= all ? std::nullopt : std::optional(owner);
 }
 
+/// Whether a user of this computer, other than this process's, is in the group by his own entry, which the group does not list.
+/// Who is known to a network alone cannot be listed.
+bool is_group_of_others(gid_t id) {
+  std::array<char, 16384> text{};
+  passwd user{};
+  passwd* found = nullptr;
+  bool are_others = false;
+  ::setpwent();
+  while (!are_others && ::getpwent_r(&user, text.data(), text.size(), &found) == 0 && found != nullptr) {
+    are_others = user.pw_gid == id && user.pw_uid != ::geteuid();
+  }
+  ::endpwent();
+  return are_others;
+}
+
+/// Whether single users and groups have rights of their own (POSIX 1003.1e, withdrawn, as Linux has it): then the mode's group
+/// bits are the most that any of them may do.
+bool has_access_list(const fs::path& place) { return ::getxattr(place.c_str(), "system.posix_acl_access", nullptr, 0) > 0; }
+
 /// Whether it has the user's name and no other members, as many systems give each user a group.
 bool is_own_group(gid_t id) {
   std::array<char, 16384> user_text{}, group_text{};
@@ -50,7 +70,7 @@ bool is_own_group(gid_t id) {
       return false;
     }
   }
-  return name == members.gr_name;
+  return name == members.gr_name && !is_group_of_others(id);
 }
 
 /// What of a folder where everybody may write, but remove only what is his own.
@@ -89,8 +109,13 @@ class Trust {
     if ((found.st_mode & S_IWOTH) != 0 && !keeps_apart && !holds_program) {
       return std::string("everybody may write to it");
     }
-    if ((found.st_mode & S_IWGRP) != 0 && !keeps_apart && !holds_program && found.st_gid != 0 && !writes_program(found.st_gid) &&
-        !is_own_group(found.st_gid)) {
+    if ((found.st_mode & S_IWGRP) == 0 || keeps_apart || holds_program) {
+      return std::nullopt;
+    }
+    if (has_access_list(place)) {
+      return std::string("an access list lets others write to it");
+    }
+    if (found.st_gid != 0 && !writes_program(found.st_gid) && !is_own_group(found.st_gid)) {
       return "group " + std::to_string(found.st_gid) + " may write to it";
     }
     return std::nullopt;

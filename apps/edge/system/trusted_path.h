@@ -13,9 +13,9 @@ namespace dmpc::apps {
 /// nobody can have written it, or can put another in its place, but those whose code this process runs anyway: root, its own
 /// user, and the owner of the program that it runs. That is asked of the file and of each folder above it: whose they are, and
 /// that neither their group nor others may write there, but into folders where each may remove only what is his own (the sticky
-/// bit). A group that is the user's alone counts as the user, root's as root, and one that may replace the
-/// running program as its owner. A folder that the running program lies below, too, passes: whoever may write there may replace
-/// that.
+/// bit). A group that is the user's alone counts as the user, root's as root, and one that may replace the running program as its
+/// owner; who else an access list lets write counts as none of them. A folder that the running program lies below, too, passes:
+/// whoever may write there may replace that.
 ///
 /// Whose files are in a user namespace that does not know their owners, as containers of one user have it, cannot be told: such
 /// an owner passes, what may be written does not.

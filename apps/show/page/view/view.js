@@ -3,7 +3,7 @@ const byId = (id) => document.getElementById(id);
 const restMs = 200;  // without a wish to move for so long the camera rests
 const turnStep = Math.PI / 36, shiftStep = 0.05, nearStep = 0.9;
 const triesMax = 3;  // of EventSource, one every few seconds
-let head = null, camera = null, context = null, isSending = false, next = null, rests = 0, tries = 0, drag = null;
+let head = null, camera = null, context = null, isSending = false, next = null, rests = 0, tries = 0, drag = null, hasEnded = false;
 
 const say = (text) => {
   if (byId("said").textContent !== text) byId("said").textContent = text;
@@ -45,14 +45,14 @@ const show = (told) => {
 
 // One wish is on its way at a time, and then the newest.
 const send = async () => {
-  if (isSending || !next) return;
+  if (isSending || !next || hasEnded) return;
   const wish = next;
   [next, isSending] = [null, true];
   try {
     const answer = await fetch("camera", {method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(wish)});
     if (!answer.ok) say(await answer.text());
   } catch {
-    say("dmpc does not answer.");
+    if (!hasEnded) say("dmpc does not answer.");
   }
   isSending = false;
   send();
@@ -120,6 +120,7 @@ on("state", ({said, done, total}) => {
   [byId("done").max, byId("done").value] = [Math.max(1, total), done];
 });
 on("end", ({said}) => {
+  hasEnded = true;
   source.close();
   say(said);
 });

@@ -1,8 +1,11 @@
 #include "apps/edge/system/trusted_path.h"
 
 #include <doctest/doctest.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -27,6 +30,21 @@ struct Lying {
   }
   std::string why() const { return apps::why_untrusted(file).value_or("trusted"); }
 };
+
+/// Lets user 65533 do what `rights` say (4 to read, 2 to write), as setfacl does (linux/posix_acl_xattr.h).
+bool give_rights(const fs::path& file, std::uint16_t rights) {
+  struct Entry {
+    std::uint16_t of, rights;
+    std::uint32_t id;
+  };
+  constexpr std::uint32_t nobody = 0xffffffff;
+  struct {
+    std::uint32_t version = 2;
+    std::array<Entry, 5> entries;
+  } list;
+  list.entries = {Entry{1, 6, nobody}, {2, rights, 65533}, {4, 4, nobody}, {16, rights, nobody}, {32, 4, nobody}};
+  return ::setxattr(file.c_str(), "system.posix_acl_access", &list, sizeof(list), 0) == 0;
+}
 
 }  // namespace
 
@@ -65,6 +83,17 @@ TEST_CASE("code of another user, or in another's folder, or for another group to
   fs::permissions(lying.file, fs::perms(0755));
   CHECK(::chown(inner.c_str(), 65533, 0) == 0);
   CHECK(lying.why() == "of " + inner.string() + ", where it lies: it belongs to user 65533");
+}
+
+TEST_CASE("code that an access list lets somebody write is not trusted, in a group of the user's own either") {
+  const Lying lying;
+  if (!give_rights(lying.file, 4)) {
+    MESSAGE("left out: here files have no access lists");
+    return;
+  }
+  CHECK(lying.why() == "trusted");
+  CHECK(give_rights(lying.file, 6));
+  CHECK(lying.why() == "an access list lets others write to it");
 }
 
 }  // namespace dmpc::tests::trusted_path_test
