@@ -48,6 +48,7 @@ void put(nodes::FlatWriter& flat, const PlanRequest& request) {
   flat.put(request.first_samples);
   flat.put(request.refinement);
   flat.put(request.bundles);
+  flat.put(request.has_instances);
 }
 
 const Strategy* strategy_called(std::string_view name, const Strategies& strategies) {
@@ -70,6 +71,7 @@ PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks, const
   request.first_samples = flat.take<std::uint32_t>();
   request.refinement = flat.take<core::RefinementOptions>();
   request.bundles = flat.take<bool>();
+  request.has_instances = flat.take<bool>();
   return request;
 }
 

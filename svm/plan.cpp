@@ -376,8 +376,12 @@ nodes::MemoryPlan Plan::node_memory(std::uint32_t index) const {
                            FilmGather::layout(film()) + WorkSource::layout(work(), index) +
                            request.strategy->layout(*this, index);
   const auto waiting_max = static_cast<std::uint32_t>(request.waiting_hits_max);
-  if (pixels_a_task > 1) {
+  if (pixels_a_task > 1 && request.has_instances) {
+    plan += Slots<core::InstanceBundleTask>::layout(task_count(), waiting_max);
+  } else if (pixels_a_task > 1) {
     plan += Slots<core::BundleTask>::layout(task_count(), waiting_max);
+  } else if (request.has_instances) {
+    plan += Slots<core::InstancePixelTask>::layout(task_count(), waiting_max);
   } else {
     plan += Slots<core::PixelTask>::layout(task_count(), waiting_max);
   }

@@ -47,6 +47,7 @@ struct PlanRequest {
   std::span<const std::byte> database = {};  ///< its bytes, where the host is home to all pages; outlive the making of programs
   const core::FineDetail* detail = nullptr;  ///< the picture's, if it is refined; the host's alone; outlives plan and run
   bool bundles = false;                      ///< rays of neighbouring pixels walk together, where enough are in flight
+  bool has_instances = false;                ///< of the database: rays have longer cursors
 
   /// Nodes that render.
   std::uint32_t worker_count() const { return pages.worker_count.value_or(computer.node_count); }

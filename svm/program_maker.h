@@ -45,10 +45,12 @@ MakeProgram maker_over(const Plan& plan, const core::RenderSettings& settings, c
     };
     if constexpr (Bundles) {
       if (plan.pixels_a_task > 1) {
-        return make(std::type_identity<core::BundleTask>());
+        return settings.header.has_instances != 0 ? make(std::type_identity<core::InstanceBundleTask>())
+                                                  : make(std::type_identity<core::BundleTask>());
       }
     }
-    return make(std::type_identity<core::PixelTask>());
+    return settings.header.has_instances != 0 ? make(std::type_identity<core::InstancePixelTask>())
+                                              : make(std::type_identity<core::PixelTask>());
   };
 }
 

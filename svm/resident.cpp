@@ -36,12 +36,13 @@ std::vector<std::uint64_t> references_of_small_picture(const core::Database& dat
   core::GridTracer<CountedRecords> tracer(records, settings.header, settings.skips);
   core::Operations operations;
   std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
-  core::PixelTask task(stack);
   const std::vector<std::uint32_t> pixels =
       core::subsampled_pixels(settings.camera.width(), settings.camera.height(), profile_subsample);
-  for (std::size_t index = 0; index < pixels.size() && !stop.stop_requested(); ++index) {
-    core::render_pixel(task, pixels[index], {0, 1}, tracer, settings, operations);
-  }
+  core::with_pixel_task(settings.header, stack, [&](auto& task) {
+    for (std::size_t index = 0; index < pixels.size() && !stop.stop_requested(); ++index) {
+      core::render_pixel(task, pixels[index], {0, 1}, tracer, settings, operations);
+    }
+  });
   return records.counts();
 }
 

@@ -23,16 +23,17 @@ double picture_seconds(const core::Database& database, const core::RenderSetting
   core::GridTracer tracer(records, settings.header, settings.skips);
   core::Operations operations;
   std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
-  core::PixelTask task(stack);
   const std::uint64_t pixels = settings.camera.pixel_count();
   ProcessorStopwatch stopwatch(CLOCK_THREAD_CPUTIME_ID);
   double seconds = 0;
   std::uint64_t done = 0;
-  for (; done < pixels && seconds < pilot_seconds_max; ++done) {
-    const auto pixel = static_cast<std::uint32_t>(done * stride % pixels);
-    core::render_pixel(task, pixel, settings.first_samples(), tracer, settings, operations);
-    seconds += stopwatch.lap();
-  }
+  core::with_pixel_task(settings.header, stack, [&](auto& task) {
+    for (; done < pixels && seconds < pilot_seconds_max; ++done) {
+      const auto pixel = static_cast<std::uint32_t>(done * stride % pixels);
+      core::render_pixel(task, pixel, settings.first_samples(), tracer, settings, operations);
+      seconds += stopwatch.lap();
+    }
+  });
   return seconds * static_cast<double>(pixels) / static_cast<double>(done);
 }
 

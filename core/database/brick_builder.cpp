@@ -192,7 +192,8 @@ std::vector<Group> BrickBuilder::add_by_kind(const Bounds& cell, std::span<const
     }
     first = last;
   };
-  for (const PrimitiveKind kind : {PrimitiveKind::triangle, PrimitiveKind::sphere, PrimitiveKind::cone}) {
+  for (const PrimitiveKind kind :
+       {PrimitiveKind::triangle, PrimitiveKind::sphere, PrimitiveKind::cone, PrimitiveKind::instance}) {
     if (first == ids.size()) {
       break;  // mostly all are of one kind
     }

@@ -80,7 +80,10 @@ Address take_subtree_room_for(BrickDraft& draft, RecordWriter& writer) {
 void count_below(const BrickDraft& draft, RecordCounts& records) {
   ++records.bricks;
   for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
-    records.blocks[static_cast<std::size_t>(draft.blocks[i].kind)] += draft.blocks[i].count > 0 ? 1 : 0;
+    auto& count = draft.blocks[i].kind == PrimitiveKind::instance
+                      ? records.instance_blocks
+                      : records.blocks[static_cast<std::size_t>(draft.blocks[i].kind)];
+    count += draft.blocks[i].count > 0 ? 1 : 0;
   }
   for (const BrickDraft& brick : draft.bricks) {
     count_below(brick, records);

@@ -10,10 +10,12 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/database/overlap.h"
+#include "core/database/usable_place.h"
 #include "core/record/cone_floats.h"
 #include "core/record/coordinate.h"
 #include "core/record/curved_values.h"
 #include "core/record/passing_surface.h"
+#include "core/record/vanishing.h"
 #include "core/scene/frame.h"
 #include "core/scene/kept_meshes.h"
 #include "core/scene/placing.h"
@@ -22,15 +24,9 @@
 namespace dmpc::core {
 namespace {
 
-/// A coordinate beyond this share of float's range cannot be brought into a grid.
-constexpr double coordinate_max = 1e30;
 /// Objects, or vertices, that one thread takes at a time, and such chunks that are under way together.
 constexpr std::size_t chunk_size = 4096;
 constexpr std::size_t chunks_together = 16;
-
-bool usable(const Vec3d& v) {
-  return std::fabs(v.x) < coordinate_max && std::fabs(v.y) < coordinate_max && std::fabs(v.z) < coordinate_max;
-}
 
 void put(PrimitiveValues& primitive, std::size_t row, const Vec3d& v) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -101,17 +97,6 @@ void settle_passing_cone(PrimitiveValues& values, const Vec3d& base, const Vec3d
   }
 }
 
-/// Decided on the floats that are stored: equal vertices first, then area (a difference of exact products could be hidden by
-/// fusing).
-bool degenerate_triangle(const PrimitiveValues& triangle) {
-  const Vec3d a = triangle.vector(0), b = triangle.vector(3), c = triangle.vector(6);
-  const Vec3d area = cross(b - a, c - a);
-  return a == b || b == c || c == a || !(dot(area, area) > 0);
-}
-
-/// What is smaller than this, beside a scene of about 1, no ray in floats can tell from a point.
-constexpr double size_least = 0x1p-40;
-
 bool is_point(const PrimitiveValues& primitive) {
   const Box box = bounds_of(primitive);
   return largest_component(box.high - box.low) < size_least;
@@ -127,17 +112,6 @@ double height_of(const std::array<Vec3d, 3>& corner, double coordinate) {
   return height > line_share * coordinate ? height : 0.0;
 }
 
-using Place = std::array<float, 2>;
-
-/// A place that is no number counts as the texture's corner; one that is too far away to be told from its neighbours, too.
-Place usable_place(Place place) {
-  constexpr float place_max = 0x1p20F;
-  for (float& coordinate : place) {
-    coordinate = std::fabs(coordinate) < place_max ? coordinate : 0.0F;
-  }
-  return place;
-}
-
 /// Thinner than this share of its coordinates, a flat cone is no more than a point to doubles.
 constexpr double axis_share = 0x1p-46;
 
@@ -150,11 +124,6 @@ bool degenerate_cone(const PrimitiveValues& values) {
 void include_cube(Box& box, const Vec3d& center, double half) {
   box.include(center - Vec3d{half, half, half});
   box.include(center + Vec3d{half, half, half});
-}
-
-Vec3f unit_normal(const Vec3d& normal) {
-  const double size = length(normal);
-  return size > 0 && std::isfinite(size) ? Vec3f(normal * (1.0 / size)) : Vec3f{};
 }
 
 /// Appends some objects of a scene to a conversion.
@@ -234,7 +203,7 @@ class Converter {
     for (std::size_t i = 0; i < 3; ++i) {
       put(triangle, 3 * i, local(vertices[corners[i]]));
     }
-    const bool degenerate = degenerate_triangle(triangle) || is_point(triangle);
+    const bool degenerate = leaves_nothing({triangle.vector(0), triangle.vector(3), triangle.vector(6)});
     if (object.kind == ObjectKind::patch && !degenerate) {
       add_normals(object, corners);
     }

@@ -13,6 +13,7 @@
 #include "core/database/coplanar.h"
 #include "core/database/emitters.h"
 #include "core/database/empty_space.h"
+#include "core/database/kept_instances.h"
 #include "core/database/material_records.h"
 #include "core/database/mesh_faces.h"
 #include "core/database/parallel.h"
@@ -67,6 +68,8 @@ class DatabaseBuilder {
     expect(options.page_size_bytes >= 512 && options.page_size_bytes <= 65536 &&
                (options.page_size_bytes & (options.page_size_bytes - 1)) == 0,
            "a page is a power of two from 512 B to 64 KiB");
+    expect(!options.keeps_instances || (options.structure == Structure::extents && options.record_order == RecordOrder::spatial),
+           "instances are kept in one tree of extents, in spatial order");
     result_.page_size_ = options.page_size_bytes;
   }
 
@@ -80,10 +83,15 @@ class DatabaseBuilder {
       set_pad();                      // there are layers now
       cells = sort_into_top_cells();  // which may look for twins among the scene's objects
     }
+    if (options_.keeps_instances) {
+      kept_ = keep_instances(scene_, meshes, header().frame, result_.pad_, conversion_, parallel_);
+    }
     if (expendable_ != nullptr) {
       forget_objects(*expendable_);
     }
-    if (options_.structure == Structure::extents) {
+    if (!kept_.empty()) {
+      join_cells();
+    } else if (options_.structure == Structure::extents) {
       cells = join_top_cells();
     } else if (options_.structure == Structure::voxels) {
       cells = sort_into_voxels();
@@ -93,7 +101,11 @@ class DatabaseBuilder {
       emitters_ = choose_emitters(conversion_, scene_, options_.emitters_max);
     }
     result_.references_ = cells.references();
-    options_.structure == Structure::voxels ? write_voxels(cells) : write_records(cells);
+    if (!kept_.empty()) {
+      write_kept();
+    } else {
+      options_.structure == Structure::voxels ? write_voxels(cells) : write_records(cells);
+    }
     give_back_freed();  // trees are many small pieces
     result_.dropped_ = conversion_.dropped;
     result_.duplicates_ = conversion_.duplicates;
@@ -168,11 +180,15 @@ class DatabaseBuilder {
   /// One top cell in place of all. Whatever depends on cells but the boxes of bricks has been settled before, and rays start
   /// where they would without, so that the picture keeps its bits.
   TopCells join_top_cells() {
+    join_cells();
+    return sort_into_top_cells();
+  }
+
+  void join_cells() {
     header().frame.eye_extent = grid_high(header().frame) - header().frame.low;
     while (top_cells(header().frame) != std::array<std::int32_t, 3>{1, 1, 1}) {
       coarsen();
     }
-    return sort_into_top_cells();
   }
 
   /// Voxels in place of top cells. As with one top cell, the picture keeps its bits.
@@ -208,11 +224,89 @@ class DatabaseBuilder {
       write_forest(trees);
     }
     write_textures();
-    write_normals();
+    write_normals(conversion_);
     if (options_.structure == Structure::grid) {
       trees = draft_trees(cells);
     }
     write_grid(cells, trees);
+  }
+
+  /// What is no copy and the boxes of places are in one tree, behind which come those of meshes.
+  void write_kept() {
+    write_tables();
+    header().has_instances = 1;
+    const Address instances = writer_.allocate_array<InstanceRecord>(kept_.places.size());
+    const std::vector<std::uint32_t> ids = add_boxes(instances);
+    result_.references_ = ids.size();
+    const BrickBuilder builder(conversion_.primitives, result_.pad_, header().frame, parallel_, levels_above_instances);
+    std::vector<BrickTree> trees;
+    trees.push_back(builder.build({0, 0, 0}, ids));
+    write_forest(trees);
+    write_textures();
+    write_normals(conversion_);
+    DirectoryEntry top;
+    top.bits = static_cast<std::uint32_t>(trees[0].take_room(writer_));
+    take_mesh_room();
+    write_sky_tiles();
+    writer_.make_room();
+    trees[0].count(result_.records_);
+    trees[0].write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_);
+    write_meshes();
+    write_instances(instances);
+    writer_.write(header().directory, 0, top);
+    conversion_.primitives.resize(header().primitive_count);  // without boxes
+  }
+
+  /// The boxes of places become primitives behind all others. Returns what the top tree is over.
+  std::vector<std::uint32_t> add_boxes(Address instances) {
+    std::vector<std::uint32_t> ids = std::move(kept_.own_ids);
+    for (std::size_t i = 0; i < kept_.places.size(); ++i) {
+      const Bounds& bounds = kept_.places[i].bounds;
+      PrimitiveValues box{.kind = PrimitiveKind::instance};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.value[axis] = rounded_down(double{bounds.low[axis]} - result_.pad_);
+        box.value[3 + axis] = rounded_up(double{bounds.high[axis]} + result_.pad_);
+      }
+      ids.push_back(static_cast<std::uint32_t>(conversion_.primitives.size()));
+      conversion_.primitives.push_back(box);
+      conversion_.shading.push_back({static_cast<std::uint32_t>(advance(instances, i * sizeof(InstanceRecord)))});
+    }
+    return ids;
+  }
+
+  void take_mesh_room() {
+    for (MeshRecords& mesh : kept_.meshes) {
+      write_normals(mesh.conversion);
+      mesh.tree.take_forest_room(writer_, options_.page_size_bytes);
+      mesh.tree.take_room(writer_);
+    }
+  }
+
+  void write_meshes() {
+    for (const MeshRecords& mesh : kept_.meshes) {
+      mesh.tree.count(result_.records_);
+      mesh.tree.write(mesh.conversion.primitives, mesh.conversion.shading, mesh.conversion.planes, writer_);
+    }
+  }
+
+  void write_instances(Address instances) {
+    RecordCounts& counts = result_.records_;
+    counts.instances = kept_.places.size();
+    std::vector<bool> is_used(kept_.meshes.size());
+    for (std::size_t i = 0; i < kept_.places.size(); ++i) {
+      const KeptInstance& place = kept_.places[i];
+      const MeshRecords& mesh = kept_.meshes[place.mesh];
+      InstanceRecord record = kept_.record_of(place, header().frame, result_.pad_);
+      record.root = mesh.tree.address;
+      writer_.write(instances, i * sizeof(InstanceRecord), record);
+      const std::uint64_t triangles = mesh.conversion.primitives.size();
+      counts.placed_triangles += triangles;
+      if (!is_used[place.mesh]) {
+        is_used[place.mesh] = true;
+        ++counts.kept_meshes;
+        counts.kept_triangles += triangles;
+      }
+    }
   }
 
   void write_voxels(const TopCells& cells) {
@@ -220,7 +314,7 @@ class DatabaseBuilder {
     result_.references_ = conversion_.primitives.size();
     write_tables(lists.references());
     write_textures();
-    write_normals();
+    write_normals(conversion_);
     lists.take_room(conversion_, writer_);
     write_sky_tiles();
     writer_.make_room();
@@ -264,8 +358,8 @@ class DatabaseBuilder {
     materials.insert(materials.end(), emitters_.materials.begin(), emitters_.materials.end());
     const MaterialRecords records = material_records(materials, options_.for_paths);
     const std::size_t count = records.materials.size() + records.finishes.size();
-    expect(count <= 0x7fffffffU, "a database has no room for more materials");
-    header().material_count = count & 0x7fffffffU;
+    expect(count <= 0x3fffffffU, "a database has no room for more materials");
+    header().material_count = count & 0x3fffffffU;
     result_.records_.materials = records.materials.size();
     header().has_emission = std::any_of(scene_.materials.begin(), scene_.materials.end(),
                                         [](const Material& material) { return !(material.emission == Vec3d{}); })
@@ -333,20 +427,20 @@ class DatabaseBuilder {
     }
   }
 
-  void write_normals() {
-    result_.records_.normals = conversion_.smooth.size();
-    for (const Conversion::Smooth& smooth : conversion_.smooth) {
-      conversion_.shading[smooth.primitive] = ShadingReference::smooth(writer_.add(smooth.normals));
+  void write_normals(Conversion& conversion) {
+    result_.records_.normals += conversion.smooth.size();
+    for (const Conversion::Smooth& smooth : conversion.smooth) {
+      conversion.shading[smooth.primitive] = ShadingReference::smooth(writer_.add(smooth.normals));
     }
-    forget(conversion_.smooth);
-    result_.records_.textured = conversion_.textured.size();
-    for (Conversion::Textured& textured : conversion_.textured) {
+    forget(conversion.smooth);
+    result_.records_.textured += conversion.textured.size();
+    for (Conversion::Textured& textured : conversion.textured) {
       if (textured.texture != Material::no_texture) {
         textured.normals.texture = textures_[textured.texture];
       }
-      conversion_.shading[textured.primitive] = ShadingReference::smooth(add_textured(textured));
+      conversion.shading[textured.primitive] = ShadingReference::smooth(add_textured(textured));
     }
-    forget(conversion_.textured);
+    forget(conversion.textured);
   }
 
   Address add_textured(Conversion::Textured& triangle) {
@@ -414,6 +508,7 @@ class DatabaseBuilder {
   std::size_t object_count_ = 0;  ///< of the scene, before they are freed
   bool has_looked_for_twins_ = false;
   Conversion conversion_;
+  KeptInstances kept_;
   Emitters emitters_;
   SkyRecords sky_;
   std::vector<TextureReference> textures_;  ///< of the scene's, in order

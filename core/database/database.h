@@ -28,7 +28,10 @@ struct BuildOptions {
   GridAxes axes = world_axes;  ///< the grid's directions: another grid, so other bits, but the same picture to rounding
   /// Of what shines by itself at most so many are aimed at by paths (core/database/emitters.h). 0: none, as Whitted's has it.
   std::uint32_t emitters_max = 0;
-  bool for_paths = false;     ///< surfaces are as pictures by paths show them: Material::microfacets
+  bool for_paths = false;  ///< surfaces are as pictures by paths show them: Material::microfacets
+  /// Meshes of Scene::kept are records but once, and their copies InstanceRecords, with the film's bits that copies have. Takes
+  /// Structure::extents and RecordOrder::spatial.
+  bool keeps_instances = false;
   std::uint32_t threads = 0;  ///< that build; 0: one for each core. The bytes are the same
   /// Called now and then, by one thread at a time, with the references that are sorted into trees and how many there are: the
   /// longest part of a build. May be empty.
@@ -98,6 +101,9 @@ struct RecordCounts {
   std::uint64_t voxel_references = 0;  ///< the lengths of all lists
   std::uint64_t materials = 0;         ///< without the finishes that stand behind them
   std::uint64_t emitters_met = 0;      ///< primitives that shine by themselves and are not among the header's emitters
+  std::uint64_t instance_blocks = 0, instances = 0;
+  std::uint64_t kept_meshes = 0;                           ///< that instances are of
+  std::uint64_t kept_triangles = 0, placed_triangles = 0;  ///< of these meshes; of all instances
 };
 
 class Database {

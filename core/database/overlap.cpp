@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/expect.h"
 #include "core/record/cone_floats.h"
 
 namespace dmpc::core {
@@ -63,6 +64,10 @@ Box bounds_of(const PrimitiveValues& primitive) {
       include_disc(box, cone.apex, cone.axis, cone.apex_radius);
       break;
     }
+    case PrimitiveKind::instance:
+      box.include(primitive.vector(0));
+      box.include(primitive.vector(3));
+      break;
   }
   return box;
 }
@@ -96,6 +101,8 @@ Overlap::Overlap(const PrimitiveValues& primitive)
       radius_ = std::fabs(double{primitive.value[3]});
       apex_radius_ = std::fabs(double{primitive.value[7]});
       break;
+    case PrimitiveKind::instance:
+      expect(false, "boxes of instances are not listed in cells");
   }
 }
 

@@ -1,12 +1,16 @@
 #include "core/picture/bundle_task.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace dmpc::core {
 
 /// The first rays are shot by run(), as all others are.
-void BundleTask::start(std::span<const std::uint32_t> pixels, std::span<const SampleStep> steps, const RenderSettings& settings,
-                       Operations&) {
+template <class Bundle>
+void BundleTaskWith<Bundle>::start(std::span<const std::uint32_t> pixels, std::span<const SampleStep> steps,
+                                   const RenderSettings& settings, Operations&) {
+  expect((settings.header.has_instances != 0) == std::is_same_v<Bundle, InstanceBundle>,
+         "a bundle is one that the database's walk takes");
   expect(stack_.size() >= static_cast<std::size_t>(waiting_hits_max(settings.shade)), "the ray stack holds the hits that wait");
   expect(!pixels.empty() && pixels.size() <= pixels_max && pixels.size() == steps.size(), "a task has up to 16 pixels");
   std::copy(pixels.begin(), pixels.end(), pixels_.begin());
@@ -21,7 +25,8 @@ void BundleTask::start(std::span<const std::uint32_t> pixels, std::span<const Sa
 }
 
 /// With no hit left to shade: the next samples, if there are any.
-bool BundleTask::next_samples(const RenderSettings& settings, Operations& operations) {
+template <class Bundle>
+bool BundleTaskWith<Bundle>::next_samples(const RenderSettings& settings, Operations& operations) {
   if (next_place_ == pixel_count_) {
     return false;
   }
@@ -36,8 +41,9 @@ bool BundleTask::next_samples(const RenderSettings& settings, Operations& operat
   return true;
 }
 
-void BundleTask::shoot_primary(std::uint32_t place, std::uint32_t sample, const RenderSettings& settings,
-                               Operations& operations) {
+template <class Bundle>
+void BundleTaskWith<Bundle>::shoot_primary(std::uint32_t place, std::uint32_t sample, const RenderSettings& settings,
+                                           Operations& operations) {
   if (!settings.shows_background(pixels_[place])) {
     bundle_.rays[bundle_.count] = settings.camera.primary_ray(pixels_[place], sample);
     add_ray(place, operations);
@@ -51,20 +57,23 @@ void BundleTask::shoot_primary(std::uint32_t place, std::uint32_t sample, const 
 }
 
 /// The ray behind the others, which has been set.
-void BundleTask::add_ray(std::uint32_t place, Operations& operations) {
+template <class Bundle>
+void BundleTaskWith<Bundle>::add_ray(std::uint32_t place, Operations& operations) {
   ++operations.rays[static_cast<std::size_t>(bundle_.rays[bundle_.count].kind)];
   place_[bundle_.count++] = static_cast<std::uint8_t>(place);
 }
 
 /// Returns whether there are rays to be traced, which then are under way.
-bool BundleTask::begin_tracing() {
+template <class Bundle>
+bool BundleTaskWith<Bundle>::begin_tracing() {
   tracing_ = bundle_.count > 0;
   bundle_.start();
   return tracing_;
 }
 
 /// The place of the next ones, which is that of those that wait for nothing more.
-BundleHit& BundleTask::fresh_hits() {
+template <class Bundle>
+BundleHit& BundleTaskWith<Bundle>::fresh_hits() {
   stack_size_ = static_cast<std::uint8_t>(waiting_count(stack_, stack_size_));
   expect(stack_size_ < stack_.size(), "the ray stack holds the hits that wait");
   stack_[stack_size_].clear();
@@ -72,7 +81,8 @@ BundleHit& BundleTask::fresh_hits() {
 }
 
 /// What traced rays leave: light on the film, or hits on the stack.
-void BundleTask::end_rays(const RenderSettings& settings, Operations& operations) {
+template <class Bundle>
+void BundleTaskWith<Bundle>::end_rays(const RenderSettings& settings, Operations& operations) {
   const bool is_shadow = bundle_.rays[0].kind == RayKind::shadow;
   BundleHit* const hits = is_shadow ? nullptr : &fresh_hits();
   for (std::uint32_t i = 0; i < bundle_.count; ++i) {
@@ -93,5 +103,8 @@ void BundleTask::end_rays(const RenderSettings& settings, Operations& operations
   bundle_.count = 0;
   tracing_ = false;
 }
+
+template class BundleTaskWith<RayBundle>;
+template class BundleTaskWith<InstanceBundle>;
 
 }  // namespace dmpc::core

@@ -9,6 +9,7 @@
 #include "core/picture/bundle_hit.h"
 #include "core/picture/pixel_task.h"
 #include "core/trace/bundle.h"
+#include "core/trace/instance_bundle.h"
 
 namespace dmpc::core {
 
@@ -16,14 +17,16 @@ namespace dmpc::core {
 /// other, so that bundles are full however few samples each brings. Depth first, last in first out: a bundle's hits are shaded
 /// one bundle of children at a time, and each is traced to its end before the next is made, and hits leave for those of their
 /// last one, so the stack holds at most one BundleHit a depth, by paths one. Lives in memory given by its owner; never allocates.
-/// Copyable as bytes. The deposits are those of PixelTask, in another order, which sums do not know.
-class BundleTask {
+/// Copyable as bytes. The deposits are those of PixelTask, in another order, which sums do not know. `Bundle`: RayBundle, or of a
+/// database with instances InstanceBundle, which is longer.
+template <class Bundle>
+class BundleTaskWith {
  public:
   static constexpr std::uint32_t pixels_max = bundle_rays_max;
   using Hits = BundleHit;  ///< an entry of the stack
 
   /// `stack` has at least waiting_hits_max() entries and outlives the task.
-  explicit BundleTask(std::span<BundleHit> stack) : stack_(stack) {}
+  explicit BundleTaskWith(std::span<BundleHit> stack) : stack_(stack) {}
 
   /// Starts on each of `pixels`, at most 16, with as many steps, each of which brings samples.
   void start(std::span<const std::uint32_t> pixels, std::span<const SampleStep> steps, const RenderSettings& settings,
@@ -68,11 +71,18 @@ class BundleTask {
   std::uint8_t pixel_count_ = 0, next_place_ = 0;
   std::uint8_t stack_size_ = 0;  ///< at most a depth
   bool tracing_ = false;
-  RayBundle bundle_;
+  Bundle bundle_;
 };
 
+extern template class BundleTaskWith<RayBundle>;
+extern template class BundleTaskWith<InstanceBundle>;
+
+using BundleTask = BundleTaskWith<RayBundle>;
+using InstanceBundleTask = BundleTaskWith<InstanceBundle>;
+
+template <class Bundle>
 template <BundleTracer T>
-TaskState BundleTask::run(T& tracer, const RenderSettings& settings, Operations& operations) {
+TaskState BundleTaskWith<Bundle>::run(T& tracer, const RenderSettings& settings, Operations& operations) {
   if (!tracing_) {
     ended_ = 0;
     const TaskState shaded = shade(tracer, settings, operations);
@@ -90,8 +100,9 @@ TaskState BundleTask::run(T& tracer, const RenderSettings& settings, Operations&
 
 /// Shades the newest hits until they yield a bundle to be traced, or samples have ended that meet nothing (`more`), an absent
 /// record is needed, or no hit and no sample is left.
+template <class Bundle>
 template <BundleTracer T>
-TaskState BundleTask::shade(T& tracer, const RenderSettings& settings, Operations& operations) {
+TaskState BundleTaskWith<Bundle>::shade(T& tracer, const RenderSettings& settings, Operations& operations) {
   while ((stack_size_ = static_cast<std::uint8_t>(waiting_count(stack_, stack_size_))) > 0) {
     BundleHit& hits = stack_[stack_size_ - 1];
     const auto shoot = [&](std::uint32_t i, const auto& make) {

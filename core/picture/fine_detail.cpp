@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/expect.h"
 #include "core/record/cone_floats.h"
 #include "core/record/records.h"
 
@@ -111,6 +112,8 @@ class FineDetailFinder {
         return look_at_cone(ConeFloats({primitive.value.data(), 1, 0}));
       case PrimitiveKind::triangle:
         return look_at_triangle(primitive.value.data());
+      case PrimitiveKind::instance:
+        expect(false, "the detail of what is kept as instances is not looked for");
     }
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/expect.h"
 #include "core/picture/curved_clearance.h"
 #include "core/picture/triangle_hit.h"
 #include "core/record/curved_values.h"
@@ -91,13 +92,13 @@ void cone_geometry(HitState& state, const BlockLane& lane) {
 
 BlockLane lane_of(const HitState& state, const std::byte* record) {
   const auto header = read<BlockHeader>(record);
-  return {reinterpret_cast<const float*>(record + sizeof(BlockHeader)), header.count, state.hit.lane};
+  return {reinterpret_cast<const float*>(record + sizeof(BlockHeader)), header.count, state.hit.lane & lane_mask};
 }
 
 void read_surface(HitState& state, const std::byte* record) {
   const auto header = read<BlockHeader>(record);
   const std::size_t references = (value_count(header.kind) + 1) * header.count;
-  state.shading = read<ShadingReference>(record + sizeof(BlockHeader) + 4 * (references + state.hit.lane));
+  state.shading = read<ShadingReference>(record + sizeof(BlockHeader) + 4 * (references + (state.hit.lane & lane_mask)));
   state.curved = header.kind != PrimitiveKind::triangle;
   state.leaving = dot(state.ray.full_direction(), state.geometric_normal) > 0.0;
   state.normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
@@ -122,6 +123,8 @@ void read_geometry(HitState& state, const std::byte* record) {
     case PrimitiveKind::cone:
       cone_geometry(state, lane);
       break;
+    case PrimitiveKind::instance:
+      expect(false, "no ray hits the box of an instance");
   }
   read_surface(state, record);
 }

@@ -19,6 +19,8 @@ Address sky_record(const Ray& ray, const DatabaseHeader& header) {
 
 ShadingRecord shading_record_of(const HitState& state) {
   switch (state.stage) {
+    case HitState::Stage::instance:
+    case HitState::Stage::placed_normals:
     case HitState::Stage::geometry:
       return ShadingRecord::block;
     case HitState::Stage::normals:
@@ -37,6 +39,9 @@ ShadingRecord shading_record_of(const HitState& state) {
 
 Address record_needed(const HitState& state, const DatabaseHeader& header) {
   switch (state.stage) {
+    case HitState::Stage::instance:
+    case HitState::Stage::placed_normals:
+      return instance_of(state.hit);
     case HitState::Stage::geometry:
       return state.hit.block;
     case HitState::Stage::normals:

@@ -12,6 +12,7 @@
 #include "core/picture/texture_footprint.h"
 #include "core/picture/texture_lookup.h"
 #include "core/record/hit.h"
+#include "core/record/instance.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
 #include "core/record/shading_record.h"
@@ -30,8 +31,10 @@ struct Clearance {
 /// A hit being shaded: a record on the ray stack, resumable between any two of its records. Each step reads exactly one record.
 struct HitState {
   enum class Stage : std::uint8_t {
+    instance,  ///< of a triangle of a kept mesh: where that stands
     geometry,
     normals,
+    placed_normals,  ///< of a kept mesh: where it stands, once more
     texture,
     color_texture,  ///< of a surface whose texture of metal and roughness has been looked up: its normals' record once more
     material,
@@ -73,7 +76,32 @@ struct HitState {
     float metallic = 1, roughness = 1;
   };
 
+  /// What a kept mesh's normals say, until it is known what its place does to them: in the room of the shading normal, which
+  /// they lead to, and behind the ellipse.
+  struct MeshNormals {
+    CutEllipse ellipse;
+    Vec3f third;
+  };
+
   HitState() : surface() {}
+
+  /// Where the mesh stands whose triangle was hit, until point, normals and clearance are known: in their room.
+  void set_place(const InstanceRecord& instance) {
+    const auto& world = instance.world;
+    point = {world[0], world[1], world[2]};
+    geometric_normal = {world[3], world[4], world[5]};
+    normal = {world[6], world[7], world[8]};
+    clearance = {world[9], world[10], world[11]};
+    u = double{instance.unit};
+  }
+  /// That, but for what shading does not ask.
+  InstanceRecord place() const {
+    InstanceRecord instance;
+    instance.world = {point.x,  point.y,  point.z,  geometric_normal.x, geometric_normal.y, geometric_normal.z,
+                      normal.x, normal.y, normal.z, clearance.along,    clearance.across,   clearance.radius};
+    instance.unit = static_cast<float>(u);
+    return instance;
+  }
 
   /// Once the material has been read: in the room of the weights, which nobody asks for any more.
   Gloss gloss() const { return std::bit_cast<Gloss>(std::array{u, v}); }
@@ -124,11 +152,14 @@ struct HitState {
     Surface surface;       ///< once its material has been read
     TextureLookup lookup;  ///< before that, if there is a texture
     CutEllipse ellipse;    ///< before that, where there may be one
+    MeshNormals of_mesh;   ///< begins with the same
   };
   ShadingReference shading;
-  bool curved = false;          ///< a ray from here may meet the same primitive again
-  bool leaving = false;         ///< the ray goes along the true normal: out of the body
-  bool has_refraction = false;  ///< Snell's law has an answer: known if this hit may have children
+  bool curved = false;              ///< a ray from here may meet the same primitive again
+  bool leaving = false;             ///< the ray goes along the true normal: out of the body
+  bool has_refraction : 1 = false;  ///< Snell's law has an answer: known if this hit may have children
+  bool is_in_mirror : 1 = false;    ///< of a kept mesh: its corners come the other way round
+  bool has_normals : 1 = false;     ///< of a kept mesh, placed
   Stage stage = Stage::geometry;
 
   /// Its material has been read.
@@ -150,8 +181,8 @@ inline void begin_shading(HitState& state, const Ray& ray, const Hit& hit) {
   state.ray = ray;
   state.hit = hit;
   state.u = state.v = 0;
-  state.curved = state.leaving = state.has_refraction = false;
-  state.stage = HitState::Stage::geometry;
+  state.curved = state.leaving = state.has_refraction = state.is_in_mirror = state.has_normals = false;
+  state.stage = is_in_instance(hit) ? HitState::Stage::instance : HitState::Stage::geometry;
 }
 /// The state of a fresh hit.
 inline HitState begin_shading(const Ray& ray, const Hit& hit) {

@@ -1,11 +1,17 @@
 #include "core/picture/pixel_task.h"
 
+#include <type_traits>
+
 #include "core/base/expect.h"
 
 namespace dmpc::core {
 
-void PixelTask::start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings, Operations& operations) {
+template <class RayCursor>
+void PixelTaskWith<RayCursor>::start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings,
+                                     Operations& operations) {
   expect(stack_.size() >= static_cast<std::size_t>(waiting_hits_max(settings.shade)), "the ray stack holds the hits that wait");
+  expect((settings.header.has_instances != 0) == std::is_same_v<RayCursor, InstanceCursor>,
+         "a pixel's rays have the cursor that the database's walk takes");
   pixel_ = pixel;
   sample_ = samples.first;
   sample_end_ = samples.first + samples.count;
@@ -15,7 +21,8 @@ void PixelTask::start(std::uint32_t pixel, const SampleRange& samples, const Ren
   shoot_primary(settings, operations);
 }
 
-void PixelTask::shoot_primary(const RenderSettings& settings, Operations& operations) {
+template <class RayCursor>
+void PixelTaskWith<RayCursor>::shoot_primary(const RenderSettings& settings, Operations& operations) {
   if (shows_background_) {
     shoot(settings.missing_ray(pixel_, sample_), operations);
     ++operations.skipped.background;
@@ -24,7 +31,8 @@ void PixelTask::shoot_primary(const RenderSettings& settings, Operations& operat
   }
 }
 
-void PixelTask::shoot(const Ray& ray, Operations& operations) {
+template <class RayCursor>
+void PixelTaskWith<RayCursor>::shoot(const Ray& ray, Operations& operations) {
   ray_ = ray;
   cursor_ = {};
   tracing_ = true;
@@ -32,14 +40,16 @@ void PixelTask::shoot(const Ray& ray, Operations& operations) {
 }
 
 /// In the place of those that wait for nothing more.
-void PixelTask::push(const HitState& hit) {
+template <class RayCursor>
+void PixelTaskWith<RayCursor>::push(const HitState& hit) {
   stack_size_ = waiting_count(stack_, stack_size_);
   expect(stack_size_ < stack_.size(), "the ray stack holds the hits that wait");
   stack_[stack_size_++] = hit;
 }
 
 /// What a traced ray leaves: light on the film, or a hit on the stack.
-void PixelTask::end_ray(Traced result, const RenderSettings& settings, Operations& operations) {
+template <class RayCursor>
+void PixelTaskWith<RayCursor>::end_ray(Traced result, const RenderSettings& settings, Operations& operations) {
   expect(result == Traced::hit || result == Traced::miss, "a pixel's tracer sees the whole scene");
   tracing_ = false;
   if (result == Traced::miss && settings.asks_sky(ray_)) {
@@ -52,12 +62,16 @@ void PixelTask::end_ray(Traced result, const RenderSettings& settings, Operation
 }
 
 /// With no hit left to shade: the next sample, if there is one.
-bool PixelTask::next_sample(const RenderSettings& settings, Operations& operations) {
+template <class RayCursor>
+bool PixelTaskWith<RayCursor>::next_sample(const RenderSettings& settings, Operations& operations) {
   if (++sample_ == sample_end_) {
     return false;
   }
   shoot_primary(settings, operations);
   return true;
 }
+
+template class PixelTaskWith<Cursor>;
+template class PixelTaskWith<InstanceCursor>;
 
 }  // namespace dmpc::core

@@ -13,6 +13,7 @@
 #include "core/picture/shade.h"
 #include "core/trace/below.h"
 #include "core/trace/bundle_walk.h"
+#include "core/trace/instance_walk.h"
 #include "core/trace/operations.h"
 #include "core/trace/task_state.h"
 #include "core/trace/traversal.h"
@@ -34,6 +35,10 @@ class GridTracer {
   Traced trace(const Ray& ray, Cursor& cursor, Operations& operations) {
     return core::trace(ray, cursor, *records_, header_, skips_, operations);
   }
+  /// Of a database with instances.
+  Traced trace(const Ray& ray, InstanceCursor& cursor, Operations& operations) {
+    return core::trace(ray, cursor, *records_, header_, skips_, operations);
+  }
   /// Traces with a test of blocks of one's own: test(record, address, best).
   template <class Test>
   Traced trace(const Ray& ray, Cursor& cursor, Operations& operations, const Test& test) {
@@ -41,6 +46,9 @@ class GridTracer {
   }
   /// Traces rays that walk together.
   bool trace(RayBundle& bundle, Operations& operations) { return core::trace(bundle, *records_, header_, skips_, operations); }
+  bool trace(InstanceBundle& bundle, Operations& operations) {
+    return core::trace(bundle, *records_, header_, skips_, operations);
+  }
   const std::byte* find(Address address) { return records_->find(address); }
   /// In which rays walk: the header's, or that of the last move_to().
   const Region& region() const { return header_.region; }
@@ -119,13 +127,15 @@ inline std::optional<Color> light_of_ended(const Ray& ray, bool hit, const Rende
 /// Renders samples of one pixel, depth first, last in first out: a hit is shaded one child at a time, and each child is
 /// traced to its end before the next is made, and a hit leaves for that of its last one, so the stack holds at most one hit a
 /// depth, by paths one, whatever the number of lights. Lives in memory given by its owner; never allocates. Copyable as bytes.
-class PixelTask {
+/// `RayCursor`: Cursor, or of a database with instances InstanceCursor, which is longer.
+template <class RayCursor>
+class PixelTaskWith {
  public:
   static constexpr std::uint32_t pixels_max = 1;
   using Hits = HitState;  ///< an entry of the stack
 
   /// `stack` has at least waiting_hits_max() entries and outlives the task.
-  explicit PixelTask(std::span<HitState> stack) : stack_(stack) {}
+  explicit PixelTaskWith(std::span<HitState> stack) : stack_(stack) {}
 
   void start(std::uint32_t pixel, const SampleRange& samples, const RenderSettings& settings, Operations& operations);
   /// Starts on one pixel, by the interface of tasks of several.
@@ -170,7 +180,7 @@ class PixelTask {
 
   std::span<HitState> stack_;
   Ray ray_;
-  Cursor cursor_;
+  RayCursor cursor_;
   PixelSums sums_;
   Address absent_ = no_address;
   std::uint32_t pixel_ = 0;
@@ -180,8 +190,27 @@ class PixelTask {
   bool shows_background_ = false;  ///< the pixel's primary rays are not traced: they miss
 };
 
+extern template class PixelTaskWith<Cursor>;
+extern template class PixelTaskWith<InstanceCursor>;
+
+using PixelTask = PixelTaskWith<Cursor>;
+using InstancePixelTask = PixelTaskWith<InstanceCursor>;
+
+/// work(task) with a task that a database's rays fit.
+template <class Work>
+void with_pixel_task(const DatabaseHeader& header, std::span<HitState> stack, const Work& work) {
+  if (header.has_instances != 0) {
+    InstancePixelTask task(stack);
+    work(task);
+  } else {
+    PixelTask task(stack);
+    work(task);
+  }
+}
+
+template <class RayCursor>
 template <Tracer T>
-TaskState PixelTask::run(T& tracer, const RenderSettings& settings, Operations& operations) {
+TaskState PixelTaskWith<RayCursor>::run(T& tracer, const RenderSettings& settings, Operations& operations) {
   if (!tracing_) {
     const TaskState shaded = shade(tracer, settings, operations);
     if (shaded != TaskState::more) {
@@ -198,8 +227,9 @@ TaskState PixelTask::run(T& tracer, const RenderSettings& settings, Operations& 
 }
 
 /// Shades the newest hit until it yields a ray to be traced (`more`), needs an absent record, or no hit and no sample is left.
+template <class RayCursor>
 template <Tracer T>
-TaskState PixelTask::shade(T& tracer, const RenderSettings& settings, Operations& operations) {
+TaskState PixelTaskWith<RayCursor>::shade(T& tracer, const RenderSettings& settings, Operations& operations) {
   while ((stack_size_ = waiting_count(stack_, stack_size_)) > 0) {
     HitState& state = stack_[stack_size_ - 1];
     const Address address = record_needed(state, settings.header);

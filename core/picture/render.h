@@ -10,9 +10,9 @@
 namespace dmpc::core {
 
 /// Renders the samples of one pixel with `tracer`, which never answers absent, and adds the work to `operations`.
-template <Tracer T>
-PixelSums render_pixel(PixelTask& task, std::uint32_t pixel, const SampleRange& samples, T& tracer,
-                       const RenderSettings& settings, Operations& operations) {
+template <class Task, Tracer T>
+PixelSums render_pixel(Task& task, std::uint32_t pixel, const SampleRange& samples, T& tracer, const RenderSettings& settings,
+                       Operations& operations) {
   task.start(pixel, samples, settings, operations);
   TaskState state = TaskState::more;
   while (state != TaskState::finished) {
@@ -29,14 +29,15 @@ Film render(T& tracer, const RenderSettings& settings, Operations& operations, c
   Film film(width, height, settings.shade.film_scale, planes_for(settings.first_samples().count));
   Refinement refinement(settings.refinement, settings.first_samples().count, width, height, detail, film.scale());
   std::vector<HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
-  PixelTask task(stack);
-  do {
-    for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count(); ++pixel) {
-      if (refinement.pass().has(pixel)) {
-        film.deposit(pixel, render_pixel(task, pixel, refinement.pass().samples(pixel), tracer, settings, operations));
+  with_pixel_task(settings.header, stack, [&](auto& task) {
+    do {
+      for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count(); ++pixel) {
+        if (refinement.pass().has(pixel)) {
+          film.deposit(pixel, render_pixel(task, pixel, refinement.pass().samples(pixel), tracer, settings, operations));
+        }
       }
-    }
-  } while (refinement.next_pass(film));
+    } while (refinement.next_pass(film));
+  });
   return film;
 }
 

@@ -18,6 +18,8 @@
 #include "core/picture/microfacet_lobes.h"
 #include "core/picture/surface_shares.h"
 #include "core/record/emitter.h"
+#include "core/record/instance.h"
+#include "core/trace/placed_block.h"
 
 namespace dmpc::core {
 namespace {
@@ -35,6 +37,13 @@ float both_shares(const HitState& state) { return mirrored_share(state) + state.
 std::uint64_t bits_of(const Vec3f& vector) {
   const auto word = [](float value) { return std::uint64_t{std::bit_cast<std::uint32_t>(value)}; };
   return mix(mix(word(vector.x) << 32U | word(vector.y)) + word(vector.z));
+}
+
+/// A mirror's corners come the other way round.
+void turn_places(const HitState& state, TexturedNormals& triangle) {
+  if (state.is_in_mirror) {
+    std::swap(triangle.place[0], triangle.place[2]);
+  }
 }
 
 /// From 0 to 1, of a ray: its own, whoever shades its hit, and when.
@@ -194,6 +203,13 @@ double Shader::width_at_hit(const HitState& state) const {
 }
 
 void Shader::read_geometry(HitState& state, const std::byte* record) const {
+  PlacedBlock placed;
+  if (is_in_instance(state.hit)) {
+    const MeshPlace place(state.place(), header_.frame);
+    placed.place(record, place);
+    record = placed.record();
+    state.is_in_mirror = place.is_mirrored();
+  }
   core::read_geometry(state, record);
   if (options_.pixel_share > 0 && state.stage == Stage::normals) {
     const bool is_primary = state.ray.kind == RayKind::primary;
@@ -201,9 +217,8 @@ void Shader::read_geometry(HitState& state, const std::byte* record) const {
   }
 }
 
-void Shader::begin_texture(HitState& state, const std::byte* record) const {
+void Shader::begin_texture(HitState& state, const TexturedNormals& textured) const {
   ++operations_.texture_lookups;
-  const auto textured = read<TexturedNormals>(record);
   const CutEllipse ellipse = options_.pixel_share > 0 ? state.ellipse : CutEllipse{};
   const TextureFootprint footprint = footprint_of(textured, state.u, state.v, ellipse, width_at_hit(state));
   state.u = footprint.middle.s;
@@ -256,8 +271,7 @@ void Shader::step_texture(HitState& state, const std::byte* record) const {
 }
 
 /// The colours of a triangle's corners, between which lies that of the hit as what a texture would give.
-void Shader::read_corners(HitState& state, const std::byte* record) const {
-  const auto corners = read<TexturedNormals>(record);
+void Shader::read_corners(HitState& state, const TexturedNormals& corners) const {
   const std::array<double, 3> weight{1.0 - state.u - state.v, state.u, state.v};
   std::array<double, 4> sum{};
   for (std::size_t corner = 0; corner < weight.size(); ++corner) {
@@ -275,23 +289,59 @@ void Shader::read_corners(HitState& state, const std::byte* record) const {
 }
 
 /// Blends the vertex normals, turned to the winding's side and then to the ray's.
-void Shader::read_normals(HitState& state, const std::byte* record) const {
-  const auto normals = read<PatchNormals>(record);
-  const Vec3d blend = Vec3d(normals.normal[0]) * (1.0 - state.u - state.v) + Vec3d(normals.normal[1]) * state.u +
-                      Vec3d(normals.normal[2]) * state.v;
+void Shader::blend_normals(HitState& state, const std::array<Vec3f, 3>& normals) const {
+  const Vec3d blend = Vec3d(normals[0]) * (1.0 - state.u - state.v) + Vec3d(normals[1]) * state.u + Vec3d(normals[2]) * state.v;
   const double size = length(blend);
   if (size > 0.0) {
     ++operations_.normal_reads;
     const double side = dot(blend, state.normal) < 0.0 ? -1.0 : 1.0;
     state.normal = blend * (side / size);
   }
+}
+
+/// Those of a kept mesh, until its place is read once more.
+void Shader::keep_normals(HitState& state, const PatchNormals& normals) const {
+  if (!normals.is_textured()) {
+    state.shading = ShadingReference::flat(normals.material());
+  }
+  const CutEllipse ellipse = options_.pixel_share > 0 ? state.ellipse : CutEllipse{};
+  std::construct_at(&state.of_mesh, HitState::MeshNormals{ellipse, normals.normal[2]});
+  state.normal = std::bit_cast<Vec3d>(std::array{normals.normal[0], normals.normal[1]});
+  state.stage = Stage::placed_normals;
+}
+
+/// What the converter makes of a copy's normals.
+void Shader::place_normals(HitState& state, const std::byte* instance) const {
+  const auto two = std::bit_cast<std::array<Vec3f, 2>>(state.normal);
+  const CutEllipse ellipse = state.of_mesh.ellipse;
+  const MeshPlace place(read<InstanceRecord>(instance), header_.frame);
+  const std::array<Vec3f, 3> normals = place.normals({two[0], two[1], state.of_mesh.third});
+  state.normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
+  std::construct_at(&state.ellipse, ellipse);
+  blend_normals(state, normals);
+  state.has_normals = true;
+  state.stage = state.shading.is_smooth() ? Stage::normals : Stage::material;
+}
+
+void Shader::read_normals(HitState& state, const std::byte* record) const {
+  const auto normals = read<PatchNormals>(record);
+  if (is_in_instance(state.hit) && !state.has_normals) {
+    return keep_normals(state, normals);
+  }
+  if (!state.has_normals) {
+    blend_normals(state, normals.normal);
+  }
   if (normals.is_textured() && read<TexturedNormals>(record).has_facets != 0) {
-    return begin_facets(state, read<FacetedNormals>(record));
+    auto faceted = read<FacetedNormals>(record);
+    turn_places(state, faceted.textured);
+    return begin_facets(state, faceted);
   }
   state.shading = ShadingReference::flat(normals.material());
   state.stage = Stage::material;
   if (normals.is_textured()) {
-    read<TexturedNormals>(record).has_texture() ? begin_texture(state, record) : read_corners(state, record);
+    auto textured = read<TexturedNormals>(record);
+    turn_places(state, textured);
+    textured.has_texture() ? begin_texture(state, textured) : read_corners(state, textured);
   }
 }
 
@@ -578,8 +628,15 @@ bool Shader::is_worth_it(const Ray& child) const {
 
 bool Shader::step(HitState& state, const std::byte* record, Ray& child) const {
   switch (state.stage) {
+    case Stage::instance:
+      state.set_place(read<InstanceRecord>(record));
+      state.stage = Stage::geometry;
+      return false;
     case Stage::geometry:
       read_geometry(state, record);
+      return false;
+    case Stage::placed_normals:
+      place_normals(state, record);
       return false;
     case Stage::normals:
       read_normals(state, record);

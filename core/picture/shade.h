@@ -109,11 +109,14 @@ class Shader {
  private:
   void read_geometry(HitState& state, const std::byte* record) const;
   void read_normals(HitState& state, const std::byte* record) const;
-  void begin_texture(HitState& state, const std::byte* record) const;
+  void keep_normals(HitState& state, const PatchNormals& normals) const;
+  void place_normals(HitState& state, const std::byte* instance) const;
+  void blend_normals(HitState& state, const std::array<Vec3f, 3>& normals) const;
+  void begin_texture(HitState& state, const TexturedNormals& textured) const;
   void begin_facets(HitState& state, const FacetedNormals& triangle) const;
   void turn_to_color(HitState& state, const std::byte* record) const;
   void step_texture(HitState& state, const std::byte* record) const;
-  void read_corners(HitState& state, const std::byte* record) const;
+  void read_corners(HitState& state, const TexturedNormals& corners) const;
   void read_material(HitState& state, const std::byte* record) const;
   void read_finish(HitState& state, const std::byte* record) const;
   void read_microfacets(HitState& state, const std::byte* record) const;

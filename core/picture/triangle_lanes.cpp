@@ -8,7 +8,8 @@ namespace dmpc::core {
 
 bool TriangleLanes::take(HitState& state, const std::byte* record) {
   const auto header = read<BlockHeader>(record);
-  if (state.stage != HitState::Stage::geometry || header.kind != PrimitiveKind::triangle || header.has_plane()) {
+  if (state.stage != HitState::Stage::geometry || header.kind != PrimitiveKind::triangle || header.has_plane() ||
+      is_in_instance(state.hit)) {
     return false;
   }
   const BlockLane triangle = lane_of(state, record);

@@ -5,6 +5,7 @@
 //
 //   directory   one DirectoryEntry a top cell of the grid
 //   references  of a plain grid, whose top cells are voxels: VoxelReference, the list of each voxel in one piece
+//   instances   InstanceRecord (core/record/instance.h), where meshes are kept once: their bricks come behind all others
 //   bricks      Brick, the primitive blocks that it names, and its bricks in turn (top cells in Morton order)
 //   normals     PatchNormals, TexturedNormals, FacetedNormals } shading data, read for final hits only
 //   materials   MaterialRecord, then FinishRecord     }
@@ -119,7 +120,8 @@ constexpr double place_of(const Brick& brick, std::size_t row, std::size_t child
 }
 static_assert(sizeof(Brick) == 104 && std::is_trivially_copyable_v<Brick> && sizeof(Brick) <= record_bytes_max);
 
-enum class PrimitiveKind : std::uint8_t { triangle, sphere, cone };
+/// `instance` is none: blocks of that kind hold the boxes of kept meshes (core/record/instance.h).
+enum class PrimitiveKind : std::uint8_t { triangle, sphere, cone, instance };
 inline constexpr std::size_t primitive_kind_count = 3;
 
 inline constexpr std::size_t block_lanes = 8;
@@ -129,6 +131,7 @@ inline constexpr std::size_t block_lanes = 8;
 ///   triangle rows: v0.x v0.y v0.z v1.x .. v2.z
 ///   sphere rows:   centre.x .y .z radius, rests
 ///   cone rows:     base.x .y .z radius, apex (or axis: cone_floats.h) .x .y .z radius, rests of the first four, of the last four
+///   instance rows: low.x .y .z high.x .y .z of a box; in place of its ShadingReference the address of its InstanceRecord
 /// Rests: what rounding left of four values, the first lowest: a byte each or, of what passes by local zero, 4 bits a coordinate
 /// and 20 of the radius (core/record/curved_values.h). Behind the rows of a block that has_plane(): the FacePlane of all its
 /// triangles.
@@ -144,6 +147,8 @@ struct BlockHeader {
   std::uint32_t shared_name = 0;
 
   static constexpr std::uint8_t shared_plane = 1, exact_plane = 2;
+  /// In a kept mesh's blocks alone: all share a plane on which an axis of the mesh stands.
+  static constexpr std::uint8_t level_plane = 254;
   constexpr bool has_plane() const { return plane != 0; }
   constexpr bool has_exact_plane() const { return plane >= exact_plane; }
   /// Of an exact plane.
@@ -163,7 +168,8 @@ struct FacePlane {
 };
 
 constexpr std::size_t value_count(PrimitiveKind kind) {
-  return kind == PrimitiveKind::triangle ? 9 : kind == PrimitiveKind::sphere ? 5 : 10;
+  constexpr std::array<std::size_t, 4> counts{9, 5, 10, 6};
+  return counts[static_cast<std::size_t>(kind)];
 }
 inline constexpr std::size_t value_count_max = 10;
 /// The first row of rests of a sphere or cone.
@@ -382,7 +388,8 @@ struct DatabaseHeader {
   Address materials = no_address;
   Address lights = no_address;
   std::uint32_t primitive_count = 0;
-  std::uint32_t material_count : 31 = 0;  ///< with the FinishRecords, which stand behind
+  std::uint32_t material_count : 30 = 0;  ///< with the FinishRecords, which stand behind
+  std::uint32_t has_instances : 1 = 0;    ///< there are blocks of instances: cursors are an InstanceCursor
   std::uint32_t has_emission : 1 = 0;     ///< some material shines by itself
   std::uint32_t light_count = 0;
   Color background;

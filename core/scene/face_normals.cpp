@@ -7,7 +7,7 @@ namespace dmpc::core {
 namespace {
 
 /// Twice the area times the normal.
-Vec3d area_vector(std::span<const Vec3d> corners) {
+Vec3d twice_the_area(std::span<const Vec3d> corners) {
   Vec3d sum;
   for (std::size_t i = 2; i < corners.size(); ++i) {
     sum = sum + cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
@@ -23,7 +23,7 @@ bool are_the_faces_own(std::span<const Vec3d> normals, std::span<const Vec3d> co
   if (!std::all_of(normals.begin(), normals.end(), [&first](const Vec3d& v) { return v == first; })) {
     return false;
   }
-  const Vec3d area = area_vector(corners);
+  const Vec3d area = twice_the_area(corners);
   return !(length(cross(first, area)) > sine_max * length(first) * length(area));
 }
 

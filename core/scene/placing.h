@@ -12,6 +12,12 @@
 
 namespace dmpc::core {
 
+/// As records have it: of unit length to rounding, or 0 if it has no direction.
+inline Vec3f unit_normal(const Vec3d& normal) {
+  const double size = length(normal);
+  return size > 0 && std::isfinite(size) ? Vec3f(normal * (1.0 / size)) : Vec3f{};
+}
+
 /// A plane of a mesh, in the mesh's coordinates.
 struct MeshPlane : FacePlane {
   std::uint8_t kept_as = BlockHeader::shared_plane;  ///< BlockHeader::plane

@@ -4,23 +4,29 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
+#include <type_traits>
+#include <variant>
 
 #include "core/base/expect.h"
 #include "core/record/directory.h"
 #include "core/record/records.h"
 #include "core/trace/bundle.h"
 #include "core/trace/bundle_kernel.h"
+#include "core/trace/instance_bundle.h"
 #include "core/trace/kernel.h"
 #include "core/trace/operations.h"
+#include "core/trace/placed_block.h"
 #include "core/trace/skips.h"
 
 namespace dmpc::core {
 
 /// Walks bundles over one kind of records. What it is made from outlives it. Thread safety: none; costs nothing to make.
-template <Records R>
+/// `Bundle`: RayBundle, or of a database with instances InstanceBundle.
+template <Records R, class Bundle = RayBundle>
 class BundleWalk {
  public:
-  BundleWalk(RayBundle& bundle, R& records, const DatabaseHeader& header, const Skips& skips, Operations& operations,
+  BundleWalk(Bundle& bundle, R& records, const DatabaseHeader& header, const Skips& skips, Operations& operations,
              const BundleSteps& steps = fastest_bundle_steps,
              const BundleIntersectors& intersectors = fastest_bundle_intersectors)
       : bundle_(bundle),
@@ -47,7 +53,12 @@ class BundleWalk {
   }
 
  private:
+  static constexpr bool may_go_inside = std::is_same_v<Bundle, InstanceBundle>;
+
   void start() {
+    if constexpr (may_go_inside) {
+      bundle_.is_inside = false;
+    }
     bundle_.any = skips_.any_hit && bundle_.rays[0].kind == RayKind::shadow;
     steps_.enter(bundle_, header_.frame, header_.region);
     if (bundle_.count > 1) {
@@ -125,16 +136,91 @@ class BundleWalk {
       if (record == nullptr) {
         return false;
       }
-      if (bundle_.next.is_block()) {
-        test_block(record, address);
+      if constexpr (may_go_inside) {
+        visit(record, address);
       } else {
-        operations_.brick_reads += count_of(bundle_.next_rays);
-        intersectors_.meet_children(bundle_, *reinterpret_cast<const Brick*>(record), bundle_.next_rays, !bundle_.any);
+        if (bundle_.next.is_block()) {
+          test_block(record, address);
+        } else {
+          operations_.brick_reads += count_of(bundle_.next_rays);
+          intersectors_.meet_children(bundle_, *reinterpret_cast<const Brick*>(record), bundle_.next_rays, !bundle_.any);
+        }
+        intersectors_.take_child(bundle_);
       }
-      intersectors_.take_child(bundle_);
     }
     leave_cell();
     return true;
+  }
+
+  /// As InstanceWalk has it: takes what a child is, and comes to the next.
+  void visit(const std::byte* record, Address address) {
+    const bool is_block = bundle_.next.is_block();
+    const bool is_of_instances = is_block && !bundle_.is_inside && read<BlockHeader>(record).kind == PrimitiveKind::instance;
+    operations_.brick_reads += is_block && !is_of_instances ? 0 : count_of(bundle_.next_rays);
+    if (is_of_instances && read<BlockHeader>(record).count == 0) {
+      bundle_.enter(read<InstanceRecord>(record), address, header_.frame);
+      place_.reset();
+      return;
+    }
+    if (is_of_instances) {
+      bundle_.meet_instances(record, !bundle_.any);
+    } else if (!is_block) {
+      meet_bricks(*reinterpret_cast<const Brick*>(record));
+    } else {
+      bundle_.is_inside ? test_placed(record, address) : test_block(record, address);
+    }
+    intersectors_.take_child(bundle_);
+    if (bundle_.is_inside && !bundle_.next.found()) {
+      bundle_.leave_mesh();
+      intersectors_.take_child(bundle_);
+    }
+  }
+
+  void meet_bricks(const Brick& brick) {
+    if (bundle_.is_inside) {
+      bundle_.swap_rows();
+      intersectors_.meet_children(bundle_, padded(brick, bundle_.mesh_pad), bundle_.next_rays, !bundle_.any);
+      bundle_.swap_rows();
+    } else {
+      intersectors_.meet_children(bundle_, brick, bundle_.next_rays, !bundle_.any);
+    }
+  }
+
+  void test_placed(const std::byte* record, Address block) {
+    if (!place_) {
+      place_.emplace(bundle_.instance, header_.frame);
+    }
+    PlacedBlock placed;
+    placed.place(record, *place_);
+    const BundleHits before = bundle_.best;
+    const RayMask found = bundle_.found;
+    test_block(placed.record(), block);
+    if (meets_vanished(placed, before)) {
+      placed.take_vanished_away();
+      bundle_.best = before;
+      bundle_.found = found;
+      test_block(placed.record(), block);
+    }
+    for_each_new(before, [&](std::size_t ray) {
+      bundle_.best.lane[ray] = lane_in_instance(bundle_.best.lane[ray], bundle_.instance_address);
+    });
+  }
+
+  bool meets_vanished(const PlacedBlock& placed, const BundleHits& before) const {
+    bool meets = false;
+    for_each_new(before, [&](std::size_t ray) { meets = meets || placed.has_vanished(bundle_.best.lane[ray]); });
+    return meets;
+  }
+
+  /// Of the rays that have been tested, those that have another hit than before.
+  template <class Visit>
+  void for_each_new(const BundleHits& before, const Visit& visit) const {
+    for (RayMask rays = bundle_.next_rays; rays != 0; rays &= rays - 1) {
+      const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
+      if (bundle_.best.t[ray] != before.t[ray] || bundle_.best.primitive[ray] != before.primitive[ray]) {
+        visit(ray);
+      }
+    }
   }
 
   /// Tests what the list of the voxel names, as RayWalk::visit_list() does, then leaves it.
@@ -237,13 +323,14 @@ class BundleWalk {
     }
   }
 
-  RayBundle& bundle_;
+  Bundle& bundle_;
   R& records_;
   const DatabaseHeader& header_;
   const Skips& skips_;
   Operations& operations_;
   const BundleSteps& steps_;
   const BundleIntersectors& intersectors_;
+  std::conditional_t<may_go_inside, std::optional<MeshPlace>, std::monostate> place_;  ///< of the mesh that the bundle is in
 };
 
 /// Walks the rays of `bundle` through the grid until each one's nearest hit in (0, t_max) is known (for shadow rays: any hit,
@@ -255,6 +342,11 @@ class BundleWalk {
 template <Records R>
 bool trace(RayBundle& bundle, R& records, const DatabaseHeader& header, const Skips& skips, Operations& operations) {
   return BundleWalk<R>(bundle, records, header, skips, operations).run();
+}
+/// Where a database has instances.
+template <Records R>
+bool trace(InstanceBundle& bundle, R& records, const DatabaseHeader& header, const Skips& skips, Operations& operations) {
+  return BundleWalk<R, InstanceBundle>(bundle, records, header, skips, operations).run();
 }
 
 }  // namespace dmpc::core

@@ -355,6 +355,7 @@ Certificate certify(const Ray& ray, PrimitiveKind kind, const float* rows, std::
     case PrimitiveKind::sphere:
       return certify_sphere(ray, rows, stride, lane);
     case PrimitiveKind::cone:
+    case PrimitiveKind::instance:  // is no primitive
       break;
   }
   return certify_cone(ray, rows, stride, lane);

@@ -82,6 +82,15 @@ class RayWalk {
   /// called for blocks.
   template <class Test>
   Traced trace(const DatabaseHeader& header, const Skips& skips, BrickKernel meet, const Test& test) {
+    return walk_cells(header, skips, [&](const BoxRay& box, bool any) {
+      return header.has_voxels() ? visit_list(header, any, test) : visit_children(box, any, meet, test);
+    });
+  }
+
+  /// trace() with a visit of what a top cell has of one's own: visit(box, any) looks through it from cursor.next on, and is false
+  /// if a record is absent.
+  template <class Visit>
+  Traced walk_cells(const DatabaseHeader& header, const Skips& skips, const Visit& visit) {
     if (cursor_.stage == Cursor::Stage::finished) {
       return finish(cursor_);
     }
@@ -103,7 +112,7 @@ class RayWalk {
         if (!walk.read(ray_, read<DirectoryEntry>(record + directory_offset(index)), cursor_, skips, operations_)) {
           return finish(cursor_);
         }
-      } else if (!(header.has_voxels() ? visit_list(header, any, test) : visit_children(box, any, meet, test))) {
+      } else if (!visit(box, any)) {
         return Traced::absent;
       } else if ((any && cursor_.best.found()) || !walk.leave_cell(ray_, cursor_, operations_)) {
         return finish(cursor_);

@@ -201,6 +201,7 @@ CertificateFault fault_of(const Ray& ray, const core::PrimitiveValues& values, f
     case core::PrimitiveKind::sphere:
       return fault_of_sphere(ray, values, t, certificate);
     case core::PrimitiveKind::cone:
+    case core::PrimitiveKind::instance:  // is no primitive
       break;
   }
   return fault_of_cone(ray, values, t, certificate);

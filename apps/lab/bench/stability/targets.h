@@ -48,6 +48,7 @@ inline core::Vec3d surface_point(const core::PrimitiveValues& primitive, Random&
     case core::PrimitiveKind::sphere:
       return primitive.vector(0) + random.direction() * std::fabs(double{primitive.value[3]});
     case core::PrimitiveKind::cone:
+    case core::PrimitiveKind::instance:  // is no primitive
       break;
   }
   const core::ConeFloats cone({primitive.value.data(), 1, 0});

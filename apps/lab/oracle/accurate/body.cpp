@@ -155,6 +155,7 @@ bool is_usable(const AccurateBody& body) {
     case PrimitiveKind::sphere:
       return is_usable(place[0]) && body.radius[0] != 0 && std::fabs(body.radius[0]) < coordinate_max;
     case PrimitiveKind::cone:
+    case PrimitiveKind::instance:  // is no primitive
       break;
   }
   return is_usable(place[0]) && is_usable(place[1]) && place[0] != place[1] && (body.radius[0] != 0 || body.radius[1] != 0) &&

@@ -1,0 +1,169 @@
+#include "core/database/kept_instances.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "core/base/expect.h"
+#include "core/database/overlap.h"
+#include "core/database/usable_place.h"
+#include "core/record/coordinate.h"
+#include "core/record/vanishing.h"
+#include "core/scene/kept_meshes.h"
+#include "core/scene/placing.h"
+
+namespace dmpc::core {
+namespace {
+
+/// Where the pad is so many times as large as a mesh, its place is copied: no box of it would tell rays apart.
+constexpr double pad_max = 0x1p10;
+
+/// How long the shortest way of a record's unit is in a place, grid-local, or shorter: of three stretches two make no more than
+/// half of the sum of the squares of all.
+double least_stretch(const Transform& world, const GridFrame& frame, double unit) {
+  double square = 0;
+  for (const Vec3d& row : world.rows) {
+    square += dot(row, row);
+  }
+  return std::fabs(world.determinant()) / square * frame.scale * unit;
+}
+
+double pad_in_mesh(const Transform& world, const GridFrame& frame, double unit, double pad) {
+  constexpr double rounded_up = 1 + 0x1p-20;
+  return pad / least_stretch(world, frame, unit) * rounded_up;
+}
+
+/// Makes another list of primitives.
+class Keeper {
+ public:
+  Keeper(const Scene& scene, std::span<const MeshFaces> faces, const GridFrame& frame, double pad, Conversion& conversion)
+      : scene_(scene), faces_(faces), frame_(frame), pad_(pad), old_(conversion) {}
+
+  KeptInstances keep(const Parallel& parallel) {
+    take_meshes(parallel);
+    std::vector<std::uint32_t> to(old_.primitives.size(), nowhere);
+    for (std::size_t i = 0; i < old_.primitives.size();) {
+      const KeptPlace* const place = place_of(scene_, old_.sources[i].object);
+      if (place != nullptr && is_kept(*place)) {
+        i = add_place(*place, i);
+      } else {
+        to[i] = static_cast<std::uint32_t>(primitives_.size());
+        result_.own_ids.push_back(to[i]);
+        copy(i++);
+      }
+    }
+    if (!result_.empty()) {
+      hand_over(to);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr std::uint32_t nowhere = 0xffffffffU;
+
+  void take_meshes(const Parallel& parallel) {
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      auto records = records_of(scene_.kept->meshes[i], scene_.materials, faces_[i], parallel);
+      index_.push_back(records ? static_cast<std::uint32_t>(result_.meshes.size()) : nowhere);
+      if (records) {
+        result_.meshes.push_back(std::move(*records));
+      }
+    }
+  }
+
+  bool is_kept(const KeptPlace& place) const {
+    if (index_[place.mesh] == nowhere) {
+      return false;
+    }
+    const double pad = pad_in_mesh(place.world, frame_, result_.meshes[index_[place.mesh]].unit, pad_);
+    const auto& vertices = scene_.kept->meshes[place.mesh].vertices;
+    return pad <= pad_max &&
+           std::all_of(vertices.begin(), vertices.end(), [&](const Vec3d& vertex) { return usable(place.world.point(vertex)); });
+  }
+
+  void copy(std::size_t i) {
+    primitives_.push_back(old_.primitives[i]);
+    sources_.push_back(old_.sources[i]);
+    shading_.push_back(old_.shading[i]);
+  }
+
+  /// Its copy begins at `i`; returns where that ends.
+  std::size_t add_place(const KeptPlace& place, std::size_t i) {
+    const MeshFaces& faces = faces_[place.mesh];
+    const Scene& mesh = scene_.kept->meshes[place.mesh];
+    const Placing placing(place.world, frame_);
+    KeptInstance instance{place.world, index_[place.mesh], static_cast<std::uint32_t>(primitives_.size()), {}};
+    for (const MeshTriangle& triangle : faces.triangles) {
+      const Object& object = mesh.objects[triangle.object];
+      std::array<Vec3d, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = Vec3d(coordinates_of(placing.corner(mesh.vertices[object.first + triangle.corner[k]])));
+      }
+      if (leaves_nothing(corners)) {
+        primitives_.push_back({.kind = PrimitiveKind::triangle});
+        sources_.push_back({place.first + triangle.object});
+        shading_.push_back(ShadingReference::flat(object.material));
+      } else {
+        const std::size_t first = placing.is_mirrored() ? 2 : 0;
+        expect(i < old_.primitives.size() && old_.sources[i].object == place.first + triangle.object &&
+                   old_.primitives[i].vector(0) == corners[first],
+               "a copy has the triangles of its mesh, in their order");
+        instance.bounds.include(rounded_bounds_of(old_.primitives[i]));
+        copy(i++);
+      }
+    }
+    result_.places.push_back(instance);
+    return i;
+  }
+
+  void hand_over(const std::vector<std::uint32_t>& to) {
+    old_.primitives = std::move(primitives_);
+    old_.sources = std::move(sources_);
+    old_.shading = std::move(shading_);
+    const auto follow = [&](auto& list) {
+      std::erase_if(list, [&](const auto& item) { return to[item.primitive] == nowhere; });
+      for (auto& item : list) {
+        item.primitive = to[item.primitive];
+      }
+    };
+    follow(old_.smooth);
+    follow(old_.textured);
+  }
+
+  const Scene& scene_;
+  std::span<const MeshFaces> faces_;
+  const GridFrame& frame_;
+  double pad_;
+  Conversion& old_;
+  KeptInstances result_;
+  std::vector<std::uint32_t> index_;  ///< of Scene::kept's meshes among those of the result
+  std::vector<PrimitiveValues> primitives_;
+  std::vector<PrimitiveSource> sources_;
+  std::vector<ShadingReference> shading_;
+};
+
+}  // namespace
+
+InstanceRecord KeptInstances::record_of(const KeptInstance& place, const GridFrame& frame, double pad) const {
+  InstanceRecord record;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      record.world[3 * row + axis] = place.world.rows[row][axis];
+    }
+    record.world[9 + row] = place.world.shift[row];
+  }
+  const double unit = meshes[place.mesh].unit;
+  record.first = place.first;
+  record.unit = static_cast<float>(unit);
+  record.pad = static_cast<float>(pad_in_mesh(place.world, frame, unit, pad));
+  return record;
+}
+
+KeptInstances keep_instances(const Scene& scene, std::span<const MeshFaces> faces, const GridFrame& frame, double pad,
+                             Conversion& conversion, const Parallel& parallel) {
+  return Keeper(scene, faces, frame, pad, conversion).keep(parallel);
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,44 @@
+// What of a scene's places is kept as instances, in place of copies.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/bounds.h"
+#include "core/database/conversion.h"
+#include "core/database/mesh_faces.h"
+#include "core/database/mesh_records.h"
+#include "core/database/parallel.h"
+#include "core/record/instance.h"
+#include "core/scene/scene.h"
+#include "core/scene/transform.h"
+
+namespace dmpc::core {
+
+/// A place of a mesh that is kept.
+struct KeptInstance {
+  Transform world;
+  std::uint32_t mesh = 0;   ///< index into KeptInstances::meshes
+  std::uint32_t first = 0;  ///< the id of the mesh's triangle 0 here
+  Bounds bounds;            ///< of the copy, grid-local
+};
+
+struct KeptInstances {
+  std::vector<MeshRecords> meshes;
+  std::vector<KeptInstance> places;    ///< by `first`, ascending
+  std::vector<std::uint32_t> own_ids;  ///< of primitives that are no copies, ascending
+
+  bool empty() const { return places.empty(); }
+  /// A place's record, but for the mesh's address. `pad`: the grid's.
+  InstanceRecord record_of(const KeptInstance& place, const GridFrame& frame, double pad) const;
+};
+
+/// Looks through `conversion`, which has all copies in it. It keeps them, so that ids are the same however records hold them; but
+/// of a place that is kept each of the mesh's triangles gets an id, and those of which rounding leaves nothing are in the list as
+/// triangles that nothing hits. What is kept has no normals there.
+KeptInstances keep_instances(const Scene& scene, std::span<const MeshFaces> faces, const GridFrame& frame, double pad,
+                             Conversion& conversion, const Parallel& parallel);
+
+}  // namespace dmpc::core

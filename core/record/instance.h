@@ -1,0 +1,45 @@
+// Records of instances: a mesh that is kept once, in one of its places.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/record/hit.h"
+#include "core/record/record.h"
+
+namespace dmpc::core {
+
+/// A mesh in a place. Its corners are those of the mesh's records times `unit`, exactly, which are then placed in double as those
+/// of a copy are (core/scene/placing.h), and rounded as theirs.
+struct InstanceRecord {
+  BlockHeader header{.kind = PrimitiveKind::instance};  ///< of no lane: so a walk tells it from a block of boxes
+  std::array<double, 12> world{};  ///< from the mesh's coordinates to the world's: the rows of the linear part, then the shift
+  Address root = no_address;       ///< the mesh's first brick
+  std::uint32_t first = 0;         ///< the id of the mesh's triangle 0 here; the others follow
+  float unit = 1;                  ///< of the mesh's records, in its coordinates: a power of two
+  float pad = 0;                   ///< the grid's insertion pad where the place shortens it most, in units of the mesh's records
+  std::array<std::uint32_t, 2> unused{};
+};
+static_assert(sizeof(InstanceRecord) == 128);
+
+/// Levels of bricks above blocks of instances, at most: such a block leaves up to 8 children where it was one, as a brick does.
+inline constexpr int levels_above_instances = brick_levels_max - 1;
+
+// A hit on a kept mesh tells in Hit::lane, above the lane of the block, which instance it is of.
+inline constexpr std::uint32_t instance_shift = 3, lane_mask = (1U << instance_shift) - 1;
+static_assert(block_lanes == 1U << instance_shift);
+
+/// What a Hit::lane says of a lane and an instance, whose record lies at a multiple of its size.
+constexpr std::uint32_t lane_in_instance(std::uint32_t lane, Address instance) {
+  constexpr std::uint32_t step = sizeof(InstanceRecord) / record_alignment;
+  return lane | (static_cast<std::uint32_t>(instance) / step + 1) << instance_shift;
+}
+constexpr bool is_in_instance(const Hit& hit) { return (hit.lane >> instance_shift) != 0; }
+/// Requires is_in_instance().
+constexpr Address instance_of(const Hit& hit) {
+  constexpr std::uint32_t step = sizeof(InstanceRecord) / record_alignment;
+  return Address{((hit.lane >> instance_shift) - 1) * step};
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,86 @@
+#include "core/trace/mesh_ray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/base/vector_width.h"
+#include "core/scene/frame.h"
+#include "core/trace/placed_block.h"
+
+namespace dmpc::core {
+namespace {
+
+/// What floats round off a plane of a box and where a ray comes to it, as a share of how far away that is and of the mesh's size:
+/// eight roundings of 2^-24 each.
+constexpr double rounding_pad = 0x1p-20;
+
+}  // namespace
+
+MeshGate::MeshGate(const InstanceRecord& instance, const GridFrame& frame) : pad_(double{instance.pad}) {
+  // Grid-local p = rows m + shift, for m in units of the mesh's records.
+  const Transform world = transform_of(instance);
+  const double unit = double{instance.unit} * frame.scale;
+  std::array<Vec3d, 3> rows;
+  for (std::size_t row = 0; row < 3; ++row) {
+    rows[row] =
+        (world.rows[0] * frame.axes[row].x + world.rows[1] * frame.axes[row].y + world.rows[2] * frame.axes[row].z) * unit;
+  }
+  const double share = 1 / dot(rows[0], cross(rows[1], rows[2]));
+  columns_ = {cross(rows[1], rows[2]) * share, cross(rows[2], rows[0]) * share, cross(rows[0], rows[1]) * share};
+  shift_ = to_local(frame, world.shift);
+}
+
+MeshWay MeshGate::way_of(const Ray& ray) const {
+  MeshWay way{.origin = inside(Vec3d(ray.origin) - shift_), .slope = {}};
+  const Vec3d direction = inside(Vec3d(ray.direction));
+  const double least = double{smallest_component} * largest_component(direction);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double d = direction[axis];
+    way.slope[axis] = 1.0 / (std::fabs(d) >= least ? d : std::copysign(least, d));
+  }
+  way.pad = pad_ + rounding_pad * (largest_component(way.origin) + 1);
+  return way;
+}
+
+MeshRay::MeshRay(const Ray& ray, const InstanceRecord& instance, const GridFrame& frame) {
+  const MeshWay way = MeshGate(instance, frame).way_of(ray);
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    const double slope = way.slope[axis], pad = std::copysign(way.pad, slope);
+    reciprocal[axis] = static_cast<float>(slope);
+    near_origin[axis] = static_cast<float>(way.origin[axis] + pad);
+    far_origin[axis] = static_cast<float>(way.origin[axis] - pad);
+    near_row[axis] = slope < 0 ? axis + 3 : axis;
+    far_row[axis] = slope < 0 ? axis : axis + 3;
+  }
+}
+
+BrickChild MeshRay::meet(const Brick& brick, float t_low, float t_high, bool in_order, MetChildren& waiting) const {
+  std::array<float, brick_children_max> enter, leave;
+  enter.fill(t_low);
+  leave.fill(t_high);
+  static const VectorWidth width = vector_width();
+  run_by(width, [&] {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float slope = brick.unit * reciprocal[axis];
+      const float near_offset = (brick.origin[axis] - near_origin[axis]) * reciprocal[axis],
+                  far_offset = (brick.origin[axis] - far_origin[axis]) * reciprocal[axis];
+      const auto &near_bounds = brick.bounds[near_row[axis]], &far_bounds = brick.bounds[far_row[axis]];
+      for (std::size_t child = 0; child < brick_children_max; ++child) {
+        const float from = static_cast<float>(near_bounds[child]) * slope + near_offset,
+                    to = static_cast<float>(far_bounds[child]) * slope + far_offset;
+        enter[child] = from > enter[child] ? from : enter[child];  // of no number nothing follows
+        leave[child] = to < leave[child] ? to : leave[child];
+      }
+    }
+  });
+  const std::uint32_t first = waiting.count;
+  for (std::size_t child = 0; child < brick.child_count; ++child) {
+    if (enter[child] <= leave[child]) {
+      waiting.add(brick.child[child], enter[child], in_order ? first : waiting.count);
+    }
+  }
+  return waiting.count > first ? waiting.take() : BrickChild::none();
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,120 @@
+#include "core/trace/placed_block.h"
+
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "core/base/vector_width.h"
+#include "core/record/block_lane.h"
+#include "core/record/coordinate.h"
+#include "core/record/vanishing.h"
+#include "core/scene/frame.h"
+
+namespace dmpc::core {
+namespace {
+
+using Rows = std::array<std::array<float, block_lanes>, 9>;
+
+}  // namespace
+
+Transform transform_of(const InstanceRecord& instance) {
+  const auto& world = instance.world;
+  return {.rows = {{{world[0], world[1], world[2]}, {world[3], world[4], world[5]}, {world[6], world[7], world[8]}}},
+          .shift = {world[9], world[10], world[11]}};
+}
+
+MeshPlace::MeshPlace(const InstanceRecord& instance, const GridFrame& frame)
+    : world_(transform_of(instance)),
+      world_normals_(world_.of_normals()),
+      frame_(frame),
+      placing_(world_, frame),
+      unit_(double{instance.unit}),
+      first_(instance.first),
+      is_mirrored_(placing_.is_mirrored()) {}
+
+std::array<Vec3f, 3> MeshPlace::normals(const std::array<Vec3f, 3>& of_mesh) const {
+  std::array<Vec3f, 3> placed;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d& normal = Vec3d(of_mesh[is_mirrored_ ? 2 - i : i]);
+    placed[i] = unit_normal(turned(frame_.axes, world_normals_.direction(normal)));
+  }
+  return placed;
+}
+
+void PlacedBlock::place(const std::byte* record, const MeshPlace& place) {
+  const auto header = read<BlockHeader>(record);
+  const std::size_t count = header.count;
+  std::memcpy(record_.data(), record, block_bytes(header.kind, count));
+  place_corners(reinterpret_cast<const float*>(record + sizeof(header)), count, place);
+  std::byte* const ids = record_.data() + (ids_of(header, record) - record);
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    const std::uint32_t id = place.first() + read<std::uint32_t>(ids + 4 * lane);
+    std::memcpy(ids + 4 * lane, &id, sizeof(id));
+  }
+  if (header.has_plane()) {
+    place_plane(record, place);
+  }
+}
+
+void PlacedBlock::place_corners(const float* rows, std::size_t count, const MeshPlace& place) {
+  alignas(64) Rows from{}, to;
+  for (std::size_t row = 0; row < from.size(); ++row) {
+    std::memcpy(from[row].data(), rows + row * count, count * sizeof(float));
+  }
+  static const VectorWidth width = vector_width();
+  const double unit = place.unit();
+  const Placing& placing = place.placing();
+  run_by(width, [&] {
+    for (std::size_t corner = 0; corner < 9; corner += 3) {
+      for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+        const Vec3d at{double{from[corner][lane]} * unit, double{from[corner + 1][lane]} * unit,
+                       double{from[corner + 2][lane]} * unit};
+        const Vec3f placed = coordinates_of(placing.corner(at));
+        to[corner][lane] = placed.x;
+        to[corner + 1][lane] = placed.y;
+        to[corner + 2][lane] = placed.z;
+      }
+    }
+  });
+  for (std::size_t row = 0; row < to.size(); ++row) {
+    const std::size_t corner = row / 3, placed = place.is_mirrored() ? 2 - corner : corner;  // a mirror's faces are turned back
+    std::memcpy(record_.data() + sizeof(BlockHeader) + (3 * placed + row % 3) * count * sizeof(float), to[row].data(),
+                count * sizeof(float));
+  }
+}
+
+/// As the converter numbers planes.
+void PlacedBlock::place_plane(const std::byte* record, const MeshPlace& place) {
+  auto header = read<BlockHeader>(record);
+  const MeshPlane plane{plane_of(header, record), header.plane, header.plane == BlockHeader::level_plane};
+  if (place.placing().stays_level(plane)) {
+    header.plane = 0;
+  } else if (const std::optional<FacePlane> placed = place.placing().plane(plane)) {
+    header.plane = plane.is_level ? BlockHeader::shared_plane : plane.kept_as;
+    std::memcpy(record_.data() + block_bytes(header.kind, header.count), &*placed, sizeof(FacePlane));
+  } else {
+    header.plane = header.shared_lanes = 0;
+  }
+  std::memcpy(record_.data(), &header, sizeof(header));
+}
+
+bool PlacedBlock::has_vanished(std::uint32_t lane) const {
+  const BlockLane triangle{reinterpret_cast<const float*>(record_.data() + sizeof(BlockHeader)),
+                           read<BlockHeader>(record_.data()).count, lane};
+  return leaves_nothing({triangle.vector(0), triangle.vector(3), triangle.vector(6)});
+}
+
+void PlacedBlock::take_vanished_away() {
+  auto header = read<BlockHeader>(record_.data());
+  for (std::uint32_t lane = 0; lane < header.count; ++lane) {
+    if (has_vanished(lane)) {
+      for (std::size_t row = 0; row < 9; ++row) {
+        std::memset(record_.data() + sizeof(header) + (row * header.count + lane) * sizeof(float), 0, sizeof(float));
+      }
+      header.shared_lanes = static_cast<std::uint8_t>(header.shared_lanes & ~(1U << lane));
+    }
+  }
+  std::memcpy(record_.data(), &header, sizeof(header));
+}
+
+}  // namespace dmpc::core

@@ -1,0 +1,152 @@
+// Meshes that are kept once show what their copies show, to the bit.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/database/database.h"
+#include "core/picture/render.h"
+#include "core/record/records.h"
+#include "tests/support/kept_scenes.h"
+#include "tests/support/path_film.h"
+#include "tests/support/scaled.h"
+#include "tests/support/subject.h"
+
+namespace dmpc::tests::kept_film_test {
+namespace {
+
+using core::Scene;
+
+constexpr Arrangement arrangements[] = {Arrangement::apart, Arrangement::deep_in_each_other, Arrangement::coincident};
+
+/// Has a page, and loses it as soon as another one is asked for.
+class OnePage {
+ public:
+  explicit OnePage(const core::Database& database) : bytes_(database.bytes()), page_size_(database.page_size()) {}
+
+  const std::byte* find(core::Address address) {
+    const std::uint64_t page = core::byte_offset(address) / page_size_;
+    const bool is_there = page == page_;
+    page_ = page;
+    return is_there ? bytes_.data() + core::byte_offset(address) : nullptr;
+  }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t page_size_;
+  std::uint64_t page_ = ~std::uint64_t{0};
+};
+
+std::uint64_t film_by_one_page(const core::Database& database, const core::RenderSettings& settings) {
+  OnePage records(database);
+  core::GridTracer<OnePage> tracer(records, settings.header, settings.skips);
+  core::Operations operations;
+  std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
+  core::Film film(settings.camera.width(), settings.camera.height(), settings.shade.film_scale,
+                  core::planes_for(settings.first_samples().count));
+  core::InstancePixelTask task(stack);
+  for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count(); ++pixel) {
+    task.start(pixel, settings.first_samples(), settings, operations);
+    while (task.run(tracer, settings, operations) != core::TaskState::finished) {
+    }
+    film.deposit(pixel, task.sums());
+  }
+  return film.hash();
+}
+
+std::uint64_t path_film(const Scene& scene, core::BuildOptions options) {
+  options.for_paths = true;
+  options.emitters_max = 16;
+  const int side = scaled_edge(24);
+  const core::Database database = core::build_database(scene, options);
+  return film_of(database, scene.view, {{.kind = core::TransportKind::paths, .has_sky = true}, side, side, 2, 3}).hash();
+}
+
+}  // namespace
+
+TEST_CASE("what is kept once shows what its copies show, to the bit, small and large, apart, deep in each other, coincident") {
+  std::uint64_t seed = 0;
+  for (const double size : {0.4, 0.05, 1e-3, 1e-5}) {
+    for (const Arrangement arrangement : arrangements) {
+      CAPTURE(++seed);
+      const Scene scene = balls_in_places(size, arrangement, seed);
+      const int side = scaled_edge(32);
+      const Subject copies(scene, {side, side, 2}, with_copies()), kept(scene, {side, side, 2}, with_instances());
+      CHECK(kept.outcome() == copies.outcome());
+      CHECK(kept.outcome().primary_hits > 0);
+      CHECK(kept.database().records().instances == 18);
+      CHECK(kept.database().records().kept_meshes == 2);
+      CHECK(kept.database().page_count() < copies.database().page_count());
+    }
+  }
+}
+
+TEST_CASE("a camera next to what is small sees it kept as it sees its copies") {
+  for (const double size : {1e-2, 1e-3, 1e-4}) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      CAPTURE(seed);
+      Scene scene = balls_in_places(size, Arrangement::deep_in_each_other, seed);
+      scene.view.from = core::Vec3d{0.1, 0.2, 0.5} + core::Vec3d{1, -3, 1} * (1.5 * size);
+      scene.view.at = {0.1, 0.2, 0.5};
+      const int side = scaled_edge(24);
+      const Subject copies(scene, {side, side}, with_copies()), kept(scene, {side, side}, with_instances());
+      CHECK(kept.outcome() == copies.outcome());
+      CHECK(kept.database().records().instances == 18);
+    }
+  }
+}
+
+TEST_CASE("the grid's film is that of what is kept, too") {
+  const Scene scene = balls_in_places(0.2, Arrangement::apart, 3);
+  const int side = scaled_edge(32);
+  CHECK(Subject(scene, {side, side}, with_instances()).outcome() == Subject(scene, {side, side}).outcome());
+}
+
+TEST_CASE("along the screen's axes what is kept shows the same, too") {
+  const Scene scene = balls_in_places(0.3, Arrangement::deep_in_each_other, 4);
+  core::BuildOptions copies = with_copies(), kept = with_instances();
+  copies.axes = kept.axes = core::screen_axes(scene.view);
+  const int side = scaled_edge(32);
+  CHECK(Subject(scene, {side, side}, kept).outcome() == Subject(scene, {side, side}, copies).outcome());
+}
+
+TEST_CASE("paths show the same of what is kept") {
+  for (const Arrangement arrangement : arrangements) {
+    const Scene scene = balls_in_places(0.3, arrangement, 5);
+    CHECK(path_film(scene, with_instances()) == path_film(scene, with_copies()));
+  }
+}
+
+TEST_CASE("where only one page is there at a time, what is kept shows the same") {
+  for (const std::size_t page_size : {512U, 4096U}) {
+    const Scene scene = balls_in_places(0.3, Arrangement::deep_in_each_other, 7);
+    const int side = scaled_edge(16);
+    const Subject kept(scene, {side, side}, with_instances(page_size));
+    CHECK(film_by_one_page(kept.database(), kept.settings()) == kept.outcome().film_hash);
+  }
+}
+
+TEST_CASE("a mesh whose numbers floats do not hold, or that shines, is copied") {
+  Scene mesh = rug_on_floor(true, true, 6);
+  const std::vector<core::Transform> places{turned_place(0.3, {0.5, 0, 0}, false), turned_place(0.3, {-0.5, 0, 0}, true)};
+  CHECK(core::build_database(placed(mesh, places), with_instances()).records().instances == 2);
+  Scene shining = mesh;
+  shining.materials[0].emission = {1, 1, 1};
+  CHECK(core::build_database(placed(shining, places), with_instances()).records().instances == 0);
+  Scene odd = mesh;
+  const auto count = static_cast<std::uint32_t>(odd.objects.size());
+  odd.vertices[0].x += 1e-12;
+  core::expand(odd, {.meshes = {{0, count}}, .places = {{places[0], 0, count}, {places[1], 0, count}}});
+  REQUIRE(odd.kept != nullptr);
+  CHECK(core::build_database(odd, with_instances()).records().instances == 0);
+}
+
+TEST_CASE("a scene without places has the same bytes whether instances are to be kept or not") {
+  const Scene scene = rug_on_floor(true, true, 6);
+  const core::Database one = core::build_database(scene, with_copies()), other = core::build_database(scene, with_instances());
+  CHECK(std::equal(one.bytes().begin(), one.bytes().end(), other.bytes().begin(), other.bytes().end()));
+  CHECK(other.header().has_instances == 0);
+}
+
+}  // namespace dmpc::tests::kept_film_test
