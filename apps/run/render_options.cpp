@@ -24,6 +24,10 @@ void add_computer_options(OptionSet& options, RenderOptions& render) {
   add_system_option(options, render.system);
   add_memory_option(options, computer.node_memory_bytes);
   add_options(options, render.database);
+  options.add_choice<bool>(
+      "--instances", render.database.build.keeps_instances, {{"expand", false}, {"keep", true}},
+      "Of a mesh that stands in several places: a copy in each, or one for all, which takes less memory (the same picture; svm, "
+      "replicated)");
 }
 
 void add_runner_options(OptionSet& options, RenderOptions& render) {
@@ -76,6 +80,36 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
 void check_tracer(const RenderOptions& render) {
   if (render.tracer == TracerChoice::embree && render.strategy != Strategy::replicated) {
     throw UsageError("--tracer=embree needs --strategy=replicated: Embree sees the whole scene, and no other node holds it all");
+  }
+}
+
+/// What walks into kept meshes, and what they are kept in.
+void settle_instances(const OptionSet& options, RenderOptions& render) {
+  core::BuildOptions& build = render.database.build;
+  if (!build.keeps_instances) {
+    return;
+  }
+  const auto refuse = [](const std::string& option, const std::string& why) {
+    throw UsageError("--instances=keep does not go with " + option + ": " + why +
+                     "; --instances=expand has a copy in each place");
+  };
+  if (render.strategy != Strategy::svm && render.strategy != Strategy::replicated) {
+    refuse(std::string("--strategy=") + name_of(render.strategy), "only rays of svm and replicated go into meshes that are kept");
+  }
+  if (render.tracer == TracerChoice::embree) {
+    refuse("--tracer=embree", "Embree has a copy in each place");
+  }
+  if (render.picture.is_refined) {
+    refuse("--samples=auto", "fine detail is looked for among copies");
+  }
+  if (!options.is_given("--structure") && !render.system) {
+    build.structure = core::Structure::extents;
+  }
+  if (build.structure != core::Structure::extents) {
+    refuse(std::string("--structure=") + name_of(build.structure), "meshes that are kept are trees of boxes below one of all");
+  }
+  if (build.record_order != core::RecordOrder::spatial) {
+    refuse("--record-order=scattered", "a mesh that is kept lies in one piece");
   }
 }
 
@@ -228,6 +262,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       settle_system(options, *render.system, render, render.database);
     }
     settle_database(options, render.strategy, render.database);
+    settle_instances(options, render);
     render.is_node_count_given = options.is_given("--nodes");
     render.has_several_frames = render.frames.are_several();
     check(options, render);

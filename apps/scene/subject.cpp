@@ -7,6 +7,7 @@
 #include "apps/edge/system/progress.h"
 #include "core/picture/ray_crowd.h"
 #include "core/scene/frame.h"
+#include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps {
 
@@ -24,7 +25,8 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
   const core::RenderSettings settings = render_settings(picture, scene, database);
   const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
   const std::string emitters = emitters_text(database.header().emitter_count, database.records().emitters_met, picture.transport);
-  return {std::move(database), settings, loss, gain_text(scene.materials, picture.transport), emitters};
+  const std::string kept = kept_text(database.records(), build.keeps_instances);
+  return {std::move(database), settings, loss, gain_text(scene.materials, picture.transport), emitters, kept};
 }
 
 }  // namespace
@@ -50,7 +52,21 @@ std::vector<std::string> notes_of(const Subject& subject) {
           duplicates_text(subject.database.duplicates()),
           crowd_text(subject.settings.shade.one_child_from),
           subject.gain,
-          subject.emitters};
+          subject.emitters,
+          subject.kept};
+}
+
+std::string kept_text(const core::RecordCounts& records, bool keeps_instances) {
+  if (!keeps_instances) {
+    return "";
+  }
+  if (records.instances == 0) {
+    return "no mesh is kept once: none of more than " + grouped(core::copied_triangles_max) +
+           " triangles that does not shine stands in several places";
+  }
+  return "kept " + grouped(records.kept_meshes) + (records.kept_meshes == 1 ? " mesh" : " meshes") + " in " +
+         counted(records.instances, "place") + ": " + counted(records.kept_triangles, "triangle") + " for " +
+         grouped(records.placed_triangles);
 }
 
 std::string dropped_text(std::uint64_t count) {

@@ -21,6 +21,7 @@ struct Subject {
   core::RoundingLoss loss;  ///< of the picture, by the rounding of coordinates
   std::string gain;         ///< gain_text() of its materials
   std::string emitters;     ///< emitters_text()
+  std::string kept;         ///< kept_text()
 };
 
 /// The database of `scene`, whose objects are freed on the way, and its picture. Says on stderr what was left out or is off,
@@ -34,6 +35,9 @@ Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, 
                               bool shows_progress = false);
 /// What build_subject() says: sentences, some of which may be empty.
 std::vector<std::string> notes_of(const Subject& subject);
+
+/// What is said of a database whose instances were to be kept: how many are; empty if copies were wanted.
+std::string kept_text(const core::RecordCounts& records, bool keeps_instances);
 
 /// A sentence about the primitives that a database left out; empty if it left out none.
 std::string dropped_text(std::uint64_t count);

@@ -682,6 +682,26 @@ TEST_CASE("by paths samples are refined from 16 on, in two passes, and a quality
   CHECK(render({"--samples=auto"}).picture.refinement.kind == core::ErrorKind::edges);
 }
 
+TEST_CASE("instances are kept in one tree of extents, where rays go into them, and elsewhere refused with what to do") {
+  CHECK_FALSE(render().database.build.keeps_instances);
+  CHECK_FALSE(render({"--instances=expand"}).database.build.keeps_instances);
+  for (const char* const strategy : {"--strategy=svm", "--strategy=replicated"}) {
+    const RenderOptions options = render({"--instances=keep", strategy});
+    CHECK(options.database.build.keeps_instances);
+    CHECK(options.database.build.structure == core::Structure::extents);
+  }
+  CHECK(render({"--instances=keep", "--structure=extents"}).database.build.keeps_instances);
+  for (const char* const other : {"--strategy=forest", "--strategy=dataflow", "--samples=auto", "--structure=grid",
+                                  "--structure=voxels", "--record-order=scattered"}) {
+    const std::string complaint = render_complaint({"--instances=keep", other});
+    CHECK_MESSAGE(contains(complaint, std::string("--instances=keep does not go with ") + other + ": "), complaint);
+    CHECK(contains(complaint, "; --instances=expand has a copy in each place"));
+  }
+  CHECK(contains(render_complaint({"--instances=keep", "--strategy=replicated", "--tracer=embree"}),
+                 "--instances=keep does not go with --tracer=embree: "));
+  CHECK(contains(render_complaint({"--instances=some"}), "--instances"));
+}
+
 TEST_CASE("what does not go with paths, or without, is refused, and what to do is said") {
   CHECK(contains(render_complaint({"--bounces=3"}), "--bounces goes with --transport=paths"));
   CHECK(contains(render_complaint({"--sky=1"}), "--sky goes with --transport=paths"));

@@ -30,6 +30,15 @@ TEST_CASE("a subject's page size, order of records and axes are those asked for"
   CHECK(world.settings.camera.primary_ray(0, 0).direction != screen.settings.camera.primary_ray(0, 0).direction);
 }
 
+TEST_CASE("how much is kept once is told where that was asked for") {
+  CHECK(kept_text({}, false).empty());
+  CHECK(kept_text({.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789}, true) ==
+        "kept 29 meshes in 67 places: 1,234 triangles for 56,789");
+  CHECK(kept_text({.instances = 1, .kept_meshes = 1, .kept_triangles = 70, .placed_triangles = 70}, true) ==
+        "kept 1 mesh in 1 place: 70 triangles for 70");
+  CHECK(kept_text({}, true).find("no mesh is kept once: ") == 0);
+}
+
 TEST_CASE("what rounding takes is told in pixels") {
   CHECK(loss_text({}).empty());
   CHECK(loss_text({.moved = 2, .moved_pixels = 0.25}) ==

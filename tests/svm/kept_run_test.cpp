@@ -1,0 +1,69 @@
+// Meshes that are kept once, by nodes whose pages travel, and by nodes that hold all.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "svm/run.h"
+#include "tests/support/kept_scenes.h"
+#include "tests/support/scaled.h"
+#include "tests/support/strategies.h"
+#include "tests/support/subject.h"
+
+namespace dmpc::tests::kept_run_test {
+namespace {
+
+/// Threads, a pool, a model, and threads that chaos disturbs, by number.
+svm::RunOptions way_of(int number, std::uint64_t seed) {
+  svm::RunOptions options{.computer = {.node_count = 3 + static_cast<std::uint32_t>(seed % 5)}};
+  options.computer.pool_threads = number == 1 ? std::optional(2U) : std::nullopt;
+  options.computer.machine = number == 2 ? std::optional(nodes::Machine{}) : std::nullopt;
+  options.computer.chaos = number == 3 ? std::optional(nodes::chaos_of(seed)) : std::nullopt;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("nodes show of what is kept once what its copies show: on threads, a pool, a model and in chaos, with a page, or all") {
+  std::uint64_t seed = 0;
+  for (const Arrangement arrangement : {Arrangement::apart, Arrangement::deep_in_each_other}) {
+    const core::Scene scene = balls_in_places(0.3, arrangement, 21);
+    const int side = scaled_edge(24);
+    const Subject copies(scene, {side, side, 2}, with_copies()), kept(scene, {side, side, 2}, with_instances());
+    REQUIRE(kept.database().records().instances > 0);
+    for (int number = 0; number < 4; ++number) {
+      for (const std::optional<std::uint32_t> cache : {std::optional<std::uint32_t>(1), std::optional<std::uint32_t>()}) {
+        CAPTURE(number);
+        CAPTURE(++seed);
+        svm::RunOptions options = way_of(number, seed);
+        options.pages.cache_pages = cache;
+        CHECK(outcome_of(run_svm(kept, options)) == copies.outcome());
+      }
+      CHECK(outcome_of(run_replicated(kept, way_of(number, ++seed))) == copies.outcome());
+    }
+  }
+}
+
+TEST_CASE("rays that walk alone and in bundles show the same of what is kept") {
+  const core::Scene scene = balls_in_places(0.3, Arrangement::deep_in_each_other, 23);
+  const int side = scaled_edge(24);
+  const Subject copies(scene, {side, side, 3}, with_copies(512)), kept(scene, {side, side, 3}, with_instances(512));
+  for (const bool bundles : {false, true}) {
+    core::Skips skips;
+    skips.bundles = bundles;
+    const svm::Report report = run_svm(kept, {.computer = {.node_count = 2}, .pages = {.cache_pages = 2}}, skips);
+    CHECK(outcome_of(report) == copies.outcome());
+    CHECK((report.operations().bundles > 0) == bundles);
+  }
+}
+
+TEST_CASE("a plan has the room for the longer cursors of a database with instances") {
+  const core::Scene scene = balls_in_places(0.3, Arrangement::apart, 25);
+  const Subject kept(scene, {16, 16}, with_instances());
+  const svm::Report report = run_svm(kept, {.computer = {.node_count = 4}});
+  for (const svm::NodeReport& node : report.nodes) {
+    CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+  }
+}
+
+}  // namespace dmpc::tests::kept_run_test
