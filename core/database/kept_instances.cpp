@@ -18,7 +18,7 @@ namespace dmpc::core {
 namespace {
 
 /// Where the pad is so many times as large as a mesh, its place is copied: no box of it would tell rays apart.
-constexpr double pad_max = 0x1p10;
+constexpr double pad_max = 0x1p20;
 
 /// How long the shortest way of a record's unit is in a place, grid-local, or shorter: of three stretches two make no more than
 /// half of the sum of the squares of all.

@@ -75,7 +75,7 @@ Differences compare(const Scene& scene, double size, Random& random) {
     const double share = i % 3 == 0 ? static_cast<double>(i % 2) : random.unit();
     const Vec3d at = own.vertices[object.first] * share + own.vertices[object.first + 1] * (1 - share);
     const Vec3d target = i % 4 == 0 ? random.in_box(-1, 1) : place.world.point(at), start = random.in_box(-1, 1);
-    const Vec3d from = i % 5 == 0 ? target + (start - target) * (3 * size) : start;
+    const Vec3d from = i % 5 == 0 || size < 1e-5 ? target + (start - target) * (3 * size) : start;
     const auto local = [&](const Vec3d& point) { return core::to_local(copies.header().frame, point); };
     Ray ray = apps::ray_through(local(from), local(target));
     ray.kind = i % 7 == 0 ? core::RayKind::shadow : core::RayKind::primary;
@@ -101,18 +101,45 @@ TEST_CASE("rays meet what is kept where they meet its copies, in the same object
     for (const Vec3d& vertex : mesh.vertices) {
       reach = std::max(reach, largest_component(vertex));
     }
-    for (const double size : {0.5, 0.05, 1e-3}) {
+    for (const double size : {0.5, 0.05, 1e-3, 1e-6}) {  // the last about as small as the pad
       for (const bool are_apart : {true, false}) {
         CAPTURE(size);
         Scene scene = placed(mesh, are_apart ? places_apart(size / reach, random)
                                              : std::vector<Transform>(6, turned_place(size / reach, {0.1, 0.2, 0.3}, true)));
         add_far_specks(scene);
         const Differences found = compare(scene, size, random);
-        CHECK(found.hits > found.rays / 3);
+        CHECK(found.hits > found.rays / (size < 1e-5 ? 20 : 3));
         CHECK(found.others == 0);
         CHECK(found.any_hits == 0);
       }
     }
+  }
+}
+
+TEST_CASE("no ray hits a kept mesh's triangle that rounding leaves nothing of, as no copy has it") {
+  for (const double side : {1e-2, 1e-4}) {
+    Scene mesh = rug_on_floor(true, true, 6);
+    const Vec3d at{0.3, 0.2, 0.9};
+    core::SceneBuilder(mesh).polygon({at, at + Vec3d{side, 0, 0}, at + Vec3d{0, side, 0}});
+    const auto speck = static_cast<std::uint32_t>(mesh.objects.size() - 1);
+    Scene scene = placed(mesh, {turned_place(0x1p-27, {0.1, 0.2, 0.3}, false), turned_place(0x1p-27, {0.1, 0.2, 0.3}, true)});
+    add_far_specks(scene);
+    const core::Database copies = core::build_database(scene, with_copies()),
+                         kept = core::build_database(scene, with_instances());
+    REQUIRE(kept.records().instances == 2);
+    int hits = 0, others = 0;
+    Random random(5);
+    for (int i = 0; i < 200; ++i) {
+      const core::KeptPlace& place = scene.kept->places[static_cast<std::size_t>(i % 2)];
+      const auto local = [&](const Vec3d& point) { return core::to_local(kept.header().frame, place.world.point(point)); };
+      const Vec3d target = at + Vec3d{side, side, 0} * 0.3, off = random.in_box(-1, 1);
+      const Ray ray = apps::ray_through(local(target + off + Vec3d{0, 0, 1.5}), local(target));
+      const Hit found = met<core::InstanceCursor>(ray, kept, false), expected = met<core::Cursor>(ray, copies, false);
+      hits += found.found() && kept.sources()[found.primitive].object == place.first + speck ? 1 : 0;
+      others += found.t != expected.t ? 1 : 0;
+    }
+    CHECK((hits > 0) == (side > 1e-3));
+    CHECK(others == 0);
   }
 }
 
