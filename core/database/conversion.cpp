@@ -9,6 +9,7 @@
 #include "core/base/box.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "core/database/copies_bounds.h"
 #include "core/database/overlap.h"
 #include "core/database/usable_place.h"
 #include "core/record/cone_floats.h"
@@ -456,6 +457,7 @@ void clear(Conversion& conversion) {
 
 Box bounds_of(const Scene& scene, const GridAxes& axes, const Parallel& parallel) {
   Box box = bounds_of_vertices(scene.vertices, axes, parallel);
+  include_copies(box, scene, axes, coordinate_max, parallel);
   for (const Sphere& sphere : scene.spheres) {
     const double r = std::fabs(sphere.radius);
     if (usable(sphere.center) && r < coordinate_max) {

@@ -30,6 +30,7 @@
 #include "core/record/voxel_list.h"
 #include "core/scene/detail.h"
 #include "core/scene/frame.h"
+#include "core/scene/placed_objects.h"
 
 namespace dmpc::core {
 namespace {
@@ -130,7 +131,7 @@ class DatabaseBuilder {
 
   void fit() {
     const Box bounds = bounds_of(scene_, options_.axes, parallel_);
-    object_count_ = scene_.objects.size();
+    object_count_ = object_count(scene_);
     header().frame = fit_frame(bounds, object_count_, options_.cells_per_primitive, options_.axes);
     if (const auto place = place_of_detail(scene_, options_.axes, bounds)) {
       move_zero(header().frame, *place);
@@ -554,6 +555,10 @@ std::vector<Database::Place> Database::find_places() const {
 }
 
 Database build_database(const Scene& scene, const BuildOptions& options) {
+  if (leaves_copies_out(scene)) {
+    Scene whole = scene;
+    return build_database(std::move(whole), options);
+  }
   DatabaseBuilder builder(scene, options);
   Database database = builder.build();
   return options.record_order == RecordOrder::spatial ? std::move(database)
@@ -561,6 +566,7 @@ Database build_database(const Scene& scene, const BuildOptions& options) {
 }
 
 Database build_database(Scene&& scene, const BuildOptions& options) {
+  put_copies(scene);
   if (options.record_order == RecordOrder::spatial) {
     return DatabaseBuilder(scene, options, {}, &scene).build();
   }

@@ -176,7 +176,7 @@ class Database {
   double pad_ = 0;
 };
 
-/// Throws RoomError if the database would exceed 16 GiB.
+/// Copies that the scene leaves out are put into it. Throws RoomError if the database would exceed 16 GiB.
 Database build_database(const Scene& scene, const BuildOptions& options);
 /// Builds as the other, and frees the scene's objects on the way: they never lie in memory beside the records. View, lights,
 /// materials and background stay, and of textures all but their texels.

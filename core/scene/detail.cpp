@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <vector>
 
+#include "core/base/units.h"
 #include "core/scene/frame.h"
+#include "core/scene/placed_objects.h"
 
 namespace dmpc::core {
 namespace {
 
-/// Objects that are looked at, evenly spread over the file.
+/// Objects that are looked at, evenly spread over all, copies of meshes among them.
 constexpr std::size_t objects_max = 65536;
 /// Objects count as no smaller than this share of the scene: next to that doubles tell nothing apart.
 constexpr double least_share = 0x1p-40;
@@ -42,7 +43,9 @@ void include_ball(Box& box, const Vec3d& center, double radius) {
   box.include(center + reach);
 }
 
-Box box_of(const Scene& scene, const Object& object, const GridAxes& axes) {
+Box box_of(const PlacedObject& placed, const GridAxes& axes) {
+  const Scene& scene = placed.pools();
+  const Object& object = placed.object();
   Box box;
   if (object.kind == ObjectKind::sphere) {
     const Sphere& sphere = scene.spheres[object.first];
@@ -52,8 +55,8 @@ Box box_of(const Scene& scene, const Object& object, const GridAxes& axes) {
     include_ball(box, turned(axes, cone.base), std::fabs(cone.base_radius));
     include_ball(box, turned(axes, cone.apex), std::fabs(cone.apex_radius));
   } else {
-    for (const Vec3d& vertex : std::span(scene.vertices).subspan(object.first, object.vertex_count)) {
-      box.include(turned(axes, vertex));
+    for (std::uint32_t i = 0; i < object.vertex_count; ++i) {
+      box.include(turned(axes, placed.vertex(i)));
     }
   }
   return box;
@@ -67,15 +70,17 @@ struct Detail {
 /// The details of all objects but those that are left out of the bounds, being degenerate or too far away.
 std::vector<Detail> details_of(const Scene& scene, const GridAxes& axes, const Box& bounds, double extent) {
   std::vector<Detail> details;
-  const std::size_t stride = (scene.objects.size() + objects_max - 1) / objects_max;
-  for (std::size_t i = 0; i < scene.objects.size(); i += stride) {
-    const Box box = box_of(scene, scene.objects[i], axes);
-    const double size = largest_component(box.high - box.low);
-    if (size > 0 && size <= 2 * extent && bounds.holds(box.center())) {
-      const double share = std::max(size / extent, least_share);
-      details.push_back({box.center(), 1 / (share * share)});
-    }
-  }
+  const PlacedObjects objects(scene);
+  objects.for_each(
+      [&](const PlacedObject& object) {
+        const Box box = box_of(object, axes);
+        const double size = largest_component(box.high - box.low);
+        if (size > 0 && size <= 2 * extent && bounds.holds(box.center())) {
+          const double share = std::max(size / extent, least_share);
+          details.push_back({box.center(), 1 / (share * share)});
+        }
+      },
+      std::max<std::uint64_t>(1, ceil_divide(objects.size(), std::uint64_t{objects_max})));
   return details;
 }
 

@@ -2,24 +2,16 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
 
-#include "core/base/expect.h"
 #include "core/scene/face_normals.h"
 #include "core/scene/kept_meshes.h"
+#include "core/scene/placed_objects.h"
 
 namespace dmpc::core {
 namespace {
-
-constexpr std::uint64_t count_max = std::uint64_t{1} << 48U;
-
-ExpandedSize plus(const ExpandedSize& a, const ExpandedSize& b) {
-  const auto sum = [](std::uint64_t x, std::uint64_t y) { return std::min(x + y, count_max); };
-  return {sum(a.objects, b.objects), sum(a.vertices, b.vertices), sum(a.normals, b.normals), sum(a.corners, b.corners)};
-}
 
 ExpandedSize size_of(const Object& object) {
   const std::uint64_t vertices = object.vertex_count;
@@ -29,26 +21,60 @@ ExpandedSize size_of(const Object& object) {
 ExpandedSize size_of(std::span<const Object> objects) {
   ExpandedSize size;
   for (const Object& object : objects) {
-    size = plus(size, size_of(object));
+    size = size + size_of(object);
   }
   return size;
 }
 
-void check(const ExpandedSize& size) {
-  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - std::uint64_t{1};
-  if (std::max({size.objects, size.vertices, size.normals, size.corners}) > most) {
-    throw RoomError("with every instance the scene has more than 4294967294 vertices, normals or objects; divide it");
+std::uint64_t triangle_count(std::span<const Object> objects) {
+  std::uint64_t count = 0;
+  for (const Object& object : objects) {
+    count += object.vertex_count - std::uint64_t{2};
   }
+  return count;
+}
+
+/// Which meshes are kept: those that are large and stand in several places that can keep them.
+std::vector<bool> kept_meshes(const Scene& scene, const Instances& instances) {
+  std::vector<std::uint64_t> uses(instances.meshes.size());
+  for (const Instance& place : instances.places) {
+    uses[place.mesh] += can_be_kept(place.world) ? 1 : 0;
+  }
+  std::vector<bool> kept;
+  const std::span<const Object> objects(scene.objects);
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    const SharedMesh& mesh = instances.meshes[i];
+    kept.push_back(uses[i] > 1 && triangle_count(objects.subspan(mesh.first, mesh.end - mesh.first)) > copied_triangles_max);
+  }
+  return kept;
+}
+
+/// With all places that `counts` says of.
+template <class Counts>
+ExpandedSize size_with(const Scene& scene, const Instances& instances, const Counts& counts) {
+  std::vector<ExpandedSize> meshes;
+  ExpandedSize size;
+  std::size_t next = 0;
+  const std::span<const Object> objects(scene.objects);
+  for (const SharedMesh& mesh : instances.meshes) {
+    size = size + size_of(objects.subspan(next, mesh.first - next));
+    meshes.push_back(size_of(objects.subspan(mesh.first, mesh.end - mesh.first)));
+    next = mesh.end;
+  }
+  size = size + size_of(objects.subspan(next));
+  for (const Instance& place : instances.places) {
+    size = size + (counts(place) ? meshes[place.mesh] : ExpandedSize{});
+  }
+  return size;
 }
 
 constexpr std::uint32_t nowhere = 0xffffffffU;
 
-/// What an instance does to every object of its mesh, which is kept as one of KeptMeshes::meshes or not at all.
+/// What an instance does to every object of its mesh, which is not kept.
 struct Placing {
-  Placing(const Transform& to_world, std::uint32_t kept)
-      : world(to_world), normals(to_world.of_normals()), determinant(to_world.determinant()), kept_as(kept) {}
+  explicit Placing(const Transform& to_world)
+      : world(to_world), normals(to_world.of_normals()), determinant(to_world.determinant()) {}
 
-  bool is_kept() const { return kept_as != nowhere; }
   /// Which of an object's corners becomes the i-th.
   std::uint32_t corner(const Object& object, std::uint32_t i) const {
     return placed_corner(determinant < 0, object.vertex_count, i);
@@ -57,7 +83,6 @@ struct Placing {
   const Transform& world;
   Transform normals;
   double determinant;
-  std::uint32_t kept_as;
 };
 
 /// Takes a mesh out of a scene by itself, and decides what its normals say: both have none where those are the faces' own.
@@ -114,62 +139,54 @@ class MeshTaker {
   Scene& scene_;
 };
 
-/// One pool after the other, so that but one is there twice at a time.
+/// One pool after the other, so that but one is there twice at a time. Copies of kept meshes are left out.
 class Expansion {
  public:
   Expansion(Scene& scene, const Instances& instances) : scene_(scene), instances_(instances) {}
 
-  void run() {
-    const ExpandedSize size = expanded_size(scene_, instances_);
-    check(size);
+  /// Returns what is kept.
+  KeptMeshes run() {
+    const ExpandedSize size = settled_size(scene_, instances_, Copies::left_out);
+    size.check();
+    ExpandedSize{.objects = expanded_size(scene_, instances_).objects}.check();
     keep_meshes();
     old_ = std::exchange(scene_.objects, {});
     scene_.objects.reserve(size.objects);
     expand_vertices(size.vertices);
     expand_shading(size);
     scene_.objects.shrink_to_fit();
-    if (!kept_.places.empty()) {
-      scene_.kept = std::make_shared<const KeptMeshes>(std::move(kept_));
-    }
+    return std::move(kept_);
   }
 
  private:
-  /// Those that are large and stand in several places, while they still have all that they need.
+  /// While they still have all that they need.
   void keep_meshes() {
-    std::vector<std::uint64_t> uses(instances_.meshes.size());
-    for (const Instance& place : instances_.places) {
-      uses[place.mesh] += can_be_kept(place.world) ? 1 : 0;
-    }
-    kept_as_.assign(instances_.meshes.size(), nowhere);
+    const std::vector<bool> are_kept = kept_meshes(scene_, instances_);
+    kept_as_.assign(are_kept.size(), nowhere);
+    kept_.have_copies = false;
     MeshTaker taker(scene_);
-    for (std::size_t i = 0; i < instances_.meshes.size(); ++i) {
-      if (uses[i] > 1 && triangle_count(instances_.meshes[i]) > copied_triangles_max) {
+    for (std::size_t i = 0; i < are_kept.size(); ++i) {
+      if (are_kept[i]) {
         kept_as_[i] = static_cast<std::uint32_t>(kept_.meshes.size());
         kept_.meshes.push_back(taker.take(instances_.meshes[i]));
       }
     }
   }
-  std::uint64_t triangle_count(const SharedMesh& mesh) const {
-    std::uint64_t count = 0;
-    for (std::uint32_t i = mesh.first; i < mesh.end; ++i) {
-      count += scene_.objects[i].vertex_count - std::uint64_t{2};
-    }
-    return count;
-  }
 
-  /// Calls `own` with each object that stands where it is, and `placed` with each of an instance's and its Placing, in order;
-  /// before those of a kept mesh `begun` with that.
-  template <class Begun, class Own, class Placed>
-  void for_each(const Begun& begun, const Own& own, const Placed& placed) const {
+  /// Calls `own` with each object that stands where it is, `placed` with each of an instance's and its Placing, and `left` with
+  /// each instance whose mesh is kept, and as what, in order.
+  template <class Left, class Own, class Placed>
+  void for_each(const Left& left, const Own& own, const Placed& placed) const {
     auto place = instances_.places.begin();
     auto mesh = instances_.meshes.begin();
     for (std::size_t i = 0; i <= old_.size();) {
       for (; place != instances_.places.end() && place->before <= i; ++place) {
-        const SharedMesh& shared = instances_.meshes[place->mesh];
-        const Placing placing(place->world, can_be_kept(place->world) ? kept_as_[place->mesh] : nowhere);
-        if (placing.is_kept()) {
-          begun(placing);
+        if (kept_as_[place->mesh] != nowhere && can_be_kept(place->world)) {
+          left(*place, kept_as_[place->mesh]);
+          continue;
         }
+        const SharedMesh& shared = instances_.meshes[place->mesh];
+        const Placing placing(place->world);
         for (std::size_t object = shared.first; object < shared.end; ++object) {
           placed(old_[object], placing);
         }
@@ -189,13 +206,17 @@ class Expansion {
     const std::vector<Vec3d> old = std::exchange(scene_.vertices, {});
     std::vector<Vec3d>& all = scene_.vertices;
     all.reserve(count);
+    std::uint32_t left_objects = 0;
     const auto add = [&](Object object) {
-      object.first = static_cast<std::uint32_t>(all.size());
+      if (object.vertex_count > 0) {
+        object.first = static_cast<std::uint32_t>(all.size());
+      }
       scene_.objects.push_back(object);
     };
     for_each(
-        [&](const Placing& placing) {
-          kept_.places.push_back({placing.world, placing.kept_as, static_cast<std::uint32_t>(scene_.objects.size())});
+        [&](const Instance& place, std::uint32_t mesh) {
+          kept_.places.push_back({place.world, mesh, static_cast<std::uint32_t>(scene_.objects.size()) + left_objects});
+          left_objects += static_cast<std::uint32_t>(kept_.meshes[mesh].objects.size());
         },
         [&](const Object& object) {
           add(object);
@@ -217,7 +238,7 @@ class Expansion {
     scene_.normals.reserve(size.normals);
     scene_.corners.reserve(size.corners);
     std::size_t next = 0;
-    for_each([](const Placing&) {},
+    for_each([](const Instance&, std::uint32_t) {},
              [&](const Object& object) {
                Object& result = scene_.objects[next++];
                if (object.kind == ObjectKind::patch) {
@@ -255,8 +276,7 @@ class Expansion {
       is_flat = is_flat && before == Vec3d{};
       placed_.push_back(placing.normals.direction(before));
     }
-    if (is_flat || (!placing.is_kept() &&
-                    are_the_faces_own(placed_, std::span(scene_.vertices).subspan(result.first, result.vertex_count)))) {
+    if (is_flat || are_the_faces_own(placed_, std::span(scene_.vertices).subspan(result.first, result.vertex_count))) {
       placed_.clear();
     }
   }
@@ -291,22 +311,32 @@ class Expansion {
 }  // namespace
 
 ExpandedSize expanded_size(const Scene& scene, const Instances& instances) {
-  std::vector<ExpandedSize> meshes;
-  ExpandedSize size;
-  std::size_t next = 0;
-  const std::span<const Object> objects(scene.objects);
-  for (const SharedMesh& mesh : instances.meshes) {
-    size = plus(size, size_of(objects.subspan(next, mesh.first - next)));
-    meshes.push_back(size_of(objects.subspan(mesh.first, mesh.end - mesh.first)));
-    next = mesh.end;
-  }
-  size = plus(size, size_of(objects.subspan(next)));
-  for (const Instance& place : instances.places) {
-    size = plus(size, meshes[place.mesh]);
-  }
-  return size;
+  return size_with(scene, instances, [](const Instance&) { return true; });
 }
 
-void expand(Scene& scene, const Instances& instances) { Expansion(scene, instances).run(); }
+ExpandedSize settled_size(const Scene& scene, const Instances& instances, Copies copies) {
+  if (copies == Copies::put) {
+    return expanded_size(scene, instances);
+  }
+  const std::vector<bool> are_kept = kept_meshes(scene, instances);
+  return size_with(scene, instances, [&](const Instance& place) { return !are_kept[place.mesh] || !can_be_kept(place.world); });
+}
+
+void leave(Scene& scene, const Instances& instances) {
+  KeptMeshes kept = Expansion(scene, instances).run();
+  if (!kept.places.empty()) {
+    scene.kept = std::make_shared<const KeptMeshes>(std::move(kept));
+  }
+}
+
+void expand(Scene& scene, const Instances& instances) {
+  expanded_size(scene, instances).check();
+  leave(scene, instances);
+  put_copies(scene);
+}
+
+void settle(Scene& scene, const Instances& instances, Copies copies) {
+  copies == Copies::put ? expand(scene, instances) : leave(scene, instances);
+}
 
 }  // namespace dmpc::core

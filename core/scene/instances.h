@@ -1,10 +1,10 @@
 // Meshes that stand in several places of a scene, and are there but once.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "core/scene/expanded_size.h"
 #include "core/scene/scene.h"
 #include "core/scene/transform.h"
 
@@ -23,7 +23,7 @@ struct Instance {
   std::uint32_t before = 0;  ///< it comes after so many of Scene::objects
 };
 
-/// Whoever takes a scene's objects for what is there has to expand() these first.
+/// Whoever takes a scene's objects for what is there has to expand() or leave() these first.
 struct Instances {
   std::vector<SharedMesh> meshes;  ///< one after the other, not empty
   std::vector<Instance> places;    ///< in the file's order: `before` does not fall
@@ -31,15 +31,8 @@ struct Instances {
   bool empty() const { return meshes.empty() && places.empty(); }
 };
 
-/// What the pools of a scene hold once its instances are expanded; as much as 2^48 stands for more, too.
-struct ExpandedSize {
-  std::uint64_t objects = 0, vertices = 0, normals = 0, corners = 0;
-
-  std::uint64_t bytes() const {
-    return sizeof(Object) * objects + sizeof(Vec3d) * (vertices + normals) + sizeof(TexturedCorner) * corners;
-  }
-};
-/// At most: normals that turn out to be the faces' own need no room.
+/// What the pools of a scene hold once its instances are expanded, at most: normals that turn out to be the faces' own need no
+/// room.
 ExpandedSize expanded_size(const Scene& scene, const Instances& instances);
 
 /// Puts a copy of each mesh in each of its places, where the file's order has it, and takes the meshes themselves away. Corners
@@ -48,5 +41,17 @@ ExpandedSize expanded_size(const Scene& scene, const Instances& instances);
 /// of the objects. Of meshes that are large and stand in several places it leaves what is decided of them by themselves in
 /// Scene::kept. Throws RoomError if pools outgrow 32 bits.
 void expand(Scene& scene, const Instances& instances);
+
+/// Whether a scene has copies of its kept meshes among its objects.
+enum class Copies : std::uint8_t { put, left_out };
+
+/// As expand(), but what Scene::kept has is left out of the objects: a mesh's place takes 112 bytes, whatever the mesh holds.
+/// Throws RoomError if there would be more objects with all copies than 32 bits count.
+void leave(Scene& scene, const Instances& instances);
+
+/// The one or the other.
+void settle(Scene& scene, const Instances& instances, Copies copies);
+/// What the pools hold then, at most.
+ExpandedSize settled_size(const Scene& scene, const Instances& instances, Copies copies);
 
 }  // namespace dmpc::core

@@ -31,14 +31,14 @@ const KeptPlace* place_of(const Scene& scene, std::uint32_t object) {
   if (scene.kept == nullptr) {
     return nullptr;
   }
-  const auto& [meshes, places] = *scene.kept;
+  const std::vector<KeptPlace>& places = scene.kept->places;
   const auto behind = std::upper_bound(places.begin(), places.end(), object,
                                        [](std::uint32_t index, const KeptPlace& place) { return index < place.first; });
   if (behind == places.begin()) {
     return nullptr;
   }
   const KeptPlace& place = *(behind - 1);
-  return object - place.first < meshes[place.mesh].objects.size() ? &place : nullptr;
+  return object - place.first < scene.kept->meshes[place.mesh].objects.size() ? &place : nullptr;
 }
 
 std::array<std::uint32_t, 3> placed_triangle(bool is_mirrored, std::uint32_t corner_count,

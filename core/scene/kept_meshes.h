@@ -10,11 +10,11 @@
 
 namespace dmpc::core {
 
-/// A copy of a mesh in Scene::objects.
+/// A copy of a mesh among a scene's objects.
 struct KeptPlace {
   Transform world;          ///< from the mesh's coordinates
   std::uint32_t mesh = 0;   ///< index into KeptMeshes::meshes
-  std::uint32_t first = 0;  ///< the copy's first object: as many come as the mesh has, in its order
+  std::uint32_t first = 0;  ///< the index of the copy's first object, with all copies: as many come as the mesh has, in its order
 };
 
 /// What is decided of a mesh, and not of each of its places: how its polygons are divided, what its normals say, and which of its
@@ -23,6 +23,8 @@ struct KeptPlace {
 struct KeptMeshes {
   std::vector<Scene> meshes;      ///< objects and their pools alone, in coordinates of their own; materials are the scene's
   std::vector<KeptPlace> places;  ///< by `first`, ascending
+  /// Whether Scene::objects has these copies. Where they are left out core/scene/placed_objects.h makes them.
+  bool have_copies = true;
 };
 
 /// A mesh of no more triangles is copied and then forgotten, as one that stands in one place is.

@@ -1,0 +1,126 @@
+#include "core/database/copies_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/base/units.h"
+#include "core/scene/frame.h"
+#include "core/scene/kept_meshes.h"
+#include "core/scene/placed_objects.h"
+
+namespace dmpc::core {
+namespace {
+
+/// Far more than doubles round off a placed corner, as a share of what is added up.
+constexpr double rounding = 0x1p-40;
+/// Places that one thread takes at a time.
+constexpr std::size_t places_a_chunk = 256;
+
+Vec3d magnitudes(const Vec3d& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+
+bool is_below(const Vec3d& v, double coordinate_max) {
+  return std::fabs(v.x) < coordinate_max && std::fabs(v.y) < coordinate_max && std::fabs(v.z) < coordinate_max;
+}
+
+class CopiesBounds {
+ public:
+  CopiesBounds(const KeptMeshes& kept, const GridAxes& axes, double coordinate_max)
+      : kept_(kept), axes_(axes), coordinate_max_(coordinate_max) {
+    for (const Scene& mesh : kept.meshes) {
+      Box& own = own_.emplace_back();
+      for (const Vec3d& vertex : mesh.vertices) {
+        own.include(vertex);
+      }
+    }
+  }
+
+  /// Those that may reach farthest to each side come first, so that most of the others lie within.
+  void include_all(Box& box, const Parallel& parallel) const {
+    for (const std::size_t place : farthest()) {
+      include(box, kept_.places[place]);
+    }
+    std::vector<Box> boxes(ceil_divide(kept_.places.size(), places_a_chunk), box);
+    parallel.for_each(boxes.size(), [&](std::size_t chunk) {
+      const std::size_t end = std::min(kept_.places.size(), (chunk + 1) * places_a_chunk);
+      for (std::size_t i = chunk * places_a_chunk; i < end; ++i) {
+        const Box reach = reach_of(kept_.places[i]);
+        if (!boxes[chunk].holds(reach.low) || !boxes[chunk].holds(reach.high)) {
+          include(boxes[chunk], kept_.places[i]);
+        }
+      }
+    });
+    for (const Box& one : boxes) {
+      if (!one.empty()) {
+        box.include(one.low);
+        box.include(one.high);
+      }
+    }
+  }
+
+ private:
+  /// Holds all corners of a place; numbers that are none where doubles end.
+  Box reach_of(const KeptPlace& place) const {
+    const Box& own = own_[place.mesh];
+    const Vec3d middle = turned(axes_, place.world.point(own.center())), half = own.half();
+    const Vec3d largest = magnitudes(own.center()) + half;
+    Box reach;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double away = 0, added_up = 0;
+      for (std::size_t row = 0; row < 3; ++row) {
+        const Vec3d way = magnitudes(place.world.rows[row]) * std::fabs(axes_[axis][row]);
+        away += dot(way, half);
+        added_up += dot(way, largest) + std::fabs(place.world.shift[row] * axes_[axis][row]);
+      }
+      away += added_up * rounding;
+      reach.low[axis] = middle[axis] - away;
+      reach.high[axis] = middle[axis] + away;
+    }
+    return reach;
+  }
+
+  /// To each side of each axis.
+  std::vector<std::size_t> farthest() const {
+    std::vector<std::size_t> places(6);
+    Box known;
+    for (std::size_t i = 0; i < kept_.places.size(); ++i) {
+      const Box reach = reach_of(kept_.places[i]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (reach.low[axis] < known.low[axis]) {
+          known.low[axis] = reach.low[axis];
+          places[2 * axis] = i;
+        }
+        if (reach.high[axis] > known.high[axis]) {
+          known.high[axis] = reach.high[axis];
+          places[2 * axis + 1] = i;
+        }
+      }
+    }
+    return places;
+  }
+
+  void include(Box& box, const KeptPlace& place) const {
+    for (const Vec3d& vertex : kept_.meshes[place.mesh].vertices) {
+      const Vec3d corner = place.world.point(vertex);
+      if (is_below(corner, coordinate_max_)) {
+        box.include(turned(axes_, corner));
+      }
+    }
+  }
+
+  const KeptMeshes& kept_;
+  const GridAxes& axes_;
+  double coordinate_max_;
+  std::vector<Box> own_;  ///< of each mesh, in its own coordinates
+};
+
+}  // namespace
+
+void include_copies(Box& box, const Scene& scene, const GridAxes& axes, double coordinate_max, const Parallel& parallel) {
+  if (leaves_copies_out(scene)) {
+    CopiesBounds(*scene.kept, axes, coordinate_max).include_all(box, parallel);
+  }
+}
+
+}  // namespace dmpc::core
