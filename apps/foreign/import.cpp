@@ -157,14 +157,14 @@ std::vector<std::byte> bytes_of_file(const std::string& path, SceneFiles& files)
 
 /// Nothing for version 1, which is left to Assimp.
 std::optional<ImportedFile> import_gltf(const std::string& path, SceneFiles& files,
-                                        const std::optional<AnimationMoment>& animation) {
+                                        const std::optional<AnimationMoment>& animation, core::Copies copies) {
   const std::unique_ptr<FileBytes> file = files.open(path);
   const gltf::Document document = gltf::parse_document(file->bytes());
   if (document.version == 1) {
     return std::nullopt;
   }
   gltf::check_required(document);
-  files.expect(gltf::counts_of(document, file->bytes().size()));
+  files.expect(gltf::counts_of(document, file->bytes().size(), copies));
   const auto open = [&](const std::string& name) {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     const auto found = files.meant(folder, name);
@@ -224,10 +224,11 @@ void import_by_assimp(const std::string& path, const std::string& ending, SceneF
 
 }  // namespace
 
-ImportedFile import_file(const std::string& path, SceneFiles& files, const std::optional<AnimationMoment>& animation) {
+ImportedFile import_file(const std::string& path, SceneFiles& files, const std::optional<AnimationMoment>& animation,
+                         core::Copies copies) {
   const std::string ending = ending_of(path);
   if (ending == "gltf" || ending == "glb") {
-    if (auto file = import_gltf(path, files, animation)) {
+    if (auto file = import_gltf(path, files, animation, copies)) {
       return *std::move(file);
     }
   }

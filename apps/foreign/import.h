@@ -7,6 +7,7 @@
 #include "apps/foreign/mesh/imported_file.h"
 #include "apps/foreign/mesh/scene_files.h"
 #include "apps/formats/animation_moment.h"
+#include "core/scene/instances.h"
 
 namespace Assimp {
 class Importer;
@@ -23,8 +24,9 @@ void keep_readers_of(const std::string& ending, Assimp::Importer& importer);
 
 /// Reads meshes, materials, lights and cameras as the file has them, by a reader for files that end as it does. Throws
 /// core::InputError with Assimp's own words if it cannot read the file, or if there is no mesh in it, std::bad_alloc if memory
-/// ends. Nodes stand as they do at the moment of `animation`, if it is given: of glTF 2 alone, else core::InputError.
+/// ends. Nodes stand as they do at the moment of `animation`, if it is given: of glTF 2 alone, else core::InputError. `copies`:
+/// what will become of what stands in several places, by which memory is reckoned.
 ImportedFile import_file(const std::string& path, SceneFiles& files,
-                         const std::optional<AnimationMoment>& animation = std::nullopt);
+                         const std::optional<AnimationMoment>& animation = std::nullopt, core::Copies copies = core::Copies::put);
 
 }  // namespace dmpc::apps

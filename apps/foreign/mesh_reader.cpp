@@ -23,6 +23,7 @@
 #include "apps/formats/whole_view.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
+#include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps {
 namespace {
@@ -128,33 +129,6 @@ std::vector<core::Material> materials_of(const PolygonFile& file, SceneFiles& fi
   return materials;
 }
 
-/// What placed meshes become, each of them once and in all its places.
-struct PlacedSize {
-  GeometrySize once, all;
-};
-
-/// Says what instancing costs.
-PlacedSize measure(ImportedFile& file, const Placements& placements, std::vector<std::string>& notes) {
-  std::vector<GeometrySize> sizes(file.scene->mNumMeshes);
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    sizes[i] = size_of(*file.scene->mMeshes[i]);
-    sizes[i] += size_of(file.triangles_of(i));
-  }
-  std::set<std::size_t> placed;
-  PlacedSize size;
-  auto& [once, all] = size;
-  for (const Placement& placement : placements) {
-    all += sizes[placement.mesh];
-    once += placed.insert(placement.mesh).second ? sizes[placement.mesh] : GeometrySize{};
-  }
-  if (placed.size() < placements.size()) {
-    notes.push_back(grouped(placed.size()) + (placed.size() == 1 ? " mesh stands in " : " meshes stand in ") +
-                    grouped(placements.size()) + " places: " + grouped(once.triangles) + " triangles become " +
-                    grouped(all.triangles));
-  }
-  return size;
-}
-
 /// In how many places each mesh stands.
 std::vector<std::size_t> count_uses(const aiScene& file, const Placements& placements) {
   std::vector<std::size_t> uses(file.mNumMeshes);
@@ -162,6 +136,39 @@ std::vector<std::size_t> count_uses(const aiScene& file, const Placements& place
     ++uses[placement.mesh];
   }
   return uses;
+}
+
+/// What placed meshes become, each of them once, in all its places, and as often as the scene has it.
+struct PlacedSize {
+  GeometrySize once, all, made;
+};
+
+/// Says what instancing costs.
+PlacedSize measure(ImportedFile& file, const Placements& placements, core::Copies copies, std::vector<std::string>& notes) {
+  std::vector<GeometrySize> sizes(file.scene->mNumMeshes);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    sizes[i] = size_of(*file.scene->mMeshes[i]);
+    sizes[i] += size_of(file.triangles_of(i));
+  }
+  const std::vector<std::size_t> uses = count_uses(*file.scene, placements);
+  std::set<std::size_t> placed;
+  PlacedSize size;
+  auto& [once, all, made] = size;
+  for (const Placement& placement : placements) {
+    const GeometrySize& mesh = sizes[placement.mesh];
+    const bool is_first = placed.insert(placement.mesh).second;
+    const bool is_left_out =
+        copies == core::Copies::left_out && uses[placement.mesh] > 1 && mesh.triangles > core::copied_triangles_max;
+    all += mesh;
+    once += is_first ? mesh : GeometrySize{};
+    made += is_first || !is_left_out ? mesh : GeometrySize{};
+  }
+  if (placed.size() < placements.size()) {
+    notes.push_back(grouped(placed.size()) + (placed.size() == 1 ? " mesh stands in " : " meshes stand in ") +
+                    grouped(placements.size()) + " places: " + grouped(once.triangles) + " triangles become " +
+                    grouped(all.triangles));
+  }
+  return size;
 }
 
 /// Frees a mesh that nobody needs any more, long before the file's others.
@@ -324,9 +331,9 @@ MeshScene scene_of(ImportedFile file, const std::string& path, const MeshOptions
     leave_out_facets(file.textures);
   }
   std::vector<std::string> missing = file.missing;
-  const Placements placements = find_placements(*file.scene, options.scale.value_or(1));
-  const PlacedSize size = measure(file, placements, result.notes);
-  check_size(size.all);
+  const Placements placements = find_placements(*file.scene, file.instances, options.scale.value_or(1));
+  const PlacedSize size = measure(file, placements, options.copies, result.notes);
+  check_size(size.made);
   result.scene.objects.reserve(options.smooth_degrees ? size.all.faces : size.once.faces);
   note_features(*file.scene, placements, result.notes);
   result.notes.insert(result.notes.end(), file.notes.begin(), file.notes.end());
@@ -359,12 +366,12 @@ MeshScene scene_of(PolygonFile file, const std::string& path, const MeshOptions&
 
 MeshScene read(const std::string& path, const MeshOptions& options, SceneFiles& files) {
   if (pbrt::is_pbrt_path(path)) {
-    return placed_scene(pbrt::read_pbrt(path, options.size, files), path, options, files);
+    return placed_scene(pbrt::read_pbrt(path, options.size, files, options.copies), path, options, files);
   }
   if (auto file = read_polygon_file(path, files)) {
     return scene_of(*std::move(file), path, options, files);
   }
-  return scene_of(import_file(path, files, options.animation), path, options, files);
+  return scene_of(import_file(path, files, options.animation, options.copies), path, options, files);
 }
 
 }  // namespace

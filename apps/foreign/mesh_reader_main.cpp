@@ -56,6 +56,7 @@ MeshOptions take_options(Unpacker& fields) {
   options.is_below_sky = fields.take_flag();
   options.is_below_own_sky = fields.take_flag();
   options.is_by_paths = fields.take_flag();
+  options.copies = fields.take_flag() ? core::Copies::left_out : core::Copies::put;
   if (!fields.is_empty()) {
     options.animation = take_moment(fields);
   }

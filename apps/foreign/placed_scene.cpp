@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -56,7 +57,10 @@ void turn_faces(PolygonMesh& mesh) {
   }
 }
 
-void put_in_place(PolygonMesh& mesh, const Transform& world, bool is_turned, const TexturePlace& place) {
+void put_in_place(PolygonMesh& mesh, const Transform& world, bool is_turned, const PlacedMaterial& material) {
+  if (material.surface.material.texture == core::Material::no_texture) {
+    mesh.places.clear();
+  }
   for (Vec3d& vertex : mesh.vertices) {
     vertex = world.point(vertex);
   }
@@ -71,9 +75,9 @@ void put_in_place(PolygonMesh& mesh, const Transform& world, bool is_turned, con
   if ((determinant < 0) != is_turned) {
     turn_faces(mesh);
   }
-  if (!place.is_plain()) {
+  if (!material.place.is_plain()) {
     for (auto& [s, t] : mesh.places) {
-      const auto moved = place(double{s}, double{t});
+      const auto moved = material.place(double{s}, double{t});
       s = static_cast<float>(moved[0]);
       t = static_cast<float>(moved[1]);
     }
@@ -144,6 +148,7 @@ class PlacedScene {
     for (const ShapePlace& place : file_.places) {
       add_shape(place, writer);
     }
+    result_.instances = writer.instances();
     bounds_ = sphere_around(result_.vertices, result_.scene.objects, result_.instances, result_.scene.spheres);
     for (const PolygonMesh& back : backs_) {
       writer.add(behind(back), file_.materials[back.material].surface.material);
@@ -156,9 +161,21 @@ class PlacedScene {
   }
 
   void add_shape(const ShapePlace& place, GeometryWriter& writer) {
+    const Transform world = scaled(place.world, scale_);
+    if (const auto shared = shared_.find(place.shape); shared != shared_.end()) {
+      put(shared->second, world, writer);
+      return;
+    }
     PlacedShape& shape = file_.shapes[place.shape];
     const PlacedMaterial& material = file_.materials[shape.mesh.material];
-    const Transform world = scaled(place.world, scale_);
+    if (shape.uses > 1 && !shape.sphere && !shape.back && !options_.smooth_degrees) {
+      PolygonMesh mesh = std::move(shape.mesh);
+      put_in_place(mesh, {}, shape.is_turned, material);
+      const auto shared = writer.add_shared(std::move(mesh), material.surface.material);
+      shared_.emplace(place.shape, shared);
+      put(shared, world, writer);
+      return;
+    }
     const bool is_last = --shape.uses == 0;
     const auto stretch = even_stretch(world);
     if (shape.sphere && stretch && material.surface.material.texture == core::Material::no_texture) {
@@ -173,15 +190,18 @@ class PlacedScene {
     } else {
       mesh = is_last ? std::move(shape.mesh) : shape.mesh;
     }
-    if (material.surface.material.texture == core::Material::no_texture) {
-      mesh.places.clear();
-    }
-    put_in_place(mesh, world, shape.is_turned, material.place);
+    put_in_place(mesh, world, shape.is_turned, material);
     if (shape.back) {
       backs_.push_back(mesh);
       backs_.back().material = *shape.back;
     }
     writer.add(std::move(mesh), material.surface.material);
+  }
+
+  static void put(const std::optional<std::uint32_t>& shared, const Transform& world, GeometryWriter& writer) {
+    if (shared) {
+      writer.place(*shared, world);
+    }
   }
 
   /// What shines here shines to both sides: so what shines to the front alone has a back of its surface, which does not shine, a
@@ -283,7 +303,8 @@ class PlacedScene {
   double scale_;
   MeshScene result_;
   BoundingSphere bounds_;
-  std::vector<PolygonMesh> backs_;  ///< where their fronts are
+  std::map<std::uint32_t, std::optional<std::uint32_t>> shared_;  ///< by shape; nothing of one without faces
+  std::vector<PolygonMesh> backs_;                                ///< where their fronts are
 };
 
 }  // namespace

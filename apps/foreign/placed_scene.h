@@ -8,7 +8,8 @@
 
 namespace dmpc::apps {
 
-/// Each place's shape is expanded where it stands. By paths, which is below the file's own sky, point lights are spheres of a
+/// A shape that stands in several places is an instance in each, but for what is round there, shines to its front alone, or is
+/// smoothed by `options`: these are copied. By paths, which is below the file's own sky, point lights are spheres of a
 /// thousandth of the scene that fall off as physics has it; else, and where they are far away, they are ours, as bright in the
 /// middle of the scene. Throws as read_mesh() does.
 MeshScene placed_scene(PlacedFile file, const std::string& path, const MeshOptions& options, SceneFiles& files);

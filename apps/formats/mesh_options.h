@@ -7,6 +7,7 @@
 #include "apps/formats/resolution.h"
 #include "apps/formats/up_axis.h"
 #include "apps/reader/confinement.h"
+#include "core/scene/instances.h"
 
 namespace dmpc::apps {
 
@@ -23,6 +24,7 @@ struct MeshOptions {
   bool is_below_own_sky = false;  ///< the sky that the file says itself
   /// What shines by itself is a light, and textures of metal and roughness are read, which no other transport shows.
   bool is_by_paths = false;
+  core::Copies copies = core::Copies::put;   ///< of meshes that stand in several places
   std::optional<AnimationMoment> animation;  ///< of glTF; nothing: nodes stand as the file says
 };
 

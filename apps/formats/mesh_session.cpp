@@ -96,6 +96,7 @@ MeshSession::MeshSession(const std::string& path, const MeshOptions& options, bo
       pictures_(with_sandbox(limits, options.sandbox)),
       budget_(with_sandbox(limits, options.sandbox)),
       process_("dmpc_mesh_reader", address_bytes_for(bytes_around(path)), budget_),
+      receiver_({}, options.copies),
       current_(path) {}
 
 MeshFile MeshSession::read() {
@@ -149,7 +150,7 @@ void MeshSession::ask() {
   add(fields, options_.size, static_cast<double>(size.width));
   fields.add(static_cast<double>(size.height));
   for (const bool flag : {options_.allows_missing, options_.is_seen_otherwise, options_.is_lit_otherwise, options_.is_below_sky,
-                          options_.is_below_own_sky, options_.is_by_paths}) {
+                          options_.is_below_own_sky, options_.is_by_paths, options_.copies == core::Copies::left_out}) {
     fields.add(static_cast<std::uint8_t>(flag));
   }
   if (options_.animation) {

@@ -12,9 +12,11 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/formats/nff_reader.h"
 #include "apps/formats/view_faults.h"
+#include "core/base/box.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
 #include "core/scene/facet_texture.h"
+#include "core/scene/placed_objects.h"
 
 namespace dmpc::apps {
 namespace {
@@ -314,12 +316,14 @@ void SceneReceiver::drop_needless_alpha(core::Material& material) const {
   }
 }
 
-/// Each mesh has objects of its own, and each place one of the meshes.
+/// Each mesh has objects of its own, none of them round, and each place one of the meshes.
 void SceneReceiver::check_instances() const {
   std::uint32_t next = 0;
   for (const core::SharedMesh& mesh : instances_.meshes) {
     Unpacker::require(mesh.first >= next && mesh.end > mesh.first && mesh.end <= scene_.objects.size());
-    next = mesh.end;
+    for (; next < mesh.end; ++next) {
+      Unpacker::require(next < mesh.first || scene_.objects[next].vertex_count > 0);
+    }
   }
   next = 0;
   for (const core::Instance& place : instances_.places) {
@@ -329,18 +333,38 @@ void SceneReceiver::check_instances() const {
 }
 
 /// Few bytes may say much of them.
-void SceneReceiver::expand_instances() {
+void SceneReceiver::settle_instances() {
   if (instances_.empty()) {
     return;
   }
   check_instances();
-  const std::uint64_t bytes = core::expanded_size(scene_, instances_).bytes();
+  const std::uint64_t bytes = core::settled_size(scene_, instances_, copies_).bytes();
   if (bytes > limits_.expanded_bytes) {
     throw core::RoomError("with every instance it takes " + bytes_text(bytes) + " of memory, and there are " +
                           bytes_text(limits_.expanded_bytes) + " for it: give the scene fewer, or coarser meshes");
   }
-  core::expand(scene_, std::exchange(instances_, {}));
+  core::settle(scene_, std::exchange(instances_, {}), copies_);
   Unpacker::require(std::all_of(scene_.vertices.begin(), scene_.vertices.end(), is_point));
+  check_copies();
+}
+
+/// Of those that are left out no corner lies beyond what is allowed, either.
+void SceneReceiver::check_copies() const {
+  if (!leaves_copies_out(scene_)) {
+    return;
+  }
+  std::vector<core::Box> boxes;
+  for (const core::Scene& mesh : scene_.kept->meshes) {
+    core::Box& box = boxes.emplace_back();
+    std::for_each(mesh.vertices.begin(), mesh.vertices.end(), [&box](const Vec3d& vertex) { box.include(vertex); });
+  }
+  for (const core::KeptPlace& place : scene_.kept->places) {
+    const core::Box& box = boxes[place.mesh];
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      const auto side = [&](unsigned axis) { return ((corner >> axis) & 1U) == 0 ? box.low[axis] : box.high[axis]; };
+      Unpacker::require(is_point(place.world.point({side(0), side(1), side(2)})));
+    }
+  }
 }
 
 /// Normals and places on textures, or colours of corners, may have any bits (core/database/conversion.cpp).
@@ -361,7 +385,7 @@ core::Scene SceneReceiver::finish() {
   }
   Unpacker::require(std::all_of(points_.begin(), points_.end(), is_point));
   core::forget(points_);
-  expand_instances();
+  settle_instances();
   return std::exchange(scene_, {});
 }
 

@@ -32,15 +32,16 @@ bool send_scene(core::Scene& scene, IndexedVertices& vertices, core::Instances& 
 struct ReceivingLimits {
   /// For each list, before it comes: believed_bytes_max, or less for who tries many scenes that announce much and send nothing.
   std::uint64_t believed_bytes = believed_bytes_max;
-  std::uint64_t expanded_bytes = reader_memory_bytes_max();  ///< for the scene with every instance
+  std::uint64_t expanded_bytes = reader_memory_bytes_max();  ///< for the scene with every instance that is copied
 };
 
-/// Puts it together, with every instance expanded. Throws Nonsense for what no scene may hold: more than was announced; an index,
-/// a count, a kind or a number out of its range; a view that shows nothing; core::RoomError if the instances need more than there
-/// is; std::bad_alloc if memory ends.
+/// Puts it together, with every instance expanded, or with copies of kept meshes left out. Throws Nonsense for what no scene may
+/// hold: more than was announced; an index, a count, a kind or a number out of its range; a view that shows nothing;
+/// core::RoomError if the instances need more than there is; std::bad_alloc if memory ends.
 class SceneReceiver {
  public:
-  explicit SceneReceiver(const ReceivingLimits& limits = {}) : limits_(limits) {}
+  explicit SceneReceiver(const ReceivingLimits& limits = {}, core::Copies copies = core::Copies::put)
+      : limits_(limits), copies_(copies) {}
 
   /// Whether the message is one of a scene's, and was taken.
   bool take(const Message& message);
@@ -70,10 +71,12 @@ class SceneReceiver {
   void check_material(const core::Material& material) const;
   void check_facet_textures() const;
   void check_instances() const;
-  void expand_instances();
+  void check_copies() const;
+  void settle_instances();
   void drop_needless_alpha(core::Material& material) const;
 
   ReceivingLimits limits_;
+  core::Copies copies_;
   core::Scene scene_;
   core::Instances instances_;
   std::vector<core::Vec3d> points_;  ///< of the scene's vertices

@@ -11,6 +11,7 @@
 #include "core/base/box.h"
 #include "core/base/elementary.h"
 #include "core/scene/frame.h"
+#include "core/scene/place_reach.h"
 
 namespace dmpc::apps {
 
@@ -23,35 +24,38 @@ class PlacedPoints {
  public:
   PlacedPoints(const IndexedVertices& vertices, const std::vector<core::Object>& objects, const core::Instances& instances)
       : points_(vertices.points), places_(instances.places), is_own_(vertices.points.size()) {
-    const auto end = static_cast<std::uint32_t>(vertices.indices.size());
-    const auto first_vertex = [&](std::uint32_t object) { return object < objects.size() ? objects[object].first : end; };
     std::uint32_t next = 0;
     for (const core::SharedMesh& mesh : instances.meshes) {
-      add_own(vertices, next, first_vertex(mesh.first));
-      next = first_vertex(mesh.end);
-      add_shared(vertices, first_vertex(mesh.first), next);
+      const core::Object &front = objects[mesh.first], &back = objects[mesh.end - 1];
+      add_own(vertices, next, front.first);
+      next = back.first + back.vertex_count;
+      add_shared(vertices, front.first, next);
     }
-    add_own(vertices, next, end);
-    for_each_placed([this](const Vec3d& point) { box_.include(point); });
+    add_own(vertices, next, static_cast<std::uint32_t>(vertices.indices.size()));
+    for_each_placed([this](const Vec3d& point) { box_.include(point); },
+                    [this](const core::Box& reach) { return !box_.holds(reach.low) || !box_.holds(reach.high); });
   }
 
   const core::Box& box() const { return box_; }
 
-  /// Calls `take` with each.
-  template <class Take>
-  void for_each(const Take& take) const {
+  /// Calls `take` with each, but of those placed with none of a place whose box `counts` does not hold for.
+  template <class Take, class Counts>
+  void for_each(const Take& take, const Counts& counts) const {
     for (std::size_t i = 0; i < is_own_.size(); ++i) {
       if (is_own_[i] != 0) {
         take(points_[i]);
       }
     }
-    for_each_placed(take);
+    for_each_placed(take, counts);
   }
 
  private:
-  template <class Take>
-  void for_each_placed(const Take& take) const {
+  template <class Take, class Counts>
+  void for_each_placed(const Take& take, const Counts& counts) const {
     for (const core::Instance& place : places_) {
+      if (!counts(reach_of(boxes_[place.mesh], place.world))) {
+        continue;
+      }
       for (const std::uint32_t point : shared_[place.mesh]) {
         take(place.world.point(points_[point]));
       }
@@ -72,6 +76,10 @@ class PlacedPoints {
     std::vector<std::uint32_t> list(vertices.indices.begin() + first, vertices.indices.begin() + end);
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
+    core::Box& box = boxes_.emplace_back();
+    for (const std::uint32_t point : list) {
+      box.include(points_[point]);
+    }
     shared_.push_back(std::move(list));
   }
 
@@ -80,6 +88,7 @@ class PlacedPoints {
   core::Box box_;
   std::vector<std::uint8_t> is_own_;                ///< by point
   std::vector<std::vector<std::uint32_t>> shared_;  ///< points of each mesh
+  std::vector<core::Box> boxes_;                    ///< around them
 };
 
 }  // namespace
@@ -98,10 +107,20 @@ BoundingSphere sphere_around(const IndexedVertices& vertices, const std::vector<
   }
   BoundingSphere bounds{box.center(), 0};
   double square = 0;
-  points.for_each([&](const Vec3d& point) {
-    const Vec3d offset = point - bounds.center;
-    square = std::max(square, dot(offset, offset));
-  });
+  points.for_each(
+      [&](const Vec3d& point) {
+        const Vec3d offset = point - bounds.center;
+        square = std::max(square, dot(offset, offset));
+      },
+      [&](const core::Box& reach) {
+        constexpr double rounding = 0x1p-40;
+        Vec3d farthest;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          farthest[axis] =
+              std::max(std::abs(reach.low[axis] - bounds.center[axis]), std::abs(reach.high[axis] - bounds.center[axis]));
+        }
+        return !(dot(farthest, farthest) * (1 + rounding) <= square);
+      });
   bounds.radius = std::sqrt(square);
   for (const core::Sphere& sphere : spheres) {
     bounds.radius = std::max(bounds.radius, length(sphere.center - bounds.center) + std::abs(sphere.radius));

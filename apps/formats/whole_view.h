@@ -14,8 +14,7 @@
 namespace dmpc::apps {
 
 /// About the middle of their box, those of `objects` in their order, of what stands in several places in all of them, with that
-/// of the spheres; without any, of radius 1 about 0. A point that no vertex has is none. Requires that no mesh of `instances`
-/// stands beside spheres.
+/// of the spheres; without any, of radius 1 about 0. A point that no vertex has is none.
 BoundingSphere sphere_around(const IndexedVertices& vertices, const std::vector<core::Object>& objects,
                              const core::Instances& instances, std::span<const core::Sphere> spheres = {});
 

@@ -1,17 +1,39 @@
 #include "apps/info/scene_figures.h"
 
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
 #include "core/database/conversion.h"
 #include "core/database/parallel.h"
 #include "core/record/texture_layout.h"
+#include "core/scene/placed_objects.h"
 
 namespace dmpc::apps {
 
 namespace {
 
-std::array<std::uint64_t, object_kind_count> count_objects(const core::Scene& scene) {
-  std::array<std::uint64_t, object_kind_count> counts{};
+using ObjectCounts = std::array<std::uint64_t, object_kind_count>;
+
+ObjectCounts count_own(const core::Scene& scene) {
+  ObjectCounts counts{};
   for (const core::Object& object : scene.objects) {
     ++counts[static_cast<std::size_t>(object.kind)];
+  }
+  return counts;
+}
+
+/// With all copies of kept meshes, whether the scene has them or not.
+ObjectCounts count_objects(const core::Scene& scene) {
+  ObjectCounts counts = count_own(scene);
+  if (leaves_copies_out(scene)) {
+    std::vector<ObjectCounts> of_meshes;
+    std::transform(scene.kept->meshes.begin(), scene.kept->meshes.end(), std::back_inserter(of_meshes), count_own);
+    for (const core::KeptPlace& place : scene.kept->places) {
+      for (std::size_t kind = 0; kind < counts.size(); ++kind) {
+        counts[kind] += of_meshes[place.mesh][kind];
+      }
+    }
   }
   return counts;
 }

@@ -9,7 +9,7 @@
 #include "apps/edge/system/digest.h"
 #include "apps/picture/film_image.h"
 #include "apps/run/render_record.h"
-#include "core/scene/kept_meshes.h"
+#include "core/scene/placed_objects.h"
 
 namespace dmpc::apps {
 
@@ -37,7 +37,7 @@ std::string text_of(double number) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
 }
 
-std::string objects_text(const core::Scene& scene) {
+std::string text_of_pools(const core::Scene& scene) {
   static_assert(sizeof(core::Vec3d) == 24 && sizeof(core::TexturedCorner) == 32 && sizeof(core::Sphere) == 32 &&
                 sizeof(core::Cone) == 64);  // no padding
   Digest digest;
@@ -52,6 +52,12 @@ std::string objects_text(const core::Scene& scene) {
   add_all(digest, scene.spheres);
   add_all(digest, scene.cones);
   return text_of(digest);
+}
+
+/// Without copies of kept meshes, which meshes_text() tells: so it is the same whether the scene has them or not.
+std::string objects_text(const core::Scene& scene) {
+  const bool has_copies = scene.kept != nullptr && !leaves_copies_out(scene);
+  return has_copies ? text_of_pools(without_copies(scene)) : text_of_pools(scene);
 }
 
 /// What is decided of meshes by themselves, and so does not follow from the objects (core/scene/kept_meshes.h).

@@ -8,17 +8,14 @@
 #include "core/base/units.h"
 #include "core/scene/frame.h"
 #include "core/scene/kept_meshes.h"
+#include "core/scene/place_reach.h"
 #include "core/scene/placed_objects.h"
 
 namespace dmpc::core {
 namespace {
 
-/// Far more than doubles round off a placed corner, as a share of what is added up.
-constexpr double rounding = 0x1p-40;
 /// Places that one thread takes at a time.
 constexpr std::size_t places_a_chunk = 256;
-
-Vec3d magnitudes(const Vec3d& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 
 bool is_below(const Vec3d& v, double coordinate_max) {
   return std::fabs(v.x) < coordinate_max && std::fabs(v.y) < coordinate_max && std::fabs(v.z) < coordinate_max;
@@ -45,7 +42,7 @@ class CopiesBounds {
     parallel.for_each(boxes.size(), [&](std::size_t chunk) {
       const std::size_t end = std::min(kept_.places.size(), (chunk + 1) * places_a_chunk);
       for (std::size_t i = chunk * places_a_chunk; i < end; ++i) {
-        const Box reach = reach_of(kept_.places[i]);
+        const Box reach = this->reach(kept_.places[i]);
         if (!boxes[chunk].holds(reach.low) || !boxes[chunk].holds(reach.high)) {
           include(boxes[chunk], kept_.places[i]);
         }
@@ -60,32 +57,14 @@ class CopiesBounds {
   }
 
  private:
-  /// Holds all corners of a place; numbers that are none where doubles end.
-  Box reach_of(const KeptPlace& place) const {
-    const Box& own = own_[place.mesh];
-    const Vec3d middle = turned(axes_, place.world.point(own.center())), half = own.half();
-    const Vec3d largest = magnitudes(own.center()) + half;
-    Box reach;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      double away = 0, added_up = 0;
-      for (std::size_t row = 0; row < 3; ++row) {
-        const Vec3d way = magnitudes(place.world.rows[row]) * std::fabs(axes_[axis][row]);
-        away += dot(way, half);
-        added_up += dot(way, largest) + std::fabs(place.world.shift[row] * axes_[axis][row]);
-      }
-      away += added_up * rounding;
-      reach.low[axis] = middle[axis] - away;
-      reach.high[axis] = middle[axis] + away;
-    }
-    return reach;
-  }
+  Box reach(const KeptPlace& place) const { return reach_of(own_[place.mesh], place.world, axes_); }
 
   /// To each side of each axis.
   std::vector<std::size_t> farthest() const {
     std::vector<std::size_t> places(6);
     Box known;
     for (std::size_t i = 0; i < kept_.places.size(); ++i) {
-      const Box reach = reach_of(kept_.places[i]);
+      const Box reach = this->reach(kept_.places[i]);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (reach.low[axis] < known.low[axis]) {
           known.low[axis] = reach.low[axis];

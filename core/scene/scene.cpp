@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "core/base/expect.h"
+#include "core/scene/placed_objects.h"
 
 namespace dmpc::core {
 namespace {
@@ -25,31 +28,32 @@ std::size_t mix(std::size_t hash, double value) {
   return (hash ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15U ^ (hash >> 29U);
 }
 
-std::vector<Vec3d> slice(const std::vector<Vec3d>& pool, std::uint32_t first, std::uint32_t count) {
-  const auto begin = pool.begin() + static_cast<std::ptrdiff_t>(first);
-  return {begin, begin + static_cast<std::ptrdiff_t>(count)};
+/// A value for each corner.
+template <class Value>
+std::vector<Vec3d> of_corners(const PlacedObject& placed, const Value& value) {
+  std::vector<Vec3d> values;
+  for (std::uint32_t i = 0; i < placed.object().vertex_count; ++i) {
+    values.push_back(value(i));
+  }
+  return values;
 }
 
-void replay_object(const Scene& scene, const Object& object, SceneSink& sink) {
+void replay_object(const PlacedObject& placed, SceneSink& sink) {
+  const Object& object = placed.object();
+  const auto vertices = [&] { return of_corners(placed, [&](std::uint32_t i) { return placed.vertex(i); }); };
   switch (object.kind) {
     case ObjectKind::polygon:
-      return sink.polygon(slice(scene.vertices, object.first, object.vertex_count));
+      return sink.polygon(vertices());
     case ObjectKind::patch:
-      return sink.patch(slice(scene.vertices, object.first, object.vertex_count),
-                        slice(scene.normals, object.first_normal, object.vertex_count));
-    case ObjectKind::textured: {
-      std::vector<Vec3d> normals;
-      for (std::uint32_t corner = 0; corner < object.vertex_count; ++corner) {
-        normals.push_back(scene.corners[object.first_normal + corner].normal);
-      }
-      return sink.patch(slice(scene.vertices, object.first, object.vertex_count), normals);
-    }
+      return sink.patch(vertices(), of_corners(placed, [&](std::uint32_t i) { return placed.normal(i); }));
+    case ObjectKind::textured:
+      return sink.patch(vertices(), of_corners(placed, [&](std::uint32_t i) { return placed.corner(i).normal; }));
     case ObjectKind::sphere: {
-      const Sphere& sphere = scene.spheres[object.first];
+      const Sphere& sphere = placed.pools().spheres[object.first];
       return sink.sphere(sphere.center, sphere.radius);
     }
     case ObjectKind::cone: {
-      const Cone& cone = scene.cones[object.first];
+      const Cone& cone = placed.pools().cones[object.first];
       return sink.cone(cone.base, cone.base_radius, cone.apex, cone.apex_radius);
     }
   }
@@ -204,14 +208,13 @@ void replay(const Scene& scene, SceneSink& sink) {
   for (const PointLight& light : scene.lights) {
     sink.light(light);
   }
-  const Object* previous = nullptr;
-  for (const Object& object : scene.objects) {
-    if (previous == nullptr || previous->material != object.material) {
-      sink.material(scene.materials[object.material]);
+  std::optional<std::uint32_t> material;
+  PlacedObjects(scene).for_each([&](const PlacedObject& placed) {
+    if (std::exchange(material, placed.object().material) != placed.object().material) {
+      sink.material(scene.materials[placed.object().material]);
     }
-    replay_object(scene, object, sink);
-    previous = &object;
-  }
+    replay_object(placed, sink);
+  });
 }
 
 }  // namespace dmpc::core

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/kept_meshes.h"
+
 namespace dmpc::apps::gltf {
 namespace {
 
@@ -89,7 +91,7 @@ std::uint64_t buffer_bytes(const Document& document, std::uint64_t file_bytes) {
 
 }  // namespace
 
-MeshCounts counts_of(const Document& document, std::uint64_t file_bytes) {
+MeshCounts counts_of(const Document& document, std::uint64_t file_bytes, core::Copies copies) {
   // Assimp's: four floats at most each; a triangle is three indices and where they end; a point or line is a face of Assimp's
   // with a piece of memory of its own.
   constexpr std::uint64_t vector_bytes = 12, color_bytes = 16, face_bytes = 16, piece_bytes = 32;
@@ -104,8 +106,10 @@ MeshCounts counts_of(const Document& document, std::uint64_t file_bytes) {
     once.corners += size.corners;
     once.thin_faces += size.thin_faces;
     once.indices += size.indices;
-    add_placed(counts.vertices, size.vertices, uses[i]);
-    add_placed(counts.corners, size.corners, uses[i]);
+    const bool is_left_out = copies == core::Copies::left_out && size.corners > 3 * core::copied_triangles_max;
+    const std::uint64_t placed = is_left_out ? std::min<std::uint64_t>(uses[i], 1) : uses[i];
+    add_placed(counts.vertices, size.vertices, placed);
+    add_placed(counts.corners, size.corners, placed);
     counts.has_instances = counts.has_instances || uses[i] > 1;
     counts.triangles_min += uses[i] > 0 ? size.corners / 3 : 0;
   }

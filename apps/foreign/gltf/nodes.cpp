@@ -96,6 +96,7 @@ class Tree {
   std::multimap<std::size_t, std::string> cameras, lights;
   std::map<std::size_t, std::string> names;  ///< of all nodes, by their places in the document
   std::vector<MeshUse> uses;
+  NodeInstances instances;
 
  private:
   std::string unique_name(const Part& node);
@@ -139,12 +140,14 @@ void Tree::add_instances(const Part& instancing, std::size_t mesh, Nodes& childr
   read("TRANSLATION", 3, moves);
   read("ROTATION", 4, turns);
   read("SCALE", 3, scales);
+  children.push_back(std::make_unique<aiNode>(instancing.where()));
+  uses.push_back({children.back().get(), mesh, std::nullopt});
+  std::vector<aiMatrix4x4>& places = instances[children.back().get()];
+  places.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    children.push_back(std::make_unique<aiNode>(instancing.where() + "[" + std::to_string(i) + "]"));
-    children.back()->mTransformation =
-        composed(vector_of(instance(moves, i, {0, 0, 0})), quaternion_of(instance(turns, i, {0, 0, 0, 1}), attributes),
-                 vector_of(instance(scales, i, {1, 1, 1})));
-    uses.push_back({children.back().get(), mesh, std::nullopt});
+    places.push_back(composed(vector_of(instance(moves, i, {0, 0, 0})),
+                              quaternion_of(instance(turns, i, {0, 0, 0, 1}), attributes),
+                              vector_of(instance(scales, i, {1, 1, 1}))));
   }
 }
 
@@ -272,6 +275,7 @@ void add_nodes(const Document& document, Accessors& accessors, const Meshes& mes
   }
   scene.mRootNode = root_of(roots);
   give_meshes(document, accessors, meshes, tree.uses, tree.names, file);
+  file.instances = std::move(tree.instances);
   const auto punctual = root.extension("KHR_lights_punctual");
   add_named(tree.cameras, root.list("cameras"), root, scene.mCameras, scene.mNumCameras, "cameras");
   add_named(tree.lights, punctual ? punctual->list("lights") : std::vector<Part>(), root, scene.mLights, scene.mNumLights,

@@ -10,8 +10,8 @@
 namespace dmpc::apps::gltf {
 
 /// Gives the file's scene the nodes of the document's scene, the first if it names none; what hidden ones (KHR_node_visibility)
-/// would show is left out, and instances (EXT_mesh_gpu_instancing) are nodes of their own. What `pose` says of a node takes the
-/// place of what it says itself. Throws core::InputError, by its place in the document, for nodes that are no tree, and for
+/// would show is left out, and instances (EXT_mesh_gpu_instancing) are one node in many places. What `pose` says of a node takes
+/// the place of what it says itself. Throws core::InputError, by its place in the document, for nodes that are no tree, and for
 /// transforms that are none.
 void add_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, const Pose& pose, ImportedFile& file);
 

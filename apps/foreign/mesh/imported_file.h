@@ -3,6 +3,7 @@
 
 #include <assimp/scene.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,8 +25,13 @@ struct MaterialTextures {
   TexturePlace facets_place;         ///< on that
 };
 
+/// Nodes that stand for many, and where they stand in their parent's coordinates, in place of their own transform: a node of
+/// Assimp's takes more than a thousand bytes.
+using NodeInstances = std::map<const aiNode*, std::vector<aiMatrix4x4>>;
+
 struct ImportedFile {
   std::unique_ptr<aiScene> scene;
+  NodeInstances instances;
   std::vector<FaceList> triangles;         ///< of each mesh, of vertices that exist, beside its own faces; or none at all
   std::vector<MaterialTextures> textures;  ///< of each material, or none at all
   std::vector<std::string> notes;          ///< what of the file is not shown as it is, a sentence each

@@ -15,7 +15,7 @@
 
 namespace dmpc::apps {
 
-/// A mesh, or a sphere, where it is placed: each place of a mesh is one instance of it, and expanded.
+/// A mesh, or a sphere, where it is placed.
 struct ShapePlace {
   std::uint32_t shape = 0;  ///< index into PlacedFile::shapes
   Transform world;          ///< from the shape's own coordinates

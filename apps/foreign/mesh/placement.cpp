@@ -47,7 +47,7 @@ void place_meshes(const aiScene& scene, const aiNode& node, const Transform& wor
 
 }  // namespace
 
-std::vector<Placement> find_placements(const aiScene& scene, double scale) {
+std::vector<Placement> find_placements(const aiScene& scene, const NodeInstances& instances, double scale) {
   std::vector<Placement> placements;
   std::vector<Visit> waiting;
   if (scene.mRootNode != nullptr) {
@@ -57,6 +57,12 @@ std::vector<Placement> find_placements(const aiScene& scene, double scale) {
     const auto [node, parent] = waiting.back();
     waiting.pop_back();
     const Transform world = parent * node->mTransformation;
+    if (const auto places = instances.find(node); places != instances.end()) {
+      for (const aiMatrix4x4& place : places->second) {
+        place_meshes(scene, *node, parent * place, scaling(scale), placements);
+      }
+      continue;
+    }
     place_meshes(scene, *node, world, scaling(scale), placements);
     for (std::size_t i = node->mNumChildren; i-- > 0;) {
       waiting.push_back({node->mChildren[i], world});

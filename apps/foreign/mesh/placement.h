@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "apps/foreign/mesh/imported_file.h"
 #include "apps/foreign/mesh/transform.h"
 
 namespace dmpc::apps {
@@ -20,7 +21,7 @@ struct Placement {
 /// presses onto a line or a point, as a scale of 0 does, has no area and is left out; what it presses flat stays. Meshes with
 /// bones were posed (apps/foreign/mesh/skin.h), and no node moves them any more. Throws core::InputError, with the node's name,
 /// for a transform that is not finite and for a mesh that does not exist.
-std::vector<Placement> find_placements(const aiScene& scene, double scale);
+std::vector<Placement> find_placements(const aiScene& scene, const NodeInstances& instances, double scale);
 
 /// From the coordinates of the node of this name, which a camera or light shares, to the world's; the root's if there is none.
 Transform world_of(const aiScene& scene, const aiString& name, double scale);

@@ -10,8 +10,8 @@ bool is_pbrt_path(const std::string& path) {
   return name.ends_with(".pbrt") || name.ends_with(".pbrt.gz");
 }
 
-PlacedFile read_pbrt(const std::string& path, const std::optional<Resolution>& size, SceneFiles& files) {
-  return Statements(path, files).read(size);
+PlacedFile read_pbrt(const std::string& path, const std::optional<Resolution>& size, SceneFiles& files, core::Copies copies) {
+  return Statements(path, files, copies).read(size);
 }
 
 }  // namespace dmpc::apps::pbrt

@@ -9,6 +9,7 @@
 #include "apps/foreign/pbrt/affine.h"
 #include "apps/foreign/pbrt/shapes.h"
 #include "apps/foreign/text/line_words.h"
+#include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps::pbrt {
 namespace {
@@ -30,8 +31,8 @@ GeometrySize size_of_shape(const PlacedShape& shape) { return shape.sphere ? siz
 
 }  // namespace
 
-Statements::Statements(const std::string& path, SceneFiles& files)
-    : files_(files), tokens_(path, files), textures_(notes_, file_.pictures), surfaces_(notes_, textures_) {}
+Statements::Statements(const std::string& path, SceneFiles& files, core::Copies copies)
+    : files_(files), copies_(copies), tokens_(path, files), textures_(notes_, file_.pictures), surfaces_(notes_, textures_) {}
 
 const std::map<std::string_view, Statements::Statement>& Statements::all() {
   static const std::map<std::string_view, Statement> statements{
@@ -331,9 +332,10 @@ void Statements::object_instance(const Token& name) {
     tokens_.fail(name.place, open_object_ != nullptr ? "ObjectInstance stands within an object, where pbrt allows none"
                                                      : "no object " + quoted(object) + " is there: none has begun before");
   }
-  size_ += found->second.size;
+  Object& shapes = found->second;
+  size_ += std::exchange(shapes.is_counted, true) ? shapes.copied : shapes.size;
   check_size(size_);
-  for (const ShapePlace& place : found->second.places) {
+  for (const ShapePlace& place : shapes.places) {
     const ShapePlace instance{place.shape, composed(state_.ctm, place.world)};
     check_map(name, instance.world);
     ++file_.shapes[place.shape].uses;
@@ -345,6 +347,8 @@ void Statements::add_place(const ShapePlace& place, const GeometrySize& size) {
   if (open_object_ != nullptr) {
     open_object_->places.push_back(place);
     open_object_->size += size;
+    const bool is_left_out = copies_ == core::Copies::left_out && size.triangles > core::copied_triangles_max;
+    open_object_->copied += is_left_out ? GeometrySize{} : size;
     return;
   }
   size_ += size;

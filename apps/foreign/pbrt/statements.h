@@ -27,8 +27,8 @@ inline constexpr std::size_t attribute_levels_max = 100'000;
 
 class Statements {
  public:
-  /// `files` outlives it.
-  Statements(const std::string& path, SceneFiles& files);
+  /// `files` outlives it. `copies`: what will become of an object's instances.
+  Statements(const std::string& path, SceneFiles& files, core::Copies copies);
 
   /// All of them. Call it once.
   PlacedFile read(const std::optional<Resolution>& size);
@@ -55,7 +55,9 @@ class Statements {
   /// What an object's shapes are, each where its own CTM puts it.
   struct Object {
     std::vector<ShapePlace> places;
-    GeometrySize size;
+    GeometrySize size;    ///< of all of them
+    GeometrySize copied;  ///< of those that each instance has anew
+    bool is_counted = false;
   };
 
   /// What a shape's material is made of, in the end.
@@ -115,6 +117,7 @@ class Statements {
   void turn_round(const Transform& turn);
 
   SceneFiles& files_;
+  core::Copies copies_;
   Tokens tokens_;
   Notes notes_;
   PlacedFile file_;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/expect.h"
+#include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps::scene_blocks_test {
 
@@ -41,14 +42,14 @@ IndexedVertices vertices_of(const core::Scene& scene) {
 
 /// Through a line and back, with so many textures of a texel.
 core::Scene sent(core::Scene scene, IndexedVertices vertices, int textures = 1, core::Instances instances = {},
-                 const ReceivingLimits& limits = {}) {
+                 const ReceivingLimits& limits = {}, core::Copies copies = core::Copies::put) {
   auto [mine, its] = make_ends();
   Line sender(std::move(mine)), receiver(std::move(its));
   std::jthread writer([&] {
     send_scene(scene, vertices, instances, sender, Handing::in_messages);
     sender.send(Saying::done);
   });
-  SceneReceiver whole(limits);
+  SceneReceiver whole(limits, copies);
   for (int i = 0; i < textures; ++i) {
     whole.add({.name = "t", .levels = {{1, 1, {0x808080}}}});
   }
@@ -195,6 +196,45 @@ TEST_CASE("instances that cannot be are refused, and so is what they would take 
   CHECK(sent(scene, vertices_of(scene), 1, thousand, {.expanded_bytes = bytes}).objects.size() == 3000);
   CHECK_THROWS_WITH_AS(sent(scene, vertices_of(scene), 1, thousand, {.expanded_bytes = bytes - 1}),
                        doctest::Contains("with every instance it takes"), core::RoomError);
+}
+
+TEST_CASE("copies of what is large and stands in several places are left out if that is asked for, and take no memory") {
+  core::Scene scene = three_triangles();
+  for (int i = 0; i < 97; ++i) {
+    scene.objects.push_back({ObjectKind::polygon, 0, 0, 3, 0});
+  }
+  const core::Instances thousand{.meshes = {{0, 100}}, .places = std::vector<core::Instance>(1000, {{}, 0, 100})};
+  const auto left_out = [&](const core::Instances& instances, std::uint64_t bytes) {
+    return sent(scene, vertices_of(scene), 1, instances, {.expanded_bytes = bytes}, core::Copies::left_out);
+  };
+  const core::Scene after = left_out(thousand, 0);
+  CHECK(after.objects.empty());
+  REQUIRE(after.kept);
+  CHECK(after.kept->places.size() == 1000);
+  CHECK_THROWS_AS(sent(scene, vertices_of(scene), 1, thousand, {.expanded_bytes = 0}), core::RoomError);
+  const core::Instances once{.meshes = {{0, 100}}, .places = {{{}, 0, 100}}};
+  CHECK(left_out(once, 1 << 20U).objects.size() == 100);
+  const core::Transform far{.shift = {1e30, 0, 0}}, nowhere{.shift = {std::numeric_limits<double>::quiet_NaN(), 0, 0}};
+  for (const core::Transform& world : {far, nowhere}) {
+    core::Instances moved = thousand;
+    moved.places[999].world = world;
+    CHECK_THROWS_AS(left_out(moved, 0), Nonsense);
+  }
+}
+
+TEST_CASE("what is round stands where it is beside what stands in several places, and in none of these") {
+  core::Scene scene = three_triangles();
+  scene.spheres = {{{1, 2, 3}, 4}};
+  scene.objects.insert(scene.objects.begin(), {ObjectKind::sphere, 0, 0, 0, 0});
+  const auto with_mesh = [&](std::uint32_t first) {
+    return sent(scene, vertices_of(scene), 1, {.meshes = {{first, 3}}, .places = {{{}, 0, 3}, {{}, 0, 3}}});
+  };
+  const core::Scene after = with_mesh(1);
+  REQUIRE(after.objects.size() == 6);
+  CHECK(after.objects[0].kind == ObjectKind::sphere);
+  CHECK(after.objects[0].first == 0);
+  CHECK(after.spheres.size() == 1);
+  CHECK_THROWS_AS(with_mesh(0), Nonsense);
 }
 
 TEST_CASE("more than was announced is not taken from anywhere") {

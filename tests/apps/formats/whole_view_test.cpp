@@ -2,7 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
 #include "apps/formats/view_faults.h"
+#include "tests/support/instanced_scene.h"
 
 namespace dmpc::apps::whole_view_test {
 
@@ -24,6 +29,23 @@ TEST_CASE("what stands in several places is around which the sphere lies in all 
   const BoundingSphere bounds = sphere_around(vertices, objects, instances);
   CHECK(bounds.center == Vec3d{-2, 0, 0});
   CHECK(bounds.radius == 4);
+}
+
+TEST_CASE("it is the expanded scene's sphere to the bit, however many places lie apart, beside what is round") {
+  const auto indexed = [](const std::vector<Vec3d>& vertices) {
+    IndexedVertices all{vertices, std::vector<std::uint32_t>(vertices.size())};
+    std::iota(all.indices.begin(), all.indices.end(), 0U);
+    return all;
+  };
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    CAPTURE(seed);
+    auto [scene, instances] = tests::instanced_scene(seed);
+    const BoundingSphere sphere = sphere_around(indexed(scene.vertices), scene.objects, instances, scene.spheres);
+    expand(scene, instances);
+    const BoundingSphere expected = sphere_around(indexed(scene.vertices), {}, {}, scene.spheres);
+    CHECK(sphere.center == expected.center);
+    CHECK(sphere.radius == expected.radius);
+  }
 }
 
 TEST_CASE("the sphere touches the picture's edge, for every axis that may be up") {

@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "apps/scene/load_scene.h"
+#include "core/scene/instances.h"
+#include "tests/support/instanced_scene.h"
 #include "tests/support/painted_square.h"
 
 namespace dmpc::apps::scene_figures_test {
@@ -41,6 +43,18 @@ TEST_CASE("objects are counted by kind, and bounds hold them all") {
   CHECK(count_of(figures, ObjectKind::patch) == 0);
   CHECK(figures.bounds.low == Vec3d{-1, -2, -9});
   CHECK(figures.bounds.high == Vec3d{3, 7, 2});
+}
+
+TEST_CASE(
+    "objects in several places are counted in each, and bound the scene, whether it has copies of them or leaves them out") {
+  const tests::InstancedScene made = tests::instanced_scene(5);
+  core::Scene expanded = made.scene, left = made.scene;
+  core::expand(expanded, made.instances);
+  core::leave(left, made.instances);
+  const SceneFigures all = figures_of(expanded), same = figures_of(left);
+  CHECK(same.objects == all.objects);
+  CHECK(same.bounds.low == all.bounds.low);
+  CHECK(same.bounds.high == all.bounds.high);
 }
 
 TEST_CASE("materials are counted by what they do, which may be several things") {

@@ -9,6 +9,7 @@
 #include "core/scene/instances.h"
 #include "core/scene/kept_meshes.h"
 #include "tests/support/faceted_surfaces.h"
+#include "tests/support/instanced_scene.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/text.h"
 
@@ -96,6 +97,22 @@ TEST_CASE("a scene with meshes in several places is told from one in which all t
   before.kept.reset();
   CHECK(contains(difference_text(identity_of({}, before).facts, identity_of({}, scene).facts), "no meshes in several places"));
   CHECK(scene_digest(scene) != scene_digest(before));
+}
+
+TEST_CASE("whether a scene has copies of its meshes or leaves them out, it is the same picture, and with one more it is not") {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    CAPTURE(seed);
+    tests::InstancedScene made = tests::instanced_scene(seed);
+    core::Scene expanded = made.scene, left = made.scene;
+    core::expand(expanded, made.instances);
+    core::leave(left, made.instances);
+    REQUIRE(expanded.objects.size() > left.objects.size());
+    CHECK(difference_text(identity_of({}, left).facts, identity_of({}, expanded).facts).empty());
+    CHECK(scene_digest(left) == scene_digest(expanded));
+    made.instances.places.push_back(made.instances.places.back());
+    core::expand(made.scene, made.instances);
+    CHECK(scene_digest(made.scene) != scene_digest(expanded));
+  }
 }
 
 TEST_CASE("a picture by paths is told from Whitted's, which has the facts that it had before there were paths") {

@@ -137,6 +137,17 @@ TEST_CASE("copies that are put make it the expanded one, and taken out leave it"
   }
 }
 
+TEST_CASE("a scene that leaves copies out is sent with them, as the expanded one is") {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    CAPTURE(seed);
+    Scene from_whole, from_left;
+    core::SceneBuilder to_whole(from_whole), to_left(from_left);
+    replay(expanded(seed), to_whole);
+    replay(left(seed), to_left);
+    CHECK(same_scene(from_left, from_whole));
+  }
+}
+
 TEST_CASE("a scene without kept meshes leaves nothing out") {
   auto [scene, instances] = instanced_scene(7);
   instances.places.resize(1);

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/base/expect.h"
-#include "core/scene/kept_meshes.h"
+#include "core/scene/placed_objects.h"
 
 namespace dmpc::apps {
 namespace {
@@ -99,6 +99,7 @@ void add_object(AccurateScene& to, const core::Scene& scene, std::uint32_t index
 
 AccurateScene accurate_scene(const core::Scene& scene) {
   core::expect(!scene.sky.is_there(), "the renderer in double knows skies of colours alone, no pictures");
+  core::expect(!leaves_copies_out(scene), "the renderer in double knows no meshes that are kept");
   AccurateScene result;
   result.textures = scene.textures;
   result.materials = scene.materials;

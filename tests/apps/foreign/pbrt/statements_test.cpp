@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/scene/placed_objects.h"
 #include "tests/support/pbrt_scenes.h"
 
 namespace dmpc::apps::pbrt_statements_test {
@@ -92,6 +93,35 @@ TEST_CASE("an object stands wherever it is named, its own transform behind the i
   CHECK(tests::contains(pbrt_refusal("ObjectInstance \"o\""), "no object \"o\" is there"));
   CHECK(tests::contains(pbrt_refusal("ObjectBegin \"o\" ObjectInstance \"o\""), "stands within an object"));
   CHECK(tests::contains(pbrt_refusal("ObjectBegin \"o\" ObjectBegin \"p\""), "within another object"));
+}
+
+TEST_CASE("what is large and stands in several places is kept as a mesh, turned round or not, beside what is round there") {
+  std::string corners, indices;
+  for (int i = 0; i < 65; ++i) {
+    corners += std::to_string(i) + " 0 0 " + std::to_string(i) + " 1 0 ";
+    indices += std::to_string(2 * i) + " " + std::to_string(2 * i + 1) + " " + std::to_string((2 * i + 2) % 130) + " ";
+  }
+  const std::string mesh = "Shape \"trianglemesh\" \"point3 P\" [" + corners + "] \"integer indices\" [" + indices + "]\n";
+  const std::string object = "ObjectBegin \"o\" Shape \"sphere\" \"float radius\" 2\n" + mesh + "ObjectEnd\n";
+  const MeshFile file = read_pbrt(object + "ObjectInstance \"o\" Translate 0 0 5 Scale -1 1 1 ObjectInstance \"o\"\n");
+  REQUIRE(file.scene.kept);
+  CHECK(file.scene.kept->meshes.size() == 1);
+  REQUIRE(file.scene.kept->places.size() == 2);
+  CHECK(file.scene.kept->places[0].first == 1);
+  CHECK(file.scene.kept->places[1].first == 67);
+  REQUIRE(file.scene.objects.size() == 132);
+  CHECK(file.scene.objects[66].kind == core::ObjectKind::sphere);
+  CHECK(file.scene.spheres[1].center == Vec3d{0, 0, 5});
+  const auto corner = [&](std::uint32_t object, std::uint32_t i) {
+    return file.scene.vertices[file.scene.objects[object].first + i];
+  };
+  CHECK(corner(2, 0) == Vec3d{1, 0, 0});
+  CHECK(corner(68, 2) == Vec3d{-1, 0, 5});  // a mirror's faces are turned back
+  const MeshFile left = read_pbrt(object + "ObjectInstance \"o\" Translate 0 0 5 Scale -1 1 1 ObjectInstance \"o\"\n",
+                                  {.copies = core::Copies::left_out});
+  CHECK(left.scene.objects.size() == 2);
+  CHECK(object_count(left.scene) == 132);
+  CHECK(left.scene.view.from == file.scene.view.from);
 }
 
 TEST_CASE("what is said of shapes by Attribute holds for those that do not say it, until the attributes end") {
