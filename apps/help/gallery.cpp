@@ -27,12 +27,22 @@ constexpr int column_count = 6, gap = 4;
 constexpr const char* sheet_name = "scenes.png";
 constexpr core::Color white{1, 1, 1}, black{0, 0, 0};
 
-fs::path file_of(const fs::path& folder, const core::SceneName& scene) { return folder / (scene.text() + ".png"); }
+/// One of each family, and trees.
+std::vector<std::string> shown_scenes() {
+  std::vector<std::string> names;
+  for (const core::SceneName& scene : core::default_scenes()) {
+    names.push_back(scene.text());
+  }
+  names.emplace_back("grove-4");
+  return names;
+}
+
+fs::path file_of(const fs::path& folder, const std::string& scene) { return folder / (scene + ".png"); }
 
 /// Somebody's own, perhaps.
 void check_nothing_there(const fs::path& folder) {
   std::vector<fs::path> files;
-  for (const core::SceneName& scene : core::default_scenes()) {
+  for (const std::string& scene : shown_scenes()) {
     files.push_back(file_of(folder, scene));
   }
   files.push_back(folder / sheet_name);
@@ -46,9 +56,9 @@ void check_nothing_there(const fs::path& folder) {
 }
 
 /// On eight nodes, as `dmpc render SCENE` does.
-Image rendered(const core::SceneName& scene, const nodes::Progress& progress, const Interrupt& interrupt) {
+Image rendered(const std::string& scene, const nodes::Progress& progress, const Interrupt& interrupt) {
   PictureOptions picture;
-  picture.scene = scene.text();
+  picture.scene = scene;
   picture.resolution = {.width = side, .height = side};
   picture.samples = samples;
   StrategyOptions options;
@@ -61,15 +71,15 @@ Image rendered(const core::SceneName& scene, const nodes::Progress& progress, co
 }
 
 std::vector<ScenePicture> rendered_scenes(const Interrupt& interrupt) {
-  const std::vector<core::SceneName> scenes = core::default_scenes();
+  const std::vector<std::string> scenes = shown_scenes();
   Progress progress(std::cerr, stderr_is_terminal());
   std::vector<ScenePicture> pictures;
-  for (const core::SceneName& scene : scenes) {
+  for (const std::string& scene : scenes) {
     const std::size_t number = pictures.size();
     const auto update = [&](std::uint32_t done, std::uint32_t total) {
-      progress.show(scene.text(), number * total + done, scenes.size() * total);
+      progress.show(scene, number * total + done, scenes.size() * total);
     };
-    pictures.push_back({scene.text(), rendered(scene, update, interrupt)});
+    pictures.push_back({scene, rendered(scene, update, interrupt)});
   }
   return pictures;
 }

@@ -112,6 +112,7 @@ void Commands::declare_values() {
     scenes.words.push_back(scene.text());
     families.words.push_back(scene.family);
   }
+  scenes.words.insert(scenes.words.end(), {"landscape-10", "grove-5"});
   families.words.insert(families.words.end(), {"landscape", "grove"});
   for (const std::string& ending : words_between(known_mesh_formats(), ',')) {
     scenes.endings.push_back(ending.substr(ending.find_first_not_of(' ')));

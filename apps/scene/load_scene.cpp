@@ -11,13 +11,14 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
 #include "apps/formats/hither.h"
-#include "apps/formats/landscape/files.h"
+#include "apps/formats/landscape/scene.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/nff_reader.h"
 #include "apps/scene/sky_file.h"
 #include "core/base/expect.h"
 #include "core/database/light_spheres.h"
 #include "core/families/scenes.h"
+#include "core/scene/placed_objects.h"
 
 namespace dmpc::apps {
 namespace {
@@ -58,7 +59,7 @@ std::string dark_text(const core::Scene& scene, const TransportOptions& transpor
 
 /// Warns of pictures that are black, or nothing but background, because the scene is.
 void say_what_is_missing(const core::Scene& scene, const TransportOptions& transport) {
-  if (scene.objects.empty()) {
+  if (object_count(scene) == 0) {
     say_once({scene.name + ": there is nothing in it: the picture shows the background alone"});
   } else if (!is_lit(scene, transport)) {
     say_once({scene.name + ": " + dark_text(scene, transport)});
@@ -134,9 +135,9 @@ core::Scene read_any(const std::string& scene, const MeshOptions& mesh, std::int
   std::error_code error;
   const bool looks_like_name = scene.find_first_of("./") == std::string::npos;
   if (looks_like_name && !std::filesystem::exists(scene, error)) {
-    if (landscape_size(scene) || grove_size(scene)) {
-      throw core::InputError("'" + scene + "' is a scene of several files: write them first, dmpc scene " + scene + " -o " +
-                             scene + ".gltf, then take " + scene + ".gltf");
+    if (is_landscape_name(scene)) {
+      Progress progress(std::cerr, notes == LoadNotes::said && stderr_is_terminal(), "Making " + scene + ":", "rows");
+      return landscape_scene(scene, mesh.copies, [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
     }
     return core::built_in_scene(core::parse_scene_name(scene));  // throws, listing what there is
   }

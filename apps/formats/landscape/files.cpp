@@ -39,7 +39,7 @@ std::optional<int> size_said(std::string_view name, const std::string& family, i
 
 std::string description(const std::string& family, int size_default, int size_max, const std::string& what) {
   return family + " size 1.." + std::to_string(size_max) + ", default " + std::to_string(size_default) + ": " + what +
-         ", as FILE.gltf with -o alone\n";
+         ", written as FILE.gltf with -o\n";
 }
 
 /// The names stand in the file as they are, and other characters would not.
@@ -65,7 +65,7 @@ void write(int size, const Grove* trees, const fs::path& gltf, const RowsDone& r
   const LandscapeGltf text =
       landscape_gltf(ground_mesh(size, rows_done), lake_mesh(), numbers.filename().string(), picture.filename().string(), trees);
   numbers_file.write(text.numbers);
-  ground_file.write(encoded_picture(picture, ground_picture(std::min(picture_side_max, 4 << size), rows_done)));
+  ground_file.write(encoded_picture(picture, ground_picture(ground_picture_side(size), rows_done)));
   json_file.write(text.json);
   ground_file.commit();
   numbers_file.commit();
@@ -80,6 +80,10 @@ std::optional<int> landscape_size(std::string_view name) {
 
 std::optional<int> grove_size(std::string_view name) { return size_said(name, "grove", grove_size_default, grove_size_max); }
 
+int ground_size(int grove_size) { return std::min(grove_size + ground_beyond_grove, ground_of_grove_max); }
+
+int ground_picture_side(int size) { return std::min(picture_side_max, 4 << size); }
+
 std::string describe_landscape() {
   return description("landscape", landscape_size_default, landscape_size_max, "4^size textured triangles") +
          description("grove", grove_size_default, grove_size_max, "up to 2*4^size trees of 2,048 triangles on a landscape");
@@ -90,7 +94,7 @@ void write_landscape(int size, const fs::path& gltf, const RowsDone& rows_done) 
 void write_grove(int size, const fs::path& gltf, const RowsDone& rows_done) {
   check_name(gltf);
   const Grove trees = grove(size);
-  write(std::min(size + ground_beyond_grove, ground_of_grove_max), &trees, gltf, rows_done);
+  write(ground_size(size), &trees, gltf, rows_done);
 }
 
 }  // namespace dmpc::apps

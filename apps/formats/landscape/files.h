@@ -20,6 +20,11 @@ std::optional<int> landscape_size(std::string_view name);
 /// The same of "grove-5" or "grove".
 std::optional<int> grove_size(std::string_view name);
 
+/// Of the ground below a grove of this size: 4^size triangles.
+int ground_size(int grove_size);
+/// Texels along each side of the picture on a ground of this size.
+int ground_picture_side(int size);
+
 /// A line about each, as core::describe_scene_families() has them.
 std::string describe_landscape();
 

@@ -43,8 +43,8 @@ TEST_CASE("what is neither is refused: a bare word as a name, anything else as a
   CHECK_FALSE(scene_complaint("").empty());
 }
 
-TEST_CASE("a landscape is to be written first, and the message says how") {
-  CHECK(tests::contains(scene_complaint("landscape-3"), "write them first, dmpc scene landscape-3 -o landscape-3.gltf"));
+TEST_CASE("a landscape has sizes, of which a name has to say one that there is") {
+  CHECK(tests::contains(scene_complaint("grove-11"), "N from 1 to 10"));
   CHECK(tests::contains(scene_complaint("landscape-99"), "landscape-99"));
 }
 

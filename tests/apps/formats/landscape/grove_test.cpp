@@ -7,6 +7,7 @@
 
 #include "apps/formats/landscape/terrain.h"
 #include "core/base/vec.h"
+#include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps::grove_test {
 
@@ -50,13 +51,22 @@ TEST_CASE("a tree is 1 high, of as many triangles as are said, each with an area
   }
 }
 
-TEST_CASE("bark looks outwards") {
-  const Tree tree = apps::tree(0);
-  for (std::size_t i = 0; i < tree.bark.indices.size(); i += 3) {
-    const auto corner = [&](std::size_t k) { return vec(tree.bark.positions[tree.bark.indices[i + k]]); };
-    const Vec3d middle = corner(0) + corner(1) + corner(2);
-    CHECK(dot(cross(corner(1) - corner(0), corner(2) - corner(0)), {middle.x, 0, middle.z}) > 0);
+TEST_CASE("bark looks outwards, as its normals say") {
+  for (std::size_t kind = 0; kind < tree_kinds; ++kind) {
+    CAPTURE(kind);
+    const LandscapeMesh bark = apps::tree(kind).bark;
+    for (std::size_t i = 0; i < bark.indices.size(); i += 3) {
+      const auto corner = [&](std::size_t k) { return vec(bark.positions[bark.indices[i + k]]); };
+      const auto normal = [&](std::size_t k) { return vec(bark.normals[bark.indices[i + k]]); };
+      CHECK(dot(cross(corner(1) - corner(0), corner(2) - corner(0)), normal(0) + normal(1) + normal(2)) > 0);
+    }
   }
+}
+
+TEST_CASE("bark and leaves are each enough to be kept as a mesh that stands in several places") {
+  CHECK(bark_triangles > core::copied_triangles_max);
+  CHECK(leaf_triangles > core::copied_triangles_max);
+  CHECK(bark_triangles + leaf_triangles == 2048);
 }
 
 TEST_CASE("trees stand on the ground, above the lake and below the tree line, upright and turned about") {

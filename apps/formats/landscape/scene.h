@@ -1,0 +1,21 @@
+// The landscape as a scene of its own, without files.
+#pragma once
+
+#include <string_view>
+
+#include "apps/formats/landscape/rows_done.h"
+#include "core/scene/instances.h"
+#include "core/scene/scene.h"
+
+namespace dmpc::apps {
+
+/// Whether landscape_scene() knows it: "landscape-7", "grove", ... Throws core::InputError for a name that begins so, and goes on
+/// otherwise.
+bool is_landscape_name(std::string_view name);
+
+/// What write_landscape() or write_grove() write (apps/formats/landscape/files.h), seen from the same place, but for what files
+/// round; the sun stands high on the right. Each kind of tree is one mesh, which `copies` says what becomes of. Requires a name
+/// that is_landscape_name(). Throws core::RoomError if the trees' copies are more than a database or memory hold.
+core::Scene landscape_scene(std::string_view name, core::Copies copies, const RowsDone& rows_done = {});
+
+}  // namespace dmpc::apps
