@@ -91,23 +91,27 @@ core::Transform tree_place(const TreePlaces& places, std::size_t i) {
           .shift = vec(places.translations[i])};
 }
 
-/// The trees as meshes, none of which stands anywhere yet, and their places.
+/// The kinds of trees that stand somewhere, as meshes, and behind all of them their places.
 core::Instances add_trees(const Grove& grove, core::Scene& scene) {
   static constexpr std::array<Vec3d, tree_kinds> greens{Vec3d{0.05, 0.14, 0.06}, Vec3d{0.16, 0.27, 0.05}, Vec3d{0.04, 0.1, 0.07},
                                                         Vec3d{0.24, 0.28, 0.06}};
   core::Instances instances;
   for (std::size_t kind = 0; kind < tree_kinds; ++kind) {
+    const TreePlaces& places = grove.places[kind];
+    if (places.translations.empty()) {
+      continue;
+    }
     const auto first = static_cast<std::uint32_t>(scene.objects.size());
     TriangleAdder adder(scene);
     adder.add(grove.trees[kind].bark, rough({0.2, 0.13, 0.08}));
     adder.add(grove.trees[kind].leaves, rough(greens[kind]));
+    for (std::size_t i = 0; i < places.translations.size(); ++i) {
+      instances.places.push_back({tree_place(places, i), static_cast<std::uint32_t>(instances.meshes.size()), 0});
+    }
     instances.meshes.push_back({first, static_cast<std::uint32_t>(scene.objects.size())});
   }
-  for (std::size_t kind = 0; kind < tree_kinds; ++kind) {
-    for (std::size_t i = 0; i < grove.places[kind].translations.size(); ++i) {
-      instances.places.push_back({tree_place(grove.places[kind], i), static_cast<std::uint32_t>(kind),
-                                  static_cast<std::uint32_t>(scene.objects.size())});
-    }
+  for (core::Instance& tree : instances.places) {
+    tree.before = static_cast<std::uint32_t>(scene.objects.size());
   }
   return instances;
 }
