@@ -69,7 +69,9 @@ TEST_CASE("by name they have what their files have, and are seen from where thes
   CHECK(own.textures.front().levels.front().texels == read.textures.front().levels.front().texels);
 }
 
-TEST_CASE("a grove has the same bits on every machine") { CHECK(bits_of(landscape_scene("grove-2", Copies::put)) == 18007247332586769547U); }
+TEST_CASE("a grove has the same bits on every machine") {
+  CHECK(bits_of(landscape_scene("grove-2", Copies::put)) == 18007247332586769547U);
+}
 
 TEST_CASE("copies that are left out are left out of a grove, and the rest is there") {
   const Scene whole = landscape_scene("grove-3", Copies::put), left = landscape_scene("grove-3", Copies::left_out);
