@@ -161,7 +161,11 @@ core::Scene landscape_scene(std::string_view name, core::Copies copies, const Ro
   core::Instances instances;
   if (trees) {
     instances = add_trees(grove(*trees), scene);
-    check_room(scene, instances, copies);
+    try {
+      check_room(scene, instances, copies);
+    } catch (const core::RoomError& error) {
+      throw core::RoomError(scene.name + ": " + error.what());
+    }
   }
   add_ground(scene, size, rows_done);
   scene.textures.front() = ground_texture(ground_picture_side(size), rows_done);
