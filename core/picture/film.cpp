@@ -106,8 +106,8 @@ std::uint64_t Film::samples() const {
 
 Vec3d Film::scaled_mean(std::uint32_t pixel) const {
   expect(samples_[pixel] > 0, "a picture has samples");
-  const PixelSums both = sums(pixel);
-  return (sum_of(both.plane[0]) + sum_of(both.plane[1])) * (film_resolution / samples_[pixel]);
+  const Vec3d first = sum_of(first_[pixel]);
+  return (has_second() ? first + sum_of(second_[pixel]) : first) * (film_resolution / samples_[pixel]);
 }
 
 Vec3d Film::scaled_sum(std::uint32_t pixel, std::uint32_t plane) const {

@@ -29,7 +29,11 @@ struct FilmScale {
 /// its planes are gathered. Deposits are not below 0, so a saturating sum does not depend on the order either.
 struct FixedColor {
   std::array<std::int64_t, 3> channel{};
-  constexpr bool operator==(const FixedColor&) const = default;
+  /// Spelt out, since what is defaulted calls memcmp().
+  constexpr bool operator==(const FixedColor& other) const {
+    const auto& [red, green, blue] = channel;
+    return ((red ^ other.channel[0]) | (green ^ other.channel[1]) | (blue ^ other.channel[2])) == 0;
+  }
 };
 inline constexpr double film_resolution = 1.0 / 4294967296.0;
 
