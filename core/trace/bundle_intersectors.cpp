@@ -213,89 +213,103 @@ void take_child(RayBundle& bundle) {
 
 // --- Triangles ---
 
-/// Rays that are sheared alike, from `first` on.
+/// Rays that are sheared alike, one in each lane, or one in all of them.
+template <class Tag>
 struct ShearedRays {
   std::size_t x, y, z;  ///< which coordinate plays which
-  Vector origin_x, origin_y, origin_z, shear_x, shear_y;
+  hn::Vec<Tag> origin_x, origin_y, origin_z, shear_x, shear_y;
 };
 
-HWY_INLINE ShearedRays sheared_rays(const RayBundle& bundle, std::size_t axis, bool is_down, std::size_t first) {
-  const Floats tag;
+/// values(row): those of a bundle's row that the rays have.
+template <class Tag, class Values>
+HWY_INLINE ShearedRays<Tag> sheared_rays(Tag, const RayBundle& bundle, std::size_t axis, bool is_down, const Values& values) {
   const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
   const std::size_t x = is_down ? last : next, y = is_down ? next : last;
-  const auto row = [&](const Row<float>& values) { return hn::Load(tag, values.data() + first); };
   return {x,
           y,
           axis,
-          row(bundle.origin[x]),
-          row(bundle.origin[y]),
-          row(bundle.origin[axis]),
-          row(bundle.shear_x),
-          row(bundle.shear_y)};
+          values(bundle.origin[x]),
+          values(bundle.origin[y]),
+          values(bundle.origin[axis]),
+          values(bundle.shear_x),
+          values(bundle.shear_y)};
 }
 
 /// A vertex as those rays see it.
+template <class Tag>
 struct SeenVertices {
-  Vector x, y, z;
+  hn::Vec<Tag> x, y, z;
 };
 
-HWY_INLINE SeenVertices shear(const ShearedRays& rays, const TriangleRows& triangles, std::size_t corner, std::size_t lane) {
-  const Floats tag;
-  const auto coordinate = [&](std::size_t axis) {
-    return hn::Set(tag, triangles.rows[(3 * corner + axis) * triangles.count + lane]);
-  };
-  const Vector z = hn::Sub(coordinate(rays.z), rays.origin_z);
-  return {fused(hn::Neg(rays.shear_x), z, hn::Sub(coordinate(rays.x), rays.origin_x)),
-          fused(hn::Neg(rays.shear_y), z, hn::Sub(coordinate(rays.y), rays.origin_y)), z};
+/// coordinate(row): of one triangle for all rays, or of some for one ray.
+template <class Tag, class Coordinate>
+HWY_INLINE SeenVertices<Tag> shear(const ShearedRays<Tag>& rays, std::size_t corner, const Coordinate& coordinate) {
+  const auto z = hn::Sub(coordinate(3 * corner + rays.z), rays.origin_z);
+  return {fused(hn::Neg(rays.shear_x), z, hn::Sub(coordinate(3 * corner + rays.x), rays.origin_x)),
+          fused(hn::Neg(rays.shear_y), z, hn::Sub(coordinate(3 * corner + rays.y), rays.origin_y)), z};
 }
 
-HWY_INLINE Vector edge(const SeenVertices& a, const SeenVertices& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)); }
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> edge(const SeenVertices<Tag>& a, const SeenVertices<Tag>& b) {
+  return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
+}
 
-/// Those of the rays `asked`, which pass the triangle, about which floats may be wrong, and some more: the scalar twin has the
-/// last word.
-HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const SeenVertices& a, const SeenVertices& b, const SeenVertices& c,
-                                   const Vector& margin) {
-  const Floats tag;
-  const auto across = [](const SeenVertices& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
-  const Vector widest = hn::Max(hn::Max(across(a), across(b)), across(c));
-  const Vector deepest = hn::Max(hn::Max(hn::Abs(a.z), hn::Abs(b.z)), hn::Abs(c.z));
-  const Vector rounding = hn::Mul(hn::Set(tag, edge_rounding), hn::Max(widest, deepest));
+/// Those of the lanes `asked`, whose ray passes the triangle, about which floats may be wrong, and some more: the scalar twin has
+/// the last word.
+template <class Tag>
+HWY_INLINE RayMask within_rounding(float rest, RayMask asked, const SeenVertices<Tag>& a, const SeenVertices<Tag>& b,
+                                   const SeenVertices<Tag>& c, const hn::Vec<Tag>& margin) {
+  const Tag tag;
+  const auto across = [](const SeenVertices<Tag>& v) { return hn::Max(hn::Abs(v.x), hn::Abs(v.y)); };
+  const auto widest = hn::Max(hn::Max(across(a), across(b)), across(c));
+  const auto deepest = hn::Max(hn::Max(hn::Abs(a.z), hn::Abs(b.z)), hn::Abs(c.z));
+  const auto rounding = hn::Mul(hn::Set(tag, edge_rounding), hn::Max(widest, deepest));
   return asked & bits_of(tag, hn::Le(margin, hn::Mul(hn::Add(rounding, hn::Set(tag, rest_weight * rest)), widest)));
 }
 
 /// Those of them for which doubles judge.
-HWY_INLINE RayMask doubtful(const RayBundle& bundle, RayMask asked, const SeenVertices& a, const SeenVertices& b,
-                            const SeenVertices& c, Vector least, Vector greatest) {
-  const Floats tag;
+template <class Tag>
+HWY_INLINE RayMask doubtful(const RayBundle& bundle, RayMask asked, const SeenVertices<Tag>& a, const SeenVertices<Tag>& b,
+                            const SeenVertices<Tag>& c, hn::Vec<Tag> least, hn::Vec<Tag> greatest) {
+  const Tag tag;
   const auto limit = hn::Set(tag, near_edge);
   const auto is_near =
       hn::And(hn::Lt(hn::Min(hn::Min(a.z, b.z), c.z), limit), hn::Gt(hn::Max(hn::Max(a.z, b.z), c.z), hn::Neg(limit)));
   asked &= bits_of(tag, is_near);
-  return HWY_LIKELY(asked == 0) ? 0 : within_rounding(bundle.rest_most, asked, a, b, c, hn::Min(hn::Neg(least), greatest));
+  return HWY_LIKELY(asked == 0) ? 0 : within_rounding<Tag>(bundle.rest_most, asked, a, b, c, hn::Min(hn::Neg(least), greatest));
+}
+
+/// Takes a ray's hit, if it is nearer than what it has.
+HWY_INLINE void take_nearer(RayBundle& bundle, std::size_t ray, const Hit& hit) {
+  if (nearer(hit.t, hit.primitive, bundle.best.of(ray))) {
+    bundle.best.set(ray, hit);
+    bundle.found |= RayMask{1} << ray;
+  }
 }
 
 /// A hit in doubt, in the scalar twin.
 HWY_INLINE void hit_apart(RayBundle& bundle, const TriangleRows& triangles, Address block, std::size_t lane, std::uint32_t id,
                           std::size_t ray) {
   const float t = intersect_triangle(ShearedRay(bundle.rays[ray]), triangles.rows, triangles.count, lane);
-  if (t > 0.0F && t < bundle.t_max[ray] && nearer(t, id, bundle.best.of(ray))) {
-    bundle.best.set(ray, {t, id, block, static_cast<std::uint32_t>(lane)});
-    bundle.found |= RayMask{1} << ray;
+  if (t > 0.0F && t < bundle.t_max[ray]) {
+    take_nearer(bundle, ray, {t, id, block, static_cast<std::uint32_t>(lane)});
   }
 }
 
 /// One triangle and some of the rays from `first` on.
-HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays& rays, std::size_t first, RayMask active,
+HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays<Floats>& rays, std::size_t first, RayMask active,
                              const TriangleRows& triangles, Address block, std::size_t lane) {
   const Floats tag;
   const Unsigned ids;
-  const SeenVertices a = shear(rays, triangles, 0, lane), b = shear(rays, triangles, 1, lane),
-                     c = shear(rays, triangles, 2, lane);
+  const float* const values = triangles.rows + lane;
+  const std::size_t stride = triangles.count;
+  const auto coordinate = [=](std::size_t row) { return hn::Set(Floats(), values[row * stride]); };
+  const auto a = shear(rays, 0, coordinate), b = shear(rays, 1, coordinate), c = shear(rays, 2, coordinate);
   const Vector u = edge(c, b), v = edge(a, c), w = edge(b, a), zero = hn::Zero(tag);
   const Vector least = hn::Min(hn::Min(u, v), w), greatest = hn::Max(hn::Max(u, v), w);
   const RayMask outside = bits_of(tag, hn::And(hn::Lt(least, zero), hn::Gt(greatest, zero)));
   const RayMask in_doubt = bits_of(tag, hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero))) |
-                           doubtful(bundle, active & outside, a, b, c, least, greatest);
+                           doubtful<Floats>(bundle, active & outside, a, b, c, least, greatest);
   if ((active & (~outside | in_doubt)) == 0) {
     return;
   }
@@ -327,7 +341,7 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays& rays, std::si
   }
 }
 
-void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays) {
+void hit_together(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t down = 0; down < 2; ++down) {
       const RayMask alike = rays & bundle.sheared_along[axis][down];
@@ -336,7 +350,8 @@ void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address blo
         if (active == 0) {
           continue;
         }
-        const ShearedRays sheared = sheared_rays(bundle, axis, down == 1, first);
+        const auto values = [first](const Row<float>& row) { return hn::Load(Floats(), row.data() + first); };
+        const auto sheared = sheared_rays(Floats(), bundle, axis, down == 1, values);
         for (std::size_t lane = 0; lane < triangles.count && active != 0; ++lane) {
           if ((triangles.left_out >> lane & 1U) != 0) {
             continue;
@@ -347,6 +362,68 @@ void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address blo
       }
     }
   }
+}
+
+using BlockFloats = hn::CappedTag<float, block_lanes>;
+
+/// One ray and the triangles of `active`, from `first` on: the nearest one that it hits.
+HWY_INLINE void hit_lanes(RayBundle& bundle, const ShearedRays<BlockFloats>& rays, std::size_t ray, std::size_t first,
+                          RayMask active, const TriangleRows& triangles, Address block) {
+  const BlockFloats tag;
+  const hn::Rebind<std::uint32_t, BlockFloats> ids;
+  const float* const values = triangles.rows + first;
+  const std::size_t stride = triangles.count;
+  const auto coordinate = [=](std::size_t row) { return hn::LoadU(BlockFloats(), values + row * stride); };
+  const auto a = shear(rays, 0, coordinate), b = shear(rays, 1, coordinate), c = shear(rays, 2, coordinate);
+  const auto u = edge(c, b), v = edge(a, c), w = edge(b, a), zero = hn::Zero(tag);
+  const auto least = hn::Min(hn::Min(u, v), w), greatest = hn::Max(hn::Max(u, v), w);
+  const RayMask outside = bits_of(tag, hn::And(hn::Lt(least, zero), hn::Gt(greatest, zero)));
+  const RayMask in_doubt = bits_of(tag, hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero))) |
+                           doubtful<BlockFloats>(bundle, active & outside, a, b, c, least, greatest);
+  if ((active & (~outside | in_doubt)) == 0) {
+    return;
+  }
+  const auto* const id = reinterpret_cast<const std::uint32_t*>(triangles.ids()) + first;
+  const auto determinant = hn::Add(hn::Add(u, v), w);
+  const auto weighted =
+      fused(hn::Div(u, determinant), a.z, fused(hn::Div(v, determinant), b.z, hn::Mul(hn::Div(w, determinant), c.z)));
+  const auto t = hn::Mul(weighted, hn::Set(tag, bundle.scale_z[ray]));
+  const RayMask others = active & ~bits_of(ids, hn::Eq(hn::LoadU(ids, id), hn::Set(ids, bundle.ignored_primitive[ray])));
+  const RayMask crossed = others & ~outside & ~bits_of(tag, hn::Eq(determinant, zero));
+  RayMask unsettled = (in_doubt & others) | (crossed & bits_of(tag, hn::Lt(hn::Abs(t), hn::Set(tag, near_start))));
+  const auto in_time = hn::And(hn::Gt(t, zero), hn::Lt(t, hn::Set(tag, bundle.t_max[ray])));
+  const auto is_near = hn::Le(t, hn::Set(tag, bundle.best.t[ray]));
+  RayMask hits = crossed & ~unsettled & bits_of(tag, hn::And(in_time, is_near));
+  alignas(64) float times[block_lanes];
+  hn::Store(t, tag, times);
+  for (; hits != 0; hits &= hits - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(hits));
+    take_nearer(bundle, ray, {times[lane], id[lane], block, static_cast<std::uint32_t>(first + lane)});
+  }
+  for (; unsettled != 0; unsettled &= unsettled - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(unsettled));
+    hit_apart(bundle, triangles, block, first + lane, id[lane], ray);
+  }
+}
+
+/// Each of the rays and all triangles.
+void hit_one_by_one(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays) {
+  const RayMask tested = first_bits(triangles.count) & ~triangles.left_out;
+  for (; rays != 0; rays &= rays - 1) {
+    const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
+    const auto is = [&](std::size_t axis, std::size_t down) { return (bundle.sheared_along[axis][down] >> ray & 1U) != 0; };
+    const std::size_t axis = is(0, 0) || is(0, 1) ? 0 : is(1, 0) || is(1, 1) ? 1 : 2;
+    const auto values = [ray](const Row<float>& row) { return hn::Set(BlockFloats(), row[ray]); };
+    const auto sheared = sheared_rays(BlockFloats(), bundle, axis, is(axis, 1), values);
+    for (std::size_t first = 0; first < triangles.count; first += lanes_of<BlockFloats>()) {
+      const RayMask active = tested >> first & first_bits(lanes_of<BlockFloats>());
+      hit_lanes(bundle, sheared, ray, first, active, triangles, block);
+    }
+  }
+}
+
+void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays) {
+  count_of(rays) > apart_max ? hit_together(bundle, triangles, block, rays) : hit_one_by_one(bundle, triangles, block, rays);
 }
 
 const BundleIntersectors* intersectors() {

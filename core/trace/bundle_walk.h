@@ -265,7 +265,7 @@ class BundleWalk {
     const auto header = read<BlockHeader>(record);
     const RayMask rays = bundle_.next_rays, found = bundle_.found;
     const auto* rows = reinterpret_cast<const float*>(record + sizeof(BlockHeader));
-    if (header.kind == PrimitiveKind::triangle && !header.has_plane() && count_of(rays) > apart_max) {
+    if (header.kind == PrimitiveKind::triangle && !header.has_plane()) {
       operations_.primitive_tests[0] += std::uint64_t{count_of(rays)} * header.count;
       intersectors_.hit_triangles(bundle_, {rows, header.count, header.shared_lanes}, block, rays);
       if (header.shared_lanes != 0) {
