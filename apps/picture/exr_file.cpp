@@ -20,7 +20,7 @@ namespace dmpc::apps {
 namespace {
 
 constexpr int the_part = 0;
-constexpr int effort = 4;  ///< floats gain nothing from more
+constexpr int effort = 1;  ///< floats gain little from more: 4 takes half as long again for files 1 to 4 % smaller
 
 using core::operator""_MiB;
 /// Blocks that are packed at a time: some for each thread, so that none waits long for another's, and no more than these bytes.
