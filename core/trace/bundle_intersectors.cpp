@@ -100,32 +100,51 @@ HWY_INLINE void put_in_order(BundleChildren& waiting, std::uint32_t start) {
   waiting.t_enter[place] = t_enter;
 }
 
+/// The children that some rays meet, from the first on: a pass that branches nowhere, before those are put in order.
 template <bool OneOctant>
-HWY_INLINE void meet_together(RayBundle& bundle, const Brick& brick, RayMask rays, bool in_order) {
-  BundleChildren& waiting = bundle.waiting;
+HWY_INLINE std::array<RayMask, brick_children_max> meet_boxes(const RayBundle& bundle, const Brick& brick, RayMask rays,
+                                                              std::array<Row<float>, brick_children_max>& t_enter) {
   const Bounds bounds = bounds_of(brick);
   BoxPlanes planes[bundle_rays_max / step];
   for (std::size_t part = 0; part < bundle_rays_max / step; ++part) {
     planes[part] = planes_of(bundle, brick, part * step);
   }
-  const std::uint32_t start = waiting.count;
+  std::array<RayMask, brick_children_max> met{};
   for (std::size_t child = 0; child < brick.child_count; ++child) {
-    Row<float>& t_enter = waiting.t_enter[waiting.count];
-    RayMask met = 0;
     for (std::size_t part = 0; part < bundle_rays_max / step; ++part) {
-      met |= meet_box<OneOctant>(bundle, bounds, planes[part], child, t_enter.data() + part * step) << (part * step);
+      const RayMask enter = meet_box<OneOctant>(bundle, bounds, planes[part], child, t_enter[child].data() + part * step);
+      met[child] |= enter << (part * step);
     }
-    met &= rays;
-    if (met == 0) {
+    met[child] &= rays;
+  }
+  return met;
+}
+
+template <bool OneOctant>
+HWY_INLINE void meet_together(RayBundle& bundle, const Brick& brick, RayMask rays, bool in_order) {
+  BundleChildren& waiting = bundle.waiting;
+  alignas(64) std::array<Row<float>, brick_children_max> t_enter;
+  const std::array<RayMask, brick_children_max> met = meet_boxes<OneOctant>(bundle, brick, rays, t_enter);
+  const std::uint32_t start = waiting.count;
+  std::array<std::uint8_t, brick_children_max> child_at;  // of those that are added, in their order
+  for (std::size_t child = 0; child < brick.child_count; ++child) {
+    if (met[child] == 0) {
       continue;
     }
-    waiting.record[waiting.count] = brick.child[child];
-    waiting.rays[waiting.count] = met;
-    waiting.nearest[waiting.count] = t_enter[static_cast<std::size_t>(std::countr_zero(met))];
-    ++waiting.count;
-    if (in_order) {
-      put_in_order(waiting, start);
+    const float nearest = t_enter[child][static_cast<std::size_t>(std::countr_zero(met[child]))];
+    std::uint32_t place = waiting.count++;
+    for (; in_order && place > start && waiting.nearest[place - 1] < nearest; --place) {
+      waiting.nearest[place] = waiting.nearest[place - 1];
+      child_at[place - start] = child_at[place - 1 - start];
     }
+    waiting.nearest[place] = nearest;
+    child_at[place - start] = static_cast<std::uint8_t>(child);
+  }
+  for (std::uint32_t place = start; place < waiting.count; ++place) {
+    const std::size_t child = child_at[place - start];
+    waiting.record[place] = brick.child[child];
+    waiting.rays[place] = met[child];
+    waiting.t_enter[place] = t_enter[child];
   }
 }
 
@@ -209,6 +228,15 @@ void take_child(RayBundle& bundle) {
     }
   }
   bundle.next = BrickChild::none();
+}
+
+std::uint64_t count_wanted(const RayBundle& bundle, RayMask rays) {
+  std::uint64_t count = 0;
+  for (std::size_t child = 0; child < bundle.waiting.count; ++child) {
+    const RayMask waits = bundle.waiting.rays[child] & rays;
+    count += waits != 0 ? count_of(still_want(bundle, child, waits)) : 0;
+  }
+  return count;
 }
 
 // --- Triangles ---
@@ -427,7 +455,7 @@ void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address blo
 }
 
 const BundleIntersectors* intersectors() {
-  static constexpr BundleIntersectors all{meet_children, take_child, hit_triangles};
+  static constexpr BundleIntersectors all{meet_children, take_child, count_wanted, hit_triangles};
   return &all;
 }
 

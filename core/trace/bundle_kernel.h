@@ -38,6 +38,8 @@ struct BundleIntersectors {
   void (*meet_children)(RayBundle& bundle, const Brick& brick, RayMask rays, bool in_order);
   /// The child that waits last and some of its rays may still want: `next` and `next_rays`; none if there is none.
   void (*take_child)(RayBundle& bundle);
+  /// How often rays of `rays` would still visit children that wait.
+  std::uint64_t (*count_wanted)(const RayBundle& bundle, RayMask rays);
   /// Merges hits with the triangles of the block at `block` into `best` and `found`. With bundle.any a ray's first hit will do.
   void (*hit_triangles)(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays);
 };

@@ -274,8 +274,8 @@ class BundleWalk {
     } else {
       test_apart(record, block, rays);
     }
-    if (bundle_.any) {
-      count_any_hits(bundle_.found & ~found);
+    if (bundle_.any && bundle_.found != found) {
+      operations_.skipped.any_hit += intersectors_.count_wanted(bundle_, bundle_.found & ~found);
     }
   }
 
@@ -307,18 +307,6 @@ class BundleWalk {
           bundle_.best.set(ray, {times[lane], id, block, lane});
           bundle_.found |= RayMask{1} << ray;
         }
-      }
-    }
-  }
-
-  /// Children that wait and that rays which have found a hit would have visited.
-  void count_any_hits(RayMask rays) {
-    for (; rays != 0; rays &= rays - 1) {
-      const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
-      for (std::size_t child = 0; child < bundle_.waiting.count; ++child) {
-        const bool would =
-            (bundle_.waiting.rays[child] >> ray & 1U) != 0 && bundle_.waiting.t_enter[child][ray] <= bundle_.best.t[ray];
-        operations_.skipped.any_hit += would ? 1 : 0;
       }
     }
   }
