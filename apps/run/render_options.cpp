@@ -99,9 +99,6 @@ void settle_instances(const OptionSet& options, RenderOptions& render) {
   if (render.tracer == TracerChoice::embree) {
     refuse("--tracer=embree", "Embree has a copy in each place");
   }
-  if (render.picture.is_refined) {
-    refuse("--samples=auto", "fine detail is looked for among copies");
-  }
   if (!options.is_given("--structure") && !render.system) {
     build.structure = core::Structure::extents;
   }

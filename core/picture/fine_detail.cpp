@@ -8,6 +8,7 @@
 #include "core/base/expect.h"
 #include "core/record/cone_floats.h"
 #include "core/record/records.h"
+#include "core/record/vanishing.h"
 
 namespace dmpc::core {
 namespace {
@@ -74,11 +75,7 @@ class FineDetailFinder {
       : database_(database), records_(database.bytes()), camera_(camera), eye_(camera.eye()), covers_(camera.pixel_count()) {}
 
   FineDetail find() {
-    for (const Database::Place& place : database_.find_places()) {
-      if (place.block != no_address) {
-        look_at(primitive_at(records_, place));
-      }
-    }
+    database_.header().has_instances != 0 ? look_at_copies() : look_at_records();
     FineDetail detail;
     if (is_any_) {
       detail.pixels_ = std::move(covers_);
@@ -104,6 +101,25 @@ class FineDetailFinder {
   static Place place_of(const Vec3d& seen) { return {seen.x / seen.z, seen.y / seen.z}; }
   double pixels_of(double size, double depth) const { return std::fabs(size) / (depth * camera_.pixel_size()); }
 
+  void look_at_records() {
+    for (const Database::Place& place : database_.find_places()) {
+      if (place.block != no_address) {
+        look_at(primitive_at(records_, place));
+      }
+    }
+  }
+
+  /// No record has those of kept meshes.
+  void look_at_copies() {
+    expect(!database_.primitives().empty(), "whoever looks for the detail of kept meshes has what is in their places");
+    for (const PrimitiveValues& primitive : database_.primitives()) {
+      if (primitive.kind != PrimitiveKind::triangle ||
+          !leaves_nothing({primitive.vector(0), primitive.vector(3), primitive.vector(6)})) {
+        look_at(primitive);
+      }
+    }
+  }
+
   void look_at(const PrimitiveValues& primitive) {
     switch (primitive.kind) {
       case PrimitiveKind::sphere:
@@ -113,7 +129,7 @@ class FineDetailFinder {
       case PrimitiveKind::triangle:
         return look_at_triangle(primitive.value.data());
       case PrimitiveKind::instance:
-        expect(false, "the detail of what is kept as instances is not looked for");
+        expect(false, "a box is no detail");
     }
   }
 

@@ -103,6 +103,17 @@ TEST_CASE("the grid's film is that of what is kept, too") {
   CHECK(Subject(scene, {side, side}, with_instances()).outcome() == Subject(scene, {side, side}).outcome());
 }
 
+TEST_CASE("what is kept is refined as its copies are: its fine detail is known, too") {
+  for (const double size : {0.3, 0.01}) {
+    const Scene scene = balls_in_places(size, Arrangement::apart, 8);
+    const int side = scaled_edge(24);
+    const Subject::Size picture{side, side, 2, {.error = 0.01, .samples_max = 64}};
+    const Subject copies(scene, picture, with_copies()), kept(scene, picture, with_instances());
+    CHECK(kept.outcome() == copies.outcome());
+    CHECK(kept.outcome().rays[0] > 2U * static_cast<unsigned>(side) * static_cast<unsigned>(side));
+  }
+}
+
 TEST_CASE("along the screen's axes what is kept shows the same, too") {
   const Scene scene = balls_in_places(0.3, Arrangement::deep_in_each_other, 4);
   core::BuildOptions copies = with_copies(), kept = with_instances();
