@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/trace/bundle_kernel.h"
+#include "core/trace/instruction_set.h"
 
 // clang-format off
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
@@ -464,10 +465,9 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace dmpc::core {
-HWY_EXPORT(intersectors);
-
 const BundleIntersectors* bundle_intersectors(std::size_t rank) {
-  return choose_instruction_set(rank) ? HWY_DYNAMIC_DISPATCH(intersectors)() : nullptr;
+  const auto compiled = DMPC_COMPILED_FOR(rank, intersectors);
+  return compiled != nullptr ? compiled() : nullptr;
 }
 
 const BundleIntersectors& fastest_bundle_intersectors = *bundle_intersectors(0);

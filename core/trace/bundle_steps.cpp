@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/trace/bundle_kernel.h"
+#include "core/trace/instruction_set.h"
 #include "core/trace/ray_planes.h"
 
 // clang-format off
@@ -542,10 +543,9 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace dmpc::core {
-HWY_EXPORT(steps);
-
 const BundleSteps* bundle_steps(std::size_t rank) {
-  return choose_instruction_set(rank) ? HWY_DYNAMIC_DISPATCH(steps)() : nullptr;
+  const auto compiled = DMPC_COMPILED_FOR(rank, steps);
+  return compiled != nullptr ? compiled() : nullptr;
 }
 
 const BundleSteps& fastest_bundle_steps = *bundle_steps(0);

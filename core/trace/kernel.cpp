@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/vector_width.h"
+#include "core/trace/instruction_set.h"
 
 // clang-format off
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
@@ -182,9 +183,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace dmpc::core {
-HWY_EXPORT(children);
-HWY_EXPORT(triangles);
-
 namespace {
 
 std::uint32_t bit_if(bool condition, std::size_t lane) { return condition ? 1U << lane : 0U; }
@@ -217,10 +215,7 @@ BrickChild meet_children_scalar(const BoxRay& ray, const Brick& brick, float t_l
   return waiting.count > first ? waiting.take() : BrickChild::none();
 }
 
-const BrickKernel meet_children = [] {
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  return HWY_DYNAMIC_DISPATCH(children);
-}();
+const BrickKernel meet_children = DMPC_COMPILED_FOR(0, children);
 
 std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& triangles, std::uint32_t ignored, float t_most,
                                    float* times) {
@@ -233,10 +228,7 @@ std::uint32_t hit_triangles_scalar(const ShearedRay& ray, const TriangleRows& tr
   return hits;
 }
 
-const TriangleKernel hit_triangles = [] {
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  return HWY_DYNAMIC_DISPATCH(triangles);
-}();
+const TriangleKernel hit_triangles = DMPC_COMPILED_FOR(0, triangles);
 
 const char* simd_name() {
   constexpr std::array<const char*, 3> names{"scalar", "AVX2", "AVX3"};

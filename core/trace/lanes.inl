@@ -68,21 +68,4 @@ HWY_INLINE Vector fused(Vector a, Vector b, Vector c) {
 
 }  // namespace dmpc::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace dmpc::core {
-
-/// Whether this processor has an instruction set number `rank`, the fastest first, among those compiled; HWY_DYNAMIC_DISPATCH then
-/// takes it.
-inline bool choose_instruction_set(std::size_t rank) {
-  std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;
-  for (; rank > 0 && targets != 0; --rank) {
-    targets &= targets - 1;
-  }
-  hwy::GetChosenTarget().Update(targets & -targets);
-  return targets != 0;
-}
-
-}  // namespace dmpc::core
-#endif
 #endif

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/lab/bench/speed/plain_stage.h"
+#include "core/trace/instruction_set.h"
 
 // clang-format off
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
@@ -206,9 +207,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace dmpc::apps {
-HWY_EXPORT(shading);
-
-const PacketShading& packet_shading() { return *HWY_DYNAMIC_DISPATCH(shading)(); }
+const PacketShading& packet_shading() { return *DMPC_COMPILED_FOR(0, shading)(); }
 
 void RayQueue::reserve_more(std::size_t more) {
   const std::size_t least = count + more + packet_rays;
