@@ -6,11 +6,15 @@
 #include "core/base/expect.h"
 
 namespace dmpc::nodes {
+namespace {
+
+constexpr std::uint32_t no_wire = 0xffffffffU;
+constexpr std::size_t table_size_at_first = 64;
+
+}  // namespace
 
 Links::Links(const Machine& machine, std::uint32_t node_count)
-    : topology_(machine.topology, node_count, machine.uplinks),
-      machine_(machine),
-      wires_(topology_.place_count() + 1 + node_count) {}
+    : topology_(machine.topology, node_count, machine.uplinks), machine_(machine), table_(table_size_at_first, no_wire) {}
 
 std::uint32_t Links::hops(NodeId source, NodeId target) const {
   const NodeId host{topology_.node_count()}, door{0};
@@ -37,13 +41,13 @@ std::uint64_t Links::pass(NodeId source, NodeId target, std::uint64_t now_ns, st
 std::uint64_t Links::pass_along_route(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t bytes_ns) {
   std::uint64_t at_ns = now_ns;
   for (std::size_t i = 0; i < route_.size(); ++i) {
-    begins_ns_[i] = start_ns(*route_[i], at_ns);
+    begins_ns_[i] = start_ns(wires_[route_[i]], at_ns);
     at_ns = begins_ns_[i] + hop_ns(links_[i]);
   }
   const std::uint64_t arrives_ns = at_ns + bytes_ns;
   const bool is_circuit = machine_.switching == Switching::circuit;
   for (std::size_t i = 0; i < route_.size(); ++i) {
-    hold(*route_[i], begins_ns_[i], is_circuit ? arrives_ns - begins_ns_[i] : hop_ns(links_[i]) + bytes_ns, bytes);
+    hold(wires_[route_[i]], begins_ns_[i], is_circuit ? arrives_ns - begins_ns_[i] : hop_ns(links_[i]) + bytes_ns, bytes);
   }
   return arrives_ns;
 }
@@ -74,45 +78,28 @@ void Links::hold(Wire& wire, std::uint64_t from_ns, std::uint64_t busy_ns, std::
 }
 
 std::vector<LinkUse> Links::busiest(std::size_t count) const {
-  struct Used {
-    std::uint32_t from;
-    const Wire* wire;
-  };
-  std::vector<Used> used;
-  for (std::uint32_t from = 0; from < wires_.size(); ++from) {
-    for (const Wire& wire : wires_[from]) {
-      used.push_back({from, &wire});
-    }
-  }
+  std::vector<const Wire*> used;
+  std::transform(wires_.begin(), wires_.end(), std::back_inserter(used), [](const Wire& wire) { return &wire; });
   const auto end = used.begin() + static_cast<std::ptrdiff_t>(std::min(count, used.size()));
-  std::partial_sort(used.begin(), end, used.end(), [](const Used& a, const Used& b) {
-    return std::tuple(b.wire->busy_ns, a.from, a.wire->to) < std::tuple(a.wire->busy_ns, b.from, b.wire->to);
+  std::partial_sort(used.begin(), end, used.end(), [](const Wire* a, const Wire* b) {
+    return std::tuple(b->busy_ns, a->link.from, a->link.to) < std::tuple(a->busy_ns, b->link.from, b->link.to);
   });
   std::vector<LinkUse> uses;
-  std::transform(used.begin(), end, std::back_inserter(uses), [this](const Used& one) -> LinkUse {
-    const Wire& wire = *one.wire;
-    return {place_name(one.from), place_name(wire.to), wire.messages, wire.bytes, wire.busy_ns, wire.wait_ns};
+  std::transform(used.begin(), end, std::back_inserter(uses), [this](const Wire* wire) -> LinkUse {
+    return {place_name(wire->link.from), place_name(wire->link.to), wire->messages, wire->bytes, wire->busy_ns, wire->wait_ns};
   });
   return uses;
 }
 
-std::size_t Links::used_count() const {
-  std::size_t count = 0;
-  for (const std::vector<Wire>& from_place : wires_) {
-    count += from_place.size();
-  }
-  return count;
-}
+std::size_t Links::used_count() const { return wires_.size(); }
 
 void Links::expect_sums() const {
   LinkTraffic sum;
-  for (const std::vector<Wire>& from_place : wires_) {
-    for (const Wire& wire : from_place) {
-      sum.passages += wire.messages;
-      sum.bytes += wire.bytes;
-      sum.busy_ns += wire.busy_ns;
-      sum.wait_ns += wire.wait_ns;
-    }
+  for (const Wire& wire : wires_) {
+    sum.passages += wire.messages;
+    sum.bytes += wire.bytes;
+    sum.busy_ns += wire.busy_ns;
+    sum.wait_ns += wire.wait_ns;
   }
   core::expect(sum.passages == traffic_.passages && sum.bytes == traffic_.bytes && sum.busy_ns == traffic_.busy_ns &&
                    sum.wait_ns == traffic_.wait_ns,
@@ -135,14 +122,36 @@ std::string Links::place_name(std::uint32_t place) const {
 }
 
 /// The wire of a link, made when a message first passes it.
-Links::Wire& Links::wire(const Link& link) {
-  std::vector<Wire>& from_place = wires_[link.from];
-  const auto at = std::lower_bound(from_place.begin(), from_place.end(), link.to,
-                                   [](const Wire& wire, std::uint32_t to) { return wire.to < to; });
-  return at != from_place.end() && at->to == link.to ? *at : *from_place.insert(at, Wire{.to = link.to});
+std::uint32_t Links::wire_of(const Link& link) {
+  std::uint32_t& wire = table_[place_in_table(link)];
+  if (wire != no_wire) [[likely]] {
+    return wire;
+  }
+  wire = static_cast<std::uint32_t>(wires_.size());
+  wires_.push_back({.link = link});
+  if (2 * wires_.size() > table_.size()) {
+    grow_table();
+  }
+  return static_cast<std::uint32_t>(wires_.size() - 1);
 }
 
-/// A way begins at each place once, so that a wire which is made does not move another one of the route.
+/// Where the link's wire is told, or is to be: the table is at most half full.
+std::size_t Links::place_in_table(const Link& link) const {
+  const std::size_t mask = table_.size() - 1;
+  std::size_t at = (link.from * 0x9e3779b97f4a7c15U + link.to * 0xc2b2ae3d27d4eb4fU) >> 32U & mask;
+  while (table_[at] != no_wire && !(wires_[table_[at]].link == link)) {
+    at = (at + 1) & mask;
+  }
+  return at;
+}
+
+void Links::grow_table() {
+  table_.assign(2 * table_.size(), no_wire);
+  for (std::uint32_t wire = 0; wire < wires_.size(); ++wire) {
+    table_[place_in_table(wires_[wire].link)] = wire;
+  }
+}
+
 void Links::find_route(NodeId source, NodeId target) {
   const NodeId host{topology_.node_count()}, door{0};
   links_.clear();
@@ -159,7 +168,7 @@ void Links::find_route(NodeId source, NodeId target) {
   }
   route_.clear();
   for (const Link& link : links_) {
-    route_.push_back(&wire(link));
+    route_.push_back(wire_of(link));
   }
   begins_ns_.resize(route_.size());
 }

@@ -57,7 +57,7 @@ class Links {
 
  private:
   struct Wire {
-    std::uint32_t to = 0;
+    Link link;
     std::uint64_t free_at_ns = 0;
     std::uint64_t messages = 0, bytes = 0, busy_ns = 0, wait_ns = 0;
   };
@@ -65,7 +65,9 @@ class Links {
   std::uint32_t host_place() const { return topology_.place_count(); }
   std::uint32_t memory_place(std::uint32_t node) const { return host_place() + 1 + node; }
   std::string place_name(std::uint32_t place) const;
-  Wire& wire(const Link& link);
+  std::uint32_t wire_of(const Link& link);
+  std::size_t place_in_table(const Link& link) const;
+  void grow_table();
   void find_route(NodeId source, NodeId target);
   std::uint64_t pass_along_route(std::uint64_t now_ns, std::uint64_t bytes, std::uint64_t bytes_ns);
   std::uint64_t hop_ns(const Link& link) const;
@@ -74,9 +76,10 @@ class Links {
 
   Topology topology_;
   Machine machine_;
-  std::vector<std::vector<Wire>> wires_;  ///< by the place where they begin, then by that where they end
+  std::vector<Wire> wires_;               ///< of links that a message has passed, in the order of the first
+  std::vector<std::uint32_t> table_;      ///< of a power of two: by a hash of its ends, where each wire is, or no_wire
   std::vector<Link> links_;               ///< of the message that is passing, memory ports included
-  std::vector<Wire*> route_;              ///< the same links' wires
+  std::vector<std::uint32_t> route_;      ///< the same links' wires
   std::vector<std::uint64_t> begins_ns_;  ///< from when on it has each of them
   LinkTraffic traffic_;
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <span>
 #include <utility>
@@ -44,25 +43,34 @@ class MessageStore {
   std::uint32_t put(NodeId target, const PacketHeader& header, std::span<const std::byte> payload,
                     std::span<const std::byte> lasting) {
     if (free_.empty()) {
-      free_.push_back(static_cast<std::uint32_t>(messages_.size()));
-      messages_.emplace_back();
+      add_block();
     }
     const std::uint32_t number = free_.back();
     free_.pop_back();
-    Message& message = messages_[number];
+    Message& message = (*this)[number];
     message.target = target;
     message.header = header;
     message.payload.assign(payload.begin(), payload.end());
     message.lasting = lasting;
     return number;
   }
-  const Message& operator[](std::uint32_t number) const { return messages_[number]; }
-  Message& operator[](std::uint32_t number) { return messages_[number]; }
+  const Message& operator[](std::uint32_t number) const { return blocks_[number / block_size][number % block_size]; }
+  Message& operator[](std::uint32_t number) { return blocks_[number / block_size][number % block_size]; }
   void release(std::uint32_t number) { free_.push_back(number); }
-  bool empty() const { return free_.size() == messages_.size(); }
+  bool empty() const { return free_.size() == blocks_.size() * block_size; }
 
  private:
-  std::deque<Message> messages_;  // whose addresses stay
+  static constexpr std::uint32_t block_size = 64;
+
+  void add_block() {
+    const auto first = static_cast<std::uint32_t>(blocks_.size()) * block_size;
+    blocks_.push_back(std::make_unique<Message[]>(block_size));
+    for (std::uint32_t i = block_size; i > 0; --i) {
+      free_.push_back(first + i - 1);
+    }
+  }
+
+  std::vector<std::unique_ptr<Message[]>> blocks_;  ///< so that addresses of messages stay
   std::vector<std::uint32_t> free_;
 };
 

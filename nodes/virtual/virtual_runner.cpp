@@ -21,6 +21,11 @@ namespace {
 /// Events between two looks at a request to stop.
 constexpr std::uint64_t events_per_look = 1024;
 
+/// About the time from one event to the next, where each node has a message or a quantum under way: for an EventQueue.
+std::uint64_t event_distance_ns(const Machine& machine, std::size_t peer_count) {
+  return std::max<std::uint64_t>((machine.short_message.send_ns + machine.short_message.latency_ns) / peer_count, 1);
+}
+
 }  // namespace
 
 struct VirtualRunner::Implementation {
@@ -37,7 +42,8 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
   Simulation(std::span<const NodeSpecification> specifications, const Machine& model, Observer* looking_on)
       : machine(model),
         observer(looking_on),
-        links(model, static_cast<std::uint32_t>(std::max<std::size_t>(specifications.size(), 2) - 1)) {
+        links(model, static_cast<std::uint32_t>(std::max<std::size_t>(specifications.size(), 2) - 1)),
+        events(event_distance_ns(model, std::max<std::size_t>(specifications.size(), 1))) {
     core::expect(!specifications.empty(), "a computer has at least the host");
     if (is_watched && observer->follows_paths()) {
       paths.emplace(specifications.size());
@@ -71,7 +77,7 @@ struct VirtualRunner::Simulation final : VirtualRunner::Implementation {
     core::expect(is_finished, "another run begins where one has ended regularly");
     is_finished = false;
     links = Links(machine, std::max<std::uint32_t>(static_cast<std::uint32_t>(computer.processors.size()), 2) - 1);
-    events = {};
+    events = EventQueue(event_distance_ns(machine, computer.processors.size()));
     result = {};
     for (const auto& processor : computer.processors) {
       processor->begin_again(machine.price_ps(processor->program->charges()));

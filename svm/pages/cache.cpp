@@ -3,6 +3,7 @@
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
 #include "core/record/records.h"
+#include "svm/pages/pages_in_place.h"
 
 namespace dmpc::svm {
 namespace {
@@ -32,28 +33,32 @@ Cache::Cache(nodes::LocalMemory& memory, const CacheShape& shape, std::uint32_t 
 }
 
 PageId Cache::install(PageId page, std::span<const std::byte> bytes) {
-  return install_by(page, [&](std::uint32_t frame) { frames_.put(frame, bytes); });
+  return install_by(page, table_, [&](std::uint32_t frame) { frames_.put(frame, bytes); });
+}
+
+PageId Cache::install(PageId page, std::span<const std::byte> bytes, PagesInPlace& places) {
+  return install_by(page, places, [&](std::uint32_t frame) { frames_.put(frame, bytes); });
 }
 
 PageId Cache::install(PageId page, const nodes::ByteSource& source, std::size_t offset_bytes) {
-  return install_by(page, [&](std::uint32_t frame) { frames_.put(frame, source, offset_bytes); });
+  return install_by(page, table_, [&](std::uint32_t frame) { frames_.put(frame, source, offset_bytes); });
 }
 
-template <class Put>
-PageId Cache::install_by(PageId page, const Put& put) {
+template <class Places, class Put>
+PageId Cache::install_by(PageId page, Places& places, const Put& put) {
   core::expect(!stamps_.empty(), "a page is installed only where there is a frame");
-  core::expect(frame_of(page) == no_frame, "a page is in at most one frame");
+  core::expect(places.find(page) == no_frame, "a page is in at most one frame");
   const bool is_full = filled_count_ == frame_count();
   const std::uint32_t frame = is_full ? policy_->victim(page) : filled_count_++;
   core::expect(frame < frame_count(), "a page leaves a frame that there is");
   const PageId evicted = is_full ? pages_[frame] : no_page;
   if (is_full) {
-    table_.erase(evicted);
+    places.erase(evicted);
   }
   put(frame);
   pages_[frame] = page;
   stamps_[frame] = ++clock_;
-  table_.insert(page, frame);
+  places.insert(page, frame);
   policy_->insert(page, frame);
   last_frame_ = frame;
   return evicted;

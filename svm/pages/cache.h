@@ -18,6 +18,8 @@
 
 namespace dmpc::svm {
 
+class PagesInPlace;
+
 /// What a cache is made from.
 struct CacheShape {
   std::uint32_t frame_count = 0;  ///< 0 makes a cache that never finds anything and takes no page
@@ -53,11 +55,10 @@ class Cache {
   /// most recently used. Returns the page that had to go, or no_page. Requires at least one frame and `bytes` of the page's
   /// size. A touch() that follows is of the reference that it came for, no further one.
   PageId install(PageId page, std::span<const std::byte> bytes);
+  /// The same where `places` says in which frame each page is: always, so that this cache's own table stays empty.
+  PageId install(PageId page, std::span<const std::byte> bytes, PagesInPlace& places);
   /// Installs the page that lies at `offset_bytes` of `source`.
   PageId install(PageId page, const nodes::ByteSource& source, std::size_t offset_bytes);
-
-  /// The frame that install() has just put a page into.
-  std::uint32_t newest_frame() const { return last_frame_; }
 
   /// Frames that have a page.
   std::uint32_t filled_count() const { return filled_count_; }
@@ -66,9 +67,9 @@ class Cache {
  private:
   void tell_of_hit(std::uint32_t frame);
 
-  /// Returns the page that had to go. put(frame) puts the page's bytes there.
-  template <class Put>
-  PageId install_by(PageId page, const Put& put);
+  /// Returns the page that had to go, which `places` no longer finds. put(frame) puts the page's bytes there.
+  template <class Places, class Put>
+  PageId install_by(PageId page, Places& places, const Put& put);
 
   bool hears_hits_;
   std::uint64_t clock_ = 0;

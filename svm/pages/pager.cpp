@@ -67,6 +67,14 @@ const std::byte* Pager::refer(PageId page, std::uint32_t frame, const std::byte*
 
 /// Returns whether the page is here; if not, `translation` stays as it was.
 bool Pager::translate(PageId page, Translation& translation) const {
+  if (in_place_) {
+    const std::uint32_t frame = in_place_->frame_of(page);
+    if (frame == PagesInPlace::absent) {
+      return false;
+    }
+    translation = {page, frame == PagesInPlace::for_good ? Cache::no_frame : frame, in_place_->bytes_of(page)};
+    return true;
+  }
   if (const std::byte* const at_home = homes_.find(page)) {
     translation = {page, Cache::no_frame, at_home};
     return true;
@@ -138,10 +146,8 @@ std::uint32_t Pager::install(const nodes::Packet& reply) {
   if (Faults::Fault* refused = faults_.oldest_refused(asked)) {
     request(*refused);
   }
-  forget_page(cache_.install(header.page, reply.behind(sizeof(header))));
-  if (in_place_) {
-    in_place_->put(header.page, cache_.newest_frame());
-  }
+  const std::span<const std::byte> bytes = reply.behind(sizeof(header));
+  forget_page(in_place_ ? cache_.install(header.page, bytes, *in_place_) : cache_.install(header.page, bytes));
   return first;
 }
 
@@ -151,9 +157,7 @@ void Pager::forget_page(PageId evicted) {
     return;
   }
   ++counters_.evictions;
-  if (in_place_) {
-    in_place_->put(evicted, PagesInPlace::absent);
-  } else if (translation_of(evicted).page == evicted) {
+  if (!in_place_ && translation_of(evicted).page == evicted) {
     translation_of(evicted) = {};
   }
 }

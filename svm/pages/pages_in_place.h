@@ -9,7 +9,9 @@
 
 #include "nodes/byte_source.h"
 #include "nodes/local_memory.h"
+#include "svm/pages/page.h"
 #include "svm/pages/page_capacity.h"
+#include "svm/pages/page_table.h"
 
 namespace dmpc::svm {
 
@@ -35,6 +37,15 @@ class PagesInPlace {
   /// The frame in which a page is, for_good or absent.
   std::uint32_t frame_of(PageId page) const { return index_of(page) < count_ ? frames_[index_of(page)] : absent; }
   void put(PageId page, std::uint32_t frame) { frames_[index_of(page)] = static_cast<std::uint16_t>(frame); }
+
+  // In place of a cache's own table.
+  std::uint32_t find(PageId page) const {
+    const std::uint32_t frame = frame_of(page);
+    return frame == absent ? PageTable::nowhere : frame;
+  }
+  void insert(PageId page, std::uint32_t frame) { put(page, frame); }
+  void erase(PageId page) { put(page, absent); }
+
   /// The first byte of a page that is here.
   const std::byte* bytes_of(PageId page) const { return first_ + index_of(page) * page_size_bytes_; }
 

@@ -83,20 +83,40 @@ TEST_CASE("an empty queue has no least event") {
   CHECK_THROWS_AS(queue.pop(), core::InternalError);
 }
 
-TEST_CASE("whatever the order of pushes and pops, events come out in theirs") {
-  std::mt19937_64 random(5);
-  EventQueue queue;
-  std::set<Event::Order> waiting;
-  for (std::uint64_t i = 0; i < 20'000; ++i) {
-    if (waiting.empty() || random() % 2 == 0) {
-      const Event event = at(queue.now_ns() + random() % 8, static_cast<std::uint32_t>(random() % 4), i);
-      waiting.insert(event.order);
-      queue.push(event);
-    } else {
-      REQUIRE((queue.pop().order == *waiting.begin()));
-      waiting.erase(waiting.begin());
+TEST_CASE("whatever the order of pushes and pops, and however far apart the events, they come out in theirs") {
+  for (const std::uint64_t slot_ns : {1U, 5U, 1000U}) {
+    for (const std::uint64_t distance_max_ns : {1U, 8U, 700U, 5'000U, 2'000'000U}) {
+      std::mt19937_64 random(5);
+      EventQueue queue(slot_ns);
+      std::set<Event::Order> waiting;
+      for (std::uint64_t i = 0; i < 4'000; ++i) {
+        if (waiting.empty() || random() % 20 < 11) {
+          const Event event = at(queue.now_ns() + random() % distance_max_ns, static_cast<std::uint32_t>(random() % 4), i);
+          waiting.insert(event.order);
+          queue.push(event);
+        } else {
+          REQUIRE((queue.pop().order == *waiting.begin()));
+          REQUIRE(queue.now_ns() == static_cast<std::uint64_t>(*waiting.begin() >> 64U));
+          waiting.erase(waiting.begin());
+        }
+      }
+      for (const Event::Order order : waiting) {
+        REQUIRE((queue.pop().order == order));
+      }
+      CHECK(queue.empty());
     }
   }
+}
+
+TEST_CASE("any number of events of one time come by their sources, in whatever order they were pushed") {
+  EventQueue queue(8);
+  for (std::uint32_t source = 0; source < 1000; ++source) {
+    queue.push(at(3, source * 7 % 1000, 0));
+  }
+  for (std::uint32_t source = 0; source < 1000; ++source) {
+    REQUIRE(is_next(queue, at(3, source, 0)));
+  }
+  CHECK(queue.empty());
 }
 
 }  // namespace dmpc::tests::event_queue_test

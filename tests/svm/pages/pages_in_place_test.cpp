@@ -45,6 +45,31 @@ TEST_CASE("a page in place is absent, in a frame or here for good, and lies wher
   CHECK(pages->frame_of(no_page) == PagesInPlace::absent);
 }
 
+TEST_CASE("a cache whose pages are in place evicts what one with a table of its own does") {
+  constexpr std::uint32_t page_count = 9;
+  const std::vector<std::byte> database(page_count * page_size);
+  const CacheShape shape{.frame_count = 3, .page_size_bytes = page_size};
+  nodes::LocalMemory memory(Cache::layout(shape) + Cache::layout(shape), nodes::Lasting::is_referred_to);
+  Cache with_table(memory, shape, 0), with_places(memory, shape, 0);
+  std::optional<PagesInPlace> places = pages_of(nodes::Lasting::is_referred_to, database);
+  REQUIRE(places);
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    const PageId page{i * i % page_count};
+    const std::uint32_t frame = with_table.frame_of(page);
+    REQUIRE(places->find(page) == frame);
+    if (frame != Cache::no_frame) {
+      with_table.touch(frame);
+      with_places.touch(frame);
+      continue;
+    }
+    const std::span<const std::byte> bytes(places->bytes_of(page), page_size);
+    const PageId evicted = with_table.install(page, bytes);
+    CHECK(with_places.install(page, bytes, *places) == evicted);
+    CHECK(with_places.frame_of(page) == Cache::no_frame);
+    CHECK(places->find(evicted) == Cache::no_frame);
+  }
+}
+
 TEST_CASE("pages are looked up in place on modelled machines alone, and only as long as the table is small") {
   const std::vector<std::byte> few(page_size), many((std::size_t{PagesInPlace::pages_max} + 1) * page_size);
   CHECK(pages_of(nodes::Lasting::is_referred_to, few));
