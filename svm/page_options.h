@@ -45,6 +45,9 @@ struct PageOptions {
   std::optional<std::uint32_t> in_flight = std::nullopt;
   /// Pixels along the side of a work item; 0: no node gives work to another. Without it 4, a bundle, or 3 where rays walk alone.
   std::optional<std::uint32_t> work_item_side = std::nullopt;
+  /// On a modelled machine, too, rays of neighbouring pixels walk together: with look-ups, events and times of their own, in less
+  /// of the real computer's time. Where nobody looks on pixel by pixel, and 16 pixels are in flight; svm only.
+  bool bundles_on_machines = false;
   WorkGiver work_giver = WorkGiver::ring;           ///< host: not with work_item_side = 0
   PixelShares pixel_shares = PixelShares::submaps;  ///< interleaved: not with work_giver = host, where nodes start with none
   /// Nodes that render, the first ones; the others lend their memories and serve pages, as the article had for scenes that one

@@ -155,9 +155,10 @@ constexpr FieldOfSvm of_svm() {
   return {field_of<Member>(), [](const PageOptions& pages) { return pages.*Member == PageOptions{}.*Member; }};
 }
 
-constexpr FieldOfSvm fields_of_svm[] = {of_svm<&PageOptions::cache_pages>(), of_svm<&PageOptions::replacement>(),
-                                        of_svm<&PageOptions::homes>(),       of_svm<&PageOptions::tree_arity>(),
-                                        of_svm<&PageOptions::count_pages>(), of_svm<&PageOptions::resident_percent>()};
+constexpr FieldOfSvm fields_of_svm[] = {
+    of_svm<&PageOptions::cache_pages>(),        of_svm<&PageOptions::replacement>(), of_svm<&PageOptions::homes>(),
+    of_svm<&PageOptions::tree_arity>(),         of_svm<&PageOptions::count_pages>(), of_svm<&PageOptions::resident_percent>(),
+    of_svm<&PageOptions::bundles_on_machines>()};
 
 void check_fields_of_svm(const PlanRequest& request) {
   for (const FieldOfSvm& of_svm : fields_of_svm) {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/refusal.h"
 #include "core/picture/heat_kind.h"
 #include "svm/frames.h"
 #include "svm/picture_computer.h"
@@ -17,15 +18,35 @@ PageOptions pages_of(const RunOptions& options) {
   return pages;
 }
 
-/// What is counted for single pixels, and references in the order of single rays, need rays that walk alone; and the nodes of a
-/// modelled machine compute as those of the article did.
+/// What is counted for single pixels, and references in the order of single rays, need rays that walk alone.
+bool may_walk_in_bundles(const RunOptions& options) {
+  return !options.tracer_is_own && !options.watching.is_metered() && !pages_of(options).count_pages &&
+         !options.pages.record_references && options.pages.reference_logs == nullptr;
+}
+
+/// The nodes of a modelled machine compute as those of the article did, unless something else is asked for.
 bool walks_in_bundles(const RunOptions& options) {
-  return !options.tracer_is_own && !options.computer.machine && !options.watching.is_metered() &&
-         !pages_of(options).count_pages && !options.pages.record_references && options.pages.reference_logs == nullptr;
+  return may_walk_in_bundles(options) && (!options.computer.machine || options.pages.bundles_on_machines);
+}
+
+/// Whoever asks for bundles gets them, or an error.
+void check_bundles(const core::RenderSettings& settings, const RunOptions& options) {
+  constexpr core::Field bundles = core::field_of<&PageOptions::bundles_on_machines>();
+  core::check_use(options.computer.machine.has_value(), bundles,
+                  " is for a modelled machine: on threads rays walk together without it");
+  core::check_use(settings.skips.bundles && may_walk_in_bundles(options), bundles,
+                  " does not go with the skip bundles switched off, nor with what looks on pixel by pixel (heat maps, traces, "
+                  "reports, references, counted pages): there rays walk alone");
+  core::check_use(options.pages.in_flight.value_or(bundle_pixels) >= bundle_pixels, core::field_of<&PageOptions::in_flight>(),
+                  "=", options.pages.in_flight.value_or(bundle_pixels), " does not go with ", bundles,
+                  ": a bundle has the rays of ", bundle_pixels, " pixels");
 }
 
 PlanRequest request_of(const Strategy& strategy, const core::Database& database, const core::RenderSettings& settings,
                        const RunOptions& options) {
+  if (options.pages.bundles_on_machines) {
+    check_bundles(settings, options);
+  }
   return {.strategy = &strategy,
           .page_count = static_cast<std::uint32_t>(database.page_count()),
           .forest_page_count = static_cast<std::uint32_t>(database.forest_page_count()),

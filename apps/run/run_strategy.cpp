@@ -20,10 +20,13 @@ namespace dmpc::apps {
 
 namespace {
 
-/// A node of a modelled machine waits for its page, as those of the 1994 paper did; questions go by many.
+/// A node of a modelled machine has one pixel, or bundle, under way and waits for its page, as those of the 1994 paper did;
+/// questions go by many.
 std::optional<std::uint32_t> in_flight(const StrategyOptions& options) {
-  const bool is_modelled = options.computer.machine.has_value() && options.strategy != Strategy::forest;
-  return is_modelled && !options.pages.in_flight ? 1 : options.pages.in_flight;
+  if (!options.computer.machine || options.strategy == Strategy::forest || options.pages.in_flight) {
+    return options.pages.in_flight;
+  }
+  return options.pages.bundles_on_machines ? svm::bundle_pixels : 1;
 }
 
 svm::Report run_with_embree(const core::Database& database, const core::RenderSettings& settings, const svm::RunOptions& run,

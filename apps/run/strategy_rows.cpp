@@ -116,12 +116,22 @@ std::vector<PageRow> rows_of_pixels() {
   using svm::PixelShares, svm::WorkGiver;
   return {
       {.name = "--in-flight",
-       .takes = number<&PageOptions::in_flight>(1, svm::in_flight_max, "64, replicated 16, forest 16 to 256, runner virtual 1, mpi up to 256"),
+       .takes = number<&PageOptions::in_flight>(1, svm::in_flight_max,
+                                                "64, replicated 16, forest 16 to 256, runner virtual 1, mpi up to 256"),
        .help = "Pixels that a node works on at once; on threads the rays of 16 walk together, of fewer alone",
        .why = "a node of dataflow traces one ray at a time",
        .key = "in_flight",
        .told = [](const svm::Plan& plan) -> OptionValue { return plan.in_flight; },
        .meaning = "pixels"},
+      {.name = "--bundles",
+       .takes = flag<&PageOptions::bundles_on_machines>(),
+       .help =
+           "On a modelled machine, too, rays of 16 pixels walk together: the same film in less of this computer's time, but with "
+           "look-ups, events and virtual times of their own (svm)",
+       .why = "rays of the others walk alone on a modelled machine",
+       .key = "bundles_on_machines",
+       .told = [](const svm::Plan& plan) -> OptionValue { return pages_of(plan).bundles_on_machines; },
+       .meaning = "asked for"},
       {.name = "--work-item",
        .takes = number<&PageOptions::work_item_side>(0, 1024, "4, or 3 if rays walk alone"),
        .help = "Side in pixels of what a node gives to an idle one; 0: nothing is given",

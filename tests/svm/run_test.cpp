@@ -10,6 +10,7 @@
 #include "svm/pages/watch/miss_curve.h"
 #include "svm/pages/watch/optimum.h"
 #include "tests/support/built_scene.h"
+#include "tests/support/priced_machine.h"
 #include "tests/support/references.h"
 
 namespace svm_run_test {
@@ -385,7 +386,49 @@ TEST_CASE(
   CHECK(one.pages().references * 3 < alone.pages().references);
 }
 
-TEST_CASE("heat maps, references, distinct pages and modelled machines have rays that walk alone") {
+TEST_CASE("nodes of a modelled machine trace bundles if they are asked to: the same light, fewer look-ups, each time alike") {
+  const BuiltScene small("teapot-4", 512, 40);
+  const auto run = [&](bool bundles, std::uint32_t nodes) {
+    return svm::run_svm(small.database, small.settings,
+                        {.computer = {.node_count = nodes, .machine = tests::priced_machine()},
+                         .pages = {.cache_pages = 8, .in_flight = 16, .bundles_on_machines = bundles}},
+                        {});
+  };
+  const svm::Report on_threads = svm::run_svm(small.database, small.settings, {.computer = {.node_count = 4}}, {});
+  for (const std::uint32_t nodes : {1U, 4U}) {
+    const svm::Report alone = run(false, nodes), together = run(true, nodes), again = run(true, nodes);
+    CHECK(together.film.hash() == on_threads.film.hash());
+    CHECK(together.operations().rays == alone.operations().rays);
+    CHECK(together.operations().rays_in_bundles > together.operations().bundles);
+    CHECK(alone.operations().bundles == 0);
+    CHECK(together.pages().references < alone.pages().references);
+    CHECK(together.virtual_time->events < alone.virtual_time->events);
+    CHECK(together.virtual_time->hash == again.virtual_time->hash);
+  }
+}
+
+TEST_CASE("bundles are refused where they could not be traced") {
+  const BuiltScene small("teapot-4", 1024, 30);
+  const svm::RunOptions right{.computer = {.node_count = 2, .machine = nodes::Machine{}}, .pages = {.bundles_on_machines = true}};
+  CHECK(svm::plan_of(*svm::svm_strategy(), small.database, small.settings, right).pixels_a_task == 16);
+  std::array<svm::RunOptions, 4> wrong;
+  wrong.fill(right);
+  wrong[0].computer.machine.reset();
+  wrong[1].pages.in_flight = 15;
+  wrong[2].pages.count_pages = true;
+  constexpr std::array kinds{core::HeatKind::references};
+  nodes::HeatMap heat(900, kinds);
+  wrong[3].watching.heat = &heat;
+  for (const svm::RunOptions& options : wrong) {
+    CHECK_THROWS_AS(svm::plan_of(*svm::svm_strategy(), small.database, small.settings, options), core::UsageError);
+  }
+  CHECK_THROWS_AS(svm::plan_of(*svm::replicated_strategy(), small.database, small.settings, right), core::UsageError);
+  core::RenderSettings without = small.settings;
+  without.skips.bundles = false;
+  CHECK_THROWS_AS(svm::plan_of(*svm::svm_strategy(), small.database, without, right), core::UsageError);
+}
+
+TEST_CASE("heat maps, references, distinct pages and, unless asked, modelled machines have rays that walk alone") {
   const BuiltScene small("tetra-3", 1024, 16);
   const auto bundles = [&](const svm::RunOptions& options) {
     const svm::Plan plan = svm::plan_of(*svm::svm_strategy(), small.database, small.settings, options);

@@ -98,7 +98,7 @@ TEST_CASE("a modelled machine renders the film of threads, with every strategy")
   }
 }
 
-TEST_CASE("a modelled machine's nodes work on one pixel at once unless told otherwise") {
+TEST_CASE("a modelled machine's nodes work on one pixel, or bundle, at once unless told otherwise") {
   const auto in_flight = [](const RenderOptions& options) {
     const Rendered rendered(options);
     return std::get<svm::Report>(*rendered.report).plan.in_flight;
@@ -106,6 +106,9 @@ TEST_CASE("a modelled machine's nodes work on one pixel at once unless told othe
   RenderOptions options = modelled();
   CHECK(in_flight(options) == 1);
   CHECK(in_flight(small()) == 64);
+  options.pages.bundles_on_machines = true;
+  CHECK(in_flight(options) == 16);
+  options.pages.bundles_on_machines = false;
   options.pages.in_flight = 5;
   CHECK(in_flight(options) == 5);
 }
