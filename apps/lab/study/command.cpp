@@ -20,6 +20,7 @@
 #include "apps/lab/study/runs.h"
 #include "apps/render/picture_identity.h"
 #include "apps/run/render_record.h"
+#include "apps/run/strategy_options.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "core/database/conversion.h"
@@ -58,7 +59,8 @@ Loaded load(const StudyOptions& options, const TableFiles& files, Interrupt& int
   core::Scene scene = load_scene(options.picture, LoadNotes::said, &opened);
   check_not_read(opened, files.names());
   const auto digest = options.table.report ? std::optional(scene_digest(scene)) : std::nullopt;
-  auto kept = std::holds_alternative<SystemsStudy>(options.study) ? std::optional(scene) : std::nullopt;
+  const bool is_kept = std::holds_alternative<SystemsStudy>(options.study) || std::holds_alternative<FramesStudy>(options.study);
+  auto kept = is_kept ? std::optional(scene) : std::nullopt;
   const core::View view = scene.view;
   const core::Box bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0));
   return {build_subject(std::move(scene), options.picture, options.database, true), digest, std::move(kept), view, bounds};
@@ -171,6 +173,17 @@ void give_scene(SystemsStudy& study, const core::Scene& scene, const StudyOption
   };
 }
 
+/// One that asks questions, too, the scene to build their tree from.
+void give_scene(FramesStudy& study, const core::Scene& scene, const StudyOptions& options) {
+  study.build_tree = [&scene, &options] {
+    const core::BuildOptions usual = usual_database(Strategy::forest).build;
+    DatabaseOptions tree = options.database;
+    tree.build.structure = usual.structure;
+    tree.build.page_size_bytes = usual.page_size_bytes;
+    return build_subject_quietly(scene, options.picture, tree);
+  };
+}
+
 /// Returns the exit status.
 template <class OneStudy>
 int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& files, Interrupt& interrupt, std::ostream& output) {
@@ -181,6 +194,7 @@ int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& fil
   if constexpr (std::is_same_v<OneStudy, SystemsStudy>) {
     give_scene(study, *scene, options);
   } else if constexpr (std::is_same_v<OneStudy, FramesStudy>) {
+    give_scene(study, *scene, options);
     study.own_view = view;
     study.bounds = bounds;
   }

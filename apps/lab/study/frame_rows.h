@@ -1,0 +1,58 @@
+// What frames of a moving camera took, by nodes that keep what they have and by nodes that begin with each, as a table has it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/edge/table/filled_columns.h"
+#include "apps/run/report.h"
+#include "apps/run/strategy_options.h"
+
+namespace dmpc::apps {
+
+/// What one frame took.
+struct FrameFigures {
+  std::uint64_t film = 0;             ///< its hash
+  std::uint64_t faults = 0;           ///< page faults, of all nodes
+  std::uint64_t node_faults_max = 0;  ///< of the node that has most
+  std::uint64_t messages = 0;         ///< packets of every kind
+  std::uint64_t bytes = 0;            ///< of pages, of packets with questions and answers, or of packets with rays
+  std::uint64_t total_ns = 0;         ///< virtual time
+};
+
+/// Of a run on a modelled machine that has finished.
+FrameFigures figures_of(const Report& report);
+
+/// What travels, and with which caches.
+struct FramesCase {
+  std::string what;
+  Strategy strategy = Strategy::svm;
+  std::uint32_t cache_pages = 0;  ///< of svm
+
+  bool has_pages() const { return strategy == Strategy::svm; }
+};
+
+/// All frames of a path on one computer.
+struct FrameSeries {
+  std::string machine;
+  std::uint32_t node_count = 1;
+  FramesCase of;
+  std::uint32_t page_count = 1;          ///< of the database
+  std::vector<FrameFigures> warm, cold;  ///< as many; the first is the same in both
+};
+
+/// Frames of a series, by their places in it.
+struct FramesRow {
+  const FrameSeries& series;
+  std::size_t begin = 0, end = 1;
+
+  /// "2 to 6", or "3": counted from 1.
+  std::string frames() const;
+};
+
+/// For FramesRow; figures are means over its frames.
+const FilledColumns<FramesRow>& frames_columns();
+
+}  // namespace dmpc::apps
