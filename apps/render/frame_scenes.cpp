@@ -1,5 +1,9 @@
 #include "apps/render/frame_scenes.h"
 
+#include <exception>
+#include <string>
+
+#include "apps/edge/line/number_text.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "core/database/conversion.h"
@@ -9,6 +13,19 @@ namespace dmpc::apps {
 namespace {
 
 LoadNotes notes_for(const RenderOptions& options) { return options.quiet ? LoadNotes::silent : LoadNotes::said; }
+
+/// What work() returns. What is wrong with its input says of which frame: others may be well.
+template <class Work>
+auto of_frame(std::uint64_t frame, const Work& work) {
+  const auto named = [frame](const std::exception& error) { return "frame " + grouped(frame) + ": " + error.what(); };
+  try {
+    return work();
+  } catch (const core::RoomError& error) {
+    throw core::RoomError(named(error));
+  } catch (const core::InputError& error) {
+    throw core::InputError(named(error));
+  }
+}
 
 }  // namespace
 
@@ -21,7 +38,7 @@ FrameScenes::FrameScenes(const RenderOptions& asked) : asked_(asked) {
 core::Scene FrameScenes::load(std::optional<std::uint64_t> frame, OpenedFiles& opened) {
   core::expect(!are_animated() || frame, "an animation is shown by frames");
   if (are_animated() && still_) {
-    core::Scene scene = load_at(asked_.frames.seconds_at(*frame), opened, nullptr);
+    core::Scene scene = of_frame(*frame, [&] { return load_at(asked_.frames.seconds_at(*frame), opened, nullptr); });
     moved_view_ = scene.view;
     scene.view = own_view_;
     return scene;

@@ -53,8 +53,15 @@ struct Field {
   }
 };
 
-/// The field, and above it another, small one, nodes 0 and 1, a camera, node 2, and in two seconds a way of (4 0 2) for `moved`.
-std::string animated(int moved, const std::string& small = "0,0,3", bool has_camera = true) {
+/// How one node moves in two seconds: its place or size at the beginning and the end.
+struct Motion {
+  int node = 1;  ///< in the file: 0 is all of it
+  std::string path = "translation";
+  std::vector<float> values;
+};
+
+/// The field, and above it another, small one, and a camera: nodes 1, 2 and 3.
+std::string moved_by(const Motion& motion, const std::string& small, bool has_camera) {
   const Field field(16);
   GltfDocument document;
   const auto index = [](std::size_t i) { return std::to_string(i); };
@@ -62,15 +69,20 @@ std::string animated(int moved, const std::string& small = "0,0,3", bool has_cam
   const std::string triangles =
       index(document.accessor(document.view(row(field.triangles)), 5123, field.triangles.size(), "SCALAR"));
   const std::string input = index(document.accessor(document.view(row<float>({0, 2})), 5126, 2, "SCALAR"));
-  const float up = moved == 2 ? 30.0F : 3.0F;
-  const std::string output = index(document.accessor(document.view(row<float>({0, 0, up, 4, 0, up + 2})), 5126, 2, "VEC3"));
+  const std::string output = index(document.accessor(document.view(row(motion.values)), 5126, 2, "VEC3"));
   document.node = R"({"children":[1,2,3]},{"mesh":0},{"mesh":0,"translation":[)" + small +
                   R"(],"scale":[0.2,0.2,0.2]},{"translation":[0,0,30])" + (has_camera ? R"(,"camera":0})" : "}");
   return document.text(R"({"attributes":{"POSITION":)" + corners + R"(},"indices":)" + triangles + "}",
                        R"("cameras":[{"type":"perspective","perspective":{"yfov":0.6,"znear":0.1,"aspectRatio":1}}],)"
                        R"("animations":[{"name":"go","samplers":[{"input":)" +
                            input + R"(,"output":)" + output + R"(}],"channels":[{"sampler":0,"target":{"node":)" +
-                           std::to_string(moved + 1) + R"(,"path":"translation"}}]}])");
+                           std::to_string(motion.node) + R"(,"path":")" + motion.path + R"("}}]}])");
+}
+
+/// `moved` goes (4 0 2).
+std::string animated(int moved, const std::string& small = "0,0,3", bool has_camera = true) {
+  const float up = moved == 2 ? 30.0F : 3.0F;
+  return moved_by({.node = moved + 1, .values = {0, 0, up, 4, 0, up + 2}}, small, has_camera);
 }
 
 constexpr int small_field = 1, camera = 2;
@@ -229,6 +241,17 @@ TEST_CASE("a checkpoint of a frame that is there is removed, and that of another
   CHECK_MESSAGE(gone_on.status == 0, gone_on.errors);
   CHECK(fs::exists(folder / "a.3.exr"));
   CHECK_FALSE(fs::exists(folder / "c"));
+}
+
+TEST_CASE("a frame of which nothing is left is named, and those before it are there") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.gltf", moved_by({.node = 0, .path = "scale", .values = {1, 1, 1, 0, 0, 0}}, "0,0,3", true));
+  const Said said = render(folder, {"--frames=4", "--animation", "--fps=1", "-o", "@a.#.png"});
+  CHECK(said.status == 1);
+  CHECK_MESSAGE(contains(said.errors, "frame 3: "), said.errors);
+  CHECK(contains(said.errors, "there is no triangle in it that has an area"));
+  CHECK(fs::exists(folder / "a.2.png"));
+  CHECK_FALSE(fs::exists(folder / "a.3.png"));
 }
 
 TEST_CASE("what an animation cannot do is refused, and says what can be done") {
