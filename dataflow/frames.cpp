@@ -148,7 +148,8 @@ Frames::Frames(const Prepared& prepared, const core::RenderSettings& first, cons
                "a heat map is of the picture's size");
   before_.nodes.resize(plan_.node_count());
   if (options_.computer.ranks != nullptr) {
-    hand_out(plan_, prepared_.distribution, settings_, options_.watching.elsewhere.order, *options_.computer.ranks);
+    hand_out(plan_, prepared_.distribution, settings_, options_.watching.elsewhere.order, options_.are_frames,
+             *options_.computer.ranks);
   }
   runner_ = nodes::make_runner(specifications_of(plan_, prepared_.distribution, settings_, film_, options_, stop, &detail_),
                                options_.computer, options_.watching.observer);
@@ -159,25 +160,21 @@ Frames::Frames(const Prepared& prepared, const core::RenderSettings& first, cons
 
 HostProgram& Frames::host() const { return dynamic_cast<HostProgram&>(runner_->program(plan_.node_count())); }
 
-Frames::Before Frames::counted() const {
-  Before counted{.nodes = {}, .host = host().report()};
-  for (std::uint32_t i = 0; i < plan_.node_count(); ++i) {
-    counted.nodes.push_back(dynamic_cast<const NodeProgram&>(runner_->program(i)).report());
-  }
-  return counted;
-}
-
 Report Frames::render(const core::RenderSettings& settings, const core::FineDetail& detail, std::stop_token stop) {
   core::expect(options_.are_frames, "several frames are said to be several");
-  before_ = counted();
   options_.continuation.start = nullptr;  // of the first frame
   settings_ = settings;
   detail_ = detail;
   film_ = film_of(settings_);
   for (std::uint32_t i = 0; i < plan_.node_count(); ++i) {
-    dynamic_cast<NodeProgram&>(runner_->program(i)).begin_frame(settings_);
+    if (runner_->is_here(i)) {
+      dynamic_cast<NodeProgram&>(runner_->program(i)).begin_frame(settings_);
+    }
   }
   host().begin_frame(&detail_);
+  if (options_.computer.ranks != nullptr) {
+    hand_out_frame(settings_, *options_.computer.ranks);
+  }
   return render(std::move(stop));
 }
 
@@ -196,19 +193,21 @@ Report Frames::render(std::stop_token stop) {
 }
 
 /// What nodes and host tell.
-void Frames::fill(Report& report) const {
+void Frames::fill(Report& report) {
   const Distribution& distribution = prepared_.distribution;
   GatheredReports gathered = gather_reports(*runner_, plan_);
   report.ranks = nodes::gather_rank_figures(*runner_, plan_, options_.computer.ranks, options_.watching.elsewhere.adds());
   const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();
   report.nodes = std::move(gathered.nodes);
   for (std::uint32_t i = 0; i < plan_.node_count(); ++i) {
-    report.nodes[i].program = since(report.nodes[i].program, before_.nodes[i]);
+    const ProgramReport counted = std::exchange(report.nodes[i].program, since(report.nodes[i].program, before_.nodes[i]));
+    before_.nodes[i] = counted;
     report_share(report.nodes[i], distribution, i, plan_.request.shares[i]);
     report_regions(report.nodes[i], distribution.regions, regions[i]);
   }
   report.host = runner_->node(plan_.node_count()).counters();
   report.host_rays = since(host().report(), before_.host);
+  before_.host = host().report();
   report.refinement = host().refinement().result();
   if (report.end == nodes::RunEnd::finished) {
     check_rays(report);

@@ -21,7 +21,7 @@ namespace dmpc::dataflow {
 class Frames {
  public:
   /// Makes nodes and host for what prepare() has prepared with these settings, those of the first frame, and options; all of
-  /// these but options outlive it. On ranks, where there is one frame alone, it hands out. `stop` is that of the run.
+  /// these but options outlive it. On ranks it hands out. `stop` is that of the run.
   Frames(const Prepared& prepared, const core::RenderSettings& first, const RunOptions& options, const std::stop_token& stop);
   Frames(const Frames&) = delete;
   Frames& operator=(const Frames&) = delete;
@@ -40,8 +40,7 @@ class Frames {
   };
 
   HostProgram& host() const;
-  Before counted() const;
-  void fill(Report& report) const;
+  void fill(Report& report);
 
   const Prepared& prepared_;
   RunOptions options_;

@@ -5,6 +5,7 @@
 #include "core/base/expect.h"
 #include "nodes/flat_bytes.h"
 #include "nodes/flat_computer.h"
+#include "nodes/ranks/stream_kind.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -65,8 +66,10 @@ PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks) {
 }  // namespace
 
 std::string job_bytes(const Plan& plan, const core::RenderSettings& settings, const Regions& regions,
-                      const core::DatabasePart& outline) {
+                      const core::DatabasePart& outline, bool are_frames) {
   nodes::FlatWriter flat;
+  flat.put(nodes::StreamKind::job);
+  flat.put(are_frames);
   put(flat, plan.request);
   flat.put(settings);
   flat.put(regions);
@@ -78,13 +81,29 @@ std::string job_bytes(const Plan& plan, const core::RenderSettings& settings, co
 
 Job job_from(std::string_view bytes, nodes::RankLinks& ranks) {
   nodes::FlatReader flat(bytes);
+  core::expect(flat.take<nodes::StreamKind>() == nodes::StreamKind::job, "nodes are there before frames");
+  const auto are_frames = flat.take<bool>();
   Plan plan = make_plan(take_request(flat, ranks));
   const auto settings = flat.take<core::RenderSettings>();
-  Job job{.plan = std::move(plan), .settings = settings, .regions = flat.take<Regions>(), .outline = {}};
+  Job job{
+      .plan = std::move(plan), .settings = settings, .regions = flat.take<Regions>(), .outline = {}, .are_frames = are_frames};
   job.outline.header = flat.take<core::DatabaseHeader>();
   job.outline.bytes = flat.take_all<std::byte>();
   core::expect(flat.take<PlanFigures>() == figures_of(job.plan) && flat.is_at_end(), "all ranks have one plan");
   return job;
+}
+
+std::string frame_bytes(const core::RenderSettings& settings) {
+  nodes::FlatWriter flat;
+  flat.put(nodes::StreamKind::again);
+  flat.put(settings);
+  return flat.take();
+}
+
+core::RenderSettings frame_from(std::string_view bytes) {
+  nodes::FlatReader flat(bytes);
+  core::expect(flat.take<nodes::StreamKind>() == nodes::StreamKind::again, "nodes that are there are told of a frame");
+  return flat.take<core::RenderSettings>();
 }
 
 }  // namespace dmpc::dataflow

@@ -18,12 +18,17 @@ struct Job {
   core::RenderSettings settings;
   Regions regions;
   core::DatabasePart outline;  ///< its header and bytes alone
+  bool are_frames = false;     ///< others may follow it on the same nodes
 };
 
 /// As bytes.
 std::string job_bytes(const Plan& plan, const core::RenderSettings& settings, const Regions& regions,
-                      const core::DatabasePart& outline);
+                      const core::DatabasePart& outline, bool are_frames);
 /// From these, on a rank, which makes the plan anew and expects it to be the same.
 Job job_from(std::string_view bytes, nodes::RankLinks& ranks);
+
+/// What another frame is told by: the same but for the camera, and what follows from it.
+std::string frame_bytes(const core::RenderSettings& settings);
+core::RenderSettings frame_from(std::string_view bytes);
 
 }  // namespace dmpc::dataflow

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "nodes/flat_bytes.h"
 #include "nodes/ranks/ranks_runner.h"
 #include "nodes/ranks/stream_from_host.h"
+#include "nodes/ranks/stream_kind.h"
 #include "nodes/ranks/streams_to_ranks.h"
 
 namespace dmpc::dataflow {
@@ -49,9 +51,9 @@ Dealt dealt_from(std::string_view bytes) {
 }  // namespace
 
 void hand_out(const Plan& plan, const Distribution& distribution, const core::RenderSettings& settings,
-              const std::string& watch_order, nodes::RankLinks& links) {
+              const std::string& watch_order, bool are_frames, nodes::RankLinks& links) {
   nodes::StreamsToRanks streams(links);
-  const std::string job = job_bytes(plan, settings, distribution.regions, distribution.outline);
+  const std::string job = job_bytes(plan, settings, distribution.regions, distribution.outline, are_frames);
   for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
     streams.write_counted(rank, std::as_bytes(std::span(job)));
     streams.write_counted(rank, std::as_bytes(std::span(watch_order)));
@@ -68,27 +70,89 @@ void hand_out(const Plan& plan, const Distribution& distribution, const core::Re
   streams.finish();
 }
 
+void hand_out_frame(const core::RenderSettings& settings, nodes::RankLinks& links) {
+  nodes::StreamsToRanks streams(links);
+  const std::string frame = frame_bytes(settings);
+  for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
+    streams.write_counted(rank, std::as_bytes(std::span(frame)));
+  }
+  streams.finish();
+}
+
+namespace {
+
+/// The nodes of a run that are here, and what they are made of.
+class Part {
+ public:
+  /// `job`: read from the stream, of which it reads the rest.
+  Part(std::string_view job, nodes::StreamFromHost& stream, nodes::RankLinks& links, const nodes::Following& following)
+      : following_(following), stream_(stream), job_(job_from(job, links)) {
+    following.check_room(nodes::rank_memory(nodes::peers_of(job_.plan), &links, links.rank()));
+    order_ = nodes::read_counted(stream);
+    watching_ = order_.empty() ? nodes::Watching() : following.watch(order_);
+    const MakeProgram make_program = [this](std::uint32_t, nodes::Node& node) { return program_for(node); };
+    runner_ =
+        nodes::make_runner(specifications_without_host(job_.plan, make_program), job_.plan.request.computer, watching_.observer);
+  }
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+
+  bool are_frames() const { return job_.are_frames; }
+
+  void begin_frame(std::string_view frame) {
+    job_.settings = frame_from(frame);
+    for (std::uint32_t node = 0; node < job_.plan.node_count(); ++node) {
+      if (runner_->is_here(node)) {
+        dynamic_cast<NodeProgram&>(runner_->program(node)).begin_frame(job_.settings);
+      }
+    }
+    if (!order_.empty()) {
+      following_.watch_again();
+    }
+  }
+
+  nodes::RunEnd run(std::stop_token stop) {
+    stream_.say_ready();
+    const nodes::RunEnd end = runner_->run(std::move(stop));
+    gather_reports(*runner_, job_.plan);
+    runner_->gather_ranks(order_.empty() ? std::string() : following_.seen());
+    return end;
+  }
+
+ private:
+  std::unique_ptr<NodeProgram> program_for(nodes::Node& node) {
+    const Dealt dealt = dealt_from(nodes::read_counted(stream_));
+    return make_node_program(node, job_.plan,
+                             NodeDeal{dealt.header, nodes::ByteSource(stream_, dealt.record_bytes), dealt.primaries,
+                                      job_.settings, job_.regions, job_.outline, dealt.pages, dealt.runs_of_unit},
+                             nodes::meter_for(watching_, job_.plan.request.computer, node.id()));
+  }
+
+  const nodes::Following& following_;
+  nodes::StreamFromHost& stream_;
+  Job job_;
+  std::string order_;
+  nodes::Watching watching_;
+  std::unique_ptr<nodes::Runner> runner_;
+};
+
+}  // namespace
+
 nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const nodes::Following& following) {
   nodes::StreamFromHost stream(links);
-  const Job job = job_from(nodes::read_counted(stream), links);
-  following.check_room(nodes::rank_memory(nodes::peers_of(job.plan), &links, links.rank()));
-  const std::string order = nodes::read_counted(stream);
-  const nodes::Watching watching = order.empty() ? nodes::Watching() : following.watch(order);
-  const MakeProgram make_program = [&](std::uint32_t, nodes::Node& node) {
-    const Dealt dealt = dealt_from(nodes::read_counted(stream));
-    return make_node_program(node, job.plan,
-                             NodeDeal{dealt.header, nodes::ByteSource(stream, dealt.record_bytes), dealt.primaries, job.settings,
-                                      job.regions, job.outline, dealt.pages, dealt.runs_of_unit},
-                             nodes::meter_for(watching, job.plan.request.computer, node.id()));
-  };
-  const auto runner =
-      nodes::make_runner(specifications_without_host(job.plan, make_program), job.plan.request.computer, watching.observer);
-  stream.say_ready();
-  nodes::Followed followed{.bytes_received = stream.bytes_read()};
-  followed.end = runner->run(std::move(stop));
-  gather_reports(*runner, job.plan);
-  runner->gather_ranks(order.empty() ? std::string() : following.seen());
-  return followed;
+  std::string told = nodes::read_counted(stream);
+  while (true) {
+    Part part(told, stream, links, following);
+    nodes::Followed followed{.bytes_received = stream.bytes_read()};
+    followed.end = part.run(stop);
+    if (!part.are_frames()) {
+      return followed;
+    }
+    while (nodes::kind_of_stream(told = nodes::read_counted(stream)) == nodes::StreamKind::again) {
+      part.begin_frame(told);
+      part.run(stop);
+    }
+  }
 }
 
 }  // namespace dmpc::dataflow

@@ -60,8 +60,8 @@ class Runner {
   /// Returns when all programs are finished or `stop` is requested. Rethrows the first exception of a program. Throws
   /// core::InternalError with every node's describe() if nothing is under way, no program has work, and some are not finished.
   /// At a regular end it expects that packets sent = packets received. After one it may be called again, where all programs have
-  /// been given something to do: the computer is then as new, its clock and counters at zero, and nodes have what they had. Not
-  /// on ranks, where it runs once.
+  /// been given something to do: the computer is then as new, its clock and counters at zero, and nodes have what they had. On
+  /// ranks when all have gathered what the one before has left to tell.
   virtual RunEnd run(std::stop_token stop) = 0;
 
   /// After run(), of those that are here.

@@ -20,7 +20,7 @@ std::vector<PageId> resident_pages(const core::Database& database, const core::R
 }  // namespace
 
 Frames::Frames(const Strategy& strategy, const core::Database& database, const core::RenderSettings& first,
-               const RunOptions& options, const std::stop_token& stop)
+               const RunOptions& options, const std::stop_token& stop, bool are_several)
     : database_(database),
       options_(options),
       settings_(first),
@@ -33,7 +33,7 @@ Frames::Frames(const Strategy& strategy, const core::Database& database, const c
   nodes::RankLinks* const ranks = options.computer.ranks;
   plan_.resident = resident_pages(database, first, plan_, ranks, stop);
   if (ranks != nullptr) {
-    hand_out(plan_, first, database, options.watching.elsewhere.order, *ranks);
+    hand_out(plan_, first, database, options.watching.elsewhere.order, are_several, *ranks);
   }
   std::vector<ReferenceLog>* const logs = recorded_.empty() ? options.pages.reference_logs : &recorded_;
   maker_ = strategy.maker(plan_, settings_, bytes_, options_.watching, logs);
@@ -46,6 +46,9 @@ Report Frames::render(const core::RenderSettings& settings, std::stop_token stop
   } else {
     detail_ = settings.fine_detail(database_);
     computer_->begin_frame(settings_, &detail_);
+    if (options_.computer.ranks != nullptr) {
+      hand_out_frame(settings_, *options_.computer.ranks);
+    }
   }
   Report report = computer_->render(std::move(stop));
   for (std::size_t i = 0; i < recorded_.size(); ++i) {

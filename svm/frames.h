@@ -23,10 +23,10 @@ namespace dmpc::svm {
 /// as the scene did, before the start, in no virtual time. Thread safety: none.
 class Frames {
  public:
-  /// Plans and, on ranks, where there is one frame alone, hands out. `first`: the settings of the first frame. `database`
-  /// outlives this. Throws as make_plan() does. After a stop is requested it makes haste.
+  /// Plans and, on ranks, hands out. `first`: the settings of the first frame. `are_several`: it may not be the only one, which
+  /// other ranks have to know. `database` outlives this. Throws as make_plan() does. After a stop is requested it makes haste.
   Frames(const Strategy& strategy, const core::Database& database, const core::RenderSettings& first, const RunOptions& options,
-         const std::stop_token& stop);
+         const std::stop_token& stop, bool are_several = true);
   Frames(const Frames&) = delete;
   Frames& operator=(const Frames&) = delete;
 

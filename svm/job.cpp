@@ -6,6 +6,7 @@
 #include "core/base/expect.h"
 #include "nodes/flat_bytes.h"
 #include "nodes/flat_computer.h"
+#include "nodes/ranks/stream_kind.h"
 
 namespace dmpc::svm {
 namespace {
@@ -100,8 +101,10 @@ std::optional<core::PartialPicture> take_start(nodes::FlatReader& flat, const Pl
 
 }  // namespace
 
-std::string job_bytes(const Plan& plan, const core::RenderSettings& settings) {
+std::string job_bytes(const Plan& plan, const core::RenderSettings& settings, bool are_frames) {
   nodes::FlatWriter flat;
+  flat.put(nodes::StreamKind::job);
+  flat.put(are_frames);
   put(flat, plan.request);
   flat.put(settings);
   put(flat, plan.request.start);
@@ -112,15 +115,31 @@ std::string job_bytes(const Plan& plan, const core::RenderSettings& settings) {
 
 std::unique_ptr<Job> job_from(std::string_view bytes, nodes::RankLinks& ranks, const Strategies& strategies) {
   nodes::FlatReader flat(bytes);
+  core::expect(flat.take<nodes::StreamKind>() == nodes::StreamKind::job, "nodes are there before frames");
+  const auto are_frames = flat.take<bool>();
   PlanRequest request = take_request(flat, ranks, strategies);
   const auto settings = flat.take<core::RenderSettings>();
   auto job = std::make_unique<Job>(Plan{}, settings);
+  job->are_frames = are_frames;
   job->start = take_start(flat, request);
   request.start = job->start ? &*job->start : nullptr;
   job->plan = make_plan(request);
   job->plan.resident = flat.take_all<PageId>();
   core::expect(flat.take<PlanFigures>() == figures_of(job->plan) && flat.is_at_end(), "all ranks have one plan");
   return job;
+}
+
+std::string frame_bytes(const core::RenderSettings& settings) {
+  nodes::FlatWriter flat;
+  flat.put(nodes::StreamKind::again);
+  flat.put(settings);
+  return flat.take();
+}
+
+core::RenderSettings frame_from(std::string_view bytes) {
+  nodes::FlatReader flat(bytes);
+  core::expect(flat.take<nodes::StreamKind>() == nodes::StreamKind::again, "nodes that are there are told of a frame");
+  return flat.take<core::RenderSettings>();
 }
 
 }  // namespace dmpc::svm

@@ -18,6 +18,7 @@ struct Job {
   Plan plan;
   core::RenderSettings settings;
   std::optional<core::PartialPicture> start;  ///< where the picture is begun, without its light, which is the host's
+  bool are_frames = false;                    ///< others may follow it on the same nodes
 
   Job(const Plan& of, const core::RenderSettings& rendered) : plan(of), settings(rendered) {}
   Job(const Job&) = delete;
@@ -25,8 +26,12 @@ struct Job {
 };
 
 /// As bytes.
-std::string job_bytes(const Plan& plan, const core::RenderSettings& settings);
+std::string job_bytes(const Plan& plan, const core::RenderSettings& settings, bool are_frames);
 /// From these, on a rank that knows these strategies, which makes the plan anew and expects it to be the same.
 std::unique_ptr<Job> job_from(std::string_view bytes, nodes::RankLinks& ranks, const Strategies& strategies);
+
+/// What another frame is told by: the same but for the camera, and what follows from it.
+std::string frame_bytes(const core::RenderSettings& settings);
+core::RenderSettings frame_from(std::string_view bytes);
 
 }  // namespace dmpc::svm

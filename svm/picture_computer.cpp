@@ -119,9 +119,9 @@ void PictureComputer::begin_frame(const core::RenderSettings& settings, const co
   request.start = nullptr;
   film_ = film_of(request);
   for (std::uint32_t i = 0; i < before_.size(); ++i) {
-    auto& program = dynamic_cast<PictureProgram&>(runner_->program(i));
-    before_[i] = program.report();
-    program.begin_frame(settings);
+    if (runner_->is_here(i)) {
+      dynamic_cast<PictureProgram&>(runner_->program(i)).begin_frame(settings);
+    }
   }
   dynamic_cast<HostProgram&>(runner_->program(before_.size())).begin_frame(detail);
 }
@@ -137,7 +137,9 @@ Report PictureComputer::render(std::stop_token stop) {
   report.plan.request.detail = nullptr;  // it is the run's, and so is the database
   report.plan.request.database = {};
   for (std::size_t i = 0; i < report.nodes.size(); ++i) {
-    report.nodes[i].program = core::counts_since(report.nodes[i].program, before_[i]);
+    const ProgramReport counted = report.nodes[i].program;
+    report.nodes[i].program = core::counts_since(counted, before_[i]);
+    before_[i] = counted;
   }
   report.ranks = nodes::gather_rank_figures(*runner_, plan_, options_.computer.ranks, options_.watching.elsewhere.adds());
   report.host = runner_->node(host_index).counters();

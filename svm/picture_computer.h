@@ -27,7 +27,7 @@ class PictureComputer {
   ~PictureComputer();
 
   /// The next picture is that of `settings`, which outlive its render() and are of the same size and samples. After a render()
-  /// that has finished; not on ranks, nor where programs are others than PictureProgram.
+  /// that has finished; not where programs are others than PictureProgram. On ranks of the nodes that are here.
   void begin_frame(const core::RenderSettings& settings, const core::FineDetail* detail);
 
   /// Runs, checks the laws of conservation and reports: what is counted is this picture's.

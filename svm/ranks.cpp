@@ -1,24 +1,28 @@
 #include "svm/ranks.h"
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "nodes/byte_source.h"
 #include "nodes/ranks/ranks_runner.h"
 #include "nodes/ranks/stream_from_host.h"
+#include "nodes/ranks/stream_kind.h"
 #include "nodes/ranks/streams_to_ranks.h"
 #include "svm/job.h"
+#include "svm/program.h"
 #include "svm/run.h"
 
 namespace dmpc::svm {
 
 void hand_out(const Plan& plan, const core::RenderSettings& settings, const core::Database& database,
-              const std::string& watch_order, nodes::RankLinks& links) {
+              const std::string& watch_order, bool are_frames, nodes::RankLinks& links) {
   nodes::StreamsToRanks streams(links);
   const std::uint32_t node_count = plan.request.computer.node_count;
-  const std::string job = job_bytes(plan, settings);
+  const std::string job = job_bytes(plan, settings, are_frames);
   for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
     streams.write_counted(rank, std::as_bytes(std::span(job)));
     streams.write_counted(rank, std::as_bytes(std::span(watch_order)));
@@ -34,23 +38,81 @@ void hand_out(const Plan& plan, const core::RenderSettings& settings, const core
   streams.finish();
 }
 
+void hand_out_frame(const core::RenderSettings& settings, nodes::RankLinks& links) {
+  nodes::StreamsToRanks streams(links);
+  const std::string frame = frame_bytes(settings);
+  for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
+    streams.write_counted(rank, std::as_bytes(std::span(frame)));
+  }
+  streams.finish();
+}
+
+namespace {
+
+/// The nodes of a run that are here, and what they are made of.
+class Part {
+ public:
+  /// `job`: read from the stream, of which it reads the rest.
+  Part(std::string_view job, nodes::StreamFromHost& stream, nodes::RankLinks& links, const Following& following)
+      : following_(following), stream_(stream), job_(job_from(job, links, following.strategies)) {
+    following.check_room(nodes::rank_memory(nodes::peers_of(job_->plan), &links, links.rank()));
+    order_ = nodes::read_counted(stream);
+    const nodes::Watching watching = order_.empty() ? nodes::Watching() : following.watch(order_);
+    pages_.emplace(stream, job_->plan.pages().database_bytes());
+    maker_ = job_->plan.request.strategy->maker(job_->plan, job_->settings, *pages_, watching,
+                                                order_.empty() ? nullptr : following.reference_logs());
+    runner_ = nodes::make_runner(specifications_without_host(job_->plan, maker_), job_->plan.request.computer, watching.observer);
+  }
+
+  bool are_frames() const { return job_->are_frames; }
+
+  void begin_frame(std::string_view frame) {
+    job_->settings = frame_from(frame);
+    for (std::uint32_t node = 0; node < job_->plan.request.computer.node_count; ++node) {
+      if (runner_->is_here(node)) {
+        dynamic_cast<PictureProgram&>(runner_->program(node)).begin_frame(job_->settings);
+      }
+    }
+    if (!order_.empty()) {
+      following_.watch_again();
+    }
+  }
+
+  nodes::RunEnd run(std::stop_token stop) {
+    stream_.say_ready();
+    const nodes::RunEnd end = runner_->run(std::move(stop));
+    gather_reports(*runner_, job_->plan);
+    runner_->gather_ranks(order_.empty() ? std::string() : following_.seen());
+    return end;
+  }
+
+ private:
+  const Following& following_;
+  nodes::StreamFromHost& stream_;
+  std::unique_ptr<Job> job_;
+  std::string order_;
+  std::optional<nodes::ByteSource> pages_;
+  MakeProgram maker_;
+  std::unique_ptr<nodes::Runner> runner_;
+};
+
+}  // namespace
+
 nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const Following& following) {
   nodes::StreamFromHost stream(links);
-  const std::unique_ptr<Job> job = job_from(nodes::read_counted(stream), links, following.strategies);
-  following.check_room(nodes::rank_memory(nodes::peers_of(job->plan), &links, links.rank()));
-  const std::string order = nodes::read_counted(stream);
-  const nodes::Watching watching = order.empty() ? nodes::Watching() : following.watch(order);
-  const nodes::ByteSource pages(stream, job->plan.pages().database_bytes());
-  const MakeProgram make_program = job->plan.request.strategy->maker(job->plan, job->settings, pages, watching,
-                                                                     order.empty() ? nullptr : following.reference_logs());
-  const auto runner =
-      nodes::make_runner(specifications_without_host(job->plan, make_program), job->plan.request.computer, watching.observer);
-  stream.say_ready();
-  nodes::Followed followed{.bytes_received = stream.bytes_read()};
-  followed.end = runner->run(std::move(stop));
-  gather_reports(*runner, job->plan);
-  runner->gather_ranks(order.empty() ? std::string() : following.seen());
-  return followed;
+  std::string told = nodes::read_counted(stream);
+  while (true) {
+    Part part(told, stream, links, following);
+    nodes::Followed followed{.bytes_received = stream.bytes_read()};
+    followed.end = part.run(stop);
+    if (!part.are_frames()) {
+      return followed;
+    }
+    while (nodes::kind_of_stream(told = nodes::read_counted(stream)) == nodes::StreamKind::again) {
+      part.begin_frame(told);
+      part.run(stop);
+    }
+  }
 }
 
 }  // namespace dmpc::svm

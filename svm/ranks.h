@@ -18,9 +18,13 @@
 namespace dmpc::svm {
 
 /// On rank 0, before its own nodes are made: sends each other rank its job, what is to be watched there and, node by node, the
-/// pages that its programs keep. Returns when all have their nodes. Throws what fails on another rank.
+/// pages that its programs keep. Returns when all have their nodes. `are_frames`: these are kept for hand_out_frame(). Throws
+/// what fails on another rank.
 void hand_out(const Plan& plan, const core::RenderSettings& settings, const core::Database& database,
-              const std::string& watch_order, nodes::RankLinks& links);
+              const std::string& watch_order, bool are_frames, nodes::RankLinks& links);
+
+/// Likewise before another picture on the nodes that are there: sends each other rank from where it is seen.
+void hand_out_frame(const core::RenderSettings& settings, nodes::RankLinks& links);
 
 /// What a rank brings to a run of these strategies.
 struct Following : nodes::Following {
@@ -31,7 +35,8 @@ struct Following : nodes::Following {
 };
 
 /// What another rank does while rank 0 renders by run_by(), with one of its strategies. No more of the scene is in its
-/// memory than its nodes' pages. Throws nodes::Dismissed if rank 0 ends instead, and as run_by() does.
+/// memory than its nodes' pages. Where there are several frames it goes on with the next, or with new nodes, until rank 0 ends:
+/// throws nodes::Dismissed then, and as run_by() does.
 nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const Following& following = {});
 
 }  // namespace dmpc::svm

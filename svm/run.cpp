@@ -82,7 +82,8 @@ Report run_programs(const Plan& plan, const MakeProgram& make_program, const Run
 
 Report run_by(const Strategy& strategy, const core::Database& database, const core::RenderSettings& settings,
               const RunOptions& options, std::stop_token stop) {
-  return Frames(strategy, database, settings, options, stop).render(settings, stop);
+  constexpr bool are_several = false;
+  return Frames(strategy, database, settings, options, stop, are_several).render(settings, stop);
 }
 
 Report run_svm(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,

@@ -128,9 +128,9 @@ class Rendering {
     apart([this] { plan(); });
     render();
     int status = apart([this] { return write(); });
-    while (status == 0 && next_frame()) {
+    while (status == 0 && apart([this] { return next_frame(); })) {
       render();
-      status = write();
+      status = apart([this] { return write(); });
     }
     apart([&] { stay(status); });
     return status;

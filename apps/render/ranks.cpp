@@ -26,6 +26,7 @@ svm::Following following_for(std::optional<Onlookers>& onlookers) {
   svm::Following following;
   following.check_room = [](const nodes::RankMemory& memory) { check_room(memory); };
   following.watch = [&onlookers](std::string_view order) { return onlookers.emplace(watch_order_from(order)).watching(); };
+  following.watch_again = [&onlookers] { onlookers->begin_again(); };
   following.seen = [&onlookers] { return onlookers->seen(); };
   following.strategies.push_back(svm::forest_strategy());
   following.reference_logs = [&onlookers] { return onlookers->reference_logs(); };

@@ -195,10 +195,6 @@ void check_frames(const OptionSet& options, const RenderOptions& render) {
   if (render.tracer == TracerChoice::embree) {
     throw UsageError("--tracer=embree does not go with several frames" + alone);
   }
-  if (render.runner.kind == RunnerKind::mpi) {
-    throw UsageError("--runner=mpi does not go with several frames: what nodes of other processes have is not kept for the next" +
-                     alone);
-  }
 }
 
 void check(const OptionSet& options, const RenderOptions& render) {

@@ -52,9 +52,13 @@ void CountingTalk::count_if_quiet() {
 }
 
 void CountingTalk::close_account() {
-  traffic_.frames_sent = links_->frames_sent();
-  traffic_.bytes_sent = links_->bytes_sent();
+  traffic_.frames_sent = links_->frames_sent() - before_.frames_sent;
+  traffic_.bytes_sent = links_->bytes_sent() - before_.bytes_sent;
   traffic_.waves = waves_.waves();
+}
+
+RankTraffic CountingTalk::reported() const {
+  return {.frames_sent = before_.frames_sent + traffic_.frames_sent, .bytes_sent = before_.bytes_sent + traffic_.bytes_sent};
 }
 
 void CountingTalk::expect_nothing_lost() const {

@@ -74,17 +74,31 @@ struct RanksRunner::Implementation {
         outlet{is_here, outbox},
         nodes(specifications, chaos, observer, &outlet, pool_threads),
         exchange(to),
-        clocks(to, observer != nullptr && to.rank() == 0),
-        counting(to, nodes, outbox, static_cast<std::uint32_t>(specifications.size() - 1)),
+        compares_clocks(observer != nullptr && to.rank() == 0),
+        clocks(to, compares_clocks),
+        counting(to, nodes, outbox, node_count()),
         closing(to, nodes),
-        gathering(to, specifications.size()) {
+        gathering(to, is_here.size()) {
     core::expect(specifications.size() > to.rank_count(), "each rank has a node");
     core::expect(frame_bytes_for(payload_bytes_max(specifications)) <= to.frame_bytes(), "every packet fits a frame");
   }
 
+  std::uint32_t node_count() const { return static_cast<std::uint32_t>(is_here.size() - 1); }
+
+  /// Whoever sends something of the next run has been told by rank 0 to start, which knows that all ranks are here again.
+  void begin_again() {
+    nodes.begin_again();
+    clocks = ClockTalk(links, compares_clocks);
+    counting = CountingTalk(links, nodes, outbox, node_count(), counting.reported());
+    closing = ClosingTalk(links, nodes);
+    gathering = GatheringTalk(links, is_here.size());
+    has_started = false;
+  }
+
   RunEnd run(std::stop_token stop) {
-    core::expect(!is_run, "a runner runs once");
-    is_run = true;
+    if (std::exchange(is_run, true)) {
+      begin_again();
+    }
     const Promptness promptness;
     const std::stop_callback on_stop(std::move(stop), [this] { nodes.end(Ending::interrupted); });
     while (true) {
@@ -201,6 +215,7 @@ struct RanksRunner::Implementation {
   Outlet outlet;
   NodeThreads nodes;
   Exchange exchange;
+  bool compares_clocks;
   ClockTalk clocks;
   CountingTalk counting;
   ClosingTalk closing;

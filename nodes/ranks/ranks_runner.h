@@ -30,9 +30,10 @@ class RanksRunner final : public Runner {
               const std::optional<std::uint32_t>& pool_threads = std::nullopt);
   ~RanksRunner() override;
 
-  /// To be called on all ranks. The end and a stall are found exactly, without a time-out. It ends alike on all ranks: what fails
-  /// on one fails on the others, with its rank and text; a stop that is requested on one stops all. A stall's report has all
-  /// nodes on rank 0, and its own on others. Throws FabricError if a frame is lost, LostRank if a rank is.
+  /// To be called on all ranks; again, when all have gathered, and rank 0 knows that all are about to. The end and a stall are
+  /// found exactly, without a time-out. It ends alike on all ranks: what fails on one fails on the others, with its rank and
+  /// text; a stop that is requested on one stops all. A stall's report has all nodes on rank 0, and its own on others. Throws
+  /// FabricError if a frame is lost, LostRank if a rank is.
   RunEnd run(std::stop_token stop) override;
   Node& node(std::size_t index) override;
   Program& program(std::size_t index) override;

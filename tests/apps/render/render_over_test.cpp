@@ -103,6 +103,44 @@ TEST_CASE("every strategy and its systems render over ranks what they do in one 
   }
 }
 
+/// What three frames come to over so many ranks, or in one process: pictures, heat maps and counted rays.
+std::vector<std::string> frames_over(std::uint32_t rank_count, std::vector<std::string> line) {
+  const tests::TemporaryFolder folder;
+  line.insert(line.end(),
+              {"--frames=3", "--turntable=10", "-o", (folder / "frame.#.exr").string(),
+               "--heatmap=rays:" + (folder / "heat.#.png").string(), "--stats=" + (folder / "stats.#.json").string()});
+  if (rank_count > 0) {
+    line.push_back("--runner=mpi");
+    for (const auto& result : render_over(rank_count, options_of(line))) {
+      CHECK(result.failure_text() == "");
+      CHECK(result.value.value().status == 0);
+    }
+  } else {
+    apps::Interrupt interrupt;
+    std::ostringstream output;
+    CHECK(apps::render_command(options_of(line), interrupt, output) == 0);
+  }
+  std::vector<std::string> found;
+  for (const std::string number : {"1", "2", "3"}) {
+    found.push_back(tests::file_text(folder / ("frame." + number + ".exr")));
+    const auto stats = nlohmann::json::parse(tests::file_text(folder / ("stats." + number + ".json")));
+    found.push_back(stats["rays"].dump());
+    CHECK(stats["ranks"].size() == rank_count);
+    found.push_back(tests::file_text(folder / ("heat." + number + ".png")));
+  }
+  return found;
+}
+
+TEST_CASE("frames over ranks are those of one process, each with its own heat map and counters") {
+  for (const char* const strategy : {"--strategy=svm", "--strategy=dataflow", "--strategy=forest"}) {
+    CAPTURE(strategy);
+    const std::vector<std::string> alone = frames_over(0, small_with({strategy}));
+    CHECK(alone[0] != alone[3]);
+    CHECK((frames_over(2, small_with({strategy})) == alone));
+    CHECK((frames_over(5, small_with({strategy})) == alone));
+  }
+}
+
 TEST_CASE("closing lines and counters tell of the ranks") {
   const tests::TemporaryFolder folder;
   auto line = small_with({"--runner=mpi", "--strategy=svm"});
