@@ -179,6 +179,7 @@ void give_scene(FramesStudy& study, const core::Scene& scene, const StudyOptions
     const core::BuildOptions usual = usual_database(Strategy::forest).build;
     DatabaseOptions tree = options.database;
     tree.build.structure = usual.structure;
+    tree.build.record_order = usual.record_order;
     tree.build.page_size_bytes = usual.page_size_bytes;
     return build_subject_quietly(scene, options.picture, tree);
   };

@@ -118,10 +118,10 @@ class SeriesRows {
 };
 
 /// All that travels, on one computer.
-void measure_on(const nodes::Machine& machine, std::uint32_t node_count, const FrameRuns& in_grid, const FrameRuns& in_tree,
+void measure_on(const nodes::Machine& machine, std::uint32_t node_count, const FrameRuns& as_asked, const FrameRuns& in_tree,
                 SeriesRows& rows) {
-  const std::uint32_t all = in_grid.page_count();
-  const FrameSeries kept = in_grid.series(machine, node_count, {"pages, all kept", Strategy::svm, all});
+  const std::uint32_t all = as_asked.page_count();
+  const FrameSeries kept = as_asked.series(machine, node_count, {"pages, all kept", Strategy::svm, all});
   const auto share = [all](std::uint32_t percent) { return std::max(core::ceil_divide(all * percent, 100U), 1U); };
   const std::vector<FramesCase> cases = {{"pages, caches of 25 %", Strategy::svm, share(25)},
                                          {"pages, caches of 40 %", Strategy::svm, share(40)},
@@ -132,7 +132,7 @@ void measure_on(const nodes::Machine& machine, std::uint32_t node_count, const F
   measure_each(
       cases.size(), Turns::side_by_side,
       [&](std::size_t i) {
-        return (cases[i].strategy == Strategy::forest ? in_tree : in_grid).series(machine, node_count, cases[i]);
+        return (cases[i].strategy == Strategy::forest ? in_tree : as_asked).series(machine, node_count, cases[i]);
       },
       [&](std::size_t i, const FrameSeries& series) {
         if (i == smaller_caches) {
@@ -151,12 +151,6 @@ void check_line(const StudyLine& line, const FramesStudy& study) {
   }
   if (std::find(study.node_counts.begin(), study.node_counts.end(), 1U) != study.node_counts.end()) {
     throw core::UsageError("--nodes: expected at least 2, as a node alone fetches and sends nothing");
-  }
-  for (const char* option : {"--structure", "--voxels", "--record-order"}) {
-    if (line.set.is_given(option)) {
-      throw core::UsageError(std::string(option) +
-                             " does not go with study frames: pages and rays go through the grid, questions through one tree");
-    }
   }
 }
 
@@ -180,7 +174,7 @@ nodes::Machine machine_of(const RunnerOptions& asked, const std::string& name) {
   return *one.computer.machine;
 }
 
-/// Rows of means on the computer of the last one, which are there when all of its rows are.
+/// The means of the computer that the last row is of.
 std::vector<const std::vector<Cell>*> last_means(const Table& table, const std::string& frames) {
   std::vector<const std::vector<Cell>*> means;
   for (const std::vector<Cell>& row : table.rows()) {
@@ -271,11 +265,11 @@ std::vector<PlannedRun> FramesStudy::planned() const {
 
 void FramesStudy::measure(StudyRuns& runs, Table& table) const {
   const Subject tree = build_tree();
-  const FrameRuns in_grid(*this, runs.database(), runs.settings(), runs), in_tree(*this, tree.database, tree.settings, runs);
+  const FrameRuns as_asked(*this, runs.database(), runs.settings(), runs), in_tree(*this, tree.database, tree.settings, runs);
   SeriesRows rows(has_each_frame, runs, table);
   for (const nodes::Machine& machine : machines) {
     for (const std::uint32_t node_count : node_counts) {
-      measure_on(machine, node_count, in_grid, in_tree, rows);
+      measure_on(machine, node_count, as_asked, in_tree, rows);
     }
   }
   runs.check();

@@ -119,19 +119,20 @@ def systems(
 
 
 def frames(
-    scene: Text, *, nodes: int | None = None, frames: int | None = None, turntable: Text | None = None, camera_path: Text | None = None,
-    machine: Text | None = None, no_contention: bool = False, memory_port: bool = False, camera: Text | None = None, light: Text |
-    Sequence[Text] | None = None, fill: Text | None = None, ambient: Text | Sequence[Text] | None = None, background: Text | Sequence[Text]
-    | None = None, scale: Text | None = None, up: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text | None = None,
-    missing: Literal["error", "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None,
-    sandbox: Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention:
-    Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None,
-    cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit", "unlit",
-    "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport:
-    Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None
-    = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial",
-    "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, grid_axes:
-    Literal["world", "screen"] | None = None, report: Text | None = None, plots: Text | None = None
+    scene: Text, *, nodes: Text | Sequence[Text] | None = None, frames: int | None = None, each_frame: bool = False, turntable: Text | None
+    = None, camera_path: Text | None = None, machine: Text | None = None, no_contention: bool = False, memory_port: bool = False, machines:
+    Text | Sequence[Text] | None = None, camera: Text | None = None, light: Text | Sequence[Text] | None = None, fill: Text | None = None,
+    ambient: Text | Sequence[Text] | None = None, background: Text | Sequence[Text] | None = None, scale: Text | None = None, up:
+    Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text | None = None, missing: Literal["error", "plain"] | Sequence[Text]
+    | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None =
+    None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text |
+    None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"]
+    | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes",
+    "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
+    Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size:
+    Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None
+    = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None, report: Text | None = None, plots: Text | None
+    = None
 ) -> pandas.DataFrame:
     """What frames of a moving camera fetch and send, with caches warm and cold."""
     return studying.study("frames", ["scene"], locals())

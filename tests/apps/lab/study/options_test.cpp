@@ -102,6 +102,25 @@ TEST_CASE("the options of the study of caches are taken") {
   CHECK(taken.machine->name == "ipsc2");
 }
 
+TEST_CASE("frames are studied on one machine, or several that have names, by more than a node") {
+  const auto frames = [](std::initializer_list<std::string> more) {
+    return std::get<apps::FramesStudy>(study("frames", more).study);
+  };
+  CHECK(frames({}).machines.size() == 1);
+  CHECK(frames({}).machines.front().name == "ipsc2");
+  CHECK(frames({"--machine=hdr"}).machines.front().name == "hdr");
+  const apps::FramesStudy several = frames({"--machines=hdr,paragon", "--nodes=16,64", "--no-contention"});
+  REQUIRE(several.machines.size() == 2);
+  CHECK(several.machines.back().name == "paragon");
+  CHECK_FALSE(several.machines.back().has_contention);
+  CHECK(several.node_counts == Counts{16, 64});
+  const auto complaint = [](const char* word) { return usage_complaint({"study", "frames", "teapot-12", word}); };
+  CHECK(complaint("--machines=hdr,abacus").find("--machines=hdr,abacus: expected names of ipsc2") != std::string::npos);
+  CHECK(complaint("--nodes=1,8").find("--nodes: expected at least 2") != std::string::npos);
+  CHECK(usage_complaint({"study", "frames", "teapot-12", "--machine=hdr", "--machines=hdr,cm5"}).find("--machines does not go") !=
+        std::string::npos);
+}
+
 TEST_CASE("caches of no page, a lone node and an unknown machine are refused") {
   CHECK(usage_complaint({"study", "cache", "teapot-12", "--cache-pages=4,0"}).find("--cache-pages=4,0: expected") !=
         std::string::npos);
