@@ -65,10 +65,6 @@ FrameFigures figures_of(const Report& report) {
       report);
 }
 
-std::string FramesRow::frames() const {
-  return std::to_string(begin + 1) + (end == begin + 1 ? "" : " to " + std::to_string(end));
-}
-
 const FilledColumns<FramesRow>& frames_columns() {
   using Row = FramesRow;
   static const FilledColumns<Row> columns = [] {
@@ -83,7 +79,7 @@ const FilledColumns<FramesRow>& frames_columns() {
         {{.name = "machine", .unit = "", .is_heading = true}, [](const Row& row) { return row.series.machine; }},
         {{"nodes"}, [](const Row& row) { return std::uint64_t{row.series.node_count}; }},
         {{"what travels"}, [](const Row& row) { return row.series.of.what; }},
-        {{"frames"}, [](const Row& row) { return row.frames(); }},
+        {{"frames"}, [](const Row& row) { return row.frames; }},
         {{"cache pages"}, of_pages([](const Row& row) { return std::uint64_t{row.series.of.cache_pages}; })},
         {{"share of database", "%", 1},
          of_pages([](const Row& row) { return percent_of(row.series.of.cache_pages, row.series.page_count); })},

@@ -47,9 +47,7 @@ struct FrameSeries {
 struct FramesRow {
   const FrameSeries& series;
   std::size_t begin = 0, end = 1;
-
-  /// "2 to 6", or "3": counted from 1.
-  std::string frames() const;
+  std::string frames;  ///< what they are called, counted from 1: "3", or "2 to 6" of means
 };
 
 /// For FramesRow; figures are means over its frames.

@@ -19,6 +19,9 @@
 namespace dmpc::apps {
 namespace {
 
+/// What rows of means over all frames but the first are called.
+std::string means_of(std::size_t frame_count) { return "2 to " + std::to_string(frame_count); }
+
 CameraPath path_of(const FramesStudy& study) {
   CameraPath path = study.camera_path ? read_camera_path(*study.camera_path) : CameraPath::turntable(study.turntable_degrees);
   if (path.first() > 1 || path.last() < study.frame_count) {
@@ -95,9 +98,9 @@ class SeriesRows {
     check(series);
     runs_.take(series.warm.front().film);
     for (std::size_t frame = 0; has_each_frame_ && frame < series.warm.size(); ++frame) {
-      table_.add_row(row_of(frames_columns(), FramesRow{series, frame, frame + 1}));
+      table_.add_row(row_of(frames_columns(), FramesRow{series, frame, frame + 1, std::to_string(frame + 1)}));
     }
-    table_.add_row(row_of(frames_columns(), FramesRow{series, 1, series.warm.size()}));
+    table_.add_row(row_of(frames_columns(), FramesRow{series, 1, series.warm.size(), means_of(series.warm.size())}));
   }
 
  private:
@@ -225,7 +228,7 @@ void FramesStudy::add_options(StudyLine line) {
 std::vector<Column> FramesStudy::columns() const { return heads_of(frames_columns()); }
 
 std::vector<Plot> FramesStudy::plots() const {
-  const std::string means = "2 to " + std::to_string(frame_count);
+  const std::string means = means_of(frame_count);
   std::vector<PlotSeries> faults, times;
   for (const nodes::Machine& machine : machines) {
     for (const std::uint32_t count : node_counts) {
@@ -302,7 +305,7 @@ std::string FramesStudy::conclusion(const Table& table) const {
     return "";
   }
   std::string faults, times;
-  for (const std::vector<Cell>* const row : last_means(table, "2 to " + std::to_string(frame_count))) {
+  for (const std::vector<Cell>* const row : last_means(table, means_of(frame_count))) {
     const auto share = number_in(table, *row, "warm faults"), cache = number_in(table, *row, "share of database"),
                time = number_in(table, *row, "warm time");
     if (share && cache) {
