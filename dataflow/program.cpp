@@ -418,23 +418,16 @@ void RayProgram<RaysTask, Units>::shoot(const core::Ray& ray) {
   task_.shoot(ray);
 }
 
-/// Past regions where it meets nothing, to the owner of the next where it may meet something: this node or another.
+/// The ray goes on in a region of this node's, or of another's.
 template <class RaysTask, class Units>
-void RayProgram<RaysTask, Units>::go_to_next(const RayMessage& message) {
-  const NextStop stop = next_stop(message.ray, message.passage(), surroundings_, node_->id(), operations_);
-  if (stop.traced == core::Traced::miss) {
-    return end_miss(message.ray);
-  }
-  if (stop.traced == core::Traced::hit) {
-    return end_confirmed(message);
-  }
-  const nodes::NodeId owner = constants_->regions.owner_at(stop.region);
-  RayMessage next = message_of(message.ray, stop.passage, nodes::NodeId{message.finder});
-  next.tested = message.tested;
+void RayProgram<RaysTask, Units>::go_to_stop() {
+  const nodes::NodeId owner = constants_->regions.owner_at(task_.stop());
+  const RayMessage message = task_.leaving();
+  task_.drop_ended();
   if (owner == node_->id()) {
-    task_.enter(next);
+    task_.enter(message);
   } else {
-    dispatch(owner, next);
+    dispatch(owner, message);
   }
 }
 
@@ -455,12 +448,10 @@ void RayProgram<RaysTask, Units>::trace() {
 
 template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::end_ray() {
+  task_.find_stops(surroundings_, operations_);
   switch (task_.traced()) {
-    case core::Traced::left: {
-      const RayMessage message = task_.leaving();
-      task_.drop_ended();
-      return go_to_next(message);
-    }
+    case core::Traced::left:
+      return go_to_stop();
     case core::Traced::miss:
       end_miss(task_.ray());
       break;
@@ -477,17 +468,7 @@ void RayProgram<RaysTask, Units>::end_blocked() {
   ++counters_.ended;
 }
 
-/// The nearest hit of a ray is proved where nothing is.
-template <class RaysTask, class Units>
-void RayProgram<RaysTask, Units>::end_confirmed(RayMessage message) {
-  if (message.ray.kind == core::RayKind::shadow) {
-    return end_blocked();
-  }
-  message.is_confirmed = 1;
-  shade_at_finder(message);
-}
-
-/// A ray has met its nearest hit, or a shadow ray any.
+/// A ray has met its nearest hit, or a shadow ray any; or that is proved where nothing is.
 template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::end_hit() {
   if (task_.ray().kind == core::RayKind::shadow) {

@@ -141,11 +141,10 @@ class RayProgram final : public NodeProgram {
   void go_on();
   void trace();
   void shoot(const core::Ray& ray);
-  void go_to_next(const RayMessage& message);
+  void go_to_stop();
   void end_ray();
   void end_hit();
   void end_blocked();
-  void end_confirmed(RayMessage message);
   void shade_at_finder(const RayMessage& hit);
   void count_claim(core::RayKind kind);
   void end_miss(const core::Ray& ray);

@@ -17,6 +17,9 @@ struct PlanesAhead {
   Corner above{}, below{};
 };
 
+/// The planes, one of each axis, that each ray comes to when it leaves a box of its own.
+using PlaneRows = std::array<Row<std::int32_t>, 3>;
+
 /// How bundles walk: each does for the rays of `bundle` what Walk does for one, to the bit.
 struct BundleSteps {
   /// From bundle.rays to rows, and the rays that meet the grid to their first cells: those that are in the region are `alive`,
@@ -30,6 +33,11 @@ struct BundleSteps {
   /// one that holds the ray. Those whose walk has ended, or that have left the region, are no longer alive. Returns how many
   /// cells they have come by, beside one each.
   std::uint64_t (*leave)(RayBundle& bundle, RayMask leaving, const PlanesAhead& ahead, const Region* around);
+  /// Where rays that have left leave the boxes into which they have gone.
+  void (*find_box_exits)(RayBundle& bundle, RayMask rays, const PlaneRows& planes);
+  /// pass(): takes the rays, whose exits are found, out of their boxes, as if nothing were there, and returns those that go on:
+  /// their passages are where. The walks of the others end in their boxes.
+  RayMask (*pass_boxes)(RayBundle& bundle, RayMask rays, const PlaneRows& planes);
 };
 
 /// What bundles do with a record: each does for the rays of `rays` what kernel.h's do for one.

@@ -249,22 +249,43 @@ HWY_INLINE void locate_top(RayBundle& bundle, std::size_t axis, std::size_t firs
   }
 }
 
-/// Walk::finest_cell_of(), of a ray that has entered its top cell through a plane beside finest index `face` of `entry_axis`.
-Corner finest_cell_of(const RayBundle& bundle, std::size_t ray, std::size_t entry_axis, std::int32_t face) {
-  Corner finest;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (axis == entry_axis) {
-      finest[axis] = face;
+/// Walk::finest_cell_of() along an axis, of the rays wanted, which are where they enter their cells: into `arrival`. Planes at
+/// equal t are crossed before that by those of `ties`. Found in all of the grid, as every limit around the one cell would do.
+HWY_INLINE void find_finest(RayBundle& bundle, std::size_t axis, RayMask wanted, RayMask ties) {
+  const Doubles tag;
+  const HalfIntegers integers;
+  const std::int32_t size = bundle.grid_size[axis];
+  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Doubles>()) {
+    const RayMask here = wanted >> first & first_bits(lanes_of<Doubles>());
+    if (here == 0) {
       continue;
     }
-    const std::int32_t low = bundle.cells[axis][ray], high = std::min(low + finest_per_top, bundle.grid_size[axis]);
-    const bool steps = ((bundle.forward[axis] | bundle.backward[axis]) >> ray & 1U) != 0;
-    const double origin = double{bundle.origin[axis][ray]} - bundle.grid_low[axis], t = bundle.t_enter[ray];
-    const double place = (steps ? origin + t * double{bundle.direction[axis][ray]} : origin) * bundle.finest_cells;
-    const double guess = std::clamp(place, static_cast<double>(low), static_cast<double>(high - 1));
-    finest[axis] = locate(bundle, ray, axis, t, static_cast<std::int32_t>(guess), {low, high}, entry_axis);
+    const auto t = hn::Load(tag, bundle.t_enter.data() + first);
+    const auto guess =
+        hn::Min(hn::Max(place(bundle, axis, first, t), hn::Zero(tag)), hn::Set(tag, static_cast<double>(size - 1)));
+    const auto cell = hn::DemoteTo(integers, guess);
+    hn::BlendedStore(cell, mask_of(integers, here), integers, bundle.arrival[axis].data() + first);
+    const auto crossed_before = [&](hn::Vec<HalfIntegers> index) {
+      const auto at = hn::Add(hn::Mul(hn::PromoteTo(tag, index), hn::Load(tag, bundle.slope[axis].data() + first)),
+                              hn::Load(tag, bundle.offset[axis].data() + first));
+      return bits_of(tag, hn::Lt(at, t)) | (bits_of(tag, hn::Eq(at, t)) & ties >> first);
+    };
+    const RayMask low = crossed_before(cell), high = crossed_before(hn::Add(cell, hn::Set(integers, 1)));
+    const RayMask forward = bundle.forward[axis] >> first, backward = bundle.backward[axis] >> first;
+    for (RayMask off = here & ((forward & (~low | high)) | (backward & (low | ~high))); off != 0; off &= off - 1) {
+      const std::size_t ray = first + static_cast<std::size_t>(std::countr_zero(off));
+      const std::size_t entry_axis = (ties >> ray & 1U) != 0 ? walk_starts : 0;
+      std::int32_t& found = bundle.arrival[axis][ray];
+      found = locate(bundle, ray, axis, bundle.t_enter[ray], found, {0, size}, entry_axis);
+    }
   }
-  return finest;
+}
+
+/// Notes through which plane rays enter their cells.
+HWY_INLINE void set_entry(RayBundle& bundle, RayMask rays, std::size_t axis) {
+  for (; rays != 0; rays &= rays - 1) {
+    bundle.entry_axis[static_cast<std::size_t>(std::countr_zero(rays))] = static_cast<std::uint8_t>(axis);
+  }
 }
 
 /// Those of `rays` whose top cell lies in the region, all of it.
@@ -313,6 +334,21 @@ RayMask surely_inside(const RayBundle& bundle, RayMask rays, std::size_t entry_a
   return rays;
 }
 
+/// Those of `rays` whose finest cell, in `arrival`, lies in the region.
+HWY_INLINE RayMask arrived_inside(const RayBundle& bundle, RayMask rays) {
+  const Integers tag;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto low = hn::Set(tag, bundle.region.low[axis]), last = hn::Set(tag, bundle.region.high[axis] - 1);
+    RayMask outside = 0;
+    for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Integers>()) {
+      const auto cells = hn::Load(tag, bundle.arrival[axis].data() + first);
+      outside |= bits_of(tag, hn::Or(hn::Lt(cells, low), hn::Gt(cells, last))) << first;
+    }
+    rays &= ~outside;
+  }
+  return rays;
+}
+
 /// Walk::stays(): those of `rays` that have not left the region. Notes where the others have gone.
 RayMask stay(RayBundle& bundle, RayMask rays, std::size_t entry_axis, std::int32_t face) {
   if (rays == 0) {
@@ -320,20 +356,21 @@ RayMask stay(RayBundle& bundle, RayMask rays, std::size_t entry_axis, std::int32
   }
   RayMask inside = well_inside(bundle, rays);
   inside |= surely_inside(bundle, rays & ~inside, entry_axis, face);
-  for (RayMask rest = rays & ~inside; rest != 0; rest &= rest - 1) {
-    const auto ray = static_cast<std::size_t>(std::countr_zero(rest));
-    const Corner finest = finest_cell_of(bundle, ray, entry_axis, face);
-    const RayMask bit = RayMask{1} << ray;
-    if (bundle.region.contains(finest)) {
-      inside |= bit;
-      continue;
-    }
-    bundle.left |= bit;
-    bundle.entry_axis[ray] = static_cast<std::uint8_t>(entry_axis);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      bundle.arrival[axis][ray] = finest[axis];
+  const RayMask rest = rays & ~inside;
+  if (rest == 0) {
+    return inside;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axis != entry_axis) {
+      find_finest(bundle, axis, rest, axis < entry_axis ? rest : 0);
     }
   }
+  for (RayMask rays_left = entry_axis < 3 ? rest : 0; rays_left != 0; rays_left &= rays_left - 1) {
+    bundle.arrival[entry_axis][static_cast<std::size_t>(std::countr_zero(rays_left))] = face;
+  }
+  inside |= arrived_inside(bundle, rest);
+  bundle.left |= rest & ~inside;
+  set_entry(bundle, rest & ~inside, entry_axis);
   return inside;
 }
 
@@ -432,7 +469,25 @@ void next_group(RayBundle& bundle) {
   bundle.group = candidates;
 }
 
-/// Walk::exit_through().
+/// Walk::exit_through(), of the rays from `first` on; t_at(axis) is where they come to their plane of an axis.
+template <class TAt>
+HWY_INLINE hn::Vec<Doubles> exit_through(RayBundle& bundle, std::size_t first, const TAt& t_at) {
+  const Doubles tag;
+  auto exit = hn::Set(tag, never);
+  std::array<RayMask, 3> through{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto t = t_at(axis);
+    const auto is_nearer = hn::Lt(t, exit);
+    through[axis] = bits_of(tag, is_nearer);
+    exit = hn::IfThenElse(is_nearer, t, exit);
+  }
+  bundle.exit_axis[2] |= through[2] << first;
+  bundle.exit_axis[1] |= (through[1] & ~through[2]) << first;
+  bundle.exit_axis[0] |= (through[0] & ~(through[1] | through[2])) << first;
+  hn::Store(exit, tag, bundle.t_exit.data() + first);
+  return exit;
+}
+
 void find_exits(RayBundle& bundle, const PlanesAhead& ahead) {
   const Doubles tag;
   const HalfFloats half;
@@ -441,21 +496,28 @@ void find_exits(RayBundle& bundle, const PlanesAhead& ahead) {
     if ((bundle.group >> first & first_bits(lanes_of<Doubles>())) == 0) {
       continue;
     }
-    auto exit = hn::Set(tag, never);
-    std::array<RayMask, 3> through{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto t = hn::IfThenElse(mask_of(tag, bundle.forward[axis] >> first), plane(bundle, axis, first, ahead.above[axis]),
-                                    plane(bundle, axis, first, ahead.below[axis]));
-      const auto is_nearer = hn::Lt(t, exit);
-      through[axis] = bits_of(tag, is_nearer);
-      exit = hn::IfThenElse(is_nearer, t, exit);
-    }
-    bundle.exit_axis[2] |= through[2] << first;
-    bundle.exit_axis[1] |= (through[1] & ~through[2]) << first;
-    bundle.exit_axis[0] |= (through[0] & ~(through[1] | through[2])) << first;
-    hn::Store(exit, tag, bundle.t_exit.data() + first);
+    const auto exit = exit_through(bundle, first, [&](std::size_t axis) {
+      return hn::IfThenElse(mask_of(tag, bundle.forward[axis] >> first), plane(bundle, axis, first, ahead.above[axis]),
+                            plane(bundle, axis, first, ahead.below[axis]));
+    });
     hn::Store(hn::DemoteTo(half, hn::Load(tag, bundle.t_enter.data() + first)), half, bundle.t_low.data() + first);
     hn::Store(hn::Min(hn::DemoteTo(half, exit), hn::Load(half, bundle.t_max.data() + first)), half, bundle.t_high.data() + first);
+  }
+}
+
+void find_box_exits(RayBundle& bundle, RayMask rays, const PlaneRows& planes) {
+  const Doubles tag;
+  const HalfIntegers integers;
+  bundle.exit_axis = {};
+  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Doubles>()) {
+    if ((rays >> first & first_bits(lanes_of<Doubles>())) == 0) {
+      continue;
+    }
+    exit_through(bundle, first, [&](std::size_t axis) {
+      const auto index = hn::PromoteTo(tag, hn::Load(integers, planes[axis].data() + first));
+      return hn::Add(hn::Mul(index, hn::Load(tag, bundle.slope[axis].data() + first)),
+                     hn::Load(tag, bundle.offset[axis].data() + first));
+    });
   }
 }
 
@@ -533,8 +595,43 @@ std::uint64_t leave(RayBundle& bundle, RayMask leaving, const PlanesAhead& ahead
   return around != nullptr ? cells_passed(bundle, entered) : 0;
 }
 
+/// Takes rays through their planes of `axis` to the cells behind, as far as the grid goes: those of `rays` that it has taken.
+HWY_INLINE RayMask cross_planes(RayBundle& bundle, RayMask rays, std::size_t axis, const Row<std::int32_t>& planes) {
+  const Integers tag;
+  RayMask crossing = 0;
+  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Integers>()) {
+    const auto plane = hn::Load(tag, planes.data() + first);
+    const auto behind = hn::Sub(plane, hn::Set(tag, 1));
+    const auto face = hn::IfThenElse(mask_of(tag, bundle.forward[axis] >> first), plane, behind);
+    const auto is_in_grid = hn::And(hn::Gt(face, hn::Set(tag, -1)), hn::Lt(face, hn::Set(tag, bundle.grid_size[axis])));
+    const RayMask here = rays >> first & bits_of(tag, is_in_grid);
+    hn::BlendedStore(face, mask_of(tag, here), tag, bundle.arrival[axis].data() + first);
+    crossing |= here << first;
+  }
+  return crossing;
+}
+
+RayMask pass_boxes(RayBundle& bundle, RayMask rays, const PlaneRows& planes) {
+  const Doubles tag;
+  const RayMask on = goes_on(bundle, rays);
+  std::array<RayMask, 3> through;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    through[axis] = cross_planes(bundle, on & bundle.exit_axis[axis], axis, planes[axis]);
+    set_entry(bundle, through[axis], axis);
+  }
+  const RayMask passed = through[0] | through[1] | through[2];
+  for (std::size_t first = 0; first < bundle_rays_max; first += lanes_of<Doubles>()) {
+    hn::BlendedStore(hn::Load(tag, bundle.t_exit.data() + first), mask_of(tag, passed >> first), tag,
+                     bundle.t_enter.data() + first);
+  }
+  find_finest(bundle, 0, passed & ~through[0], through[1] | through[2]);
+  find_finest(bundle, 1, passed & ~through[1], through[2]);
+  find_finest(bundle, 2, passed & ~through[2], 0);
+  return passed;
+}
+
 const BundleSteps* steps() {
-  static constexpr BundleSteps all{enter, next_group, find_exits, leave};
+  static constexpr BundleSteps all{enter, next_group, find_exits, leave, find_box_exits, pass_boxes};
   return &all;
 }
 

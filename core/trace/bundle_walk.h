@@ -52,6 +52,26 @@ class BundleWalk {
     return true;
   }
 
+  /// RayWalk::first_block() of rays that run() has made out the rows of, each from its cell and t_enter on, in an outline that is
+  /// all here. Of those that it returns best.t is where, the others meet none. Where rays were is not kept.
+  RayMask find_first_blocks(RayMask rays) {
+    expect(header_.region == Region{.high = bundle_.grid_size}, "an outline is of the whole grid");
+    bundle_.any = false;
+    bundle_.region = header_.region;
+    bundle_.is_whole = true;
+    bundle_.alive = rays;
+    next_cell();
+    RayMask met = 0;
+    while (bundle_.stage != RayBundle::Stage::finished) {
+      if (bundle_.stage == RayBundle::Stage::directory) {
+        expect(enter_cell(), "an outline has its directory");
+      } else {
+        met |= first_blocks_in_cell();
+      }
+    }
+    return met;
+  }
+
  private:
   static constexpr bool may_go_inside = std::is_same_v<Bundle, InstanceBundle>;
 
@@ -148,7 +168,7 @@ class BundleWalk {
         intersectors_.take_child(bundle_);
       }
     }
-    leave_cell();
+    leave_cell(rays_done());
     return true;
   }
 
@@ -223,6 +243,37 @@ class BundleWalk {
     }
   }
 
+  /// RayWalk::first_block_in_cell(), then leaves it. Boxes behind the first block are as those behind a hit.
+  RayMask first_blocks_in_cell() {
+    RayMask met = 0;
+    if (header_.has_voxels()) {
+      met = bundle_.group;
+      set_first(met, bundle_.t_low);
+      bundle_.next = BrickChild::none();
+    }
+    while (bundle_.next.found()) {
+      if (bundle_.next.is_block()) {
+        met |= bundle_.next_rays;
+        set_first(bundle_.next_rays,
+                  bundle_.waiting.t_enter[bundle_.waiting.count]);  // where the child that was taken last waited
+      } else {
+        operations_.brick_reads += count_of(bundle_.next_rays);
+        const std::byte* const record = find(bundle_.next.address(), bundle_.next_rays);
+        intersectors_.meet_children(bundle_, *reinterpret_cast<const Brick*>(record), bundle_.next_rays, true);
+      }
+      intersectors_.take_child(bundle_);
+    }
+    leave_cell(met);
+    return met;
+  }
+
+  void set_first(RayMask rays, const Row<float>& t) {
+    for (; rays != 0; rays &= rays - 1) {
+      const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
+      bundle_.best.t[ray] = t[ray];
+    }
+  }
+
   /// Tests what the list of the voxel names, as RayWalk::visit_list() does, then leaves it.
   bool visit_list() {
     BrickChild& behind = bundle_.waiting.record[0];
@@ -247,12 +298,16 @@ class BundleWalk {
         bundle_.next = BrickChild::block(reference.block());
       }
     }
-    leave_cell();
+    leave_cell(rays_done());
     return true;
   }
 
-  void leave_cell() {
-    const RayMask done = bundle_.any ? bundle_.found : 0, leaving = bundle_.group & ~done;
+  /// Those that have a hit, if any will do.
+  RayMask rays_done() const { return bundle_.any ? bundle_.found : 0; }
+
+  /// All of the group's but those of `done`, whose walk ends.
+  void leave_cell(RayMask done) {
+    const RayMask leaving = bundle_.group & ~done;
     bundle_.alive &= ~(bundle_.group & done);
     if (leaving != 0) {
       operations_.cell_steps += count_of(leaving);

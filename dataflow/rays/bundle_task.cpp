@@ -5,6 +5,7 @@
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
 #include "core/trace/traversal.h"
+#include "dataflow/rays/next_stops.h"
 
 namespace dmpc::dataflow {
 
@@ -92,6 +93,15 @@ void BundleTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, c
   traced_ = count_;
   ended_ = count_ = 0;
   entered_ = 0;
+  knows_stops_ = false;
+}
+
+void BundleTask::find_stops(const Surroundings& surroundings, core::Operations& operations) {
+  core::expect(has_ended(), "rays go on that have been traced");
+  if (!knows_stops_) {
+    find_next_stops(flights_->bundle, surroundings, self_, operations, flights_->stop);
+    knows_stops_ = true;
+  }
 }
 
 core::Traced BundleTask::traced() const {

@@ -8,6 +8,7 @@
 #include "core/picture/bundle_hit.h"
 #include "core/trace/bundle.h"
 #include "dataflow/packets.h"
+#include "dataflow/rays/next_stop.h"
 #include "dataflow/rays/ray_task.h"
 #include "nodes/layout.h"
 #include "nodes/local_memory.h"
@@ -46,11 +47,15 @@ class BundleTask {
   /// node's than the first of them wait for the next call. Requires that none has ended before.
   void trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations);
 
+  /// Where those that have left their region, and have not been seen to, go next: their ways may end, too. Once after trace().
+  void find_stops(const Surroundings& surroundings, core::Operations& operations);
+
   // These speak of the first of those that have ended:
   core::Traced traced() const;
   const core::Ray& ray() const { return flights_->bundle.rays[ended_]; }
   bool found_here() const { return flights_->bundle.hit(ended_).block != core::no_address; }
   void shade_hit();
+  std::uint32_t stop() const { return flights_->stop[ended_]; }
   RayMessage leaving() const;
   RayMessage confirmed_hit() const;
   void drop_ended() { ++ended_; }
@@ -71,6 +76,7 @@ class BundleTask {
   struct Flights {
     core::RayBundle bundle;
     std::array<Entry, rays_max> entry;
+    core::Row<std::uint32_t> stop;  ///< the regions that rays go to, by number
   };
 
   core::Hit travelling_candidate() const;
@@ -91,6 +97,7 @@ class BundleTask {
   std::uint32_t waiting_ = 0;     ///< rays behind those that were traced, to be traced in another region
   std::uint32_t ended_ = 0;       ///< rays that were traced and seen to
   std::uint32_t traced_ = 0;      ///< rays that were traced
+  bool knows_stops_ = false;      ///< of those that have left
 };
 
 template <class Shoot, class Shine>

@@ -55,6 +55,19 @@ void RayTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, core
   stage_ = Stage::ended;
 }
 
+void RayTask::find_stops(const Surroundings& surroundings, core::Operations& operations) {
+  if (traced_ != core::Traced::left) {
+    return;
+  }
+  core::Cursor& cursor = flight_->cursor;
+  const NextStop stop = next_stop(flight_->ray, core::passage_of(cursor), surroundings, self_, operations);
+  traced_ = stop.traced;
+  stop_ = stop.region;
+  cursor.t_enter = stop.passage.t_enter;
+  cursor.arrival = stop.passage.cell;
+  cursor.entry_axis = stop.passage.entry_axis;
+}
+
 /// A block on the list is tested no more. The candidate's is not put there, though the ray meet it again in another voxel: the
 /// node where it proves to be the hit is to meet it itself, so that it need not go back to its finder.
 core::Traced RayTask::trace_with_list(PartTracer& tracer, core::Operations& operations) {

@@ -7,6 +7,7 @@
 #include "core/base/expect.h"
 #include "core/picture/pixel_task.h"
 #include "dataflow/packets.h"
+#include "dataflow/rays/next_stop.h"
 #include "dataflow/rays/part_tracer.h"
 #include "nodes/layout.h"
 #include "nodes/local_memory.h"
@@ -49,14 +50,19 @@ class RayTask {
   /// Traces the ray until it ends here or leaves its region, or does not start in one of the node's. Never absent.
   void trace(PartTracer& tracer, const core::DatabaseHeader& header, core::Operations& operations);
 
-  // After trace():
+  /// After trace(): where the ray goes next, if it has left its region: its way may end, too. Once a ray.
+  void find_stops(const Surroundings& surroundings, core::Operations& operations);
+
+  // After that:
   core::Traced traced() const { return traced_; }
   const core::Ray& ray() const { return flight_->ray; }
   /// The hit's block was read on this node.
   bool found_here() const { return flight_->cursor.best.block != core::no_address; }
   /// Takes up the hit that was found here.
   void shade_hit();
-  /// The ray as it goes on to the owner of the cell that it enters.
+  /// The region that it goes to, by number.
+  std::uint32_t stop() const { return stop_; }
+  /// The ray as it goes on to that region's owner.
   RayMessage leaving() const;
   /// The hit as it goes to its finder.
   RayMessage confirmed_hit() const;
@@ -110,6 +116,7 @@ class RayTask {
   core::Corner entered_cell_{};  ///< with Stage::entered: the finest cell
   Stage stage_ = Stage::none;
   core::Traced traced_ = core::Traced::miss;
+  std::uint32_t stop_ = 0;
 };
 
 template <class Shine>

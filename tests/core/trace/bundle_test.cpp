@@ -430,4 +430,52 @@ TEST_CASE("a hit that is nearer than a candidate read elsewhere takes its place,
   CHECK(hits > 5);
 }
 
+TEST_CASE("rays pass boxes of their own together as each does alone, whatever instructions the processor has") {
+  for (std::size_t set = 0; bundle_steps(set) != nullptr; ++set) {
+    CAPTURE(set);
+    Random random(79);
+    std::uint64_t passed = 0;
+    for_some_bundles(80, 1000, [&](const Database& database, const BundleRays& rays) {
+      const DatabaseHeader& header = database.header();
+      const Corner size = grid_size(header.frame);
+      const auto bundle = bundle_of(rays);
+      bundle_steps(set)->enter(*bundle, header.frame, Region{});  // all that meet the grid have left that region
+      const RayMask all = bundle->left;
+      Row<Region> boxes;
+      alignas(64) PlaneRows planes{};
+      std::vector<Passage> before;
+      for (std::size_t ray = 0; ray < rays.size(); ++ray) {
+        bundle->best.t[ray] = random.below(4) == 0 ? static_cast<float>(random.between(0, 2)) : bundle->best.t[ray];
+        before.push_back(bundle->passage(ray));
+        for (std::size_t axis = 0; axis < 3 && (all >> ray & 1U) != 0; ++axis) {
+          const std::int32_t cell = before[ray].cell[axis];
+          boxes[ray].low[axis] = cell - static_cast<std::int32_t>(random.below(static_cast<std::uint32_t>(cell + 1)));
+          boxes[ray].high[axis] =
+              cell + 1 + static_cast<std::int32_t>(random.below(static_cast<std::uint32_t>(size[axis] - cell)));
+          const bool is_forward = (bundle->forward[axis] >> ray & 1U) != 0;
+          planes[axis][ray] = is_forward ? boxes[ray].high[axis] : boxes[ray].low[axis];
+        }
+      }
+      bundle_steps(set)->find_box_exits(*bundle, all, planes);
+      const RayMask on = bundle_steps(set)->pass_boxes(*bundle, all, planes);
+      CHECK((on & ~all) == 0);
+      for (std::size_t ray = 0; ray < rays.size(); ++ray) {
+        if ((all >> ray & 1U) == 0) {
+          continue;
+        }
+        Passage expected = before[ray];
+        Operations operations;
+        const Traced traced = pass(rays[ray], header.frame, boxes[ray], expected, operations);
+        CHECK(((on >> ray & 1U) != 0) == (traced == Traced::left));
+        const Passage passage = bundle->passage(ray);
+        CHECK(std::bit_cast<std::uint64_t>(passage.t_enter) == std::bit_cast<std::uint64_t>(expected.t_enter));
+        CHECK(passage.cell == expected.cell);
+        CHECK(passage.entry_axis == expected.entry_axis);
+        passed += traced == Traced::left ? 1 : 0;
+      }
+    });
+    CHECK(passed > 300);
+  }
+}
+
 }  // namespace bundle_test
