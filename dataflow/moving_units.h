@@ -42,7 +42,8 @@ class MovingUnits {
   void rays_came() { movement_.rays_came(); }
   /// A packet of rays from a node; its rays are next.
   void packet_came(nodes::NodeId sender, const RayPacketHeader& header) { movement_.take_rays_left(sender, header.rays_left); }
-  void ray_came(nodes::NodeId sender, const RayMessage& message) {
+  void ray_came(nodes::NodeId sender, std::span<const std::byte> bytes) {
+    const RayMessage message = message_in(bytes);
     if (is_others(message)) {
       movement_.is_behind(sender, unit_of(message));
     }

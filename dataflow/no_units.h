@@ -41,7 +41,7 @@ class NoUnits {
 
   void rays_came() {}
   void packet_came(nodes::NodeId /*sender*/, const RayPacketHeader& /*header*/) {}
-  void ray_came(nodes::NodeId /*sender*/, const RayMessage& /*message*/) {}
+  void ray_came(nodes::NodeId /*sender*/, std::span<const std::byte> /*message*/) {}
   bool is_others(const RayMessage& /*message*/) const { return false; }
   void sent_on() {}
   void tell_news(nodes::NodeId /*sender*/) {}

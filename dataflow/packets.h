@@ -166,15 +166,41 @@ constexpr std::size_t ray_packet_bytes(std::size_t ray_count, std::uint32_t test
   return sizeof(RayPacketHeader) + ray_count * ray_message_bytes(tested_objects);
 }
 static_assert(ray_packet_bytes(1) > nodes::small_payload_bytes, "every packet of rays is bulk");
-/// The ray at `place` of such a packet, whose rays take along `tested_objects` names.
-inline RayMessage ray_in(std::span<const std::byte> packet, std::size_t place, std::uint32_t tested_objects) {
+/// Copies a message, as it travels. Mostly rays have no names with them, and then the compiler knows how long that is.
+inline void copy_message(void* to, const void* from, std::size_t message_bytes) {
+  if (message_bytes == ray_message_bytes(0)) {
+    std::memcpy(to, from, ray_message_bytes(0));
+  } else {
+    std::memcpy(to, from, message_bytes);
+  }
+}
+/// Where the ray at `place` of such a packet is, whose rays take along `tested_objects` names.
+inline std::span<const std::byte> ray_bytes_in(std::span<const std::byte> packet, std::size_t place,
+                                               std::uint32_t tested_objects) {
+  return packet.subspan(ray_packet_bytes(place, tested_objects), ray_message_bytes(tested_objects));
+}
+/// A message from where it lies.
+inline RayMessage message_in(std::span<const std::byte> bytes) {
   RayMessage message;
-  std::memcpy(&message, packet.data() + ray_packet_bytes(place, tested_objects), ray_message_bytes(tested_objects));
+  copy_message(&message, bytes.data(), bytes.size());
   return message;
+}
+inline RayMessage ray_in(std::span<const std::byte> packet, std::size_t place, std::uint32_t tested_objects) {
+  return message_in(ray_bytes_in(packet, place, tested_objects));
+}
+inline std::span<std::byte> ray_bytes_in(std::span<std::byte> packet, std::size_t place, std::uint32_t tested_objects) {
+  return packet.subspan(ray_packet_bytes(place, tested_objects), ray_message_bytes(tested_objects));
 }
 /// Puts it there.
 inline void put_ray(std::span<std::byte> packet, std::size_t place, std::uint32_t tested_objects, const RayMessage& message) {
-  std::memcpy(packet.data() + ray_packet_bytes(place, tested_objects), &message, ray_message_bytes(tested_objects));
+  copy_message(ray_bytes_in(packet, place, tested_objects).data(), &message, ray_message_bytes(tested_objects));
+}
+/// What a list of rays goes by, from where a message lies.
+inline core::RayKind kind_in(std::span<const std::byte> message) {
+  return static_cast<core::RayKind>(message[offsetof(RayMessage, ray) + offsetof(core::Ray, kind)]);
+}
+inline std::uint8_t depth_in(std::span<const std::byte> message) {
+  return static_cast<std::uint8_t>(message[offsetof(RayMessage, ray) + offsetof(core::Ray, depth)]);
 }
 /// How many rays fit so many bytes.
 constexpr std::uint32_t rays_in(std::size_t bytes, std::uint32_t tested_objects = 0) {

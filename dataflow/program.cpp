@@ -211,12 +211,12 @@ void RayProgram<RaysTask, Units>::receive_rays(const nodes::Packet& packet) {
   }
   backlog_.accept_packet(account, header.count);
   for (std::uint32_t i = 0; i < header.count; ++i) {
-    const RayMessage message = ray_in(packet.payload, i, tested_objects_);
+    const std::span<const std::byte> message = ray_bytes_in(packet.payload, i, tested_objects_);
     backlog_.put(account, message);
     if (is_from_node) {
       units_.ray_came(packet.source, message);
     }
-    ++counters_.in[static_cast<std::size_t>(message.ray.kind)];
+    ++counters_.in[static_cast<std::size_t>(kind_in(message))];
   }
 }
 
@@ -422,13 +422,16 @@ void RayProgram<RaysTask, Units>::shoot(const core::Ray& ray) {
 template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::go_to_stop() {
   const nodes::NodeId owner = constants_->regions.owner_at(task_.stop());
-  const RayMessage message = task_.leaving();
-  task_.drop_ended();
   if (owner == node_->id()) {
-    task_.enter(message);
-  } else {
-    dispatch(owner, message);
+    const RayMessage message = task_.leaving();
+    task_.drop_ended();
+    return task_.enter(message);
   }
+  const core::RayKind kind = task_.ray().kind;
+  ++counters_.out[static_cast<std::size_t>(kind)];
+  gather_.add(owner, kind, [this](std::span<std::byte> place) { task_.put_leaving(place); });
+  task_.drop_ended();
+  send_waiting();
 }
 
 /// Rays that do not start in this region may go on in it, but none comes back.

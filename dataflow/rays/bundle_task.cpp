@@ -29,7 +29,12 @@ void BundleTask::enter(const RayMessage& message) {
   core::expect(count_ < (has_ended() ? ended_ : rays_max), "a bundle has room for its rays");
   entered_ |= core::RayMask{1} << count_;
   flights_->bundle.rays[count_] = message.ray;
-  flights_->entry[count_++] = {message.passage(), nodes::NodeId{message.finder}};
+  Entry& entry = flights_->entry[count_++];
+  entry.passage.t_enter = message.t_enter;  // one by one: together they would wait until the message has been written
+  entry.passage.cell = message.cell;
+  entry.passage.entry_axis = message.entry_axis;
+  entry.passage.best = message.best;
+  entry.finder = nodes::NodeId{message.finder};
 }
 
 void BundleTask::resume_hit(const RayMessage& message) {
@@ -84,9 +89,11 @@ void BundleTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, c
   bundle.start();
   for (std::uint32_t i = 0; entered_ != 0 && i < count_; ++i) {
     if ((entered_ >> i & 1U) != 0) {
-      core::Passage passage = flights_->entry[i].passage;
-      passage.best.block = flights_->entry[i].finder == self_ ? passage.best.block : core::no_address;
-      bundle.arrive(i, passage);
+      const auto& [passage, finder] = flights_->entry[i];
+      const auto& [t, primitive, block, lane] = passage.best;
+      bundle.arrive(
+          i,
+          {passage.t_enter, passage.cell, passage.entry_axis, {t, primitive, finder == self_ ? block : core::no_address, lane}});
     }
   }
   core::expect(tracer.trace(bundle, operations), "a node has every record of its region");
@@ -143,9 +150,29 @@ core::Hit BundleTask::travelling_candidate() const {
 nodes::NodeId BundleTask::finder_of_candidate() const { return found_here() ? self_ : flights_->entry[ended_].finder; }
 
 RayMessage BundleTask::leaving() const {
-  core::Passage passage = flights_->bundle.passage(ended_);
-  passage.best = travelling_candidate();
-  return message_of(ray(), passage, finder_of_candidate());
+  RayMessage message;
+  describe_leaving(message);
+  return message;
+}
+
+/// Rays of bundles have no names with them, so messages lie as they do in memory.
+void BundleTask::put_leaving(std::span<std::byte> place) const {
+  core::expect(place.size() == ray_message_bytes(0), "rays of bundles have no lists with them");
+  describe_leaving(*reinterpret_cast<RayMessage*>(place.data()));
+}
+
+/// Each value once: what is copied from copies has to wait for them. Names of tested objects are left alone.
+void BundleTask::describe_leaving(RayMessage& message) const {
+  const core::RayBundle& bundle = flights_->bundle;
+  message.ray = ray();
+  message.t_enter = bundle.t_enter[ended_];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    message.cell[axis] = bundle.arrival[axis][ended_];
+  }
+  message.entry_axis = bundle.entry_axis[ended_];
+  message.is_confirmed = 0;
+  message.finder = static_cast<std::uint16_t>(nodes::index_of(finder_of_candidate()));
+  message.best = travelling_candidate();
 }
 
 RayMessage BundleTask::confirmed_hit() const {

@@ -57,6 +57,7 @@ class BundleTask {
   void shade_hit();
   std::uint32_t stop() const { return flights_->stop[ended_]; }
   RayMessage leaving() const;
+  void put_leaving(std::span<std::byte> place) const;
   RayMessage confirmed_hit() const;
   void drop_ended() { ++ended_; }
 
@@ -79,6 +80,7 @@ class BundleTask {
     core::Row<std::uint32_t> stop;  ///< the regions that rays go to, by number
   };
 
+  void describe_leaving(RayMessage& message) const;
   core::Hit travelling_candidate() const;
   nodes::NodeId finder_of_candidate() const;
   void push(const core::Ray& ray, const core::Hit& hit);

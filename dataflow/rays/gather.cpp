@@ -113,7 +113,8 @@ bool Gather::ask_or_decline(NodeId owner) {
   return goes_back;
 }
 
-void Gather::add(NodeId owner, const RayMessage& message) {
+/// Where the next ray for the owner goes.
+std::span<std::byte> Gather::place_for(NodeId owner) {
   core::expect(!waits(), "no ray is gathered while a packet waits");
   core::expect(owner != node_->id() && owner != host_, "a ray leaves for another node");
   if (owner_at(owner).open == none) {
@@ -123,10 +124,14 @@ void Gather::add(NodeId owner, const RayMessage& message) {
     set_open(owner, slot);
   }
   const std::uint16_t open = owner_at(owner).open;
-  Slot& slot = slot_at(open);
-  put_ray(packet_in(open), slot.count, tested_objects_, message);
+  return ray_bytes_in(packet_in(open), slot_at(open).count, tested_objects_);
+}
+
+/// It is there.
+void Gather::added(NodeId owner, core::RayKind kind) {
+  Slot& slot = slot_at(owner_at(owner).open);
   ++size_;
-  ++owner_at(owner).pair.rays[static_cast<std::size_t>(message.ray.kind)];
+  ++owner_at(owner).pair.rays[static_cast<std::size_t>(kind)];
   if (++slot.count == ray_batch_) {
     closed_ = owner;
   } else if (must_close(open_count_, open_packets_max_)) {

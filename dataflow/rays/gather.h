@@ -86,7 +86,15 @@ class Gather {
 
   /// Requires that no packet waits. If the packet for `owner` is full now, it is closed; or the fullest, preferably one that may
   /// leave, if as many are open as there is room for.
-  void add(nodes::NodeId owner, const RayMessage& message);
+  void add(nodes::NodeId owner, const RayMessage& message) {
+    add(owner, message.ray.kind, [&message](std::span<std::byte> place) { copy_message(place.data(), &message, place.size()); });
+  }
+  /// The same for a ray of a kind that put(place) puts into the bytes of its message: where it is to lie in the packet.
+  template <class Put>
+  void add(nodes::NodeId owner, core::RayKind kind, const Put& put) {
+    put(place_for(owner));
+    added(owner, kind);
+  }
   /// Closes the fullest packet that can be sent. Requires can_flush().
   void flush();
   /// Takes the closed packet to its owner, to the queue or to the host, whichever flow_control.h says; says which way it took.
@@ -127,6 +135,9 @@ class Gather {
     PairCounters pair;
   };
   static std::size_t stride_bytes(std::size_t bytes);
+
+  std::span<std::byte> place_for(nodes::NodeId owner);
+  void added(nodes::NodeId owner, core::RayKind kind);
 
   std::span<std::byte> packet_in(std::uint16_t slot) const;
   bool has_credit(nodes::NodeId owner) const { return node_->credits(owner, ray_channel) > 0; }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 
 #include "core/base/expect.h"
@@ -71,12 +70,16 @@ class RayQueue {
   }
 
   void put(std::uint32_t sender, const RayMessage& message) {
+    put(sender, std::as_bytes(std::span(&message, 1)).first(message_bytes_));
+  }
+  /// From where it lies in a packet.
+  void put(std::uint32_t sender, std::span<const std::byte> message) {
     core::expect(free_ != none, "a received ray has its place in the backlog");
-    const std::uint32_t list = list_of(message.ray);
+    const std::uint32_t list = list_of(depth_in(message), kind_in(message));
     core::expect(list < newest_.size(), "a ray is no deeper than the picture's depth");
     const std::uint32_t place = free_;
     free_ = entries_[place].older;
-    std::memcpy(&rays_[place * message_bytes_], &message, message_bytes_);
+    copy_message(&rays_[place * message_bytes_], message.data(), message_bytes_);
     entries_[place] = {newest_[list], sender};
     newest_[list] = place;
     last_ = std::max<std::uint32_t>(last_, list);
@@ -119,9 +122,10 @@ class RayQueue {
  private:
   static constexpr std::uint32_t none = 0xffffffffU;
 
-  std::uint32_t list_of(const core::Ray& ray) const {
-    return lists_a_depth_ * ray.depth + (lists_a_depth_ > 1 && ray.kind == core::RayKind::shadow ? 1 : 0);
+  std::uint32_t list_of(std::uint32_t depth, core::RayKind kind) const {
+    return lists_a_depth_ * depth + (lists_a_depth_ > 1 && kind == core::RayKind::shadow ? 1 : 0);
   }
+  std::uint32_t list_of(const core::Ray& ray) const { return list_of(ray.depth, ray.kind); }
   RayMessage take_from(std::uint32_t list, std::uint32_t& sender) {
     const std::uint32_t place = newest_[list];
     Entry& entry = entries_[place];
@@ -132,7 +136,7 @@ class RayQueue {
     sender = entry.sender;
     --senders_[sender].rays;
     RayMessage message;
-    std::memcpy(&message, &rays_[place * message_bytes_], message_bytes_);
+    copy_message(&message, &rays_[place * message_bytes_], message_bytes_);
     return message;
   }
 

@@ -64,6 +64,11 @@ class RayTask {
   std::uint32_t stop() const { return stop_; }
   /// The ray as it goes on to that region's owner.
   RayMessage leaving() const;
+  /// Puts it into the bytes of a message.
+  void put_leaving(std::span<std::byte> place) const {
+    const RayMessage message = leaving();
+    copy_message(place.data(), &message, place.size());
+  }
   /// The hit as it goes to its finder.
   RayMessage confirmed_hit() const;
   nodes::NodeId finder() const { return flight_->finder; }
