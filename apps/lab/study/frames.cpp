@@ -126,8 +126,8 @@ void measure_on(const nodes::Machine& machine, std::uint32_t node_count, const F
   const std::uint32_t all = as_asked.page_count();
   const FrameSeries kept = as_asked.series(machine, node_count, {"pages, all kept", Strategy::svm, all});
   const auto share = [all](std::uint32_t percent) { return std::max(core::ceil_divide(all * percent, 100U), 1U); };
-  const std::vector<FramesCase> cases = {{"pages, caches of 25 %", Strategy::svm, share(25)},
-                                         {"pages, caches of 40 %", Strategy::svm, share(40)},
+  const std::vector<FramesCase> cases = {{"pages, caches of a quarter", Strategy::svm, share(25)},
+                                         {"pages, caches of two fifths", Strategy::svm, share(40)},
                                          {"pages, caches of the working set", Strategy::svm, working_set_of(kept)},
                                          {"questions", Strategy::forest},
                                          {"rays", Strategy::dataflow}};
