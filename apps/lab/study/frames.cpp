@@ -250,7 +250,7 @@ std::vector<Plot> FramesStudy::plots() const {
            .title = "Virtual time of a warm frame",
            .places = {"what travels"},
            .x = {},
-           .y = percent_axis("of a cold frame's"),
+           .y = {.label = "of a cold frame's (%)", .least = 0},
            .series = std::move(times)}};
 }
 
