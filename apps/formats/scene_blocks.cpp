@@ -341,7 +341,8 @@ void SceneReceiver::settle_instances() {
   const std::uint64_t bytes = core::settled_size(scene_, instances_, copies_).bytes();
   if (bytes > limits_.expanded_bytes) {
     throw core::RoomError("with every instance it takes " + bytes_text(bytes) + " of memory, and there are " +
-                          bytes_text(limits_.expanded_bytes) + " for it: give the scene fewer, or coarser meshes");
+                          bytes_text(limits_.expanded_bytes) + " for it: give the scene fewer, or coarser meshes" +
+                          (copies_ == core::Copies::put ? ", or have dmpc render keep each once (--instances=keep)" : ""));
   }
   core::settle(scene_, std::exchange(instances_, {}), copies_);
   Unpacker::require(std::all_of(scene_.vertices.begin(), scene_.vertices.end(), is_point));

@@ -108,6 +108,7 @@ void settle_instances(const OptionSet& options, RenderOptions& render) {
   if (build.record_order != core::RecordOrder::spatial) {
     refuse("--record-order=scattered", "a mesh that is kept lies in one piece");
   }
+  render.picture.staging.mesh.copies = core::Copies::left_out;
 }
 
 /// An option that does not go with one of the runners, and why.

@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/system/input_memory.h"
 #include "apps/edge/system/progress.h"
+#include "core/database/copy_limits.h"
 #include "core/picture/ray_crowd.h"
 #include "core/scene/frame.h"
 #include "core/scene/kept_meshes.h"
@@ -21,11 +23,14 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
   build.emitters_max = picture.transport.emitters_max();
   build.for_paths = picture.transport.is_by_paths();
   build.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
-  core::Database database = core::build_database(std::move(scene), build);
+  core::Database database = core::build_database(std::move(scene), build, {.bytes_max = reader_memory_bytes_max()});
   const core::RenderSettings settings = render_settings(picture, scene, database);
   const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
   const std::string emitters = emitters_text(database.header().emitter_count, database.records().emitters_met, picture.transport);
-  const std::string kept = kept_text(database.records(), build.keeps_instances);
+  const bool has_copies = database.primitives().size() == database.header().primitive_count;
+  const std::string kept =
+      kept_text(database.records(), build.keeps_instances) +
+      (has_copies ? "" : "; what rounding moves, or leaves nothing of, was looked for outside of these alone");
   return {std::move(database), settings, loss, gain_text(scene.materials, picture.transport), emitters, kept};
 }
 

@@ -21,7 +21,7 @@ void BlockWriter::write(const BlockShape& shape, std::span<const std::uint32_t> 
     for (std::size_t row = 0; row < rows; ++row) {
       put(row, primitives_[id].value[row]);
     }
-    put(rows, id);
+    put(rows, told_.empty() ? id : told_[id]);
     put(rows + 1, shading_[id]);
   }
   std::memcpy(record.data(), &header, sizeof(header));

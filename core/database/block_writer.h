@@ -24,9 +24,10 @@ struct BlockShape {
 /// What it is made from outlives it. Thread safety: several may write at the same time, where room has been made.
 class BlockWriter {
  public:
+  /// `told`: the ids that records tell of primitives, by index, if it is not the index itself.
   BlockWriter(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
-              std::span<const KeptPlane> planes, RecordWriter& writer)
-      : primitives_(primitives), shading_(shading), planes_(planes), writer_(writer) {}
+              std::span<const KeptPlane> planes, RecordWriter& writer, std::span<const std::uint32_t> told = {})
+      : primitives_(primitives), shading_(shading), planes_(planes), writer_(writer), told_(told) {}
 
   /// Writes the block of primitives `ids`, `shape.count` of them, ascending, at `address`.
   void write(const BlockShape& shape, std::span<const std::uint32_t> ids, Address address) const;
@@ -36,6 +37,7 @@ class BlockWriter {
   std::span<const ShadingReference> shading_;
   std::span<const KeptPlane> planes_;
   RecordWriter& writer_;
+  std::span<const std::uint32_t> told_;
 };
 
 }  // namespace dmpc::core

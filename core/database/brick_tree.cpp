@@ -117,8 +117,8 @@ void BrickTree::take_forest_room(RecordWriter& writer, std::size_t page_size) {
 }
 
 void BrickTree::write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
-                      std::span<const KeptPlane> planes, RecordWriter& writer) const {
-  write_below(top, address, BlockWriter(primitives, shading, planes, writer), ids, writer);
+                      std::span<const KeptPlane> planes, RecordWriter& writer, std::span<const std::uint32_t> told) const {
+  write_below(top, address, BlockWriter(primitives, shading, planes, writer, told), ids, writer);
 }
 
 }  // namespace dmpc::core

@@ -46,9 +46,9 @@ struct BrickTree {
   /// together with all that is below them, and the blocks beside them; take_room() then puts each subtree, from a brick or a
   /// block down, into one page.
   void take_forest_room(RecordWriter& writer, std::size_t page_size);
-  /// Writes the records, for which room has been taken and made.
+  /// Writes the records, for which room has been taken and made. `told`: as BlockWriter has it.
   void write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
-             std::span<const KeptPlane> planes, RecordWriter& writer) const;
+             std::span<const KeptPlane> planes, RecordWriter& writer, std::span<const std::uint32_t> told = {}) const;
 };
 
 }  // namespace dmpc::core

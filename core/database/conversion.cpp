@@ -162,6 +162,12 @@ class Converter {
       result_.primitives.back().lie_in(plane);
     }
   }
+  /// What stands for a place whose copy is left out.
+  void add_place() {
+    result_.primitives.push_back({.kind = PrimitiveKind::instance});
+    result_.sources.push_back({source_is_place});
+    result_.shading.push_back(ShadingReference::flat(0));
+  }
 
  private:
   Vec3d local(const Vec3d& point) const { return to_local(frame_, point); }
@@ -294,21 +300,22 @@ class Converter {
   Conversion& result_;
 };
 
-/// What is converted one by one: objects, and in place of the copies of a mesh its triangles.
+/// What is converted one by one: objects, and in place of the copies of a mesh its triangles, or one thing where it has none.
 class Steps {
  public:
   Steps(const Scene& scene, std::span<const MeshFaces> meshes) : scene_(scene), meshes_(meshes) {
-    std::uint32_t next = 0;
     if (scene.kept != nullptr) {
       expect(meshes.size() == scene.kept->meshes.size(), "each kept mesh has been judged");
+      std::uint32_t left_out = 0;
       for (const KeptPlace& place : scene.kept->places) {
-        add_objects(next, place.first);
-        runs_.push_back({count_, place.first, &place, {}});
-        count_ += meshes[place.mesh].triangles.size();
-        next = place.first + static_cast<std::uint32_t>(scene.kept->meshes[place.mesh].objects.size());
+        add_objects(place.first - left_out);
+        const auto objects = static_cast<std::uint32_t>(scene.kept->meshes[place.mesh].objects.size());
+        runs_.push_back({count_, next_, &place, {}});
+        count_ += scene.kept->have_copies ? meshes[place.mesh].triangles.size() : 1;
+        (scene.kept->have_copies ? next_ : left_out) += objects;
       }
     }
-    add_objects(next, static_cast<std::uint32_t>(scene.objects.size()));
+    add_objects(static_cast<std::uint32_t>(scene.objects.size()));
   }
 
   std::size_t size() const { return count_; }
@@ -320,7 +327,11 @@ class Steps {
         const MeshFaces& faces = meshes_[run.place->mesh];
         const Placing placing(run.place->world, frame);
         for (const MeshPlane& plane : faces.planes) {
-          run.planes.push_back(number_of(plane, placing, all.planes));
+          if (scene_.kept->have_copies) {
+            run.planes.push_back(number_of(plane, placing, all.planes));
+          } else {
+            add_layer(plane, placing, all.place_layers);
+          }
         }
         add_reports(faces, placing, all);
       }
@@ -347,10 +358,12 @@ class Steps {
     std::vector<std::uint32_t> planes;  ///< by the mesh's: PrimitiveValues::plane()
   };
 
-  void add_objects(std::uint32_t first, std::uint32_t end) {
-    if (first < end) {
-      runs_.push_back({count_, first, nullptr, {}});
-      count_ += end - first;
+  /// Those before `end`.
+  void add_objects(std::uint32_t end) {
+    if (next_ < end) {
+      runs_.push_back({count_, next_, nullptr, {}});
+      count_ += end - next_;
+      next_ = end;
     }
   }
   static std::uint32_t number_of(const MeshPlane& plane, const Placing& placing, std::vector<KeptPlane>& planes) {
@@ -363,6 +376,12 @@ class Steps {
     }
     planes.push_back({*placed, plane.kept_as});
     return static_cast<std::uint32_t>(planes.size());
+  }
+  static void add_layer(const MeshPlane& plane, const Placing& placing, std::int32_t& layers) {
+    const std::int32_t layer = plane.kept_as - std::int32_t{BlockHeader::exact_plane};
+    if (layer > layers && !placing.stays_level(plane) && placing.plane(plane)) {
+      layers = layer;
+    }
   }
   static void add_reports(const MeshFaces& faces, const Placing& placing, Conversion& all) {
     const auto unit = static_cast<float>(placing.size_of_unit());
@@ -381,6 +400,9 @@ class Steps {
     if (run.place == nullptr) {
       return converter.add_object(run.first + static_cast<std::uint32_t>(step));
     }
+    if (!scene_.kept->have_copies) {
+      return converter.add_place();
+    }
     const MeshTriangle& triangle = meshes_[run.place->mesh].triangles[step];
     converter.add_copy(triangle, run.first, run.place->world.determinant() < 0,
                        triangle.plane == 0 ? 0 : run.planes[triangle.plane - 1]);
@@ -390,6 +412,7 @@ class Steps {
   std::span<const MeshFaces> meshes_;
   std::vector<Run> runs_;
   std::size_t count_ = 0;
+  std::uint32_t next_ = 0;  ///< of Scene::objects
 };
 
 Box bounds_of_vertices(const std::vector<Vec3d>& vertices, const GridAxes& axes, const Parallel& parallel) {

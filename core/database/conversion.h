@@ -15,6 +15,9 @@
 
 namespace dmpc::core {
 
+/// PrimitiveSource::object of what stands for a place whose copy is left out.
+inline constexpr std::uint32_t source_is_place = 0xffffffffU;
+
 /// Primitives by id, in the order of the file's objects.
 struct Conversion {
   /// Vertex normals of a smooth triangle, which have no record yet.
@@ -40,6 +43,7 @@ struct Conversion {
   std::uint32_t dropped = 0;                  ///< degenerate: zero area or length, radius 0, not finite
   // What places of meshes bring along, and settle_coplanar() and drop_twins() add:
   std::vector<KeptPlane> planes;    ///< by PrimitiveValues::plane() - 1
+  std::int32_t place_layers = 0;    ///< the highest layer of a plane of places whose copies are left out
   std::uint32_t shared_planes = 0;  ///< in all: `planes`, and those that a coordinate tells
   std::uint32_t duplicates = 0;     ///< triangles left out
   std::vector<CloseFaces> close_faces;
@@ -54,7 +58,8 @@ struct ConversionWishes {
 };
 
 /// Triangulates and brings all into the grid's coordinates. A place of a kept mesh has that one's triangles, in its order, but
-/// for those of which rounding leaves nothing here, and its planes. The same whatever the number of threads.
+/// for those of which rounding leaves nothing here, and its planes. Where copies are left out an empty box stands for each place,
+/// with source_is_place. The same whatever the number of threads.
 Conversion convert(const Scene& scene, const GridFrame& frame, const Parallel& parallel, const ConversionWishes& wishes = {});
 
 /// Gives primitives other places: at `i` comes what is at `from[i]`, which may be shorter than the lists.

@@ -1,6 +1,7 @@
 #include "core/database/database.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -11,9 +12,11 @@
 #include "core/database/brick_builder.h"
 #include "core/database/conversion.h"
 #include "core/database/coplanar.h"
+#include "core/database/copy_limits.h"
 #include "core/database/emitters.h"
 #include "core/database/empty_space.h"
 #include "core/database/kept_instances.h"
+#include "core/database/left_out_places.h"
 #include "core/database/material_records.h"
 #include "core/database/mesh_faces.h"
 #include "core/database/parallel.h"
@@ -74,9 +77,17 @@ class DatabaseBuilder {
     result_.page_size_ = options.page_size_bytes;
   }
 
-  Database build() {
-    fit();
+  /// Nothing if the scene leaves copies out, and has to have some of them.
+  std::optional<Database> build() {
     const std::vector<MeshFaces> meshes = faces_of_meshes(scene_, options_.cells_per_primitive, parallel_);
+    if (leaves_copies_out(scene_)) {
+      auto places = LeftOutPlaces::of(scene_, meshes, parallel_);
+      if (!places) {
+        return std::nullopt;
+      }
+      left_out_.emplace(std::move(*places));
+    }
+    fit();
     conversion_ = convert(scene_, header().frame, parallel_, {.meshes = meshes});
     set_pad();  // places of meshes may have brought layers
     TopCells cells = sort_into_top_cells();
@@ -84,8 +95,8 @@ class DatabaseBuilder {
       set_pad();                      // there are layers now
       cells = sort_into_top_cells();  // which may look for twins among the scene's objects
     }
-    if (options_.keeps_instances) {
-      kept_ = keep_instances(scene_, meshes, header().frame, result_.pad_, conversion_, parallel_);
+    if (options_.keeps_instances && !keep(meshes)) {
+      return std::nullopt;
     }
     if (expendable_ != nullptr) {
       forget_objects(*expendable_);
@@ -97,9 +108,13 @@ class DatabaseBuilder {
     } else if (options_.structure == Structure::voxels) {
       cells = sort_into_voxels();
     }
-    header().primitive_count = static_cast<std::uint32_t>(conversion_.primitives.size());
+    header().primitive_count =
+        static_cast<std::uint32_t>(conversion_.primitives.size() + (left_out_ ? kept_.triangles : std::uint64_t{0}));
     if (options_.emitters_max > 0) {
       emitters_ = choose_emitters(conversion_, scene_, options_.emitters_max);
+      for (EmitterRecord& emitter : emitters_.records) {
+        emitter.primitive = left_out_ ? kept_.told[emitter.primitive] : emitter.primitive;
+      }
     }
     result_.references_ = cells.references();
     if (!kept_.empty()) {
@@ -129,6 +144,19 @@ class DatabaseBuilder {
  private:
   DatabaseHeader& header() { return result_.header_; }
 
+  /// Whether all places that have no copies can be kept.
+  bool keep(std::span<const MeshFaces> meshes) {
+    if (!left_out_) {
+      kept_ = keep_instances(scene_, meshes, header().frame, result_.pad_, conversion_, parallel_);
+      return true;
+    }
+    auto kept = left_out_->keep(header().frame, result_.pad_, conversion_, parallel_);
+    if (kept) {
+      kept_ = std::move(*kept);
+    }
+    return kept.has_value();
+  }
+
   void fit() {
     const Box bounds = bounds_of(scene_, options_.axes, parallel_);
     object_count_ = object_count(scene_);
@@ -153,7 +181,7 @@ class DatabaseBuilder {
 
   /// The highest layer of a plane.
   std::int32_t layers_above() const {
-    std::int32_t layers = 0;
+    std::int32_t layers = conversion_.place_layers;
     for (const KeptPlane& plane : conversion_.planes) {
       layers = std::max(layers, plane.kept_as - std::int32_t{BlockHeader::exact_plane});
     }
@@ -167,8 +195,7 @@ class DatabaseBuilder {
   /// one.
   TopCells sort_into_top_cells() {
     for (;;) {
-      auto cells = TopCells::list(conversion_.primitives, header().frame, result_.pad_, parallel_);
-      if (cells) {
+      if (auto cells = list_top_cells()) {
         return std::move(*cells);
       }
       const bool is_first_try = !std::exchange(has_looked_for_twins_, true);
@@ -176,6 +203,19 @@ class DatabaseBuilder {
         coarsen();
       }
     }
+  }
+
+  /// Together with copies that are left out, too. These are looked at one by one only if that may let cells be smaller.
+  std::optional<TopCells> list_top_cells() const {
+    const GridFrame& frame = result_.header_.frame;
+    const auto list = [&](std::int64_t excess) {
+      return TopCells::list(conversion_.primitives, frame, result_.pad_, parallel_, excess);
+    };
+    if (!left_out_) {
+      return list(0);
+    }
+    auto cells = list(left_out_->excess(frame, result_.pad_, false, parallel_));
+    return cells ? std::move(cells) : list(left_out_->excess(frame, result_.pad_, true, parallel_));
   }
 
   /// One top cell in place of all. Whatever depends on cells but the boxes of bricks has been settled before, and rays start
@@ -251,11 +291,11 @@ class DatabaseBuilder {
     write_sky_tiles();
     writer_.make_room();
     trees[0].count(result_.records_);
-    trees[0].write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_);
+    trees[0].write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_, kept_.told);
     write_meshes();
     write_instances(instances);
     writer_.write(header().directory, 0, top);
-    conversion_.primitives.resize(header().primitive_count);  // without boxes
+    conversion_.primitives.resize(conversion_.primitives.size() - kept_.places.size());  // without boxes
   }
 
   /// The boxes of places become primitives behind all others. Returns what the top tree is over.
@@ -269,6 +309,9 @@ class DatabaseBuilder {
         box.value[3 + axis] = rounded_up(double{bounds.high[axis]} + result_.pad_);
       }
       ids.push_back(static_cast<std::uint32_t>(conversion_.primitives.size()));
+      if (left_out_) {
+        kept_.told.push_back(header().primitive_count + static_cast<std::uint32_t>(i));
+      }
       conversion_.primitives.push_back(box);
       conversion_.shading.push_back({static_cast<std::uint32_t>(advance(instances, i * sizeof(InstanceRecord)))});
     }
@@ -509,6 +552,7 @@ class DatabaseBuilder {
   std::size_t object_count_ = 0;  ///< of the scene, before they are freed
   bool has_looked_for_twins_ = false;
   Conversion conversion_;
+  std::optional<LeftOutPlaces> left_out_;
   KeptInstances kept_;
   Emitters emitters_;
   SkyRecords sky_;
@@ -532,6 +576,21 @@ void find_places_below(const LocalRecords& records, Address from, std::vector<Da
   for (std::size_t child = 0; child < brick.child_count; ++child) {
     const Address address = brick.child[child].address();
     brick.child[child].is_block() ? find_places_in(records, address, places) : find_places_below(records, address, places);
+  }
+}
+
+bool may_stay_left_out(const Scene& scene, const BuildOptions& options, const CopyLimits& limits) {
+  return options.keeps_instances && leaves_copies_out(scene) && object_count(scene) - scene.objects.size() > limits.objects_max;
+}
+
+void check_room_of_copies(const Scene& scene, const CopyLimits& limits) {
+  if (const std::uint64_t bytes = size_with_copies(scene).bytes(); bytes > limits.bytes_max) {
+    throw RoomError(
+        "not all of its meshes can be kept once, as what shines or has a coordinate that no float holds cannot, and with a copy "
+        "in "
+        "each place it takes " +
+        std::to_string(bytes >> 20U) + " MiB of memory; there are " + std::to_string(limits.bytes_max >> 20U) +
+        " for it: give the scene fewer places, or coarser meshes");
   }
 }
 
@@ -560,15 +619,25 @@ Database build_database(const Scene& scene, const BuildOptions& options) {
     return build_database(std::move(whole), options);
   }
   DatabaseBuilder builder(scene, options);
-  Database database = builder.build();
+  Database database = builder.build().value();
   return options.record_order == RecordOrder::spatial ? std::move(database)
-                                                      : DatabaseBuilder(scene, options, builder.scattered()).build();
+                                                      : DatabaseBuilder(scene, options, builder.scattered()).build().value();
 }
 
 Database build_database(Scene&& scene, const BuildOptions& options) {
+  return build_database(std::move(scene), options, CopyLimits{});
+}
+
+Database build_database(Scene&& scene, const BuildOptions& options, const CopyLimits& limits) {
+  if (may_stay_left_out(scene, options, limits)) {
+    if (auto database = DatabaseBuilder(scene, options, {}, &scene).build()) {
+      return std::move(*database);
+    }
+    check_room_of_copies(scene, limits);
+  }
   put_copies(scene);
   if (options.record_order == RecordOrder::spatial) {
-    return DatabaseBuilder(scene, options, {}, &scene).build();
+    return DatabaseBuilder(scene, options, {}, &scene).build().value();
   }
   Database database = build_database(std::as_const(scene), options);
   forget_objects(scene);

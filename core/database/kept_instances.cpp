@@ -77,9 +77,8 @@ class Keeper {
     if (index_[place.mesh] == nowhere) {
       return false;
     }
-    const double pad = pad_in_mesh(place.world, frame_, result_.meshes[index_[place.mesh]].unit, pad_);
     const auto& vertices = scene_.kept->meshes[place.mesh].vertices;
-    return pad <= pad_max &&
+    return can_have_boxes(place.world, frame_, result_.meshes[index_[place.mesh]].unit, pad_) &&
            std::all_of(vertices.begin(), vertices.end(), [&](const Vec3d& vertex) { return usable(place.world.point(vertex)); });
   }
 
@@ -114,6 +113,7 @@ class Keeper {
         copy(i++);
       }
     }
+    result_.triangles += faces.triangles.size();
     result_.places.push_back(instance);
     return i;
   }
@@ -145,6 +145,10 @@ class Keeper {
 };
 
 }  // namespace
+
+bool can_have_boxes(const Transform& world, const GridFrame& frame, double unit, double pad) {
+  return pad_in_mesh(world, frame, unit, pad) <= pad_max;
+}
 
 InstanceRecord KeptInstances::record_of(const KeptInstance& place, const GridFrame& frame, double pad) const {
   InstanceRecord record;

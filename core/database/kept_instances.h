@@ -28,12 +28,18 @@ struct KeptInstance {
 struct KeptInstances {
   std::vector<MeshRecords> meshes;
   std::vector<KeptInstance> places;    ///< by `first`, ascending
-  std::vector<std::uint32_t> own_ids;  ///< of primitives that are no copies, ascending
+  std::vector<std::uint32_t> own_ids;  ///< of primitives that are no copies, ascending: indices into the conversion's lists
+  /// Of primitives by these indices what their ids are, where copies have none of their own there; else empty.
+  std::vector<std::uint32_t> told;
+  std::uint64_t triangles = 0;  ///< of all places
 
   bool empty() const { return places.empty(); }
   /// A place's record, but for the mesh's address. `pad`: the grid's.
   InstanceRecord record_of(const KeptInstance& place, const GridFrame& frame, double pad) const;
 };
+
+/// Whether a place may have a mesh with records in this unit: its boxes, widened by the grid's pad, still tell rays apart.
+bool can_have_boxes(const Transform& world, const GridFrame& frame, double unit, double pad);
 
 /// Looks through `conversion`, which has all copies in it. It keeps them, so that ids are the same however records hold them; but
 /// of a place that is kept each of the mesh's triangles gets an id, and those of which rounding leaves nothing are in the list as

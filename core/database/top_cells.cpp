@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/morton.h"
@@ -45,6 +46,9 @@ class TopCells::Lister {
     const std::size_t end = std::min(primitives_.size(), (chunk + 1) * chunk_size);
     listed.next = std::max(listed.next, chunk * chunk_size);
     for (; listed.next < end; ++listed.next) {
+      if (primitives_[listed.next].kind == PrimitiveKind::instance) {
+        continue;
+      }
       const std::size_t before = listed.touches.size();
       add(static_cast<std::uint32_t>(listed.next), bound, listed.touches);
       if (listed.touches.size() > bound) {
@@ -56,8 +60,26 @@ class TopCells::Lister {
     listed.is_cut_off = false;
   }
 
+  bool is_within_one(const Box& box) const {
+    const auto [first, last] = cells_of(box);
+    return first == last;
+  }
+
  private:
   using Place = std::array<std::int32_t, 3>;  ///< of a top cell
+
+  /// The first and the last that a box touches.
+  std::pair<Place, Place> cells_of(const Box& box) const {
+    Place first{}, last{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto clamped = [&](double at) {
+        return static_cast<std::int32_t>(std::clamp((at - low_[axis]) / edge_, 0.0, size_[axis] - 1.0));
+      };
+      first[axis] = clamped(box.low[axis] - pad_);
+      last[axis] = clamped(box.high[axis] + pad_);
+    }
+    return {first, last};
+  }
 
   std::uint32_t index_of(const Place& place) const {
     return static_cast<std::uint32_t>(
@@ -66,15 +88,7 @@ class TopCells::Lister {
 
   /// Ends as soon as there are more than `bound` touches.
   void add(std::uint32_t id, std::size_t bound, std::vector<Touch>& touches) const {
-    const Box box = bounds_of(primitives_[id]).padded({pad_, pad_, pad_});
-    Place first{}, last{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto clamped = [&](double at) {
-        return static_cast<std::int32_t>(std::clamp((at - low_[axis]) / edge_, 0.0, size_[axis] - 1.0));
-      };
-      first[axis] = clamped(box.low[axis]);
-      last[axis] = clamped(box.high[axis]);
-    }
+    const auto [first, last] = cells_of(bounds_of(primitives_[id]));
     if (first == last) {
       touches.push_back({index_of(first), id});
     } else if (lists_boxes_) {
@@ -152,9 +166,31 @@ class TopCells::Lister {
 /// No chunk goes on beyond four times its share of the bound before all have come so far, so that hopeless lists end early:
 /// after four times the bound, whatever the number of chunks.
 std::optional<TopCells> TopCells::list(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
-                                       const Parallel& parallel) {
-  return list_within(Lister(primitives, frame, pad), top_cells_max * (primitives.size() + 8), 4 * top_cells_max * chunk_size,
-                     frame, Order::morton, parallel);
+                                       const Parallel& parallel, std::int64_t excess) {
+  const auto boxes = std::count_if(primitives.begin(), primitives.end(),
+                                   [](const PrimitiveValues& one) { return one.kind == PrimitiveKind::instance; });
+  const auto listed = static_cast<std::int64_t>(primitives.size()) - boxes;
+  const std::int64_t bound = std::int64_t{top_cells_max} * (listed + 8) - excess;
+  if (bound < listed) {
+    return std::nullopt;  // each is in some cell
+  }
+  return list_within(Lister(primitives, frame, pad), static_cast<std::size_t>(bound), 4 * top_cells_max * chunk_size, frame,
+                     Order::morton, parallel);
+}
+
+std::int64_t TopCells::excess_of(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad) {
+  const Lister lister(primitives, frame, pad);
+  std::int64_t touches = 0;
+  for (std::size_t chunk = 0; chunk < lister.chunk_count(); ++chunk) {
+    Listed listed;
+    lister.list(chunk, std::numeric_limits<std::uint32_t>::max(), listed);
+    touches += static_cast<std::int64_t>(listed.touches.size());
+  }
+  return touches - std::int64_t{top_cells_max} * static_cast<std::int64_t>(primitives.size());
+}
+
+bool TopCells::is_within_one(const Box& box, const GridFrame& frame, double pad) {
+  return Lister({}, frame, pad).is_within_one(box);
 }
 
 /// No chunk goes on beyond its share of the bound before all have come so far.

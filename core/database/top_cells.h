@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/box.h"
 #include "core/database/database.h"
 #include "core/database/parallel.h"
 #include "core/record/record.h"
@@ -19,9 +20,14 @@ void coarsen(GridFrame& frame);
 class TopCells {
  public:
   /// None where the lists would be long: where a primitive lies in more than four cells on average; always some for a single
-  /// cell. A primitive is listed wherever it comes within `pad` of a cell, grid-local, and perhaps a little farther off.
+  /// cell. A primitive is listed wherever it comes within `pad` of a cell, grid-local, and perhaps a little farther off; boxes
+  /// of instances nowhere. `excess`: excess_of() of all that is judged together with these, and listed nowhere.
   static std::optional<TopCells> list(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
-                                      const Parallel& parallel);
+                                      const Parallel& parallel, std::int64_t excess = 0);
+  /// How many more cells primitives touch than their share of a list has; negative if they leave room to others.
+  static std::int64_t excess_of(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad);
+  /// Whether whatever lies in a box, grid-local, touches one cell alone.
+  static bool is_within_one(const Box& box, const GridFrame& frame, double pad);
 
   /// The same for a frame of voxels (core/database/voxel_frame.h), by its rule; none if there are more references than
   /// that allows.

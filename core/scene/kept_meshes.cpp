@@ -28,7 +28,7 @@ bool can_be_kept(const Transform& world) {
 }
 
 const KeptPlace* place_of(const Scene& scene, std::uint32_t object) {
-  if (scene.kept == nullptr) {
+  if (scene.kept == nullptr || !scene.kept->have_copies) {
     return nullptr;
   }
   const std::vector<KeptPlace>& places = scene.kept->places;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/base/forget.h"
-#include "core/scene/expanded_size.h"
 
 namespace dmpc::core {
 namespace {
@@ -51,14 +50,6 @@ class PoolWriter {
   std::size_t shaded_ = 0;
 };
 
-ExpandedSize size_with_copies(const Scene& own, const KeptMeshes& kept) {
-  ExpandedSize size = size_of_pools(own);
-  for (const KeptPlace& place : kept.places) {
-    size = size + size_of_pools(kept.meshes[place.mesh]);
-  }
-  return size;
-}
-
 }  // namespace
 
 bool leaves_copies_out(const Scene& scene) { return scene.kept != nullptr && !scene.kept->have_copies; }
@@ -93,11 +84,21 @@ std::uint64_t object_count(const Scene& scene) {
   return count;
 }
 
+ExpandedSize size_with_copies(const Scene& scene) {
+  ExpandedSize size = size_of_pools(scene);
+  if (leaves_copies_out(scene)) {
+    for (const KeptPlace& place : scene.kept->places) {
+      size = size + size_of_pools(scene.kept->meshes[place.mesh]);
+    }
+  }
+  return size;
+}
+
 void put_copies(Scene& scene) {
   if (!leaves_copies_out(scene)) {
     return;
   }
-  const ExpandedSize size = size_with_copies(scene, *scene.kept);
+  const ExpandedSize size = size_with_copies(scene);
   size.check();
   Scene left;
   left.kept = std::exchange(scene.kept, nullptr);

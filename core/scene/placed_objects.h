@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/vec.h"
+#include "core/scene/expanded_size.h"
 #include "core/scene/kept_meshes.h"
 #include "core/scene/scene.h"
 #include "core/scene/transform.h"
@@ -125,6 +126,9 @@ class PlacedObjects {
 
 /// How many objects a scene has with all copies.
 std::uint64_t object_count(const Scene& scene);
+
+/// What the pools of a scene hold with all copies.
+ExpandedSize size_with_copies(const Scene& scene);
 
 /// Puts copies of kept meshes where they are left out: then the scene is what expand() makes of it. Others stay as they are.
 /// Throws RoomError if pools outgrow 32 bits.

@@ -55,7 +55,8 @@ enum class Arrangement : std::uint8_t { apart, deep_in_each_other, coincident };
 
 /// Patched balls of this size, beside the scene's 4, and rugs that lie in their floor: a third of them mirrors, all turned and
 /// stretched, some before and some behind what stands for itself.
-inline core::Scene balls_in_places(double size, Arrangement arrangement, std::uint64_t seed) {
+inline core::Scene balls_in_places(double size, Arrangement arrangement, std::uint64_t seed,
+                                   core::Copies copies = core::Copies::put) {
   core::Scene scene = lit_scene();
   scene.textures = {leaves(16), leaves(9)};
   apps::Random random(seed);
@@ -78,7 +79,7 @@ inline core::Scene balls_in_places(double size, Arrangement arrangement, std::ui
     const double stretch = arrangement == Arrangement::coincident ? 1 : std::exp2(random.in_box(-1, 1).x);
     instances.places.push_back({turned_place(size * stretch, at, i % 3 == 0), i % 4 == 1 ? 1U : 0U, mesh_end + (i >= 9 ? 1 : 0)});
   }
-  core::expand(scene, instances);
+  core::settle(scene, instances, copies);
   core::SceneBuilder(scene).sphere({0.4, -1, 0.3}, 0.3);
   return scene;
 }
