@@ -29,17 +29,23 @@ bool walks_in_bundles(const RunOptions& options) {
   return may_walk_in_bundles(options) && (!options.computer.machine || options.pages.bundles_on_machines);
 }
 
-/// Whoever asks for bundles gets them, or an error.
+/// Whoever asks for bundles gets them, or an error, if not here then by check_bundles_of().
 void check_bundles(const core::RenderSettings& settings, const RunOptions& options) {
   constexpr core::Field bundles = core::field_of<&PageOptions::bundles_on_machines>();
   core::check_use(options.computer.machine.has_value(), bundles,
                   " is for a modelled machine: on threads rays walk together without it");
   core::check_use(settings.skips.bundles && may_walk_in_bundles(options), bundles,
                   " does not go with the skip bundles switched off, nor with what looks on pixel by pixel (heat maps, traces, "
-                  "reports, references, counted pages): there rays walk alone");
+                  "reports, references, served pages, counted pages): there rays walk alone");
   core::check_use(options.pages.in_flight.value_or(bundle_pixels) >= bundle_pixels, core::field_of<&PageOptions::in_flight>(),
                   "=", options.pages.in_flight.value_or(bundle_pixels), " does not go with ", bundles,
                   ": a bundle has the rays of ", bundle_pixels, " pixels");
+}
+
+void check_bundles_of(const Plan& plan) {
+  core::check_use(plan.pixels_a_task > 1, core::field_of<&PageOptions::bundles_on_machines>(), " takes ", bundle_pixels,
+                  " pixels together, and a node works on ", plan.in_flight,
+                  " at once: give more memory, larger work items, a larger picture or fewer nodes");
 }
 
 PlanRequest request_of(const Strategy& strategy, const core::Database& database, const core::RenderSettings& settings,
@@ -73,7 +79,11 @@ nodes::TrafficByKind Report::sent() const {
 
 Plan plan_of(const Strategy& strategy, const core::Database& database, const core::RenderSettings& settings,
              const RunOptions& options) {
-  return make_plan(request_of(strategy, database, settings, options));
+  Plan plan = make_plan(request_of(strategy, database, settings, options));
+  if (options.pages.bundles_on_machines) {
+    check_bundles_of(plan);
+  }
+  return plan;
 }
 
 Report run_programs(const Plan& plan, const MakeProgram& make_program, const RunOptions& options, std::stop_token stop) {

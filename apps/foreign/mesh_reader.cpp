@@ -143,7 +143,7 @@ struct PlacedSize {
   GeometrySize once, all, made;
 };
 
-/// Says what instancing costs.
+/// Says what copies cost.
 PlacedSize measure(ImportedFile& file, const Placements& placements, core::Copies copies, std::vector<std::string>& notes) {
   std::vector<GeometrySize> sizes(file.scene->mNumMeshes);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -163,7 +163,7 @@ PlacedSize measure(ImportedFile& file, const Placements& placements, core::Copie
     once += is_first ? mesh : GeometrySize{};
     made += is_first || !is_left_out ? mesh : GeometrySize{};
   }
-  if (placed.size() < placements.size()) {
+  if (placed.size() < placements.size() && copies == core::Copies::put) {
     notes.push_back(grouped(placed.size()) + (placed.size() == 1 ? " mesh stands in " : " meshes stand in ") +
                     grouped(placements.size()) + " places: " + grouped(once.triangles) + " triangles become " +
                     grouped(all.triangles));

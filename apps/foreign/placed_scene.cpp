@@ -114,7 +114,7 @@ class PlacedScene {
     for (const PlacedShape& shape : file_.shapes) {
       shapes += shape.uses > 0 ? 1 : 0;
     }
-    if (shapes < places) {
+    if (shapes < places && options_.copies == core::Copies::put) {
       result_.notes.push_back(counted(shapes, "shape") + (shapes == 1 ? " stands in " : " stand in ") + grouped(places) +
                               " places, and is there as often");
     }

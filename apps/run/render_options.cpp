@@ -102,6 +102,10 @@ void settle_instances(const OptionSet& options, RenderOptions& render) {
   if (!options.is_given("--structure") && !render.system) {
     build.structure = core::Structure::extents;
   }
+  if (build.structure != core::Structure::extents && render.system) {
+    refuse(std::string("--system=") + name_of(*render.system),
+           "meshes that are kept are trees of boxes below one of all, as svm-extents and replicated-extents have them");
+  }
   if (build.structure != core::Structure::extents) {
     refuse(std::string("--structure=") + name_of(build.structure), "meshes that are kept are trees of boxes below one of all");
   }

@@ -116,8 +116,10 @@ std::vector<PageRow> rows_of_pixels() {
   using svm::PixelShares, svm::WorkGiver;
   return {
       {.name = "--in-flight",
-       .takes = number<&PageOptions::in_flight>(1, svm::in_flight_max,
-                                                "64, replicated 16, forest 16 to 256, runner virtual 1, mpi up to 256"),
+       .takes =
+           number<&PageOptions::in_flight>(1, svm::in_flight_max,
+                                           "64, replicated 16, forest 16 to 256, runner virtual 1, or 16 in bundles, mpi up to "
+                                           "256"),
        .help = "Pixels that a node works on at once; on threads the rays of 16 walk together, of fewer alone",
        .why = "a node of dataflow traces one ray at a time",
        .key = "in_flight",

@@ -1,5 +1,6 @@
 #include "apps/scene/subject.h"
 
+#include <algorithm>
 #include <iostream>
 #include <utility>
 
@@ -8,12 +9,29 @@
 #include "apps/edge/system/progress.h"
 #include "core/database/copy_limits.h"
 #include "core/picture/ray_crowd.h"
+#include "core/scene/expanded_size.h"
 #include "core/scene/frame.h"
 #include "core/scene/kept_meshes.h"
+#include "core/scene/placed_objects.h"
 
 namespace dmpc::apps {
 
 namespace {
+
+std::uint64_t places_of_meshes(const core::Scene& scene) { return scene.kept == nullptr ? 0 : scene.kept->places.size(); }
+
+/// Fine detail is looked for among all that is seen.
+void put_copies_in(core::Scene& scene) {
+  if (!leaves_copies_out(scene)) {
+    return;
+  }
+  if (const std::uint64_t bytes = size_with_copies(scene).bytes(), room = reader_memory_bytes_max(); bytes > room) {
+    throw core::RoomError("with every instance, among which --samples=auto looks for fine detail, the scene takes " +
+                          bytes_text(bytes) + " of memory, and there are " + bytes_text(room) +
+                          " for it: give a number of samples, such as --samples=4");
+  }
+  put_copies(scene);
+}
 
 /// Frees the objects of `scene` on the way.
 Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseOptions& options, bool shows_progress) {
@@ -23,13 +41,17 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
   build.emitters_max = picture.transport.emitters_max();
   build.for_paths = picture.transport.is_by_paths();
   build.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
+  const auto places = build.keeps_instances ? std::optional(places_of_meshes(scene)) : std::nullopt;
+  if (picture.is_refined) {
+    put_copies_in(scene);
+  }
   core::Database database = core::build_database(std::move(scene), build, {.bytes_max = reader_memory_bytes_max()});
   const core::RenderSettings settings = render_settings(picture, scene, database);
   const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
   const std::string emitters = emitters_text(database.header().emitter_count, database.records().emitters_met, picture.transport);
   const bool has_copies = database.primitives().size() == database.header().primitive_count;
   const std::string kept =
-      kept_text(database.records(), build.keeps_instances) +
+      kept_text(database.records(), places) +
       (has_copies ? "" : "; what rounding moves, or leaves nothing of, was looked for outside of these alone");
   return {std::move(database), settings, loss, gain_text(scene.materials, picture.transport), emitters, kept};
 }
@@ -61,17 +83,22 @@ std::vector<std::string> notes_of(const Subject& subject) {
           subject.kept};
 }
 
-std::string kept_text(const core::RecordCounts& records, bool keeps_instances) {
-  if (!keeps_instances) {
+std::string kept_text(const core::RecordCounts& records, std::optional<std::uint64_t> places) {
+  if (!places) {
     return "";
   }
+  const std::uint64_t others = *places - std::min(*places, records.instances);
+  const std::string why = " shine, have more than " + grouped(core::kept_triangles_max) +
+                          " triangles, are too small beside the scene, or have coordinates that no float holds";
   if (records.instances == 0) {
-    return "no mesh is kept once: none of more than " + grouped(core::copied_triangles_max) +
-           " triangles that does not shine stands in several places";
+    return others > 0 ? "no mesh is kept once: those in " + counted(others, "place") + why
+                      : "no mesh is kept once: none of more than " + grouped(core::copied_triangles_max) +
+                            " triangles stands in several places as the file has it";
   }
+  const std::string copied = others > 0 ? "; copied are those in " + counted(others, "place") + ", which" + why : "";
   return "kept " + grouped(records.kept_meshes) + (records.kept_meshes == 1 ? " mesh" : " meshes") + " in " +
          counted(records.instances, "place") + ": " + counted(records.kept_triangles, "triangle") + " for " +
-         grouped(records.placed_triangles);
+         grouped(records.placed_triangles) + copied;
 }
 
 std::string dropped_text(std::uint64_t count) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,9 @@ Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, 
 /// What build_subject() says: sentences, some of which may be empty.
 std::vector<std::string> notes_of(const Subject& subject);
 
-/// What is said of a database whose instances were to be kept: how many are; empty if copies were wanted.
-std::string kept_text(const core::RecordCounts& records, bool keeps_instances);
+/// What is said of a database whose instances were to be kept, of a scene with so many places of meshes (core::KeptMeshes): how
+/// many are; empty if copies were wanted.
+std::string kept_text(const core::RecordCounts& records, std::optional<std::uint64_t> places);
 
 /// A sentence about the primitives that a database left out; empty if it left out none.
 std::string dropped_text(std::uint64_t count);

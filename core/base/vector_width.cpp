@@ -1,11 +1,22 @@
 #include "core/base/vector_width.h"
 
+#include <cpuid.h>
+
 namespace dmpc::core {
 namespace {
 
+/// What of x86-64-v3, and of what Highway compiles its AVX2 for, compilers know no names of: F16C, MOVBE, AES and LZCNT, which
+/// other processors take for BSR, so that they would compute something else.
+bool has_small_instructions() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  constexpr unsigned basic = bit_F16C | bit_MOVBE | bit_AES | bit_PCLMUL, extended = 0x80000001U;
+  const bool has_basic = __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & basic) == basic;
+  return has_basic && __get_cpuid(extended, &a, &b, &c, &d) != 0 && (c & bit_LZCNT) != 0;
+}
+
 VectorWidth widest() {
   __builtin_cpu_init();
-  const bool has_256 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi") != 0 &&
+  const bool has_256 = has_small_instructions() && __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi") != 0 &&
                        __builtin_cpu_supports("bmi2") != 0 && __builtin_cpu_supports("fma") != 0;
   const bool has_512 = has_256 && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
                        __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&

@@ -272,6 +272,14 @@ class DatabaseBuilder {
     write_grid(cells, trees);
   }
 
+  static BrickTree build_top(const BrickBuilder& builder, std::span<const std::uint32_t> ids) {
+    try {
+      return builder.build({0, 0, 0}, ids);
+    } catch (const RoomError& error) {
+      throw RoomError(std::string(error.what()) + "; with a copy in each place (--instances=expand) eight times as many may");
+    }
+  }
+
   /// What is no copy and the boxes of places are in one tree, behind which come those of meshes.
   void write_kept() {
     write_tables();
@@ -281,7 +289,7 @@ class DatabaseBuilder {
     result_.references_ = ids.size();
     const BrickBuilder builder(conversion_.primitives, result_.pad_, header().frame, parallel_, levels_above_instances);
     std::vector<BrickTree> trees;
-    trees.push_back(builder.build({0, 0, 0}, ids));
+    trees.push_back(build_top(builder, ids));
     write_forest(trees);
     write_textures();
     write_normals(conversion_);

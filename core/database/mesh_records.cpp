@@ -8,6 +8,7 @@
 
 #include "core/database/brick_builder.h"
 #include "core/database/usable_place.h"
+#include "core/scene/kept_meshes.h"
 
 namespace dmpc::core {
 namespace {
@@ -119,7 +120,8 @@ class MeshConverter {
 std::optional<MeshRecords> records_of(const Scene& mesh, std::span<const Material> materials, const MeshFaces& faces,
                                       const Parallel& parallel) {
   MeshRecords records{.conversion = {}, .unit = unit_of(mesh), .tree = {}};
-  if (records.unit == 0 || faces.triangles.empty() || shines(mesh, materials) || !has_normals_in_floats(mesh)) {
+  if (records.unit == 0 || faces.triangles.empty() || faces.triangles.size() > kept_triangles_max || shines(mesh, materials) ||
+      !has_normals_in_floats(mesh)) {
     return std::nullopt;
   }
   for (const MeshPlane& plane : faces.planes) {

@@ -30,6 +30,9 @@ struct KeptMeshes {
 /// A mesh of no more triangles is copied and then forgotten, as one that stands in one place is.
 inline constexpr std::uint64_t copied_triangles_max = 64;
 
+/// One of more is copied, too: trees of bricks have room for eight times as many, and faces in one plane count so often.
+inline constexpr std::uint64_t kept_triangles_max = std::uint64_t{1} << 21U;
+
 /// Whether a place may have a mesh that is decided on elsewhere: one that presses it flat, or all but flat, may not, nor one that
 /// takes it where doubles end.
 bool can_be_kept(const Transform& world);

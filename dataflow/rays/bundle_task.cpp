@@ -155,7 +155,8 @@ RayMessage BundleTask::leaving() const {
   return message;
 }
 
-/// Rays of bundles have no names with them, so messages lie as they do in memory.
+/// Rays of bundles have no names with them, so messages lie as they do in memory; only what stands before the names is touched,
+/// of which alone there is room.
 void BundleTask::put_leaving(std::span<std::byte> place) const {
   core::expect(place.size() == ray_message_bytes(0), "rays of bundles have no lists with them");
   describe_leaving(*reinterpret_cast<RayMessage*>(place.data()));

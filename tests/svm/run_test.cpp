@@ -423,6 +423,8 @@ TEST_CASE("bundles are refused where they could not be traced") {
     CHECK_THROWS_AS(svm::plan_of(*svm::svm_strategy(), small.database, small.settings, options), core::UsageError);
   }
   CHECK_THROWS_AS(svm::plan_of(*svm::replicated_strategy(), small.database, small.settings, right), core::UsageError);
+  const BuiltScene tiny("teapot-4", 1024, 3);
+  CHECK_THROWS_AS(svm::plan_of(*svm::svm_strategy(), tiny.database, tiny.settings, right), core::UsageError);
   core::RenderSettings without = small.settings;
   without.skips.bundles = false;
   CHECK_THROWS_AS(svm::plan_of(*svm::svm_strategy(), small.database, without, right), core::UsageError);

@@ -40,13 +40,14 @@ bool is_group_of_others(gid_t id) {
   std::array<char, 16384> text{};
   passwd user{};
   passwd* found = nullptr;
+  int error = 0;
   bool are_others = false;
   ::setpwent();
-  while (!are_others && ::getpwent_r(&user, text.data(), text.size(), &found) == 0 && found != nullptr) {
+  while (!are_others && (error = ::getpwent_r(&user, text.data(), text.size(), &found)) == 0 && found != nullptr) {
     are_others = user.pw_gid == id && user.pw_uid != ::geteuid();
   }
   ::endpwent();
-  return are_others;
+  return are_others || (error != 0 && error != ENOENT);  // whom it cannot tell may be in it
 }
 
 /// Whether single users and groups have rights of their own (POSIX 1003.1e, withdrawn, as Linux has it): then the mode's group

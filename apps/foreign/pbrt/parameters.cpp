@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
@@ -44,6 +45,11 @@ std::size_t width_of(ParameterType type) {
 std::string_view without_blanks(std::string_view words) {
   const std::size_t first = std::min(words.find_first_not_of(blanks), words.size());
   return words.substr(first, words.find_last_not_of(blanks) + 1 - std::min(first, words.find_last_not_of(blanks) + 1));
+}
+
+/// What is beyond it stays.
+double in_single_precision(double number) {
+  return std::fabs(number) <= double{std::numeric_limits<float>::max()} ? double{static_cast<float>(number)} : number;
 }
 
 }  // namespace
@@ -195,7 +201,12 @@ std::optional<core::Vec3d> Parameters::point(std::string_view name) const {
 
 std::vector<core::Vec3d> Parameters::points(std::string_view name, std::initializer_list<ParameterType> types) const {
   const Parameter* const found = find(name, types);
-  return found == nullptr ? std::vector<core::Vec3d>() : triples(found->numbers);
+  if (found == nullptr) {
+    return {};
+  }
+  std::vector<double> numbers(found->numbers.size());
+  std::transform(found->numbers.begin(), found->numbers.end(), numbers.begin(), in_single_precision);
+  return triples(numbers);
 }
 
 std::vector<std::string> Parameters::unused() const {

@@ -60,7 +60,7 @@ class Parameters {
   bool flag(std::string_view name, bool fallback) const;
   std::string text(std::string_view name, const std::string& fallback) const;
   std::optional<core::Vec3d> point(std::string_view name) const;
-  /// Throws core::InputError if their number is not a multiple of three.
+  /// In single precision, as pbrt keeps them. Throws core::InputError if their number is not a multiple of three.
   std::vector<core::Vec3d> points(std::string_view name, std::initializer_list<ParameterType> types) const;
 
   /// core::InputError at the place of a parameter, or of the statement, that names it.

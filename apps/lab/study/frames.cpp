@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
@@ -159,7 +160,11 @@ void check_line(const StudyLine& line, const FramesStudy& study) {
 
 std::vector<std::string> parse_machines(const std::string& text) {
   const std::vector<std::string> names = words_between_commas(text, "--machines");
+  std::set<std::string> seen;
   for (const std::string& name : names) {
+    if (!seen.insert(name).second) {
+      throw core::UsageError("--machines=" + text + ": " + name + " is there twice");
+    }
     if (find_machine_preset(name) == nullptr) {
       throw core::UsageError("--machines=" + text + ": expected names of " + machine_preset_names() +
                              ", with commas between; a file goes with --machine");

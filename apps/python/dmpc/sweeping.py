@@ -19,6 +19,9 @@ def sweep(options):
 
 
 def _between(values):
+    for value in values:
+        if ";" in value:
+            raise program.UsageError(f"{value}: a value of a sweep has no semicolons")
     return ",".join(values) if not any("," in value for value in values) else ";".join(values) + ";"
 
 

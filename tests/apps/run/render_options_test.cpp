@@ -691,8 +691,8 @@ TEST_CASE("instances are kept in one tree of extents, where rays go into them, a
     CHECK(options.database.build.structure == core::Structure::extents);
   }
   CHECK(render({"--instances=keep", "--structure=extents"}).database.build.keeps_instances);
-  for (const char* const other :
-       {"--strategy=forest", "--strategy=dataflow", "--structure=grid", "--structure=voxels", "--record-order=scattered"}) {
+  for (const char* const other : {"--strategy=forest", "--strategy=dataflow", "--system=svm", "--structure=grid",
+                                  "--structure=voxels", "--record-order=scattered"}) {
     const std::string complaint = render_complaint({"--instances=keep", other});
     CHECK_MESSAGE(contains(complaint, std::string("--instances=keep does not go with ") + other + ": "), complaint);
     CHECK(contains(complaint, "; --instances=expand has a copy in each place"));

@@ -31,12 +31,16 @@ TEST_CASE("a subject's page size, order of records and axes are those asked for"
 }
 
 TEST_CASE("how much is kept once is told where that was asked for") {
-  CHECK(kept_text({}, false).empty());
-  CHECK(kept_text({.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789}, true) ==
+  CHECK(kept_text({}, {}).empty());
+  CHECK(kept_text({.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789}, 67) ==
         "kept 29 meshes in 67 places: 1,234 triangles for 56,789");
-  CHECK(kept_text({.instances = 1, .kept_meshes = 1, .kept_triangles = 70, .placed_triangles = 70}, true) ==
+  CHECK(kept_text({.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789}, 70) ==
+        "kept 29 meshes in 67 places: 1,234 triangles for 56,789; copied are those in 3 places, which shine, have more than "
+        "2,097,152 triangles, are too small beside the scene, or have coordinates that no float holds");
+  CHECK(kept_text({.instances = 1, .kept_meshes = 1, .kept_triangles = 70, .placed_triangles = 70}, 1) ==
         "kept 1 mesh in 1 place: 70 triangles for 70");
-  CHECK(kept_text({}, true).find("no mesh is kept once: ") == 0);
+  CHECK(kept_text({}, 0) == "no mesh is kept once: none of more than 64 triangles stands in several places as the file has it");
+  CHECK(kept_text({}, 5).find("no mesh is kept once: those in 5 places shine, ") == 0);
 }
 
 TEST_CASE("what rounding takes is told in pixels") {
