@@ -685,6 +685,8 @@ TEST_CASE("by paths samples are refined from 16 on, in two passes, and a quality
 TEST_CASE("instances are kept in one tree of extents, where rays go into them, and elsewhere refused with what to do") {
   CHECK_FALSE(render().database.build.keeps_instances);
   CHECK_FALSE(render({"--instances=expand"}).database.build.keeps_instances);
+  CHECK(render({"--instances=expand"}).picture.staging.mesh.copies == core::Copies::put);
+  CHECK(render({"--instances=keep"}).picture.staging.mesh.copies == core::Copies::left_out);
   for (const char* const strategy : {"--strategy=svm", "--strategy=replicated"}) {
     const RenderOptions options = render({"--instances=keep", strategy});
     CHECK(options.database.build.keeps_instances);
