@@ -97,10 +97,12 @@ void check_database(std::uint64_t triangles) {
   constexpr std::uint64_t bytes = values * sizeof(float) + 2 * sizeof(std::uint32_t);  // a block's id and reference beside them
   constexpr double gibibyte = 0x1p30;
   if (triangles > core::RecordWriter::bytes_max / bytes) {
-    throw core::RoomError("its " + grouped(triangles) + " triangles need a database of at least " +
-                          fixed(static_cast<double>(triangles * bytes) / gibibyte, 1) + " GiB, and one has " +
-                          fixed(static_cast<double>(core::RecordWriter::bytes_max) / gibibyte, 0) +
-                          " GiB at most: divide the scene, or make it coarser");
+    throw core::RoomError(
+        "its " + grouped(triangles) + " triangles need a database of at least " +
+        fixed(static_cast<double>(triangles * bytes) / gibibyte, 1) + " GiB, and one has " +
+        fixed(static_cast<double>(core::RecordWriter::bytes_max) / gibibyte, 0) +
+        " GiB at most: divide the scene, make it coarser, or, if its meshes stand in many places, have dmpc render "
+        "keep each once (--instances=keep)");
   }
 }
 

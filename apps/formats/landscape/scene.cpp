@@ -118,13 +118,13 @@ core::Instances add_trees(const Grove& grove, core::Scene& scene) {
 
 void check_room(const core::Scene& scene, const core::Instances& instances, core::Copies copies) {
   const core::ExpandedSize size = core::settled_size(scene, instances, copies);
+  check_database(size.objects);
   if (const std::uint64_t room = reader_memory_bytes_max(); size.bytes() > room) {
     throw core::RoomError(
         "with every tree it takes " + bytes_text(size.bytes()) + " of memory, and there are " + bytes_text(room) +
         " for it: take a smaller size" +
         (copies == core::Copies::put ? ", or have dmpc render keep each kind of tree once (--instances=keep)" : ""));
   }
-  check_database(size.objects);
 }
 
 /// Flat, and so without normals.

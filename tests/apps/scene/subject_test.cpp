@@ -3,9 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 
 #include "apps/scene/load_scene.h"
+#include "tests/support/placed_meshes.h"
 
 namespace dmpc::apps::subject_test {
 
@@ -41,6 +43,26 @@ TEST_CASE("how much is kept once is told where that was asked for") {
         "kept 1 mesh in 1 place: 70 triangles for 70");
   CHECK(kept_text({}, 0) == "no mesh is kept once: none of more than 64 triangles stands in several places as the file has it");
   CHECK(kept_text({}, 5).find("no mesh is kept once: those in 5 places shine, ") == 0);
+}
+
+TEST_CASE("of so many copies that none is made, it is told that nobody looked at their rounding") {
+  constexpr std::uint32_t triangles = 4096, places = 520;  // more than 2^21 in all
+  core::Scene scene = tests::lit_scene();
+  core::SceneBuilder builder(scene);
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const double x = i % 64 / 64.0, y = i / 64 / 64.0;
+    builder.polygon({{x, y, 0}, {x + 0x1p-6, y, 0}, {x, y + 0x1p-6, 0x1p-8}});
+  }
+  core::Instances instances{.meshes = {{0, triangles}}};
+  for (std::uint32_t i = 0; i < places; ++i) {
+    instances.places.push_back({tests::turned_place(0.5, {0, 0, i / 100.0}, false), 0, triangles});
+  }
+  core::settle(scene, instances, core::Copies::left_out);
+  const DatabaseOptions options{.build = {.structure = core::Structure::extents, .keeps_instances = true}};
+  const Subject subject = build_subject_quietly(scene, {.resolution = Resolution{8, 8}}, options);
+  CHECK(subject.kept ==
+        "kept 1 mesh in 520 places: 4,096 triangles for 2,129,920; what rounding moves, or leaves nothing of, "
+        "was looked for outside of these alone");
 }
 
 TEST_CASE("what rounding takes is told in pixels") {
