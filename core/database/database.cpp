@@ -276,7 +276,7 @@ class DatabaseBuilder {
     try {
       return builder.build({0, 0, 0}, ids);
     } catch (const RoomError& error) {
-      throw RoomError(std::string(error.what()) + "; with a copy in each place (--instances=expand) eight times as many may");
+      throw RoomError(std::string(error.what()) + "; eight times as many may where meshes are expanded");
     }
   }
 

@@ -33,16 +33,16 @@ def render(
     no_contention: bool = False, memory_port: bool = False, idle: Literal["auto", "spin", "sleep"] | None = None, chaos: Text | None = None,
     cache_pages: int | None = None, homes: Literal["spread", "host", "tree"] | None = None, tree_arity: int | None = None, resident: int |
     None = None, replacement: Literal["lru", "clock", "fifo", "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None,
-    work_item: int | None = None, work_giver: Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None =
-    None, workers: int | None = None, count_pages: bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None
-    = None, cuts: Literal["longer-side", "alternating"] | None = None, regions: int | None = None, subsample: int | None = None,
-    balance_grid: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_places: int | None = None, ray_queue:
-    int | None = None, tested_objects: int | None = None, no_backpressure: bool = False, topology: Literal["hypercube", "mesh", "torus",
-    "fat-tree", "crossbar"] | None = None, tracer: Literal["grid", "embree"] | None = None, report: Text | None = None, strip: Text | None =
-    None, trace: Text | None = None, trace_window: Text | Sequence[Text] | None = None, trace_nodes: Text | Sequence[Text] | None = None,
-    trace_every: int | None = None, trace_events: int | None = None, trace_keep: Literal["spread", "last", "first"] | None = None,
-    references: Text | None = None, serve: bool | Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None = None,
-    resume: bool = False, keep_checkpoint: bool = False
+    bundles: bool = False, work_item: int | None = None, work_giver: Literal["ring", "host"] | None = None, pixels: Literal["submaps",
+    "interleaved"] | None = None, workers: int | None = None, count_pages: bool = False, balance: Literal["subsampled", "equal-size",
+    "scattered", "moving"] | None = None, cuts: Literal["longer-side", "alternating"] | None = None, regions: int | None = None, subsample:
+    int | None = None, balance_grid: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_places: int | None
+    = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False, topology: Literal["hypercube",
+    "mesh", "torus", "fat-tree", "crossbar"] | None = None, tracer: Literal["grid", "embree"] | None = None, report: Text | None = None,
+    strip: Text | None = None, trace: Text | None = None, trace_window: Text | Sequence[Text] | None = None, trace_nodes: Text |
+    Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int | None = None, trace_keep: Literal["spread", "last",
+    "first"] | None = None, references: Text | None = None, serve: bool | Text = False, checkpoint: Text | None = None, checkpoint_every:
+    Text | None = None, resume: bool = False, keep_checkpoint: bool = False
 ) -> Render:
     """Render a scene on N nodes."""
     return rendering.render(locals())
@@ -73,15 +73,15 @@ def sweep(
     Sequence[Text] | None = None, chaos: Text | Sequence[Text] | None = None, cache_pages: int | Sequence[int] | None = None, homes:
     Literal["spread", "host", "tree"] | Sequence[Text] | None = None, tree_arity: int | Sequence[int] | None = None, resident: int |
     Sequence[int] | None = None, replacement: Literal["lru", "clock", "fifo", "random", "2q", "arc", "s3-fifo"] | Sequence[Text] | None =
-    None, in_flight: int | Sequence[int] | None = None, work_item: int | Sequence[int] | None = None, work_giver: Literal["ring", "host"] |
-    Sequence[Text] | None = None, pixels: Literal["submaps", "interleaved"] | Sequence[Text] | None = None, workers: int | Sequence[int] |
-    None = None, count_pages: bool | Sequence[bool] = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] |
-    Sequence[Text] | None = None, cuts: Literal["longer-side", "alternating"] | Sequence[Text] | None = None, regions: int | Sequence[int] |
-    None = None, subsample: int | Sequence[int] | None = None, balance_grid: int | Sequence[int] | None = None, ray_batch: int |
-    Sequence[int] | None = None, ray_credits: int | Sequence[int] | None = None, ray_places: int | Sequence[int] | None = None, ray_queue:
-    int | Sequence[int] | None = None, tested_objects: int | Sequence[int] | None = None, no_backpressure: bool | Sequence[bool] = False,
-    topology: Literal["hypercube", "mesh", "torus", "fat-tree", "crossbar"] | Sequence[Text] | None = None, tracer: Literal["grid",
-    "embree"] | Sequence[Text] | None = None
+    None, in_flight: int | Sequence[int] | None = None, bundles: bool | Sequence[bool] = False, work_item: int | Sequence[int] | None =
+    None, work_giver: Literal["ring", "host"] | Sequence[Text] | None = None, pixels: Literal["submaps", "interleaved"] | Sequence[Text] |
+    None = None, workers: int | Sequence[int] | None = None, count_pages: bool | Sequence[bool] = False, balance: Literal["subsampled",
+    "equal-size", "scattered", "moving"] | Sequence[Text] | None = None, cuts: Literal["longer-side", "alternating"] | Sequence[Text] | None
+    = None, regions: int | Sequence[int] | None = None, subsample: int | Sequence[int] | None = None, balance_grid: int | Sequence[int] |
+    None = None, ray_batch: int | Sequence[int] | None = None, ray_credits: int | Sequence[int] | None = None, ray_places: int |
+    Sequence[int] | None = None, ray_queue: int | Sequence[int] | None = None, tested_objects: int | Sequence[int] | None = None,
+    no_backpressure: bool | Sequence[bool] = False, topology: Literal["hypercube", "mesh", "torus", "fat-tree", "crossbar"] | Sequence[Text]
+    | None = None, tracer: Literal["grid", "embree"] | Sequence[Text] | None = None
 ) -> pandas.DataFrame:
     """All combinations of any options of render, and the figures asked for."""
     return sweeping.sweep(locals())
@@ -105,17 +105,17 @@ def references(
     = None, pool_threads: int | None = None, machine: Text | None = None, no_contention: bool = False, memory_port: bool = False, idle:
     Literal["auto", "spin", "sleep"] | None = None, chaos: Text | None = None, cache_pages: int | None = None, homes: Literal["spread",
     "host", "tree"] | None = None, tree_arity: int | None = None, resident: int | None = None, replacement: Literal["lru", "clock", "fifo",
-    "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None, work_item: int | None = None, work_giver: Literal["ring",
-    "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, count_pages: bool = False,
-    balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts: Literal["longer-side", "alternating"] | None =
-    None, regions: int | None = None, subsample: int | None = None, balance_grid: int | None = None, ray_batch: int | None = None,
-    ray_credits: int | None = None, ray_places: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None,
-    no_backpressure: bool = False, topology: Literal["hypercube", "mesh", "torus", "fat-tree", "crossbar"] | None = None, tracer:
-    Literal["grid", "embree"] | None = None, stats: Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None =
-    None, strip: Text | None = None, trace: Text | None = None, trace_window: Text | Sequence[Text] | None = None, trace_nodes: Text |
-    Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int | None = None, trace_keep: Literal["spread", "last",
-    "first"] | None = None, serve: bool | Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool =
-    False, keep_checkpoint: bool = False
+    "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int | None = None,
+    work_giver: Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None,
+    count_pages: bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts:
+    Literal["longer-side", "alternating"] | None = None, regions: int | None = None, subsample: int | None = None, balance_grid: int | None
+    = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_places: int | None = None, ray_queue: int | None = None,
+    tested_objects: int | None = None, no_backpressure: bool = False, topology: Literal["hypercube", "mesh", "torus", "fat-tree",
+    "crossbar"] | None = None, tracer: Literal["grid", "embree"] | None = None, stats: Text | None = None, report: Text | None = None,
+    heatmap: Text | Sequence[Text] | None = None, strip: Text | None = None, trace: Text | None = None, trace_window: Text | Sequence[Text]
+    | None = None, trace_nodes: Text | Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int | None = None,
+    trace_keep: Literal["spread", "last", "first"] | None = None, serve: bool | Text = False, checkpoint: Text | None = None,
+    checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.references(locals())
@@ -139,17 +139,17 @@ def trace(
     = None, pool_threads: int | None = None, machine: Text | None = None, no_contention: bool = False, memory_port: bool = False, idle:
     Literal["auto", "spin", "sleep"] | None = None, chaos: Text | None = None, cache_pages: int | None = None, homes: Literal["spread",
     "host", "tree"] | None = None, tree_arity: int | None = None, resident: int | None = None, replacement: Literal["lru", "clock", "fifo",
-    "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None, work_item: int | None = None, work_giver: Literal["ring",
-    "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, count_pages: bool = False,
-    balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts: Literal["longer-side", "alternating"] | None =
-    None, regions: int | None = None, subsample: int | None = None, balance_grid: int | None = None, ray_batch: int | None = None,
-    ray_credits: int | None = None, ray_places: int | None = None, ray_queue: int | None = None, tested_objects: int | None = None,
-    no_backpressure: bool = False, topology: Literal["hypercube", "mesh", "torus", "fat-tree", "crossbar"] | None = None, tracer:
-    Literal["grid", "embree"] | None = None, stats: Text | None = None, report: Text | None = None, heatmap: Text | Sequence[Text] | None =
-    None, strip: Text | None = None, trace_window: Text | Sequence[Text] | None = None, trace_nodes: Text | Sequence[Text] | None = None,
-    trace_every: int | None = None, trace_events: int | None = None, trace_keep: Literal["spread", "last", "first"] | None = None,
-    references: Text | None = None, serve: bool | Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None = None,
-    resume: bool = False, keep_checkpoint: bool = False
+    "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int | None = None,
+    work_giver: Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None,
+    count_pages: bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts:
+    Literal["longer-side", "alternating"] | None = None, regions: int | None = None, subsample: int | None = None, balance_grid: int | None
+    = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_places: int | None = None, ray_queue: int | None = None,
+    tested_objects: int | None = None, no_backpressure: bool = False, topology: Literal["hypercube", "mesh", "torus", "fat-tree",
+    "crossbar"] | None = None, tracer: Literal["grid", "embree"] | None = None, stats: Text | None = None, report: Text | None = None,
+    heatmap: Text | Sequence[Text] | None = None, strip: Text | None = None, trace_window: Text | Sequence[Text] | None = None, trace_nodes:
+    Text | Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int | None = None, trace_keep: Literal["spread",
+    "last", "first"] | None = None, references: Text | None = None, serve: bool | Text = False, checkpoint: Text | None = None,
+    checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.trace(locals())

@@ -31,7 +31,7 @@ struct Lying {
   std::string why() const { return apps::why_untrusted(file).value_or("trusted"); }
 };
 
-/// Lets user 65533 do what `rights` say (4 to read, 2 to write), as setfacl does (linux/posix_acl_xattr.h).
+/// Lets user 65533 do what `rights` say (4 to read, 2 to write), as setfacl does.
 bool give_rights(const fs::path& file, std::uint16_t rights) {
   struct Entry {
     std::uint16_t of, rights;
