@@ -282,33 +282,31 @@ Json sandbox_json() {
 Json database_json(const core::Database& database) {
   const core::RecordCounts& records = database.records();
   const auto block_count = [&](core::PrimitiveKind kind) { return records.blocks[static_cast<std::size_t>(kind)]; };
-  Json result = {{"bytes", database.page_count() * database.page_size()},
-                 {"pages", database.page_count()},
-                 {"page_size", database.page_size()},
-                 {"forest_pages", database.forest_page_count()},
-                 {"primitives", database.header().primitive_count},
-                 {"references", database.references()},
-                 {"dropped", database.dropped()},
-                 {"collapsed", database.collapsed().size()},
-                 {"bricks", records.bricks},
-                 {"voxel_references", records.voxel_references},
-                 {"triangle_blocks", block_count(core::PrimitiveKind::triangle)},
-                 {"sphere_blocks", block_count(core::PrimitiveKind::sphere)},
-                 {"cone_blocks", block_count(core::PrimitiveKind::cone)},
-                 {"normals", records.normals},
-                 {"textured", records.textured},
-                 {"texture_tiles", records.texture_tiles},
-                 {"materials", records.materials},
-                 {"lights", database.header().light_count},
-                 {"emitters", database.header().emitter_count},
-                 {"sky_tiles", records.sky_tiles}};
-  if (records.instances > 0) {
-    result["kept"] = {{"meshes", records.kept_meshes},
-                      {"instances", records.instances},
-                      {"triangles", records.kept_triangles},
-                      {"placed_triangles", records.placed_triangles}};
-  }
-  return result;
+  return {{"bytes", database.page_count() * database.page_size()},
+          {"pages", database.page_count()},
+          {"page_size", database.page_size()},
+          {"forest_pages", database.forest_page_count()},
+          {"primitives", database.header().primitive_count},
+          {"references", database.references()},
+          {"dropped", database.dropped()},
+          {"collapsed", database.collapsed().size()},
+          {"bricks", records.bricks},
+          {"voxel_references", records.voxel_references},
+          {"triangle_blocks", block_count(core::PrimitiveKind::triangle)},
+          {"sphere_blocks", block_count(core::PrimitiveKind::sphere)},
+          {"cone_blocks", block_count(core::PrimitiveKind::cone)},
+          {"normals", records.normals},
+          {"textured", records.textured},
+          {"texture_tiles", records.texture_tiles},
+          {"materials", records.materials},
+          {"lights", database.header().light_count},
+          {"emitters", database.header().emitter_count},
+          {"sky_tiles", records.sky_tiles},
+          {"kept",
+           {{"meshes", records.kept_meshes},
+            {"instances", records.instances},
+            {"triangles", records.kept_triangles},
+            {"placed_triangles", records.placed_triangles}}}};
 }
 
 }  // namespace

@@ -601,7 +601,7 @@ TEST_CASE("the help of render names every option and its default") {
         "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
         "--no-contention",
         "--memory-port",
-        "64, replicated 16, forest 16 to 256, runner virtual 1, mpi up to 256",
+        "64, replicated 16, forest 16 to 256, runner virtual 1, or 16 in bundles, mpi up to 256",
         "4, or 3 if rays walk alone",
         "hypercube|mesh|torus|fat-tree|crossbar [hypercube]"}) {
     CHECK_MESSAGE(contains(text, word), word);
