@@ -33,6 +33,7 @@
 #include "core/record/voxel_list.h"
 #include "core/scene/detail.h"
 #include "core/scene/frame.h"
+#include "core/scene/kept_meshes.h"
 #include "core/scene/placed_objects.h"
 
 namespace dmpc::core {
@@ -587,16 +588,24 @@ void find_places_below(const LocalRecords& records, Address from, std::vector<Da
   }
 }
 
+/// Of the copies that a scene leaves out.
+std::uint64_t copied_corners(const Scene& scene) {
+  std::uint64_t count = 0;
+  for (const KeptPlace& place : scene.kept->places) {
+    count += scene.kept->meshes[place.mesh].vertices.size();
+  }
+  return count;
+}
+
 bool may_stay_left_out(const Scene& scene, const BuildOptions& options, const CopyLimits& limits) {
-  return options.keeps_instances && leaves_copies_out(scene) && object_count(scene) - scene.objects.size() > limits.objects_max;
+  return options.keeps_instances && leaves_copies_out(scene) && copied_corners(scene) > limits.corners_max;
 }
 
 void check_room_of_copies(const Scene& scene, const CopyLimits& limits) {
   if (const std::uint64_t bytes = size_with_copies(scene).bytes(); bytes > limits.bytes_max) {
     throw RoomError(
-        "not all of its meshes can be kept once, as what shines or has a coordinate that no float holds cannot, and with a copy "
-        "in "
-        "each place it takes " +
+        "a mesh of it cannot be kept once in all its places, as it shines, has no triangle or too many, or coordinates that no "
+        "float holds, or is too small in one of them, and with a copy in each place it takes " +
         std::to_string(bytes >> 20U) + " MiB of memory; there are " + std::to_string(limits.bytes_max >> 20U) +
         " for it: give the scene fewer places, or coarser meshes");
   }

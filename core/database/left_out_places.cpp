@@ -136,6 +136,11 @@ std::optional<KeptInstances> LeftOutPlaces::keep(const GridFrame& frame, double 
   }
   KeptInstances kept;
   std::vector<std::uint32_t> own;
+  if (conversion.sources.size() + triangles_ > ids_max) {
+    throw RoomError("it has " + std::to_string(conversion.sources.size() + triangles_) +
+                    " primitives with all places of meshes, and a database counts up to " + std::to_string(ids_max) +
+                    ": leave some of them out");
+  }
   std::uint32_t next = 0;
   for (std::uint32_t i = 0; i < conversion.sources.size(); ++i) {
     if (conversion.sources[i].object == source_is_place) {

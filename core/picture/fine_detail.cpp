@@ -111,7 +111,8 @@ class FineDetailFinder {
 
   /// No record has those of kept meshes.
   void look_at_copies() {
-    expect(!database_.primitives().empty(), "whoever looks for the detail of kept meshes has what is in their places");
+    expect(database_.primitives().size() == database_.header().primitive_count,
+           "whoever looks for the detail of kept meshes has what is in their places");
     for (const PrimitiveValues& primitive : database_.primitives()) {
       if (primitive.kind != PrimitiveKind::triangle ||
           !leaves_nothing({primitive.vector(0), primitive.vector(3), primitive.vector(6)})) {

@@ -35,7 +35,7 @@ using core::Vec3d;
 constexpr std::uint64_t none = 0, all = ~std::uint64_t{0};
 
 Database built(Scene scene, const BuildOptions& options, std::uint64_t copies_max) {
-  return core::build_database(std::move(scene), options, {.objects_max = copies_max});
+  return core::build_database(std::move(scene), options, {.corners_max = copies_max});
 }
 
 /// Rugs that share planes with a floor, a lamp and a twin of a face, behind all places.
@@ -225,16 +225,20 @@ TEST_CASE("where a mesh cannot be kept, copies are put in all the same") {
   CHECK(light.records().instances == 0);
   CHECK(hits_of(light) == hits_of(built(with_odd_corner(Copies::put), with_instances(), all)));
   const std::uint64_t bytes = size_with_copies(left).bytes();
-  CHECK_NOTHROW(core::build_database(Scene(left), with_instances(), {.objects_max = none, .bytes_max = bytes}));
-  CHECK_THROWS_AS(core::build_database(Scene(left), with_instances(), {.objects_max = none, .bytes_max = bytes - 1}),
+  CHECK_NOTHROW(core::build_database(Scene(left), with_instances(), {.corners_max = none, .bytes_max = bytes}));
+  CHECK_THROWS_AS(core::build_database(Scene(left), with_instances(), {.corners_max = none, .bytes_max = bytes - 1}),
                   core::RoomError);
 }
 
 TEST_CASE("few copies are put in, so that all is said of them, and so are all that are to be expanded") {
   const Scene left = furnished(0.3, Arrangement::apart, 1, Copies::left_out);
   const std::uint64_t copies = object_count(left) - left.objects.size();
-  CHECK(built(left, with_instances(), copies).primitives().size() > left.objects.size() + copies);
-  CHECK(built(left, with_instances(), copies - 1).primitives().size() < copies);
+  std::uint64_t corners = 0;
+  for (const core::KeptPlace& place : left.kept->places) {
+    corners += left.kept->meshes[place.mesh].vertices.size();
+  }
+  CHECK(built(left, with_instances(), corners).primitives().size() > left.objects.size() + copies);
+  CHECK(built(left, with_instances(), corners - 1).primitives().size() < copies);
   CHECK(built(left, with_copies(), none).primitives().size() > left.objects.size() + copies);
 }
 
