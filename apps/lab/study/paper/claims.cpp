@@ -271,7 +271,7 @@ Table claims(const Catalogue& catalogue, const PaperResults& results) {
   claim_items(rows, catalogue, results);
   claim_scheduling(rows, catalogue, results);
   claim_copies(rows, catalogue, results);
-  claim_extents(rows, results, catalogue.counted, catalogue.extents, "; our grid's cells have trees of boxes, too");
+  claim_extents(rows, results, catalogue.counted, catalogue.extents, "; our grid's cells have trees, too");
   return std::move(rows).table();
 }
 

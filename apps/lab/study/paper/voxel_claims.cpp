@@ -111,8 +111,7 @@ Table voxel_claims(const Catalogue& catalogue, const PaperResults& results) {
   claim_least_efficiency(rows, voxel_cells(catalogue, results));
   claim_loads(rows, catalogue.voxels, results);
   claim_voxel_caches(rows, catalogue.voxels, results);
-  claim_extents(rows, results, catalogue.voxels.counted, catalogue.voxels.extents,
-                "; eight boxes are looked at for the price of one record, as a core of today does");
+  claim_extents(rows, results, catalogue.voxels.counted, catalogue.voxels.extents, "; eight boxes cost what one record does");
   return std::move(rows).table();
 }
 
