@@ -38,6 +38,7 @@ void put(nodes::FlatWriter& flat, const PlanRequest& request) {
   flat.put_bytes(request.strategy->name());
   flat.put(request.page_count);
   flat.put(request.forest_page_count);
+  flat.put(request.open_page_count);
   flat.put(request.page_size_bytes);
   put(flat, request.computer);
   PageOptions pages = request.pages;
@@ -63,6 +64,7 @@ PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks, const
   request.strategy = strategy_called(flat.take_bytes(), strategies);
   request.page_count = flat.take<std::uint32_t>();
   request.forest_page_count = flat.take<std::uint32_t>();
+  request.open_page_count = flat.take<std::uint32_t>();
   request.page_size_bytes = flat.take<std::size_t>();
   request.computer = nodes::take_computer(flat, ranks);
   request.pages = flat.take<PageOptions>();

@@ -328,7 +328,8 @@ PageCapacity Plan::pages() const {
           .in_flight = task_count(),
           .faults_max = faults_max(),
           .request_credits = request_credits,
-          .leading_pages = request.strategy->leading_pages(request)};
+          .leading_pages = request.strategy->leading_pages(request),
+          .open_pages = request.open_page_count};
 }
 
 FilmCapacity Plan::film() const {

@@ -27,7 +27,7 @@ void add_computer_options(OptionSet& options, RenderOptions& render) {
   options.add_choice<bool>(
       "--instances", render.database.build.keeps_instances, {{"expand", false}, {"keep", true}},
       "Of a mesh that stands in several places: a copy in each, or one for all, which takes less memory (the same picture; svm, "
-      "replicated)");
+      "replicated, forest)");
 }
 
 void add_runner_options(OptionSet& options, RenderOptions& render) {
@@ -93,8 +93,8 @@ void settle_instances(const OptionSet& options, RenderOptions& render) {
     throw UsageError("--instances=keep does not go with " + option + ": " + why +
                      "; --instances=expand has a copy in each place");
   };
-  if (render.strategy != Strategy::svm && render.strategy != Strategy::replicated) {
-    refuse(std::string("--strategy=") + name_of(render.strategy), "only rays of svm and replicated go into meshes that are kept");
+  if (render.strategy == Strategy::dataflow) {
+    refuse("--strategy=dataflow", "rays that travel do not go into meshes that are kept");
   }
   if (render.tracer == TracerChoice::embree) {
     refuse("--tracer=embree", "Embree has a copy in each place");
@@ -104,7 +104,7 @@ void settle_instances(const OptionSet& options, RenderOptions& render) {
   }
   if (build.structure != core::Structure::extents && render.system) {
     refuse(std::string("--system=") + name_of(*render.system),
-           "meshes that are kept are trees of boxes below one of all, as svm-extents and replicated-extents have them");
+           "meshes that are kept are trees of boxes below one of all, as svm-extents, replicated-extents and forest have them");
   }
   if (build.structure != core::Structure::extents) {
     refuse(std::string("--structure=") + name_of(build.structure), "meshes that are kept are trees of boxes below one of all");

@@ -25,7 +25,7 @@ template <>
 inline constexpr auto counters_of<svm::QuestionCounters> = std::array{
     counter<&svm::QuestionCounters::rays_asked>({"rays_asked", "what does a ray meet below a child", "rays asked about"}),
     counter<&svm::QuestionCounters::records_asked>(
-        {"records_asked", "what is in a record, for shading", "records asked for"}),
+        {"records_asked", "what is in a record, for shading or above kept meshes", "records asked for"}),
     counter<&svm::QuestionCounters::rays_answered>({"rays_answered", "", "rays answered"}),
     counter<&svm::QuestionCounters::records_answered>({"records_answered", "", "records answered"}),
     counter<&svm::QuestionCounters::answers>({"answers", "packets received", "answers"}),

@@ -1,5 +1,6 @@
 #include "core/database/brick_tree.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "core/base/units.h"
@@ -19,10 +20,19 @@ std::size_t subtree_bytes(const BrickDraft& draft) {
   return bytes;
 }
 
-/// Takes room for the children of a brick that are blocks.
-void take_block_room(BrickDraft& draft, RecordWriter& writer) {
+bool is_of_instances(const BrickDraft::Block& block) { return block.count > 0 && block.kind == PrimitiveKind::instance; }
+
+/// Whether the walk below the brick may lead into meshes.
+bool is_open(const BrickDraft& draft) {
+  return std::any_of(draft.blocks.begin(), draft.blocks.end(), is_of_instances) ||
+         std::any_of(draft.bricks.begin(), draft.bricks.end(), is_open);
+}
+
+/// Takes room for the children of a brick that are blocks and have none: for all, or for those of instances.
+void take_block_room(BrickDraft& draft, RecordWriter& writer, bool of_instances_alone = false) {
   for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
-    if (const BrickDraft::Block& block = draft.blocks[i]; block.count > 0) {
+    const BrickDraft::Block& block = draft.blocks[i];
+    if (block.count > 0 && !draft.brick.child[i].is_block() && (!of_instances_alone || is_of_instances(block))) {
       draft.brick.child[i] = BrickChild::block(writer.allocate(block.bytes()));
     }
   }
@@ -59,15 +69,41 @@ Address take_room_for(BrickDraft& draft, RecordWriter& writer) {
   return address;
 }
 
-/// Takes room for what is below bricks of the forest.
+/// Takes room for an open brick, its blocks of instances, and then its open bricks.
+void take_open_records(BrickDraft& draft, RecordWriter& writer) {
+  constexpr bool of_instances_alone = true;
+  draft.address = writer.allocate(sizeof(Brick));
+  take_block_room(draft, writer, of_instances_alone);
+  for (BrickDraft& brick : draft.bricks) {
+    if (is_open(brick)) {
+      take_open_records(brick, writer);
+    }
+  }
+}
+
+/// Takes room for what is open below bricks of the forest.
+void take_open_room_for(BrickDraft& draft, RecordWriter& writer) {
+  constexpr bool of_instances_alone = true;
+  if (!is_open(draft)) {
+    return;
+  }
+  if (draft.address == no_address) {
+    writer.keep_together(subtree_bytes(draft));
+    return take_open_records(draft, writer);
+  }
+  take_block_room(draft, writer, of_instances_alone);
+  for (BrickDraft& brick : draft.bricks) {
+    take_open_room_for(brick, writer);
+  }
+}
+
+/// Takes room for what is below bricks that have room.
 Address take_subtree_room_for(BrickDraft& draft, RecordWriter& writer) {
   if (draft.address == no_address) {
     writer.keep_together(subtree_bytes(draft));
     return take_room_for(draft, writer);
   }
-  if (!has_blocks_in_forest(draft)) {
-    take_block_room(draft, writer);
-  }
+  take_block_room(draft, writer);
   auto next = draft.bricks.begin();
   for (std::size_t i = 0; i < draft.brick.child_count; ++i) {
     if (draft.blocks[i].count == 0) {
@@ -115,6 +151,8 @@ void BrickTree::take_forest_room(RecordWriter& writer, std::size_t page_size) {
   lies_in_subtrees = true;
   take_forest_room_for(top, writer, page_size);
 }
+
+void BrickTree::take_open_room(RecordWriter& writer) { take_open_room_for(top, writer); }
 
 void BrickTree::write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
                       std::span<const KeptPlane> planes, RecordWriter& writer, std::span<const std::uint32_t> told) const {

@@ -26,7 +26,7 @@ struct BrickDraft {
     std::size_t bytes() const { return shape().bytes(); }
   };
   Brick brick;                   ///< without the addresses of its children
-  Address address = no_address;  ///< of a brick of the forest, once there is room
+  Address address = no_address;  ///< of a brick that is of the forest or open, once there is room
   std::array<Block, brick_children_max> blocks{};
   std::vector<BrickDraft> bricks;  ///< in the order of the children
 };
@@ -46,6 +46,9 @@ struct BrickTree {
   /// together with all that is below them, and the blocks beside them; take_room() then puts each subtree, from a brick or a
   /// block down, into one page.
   void take_forest_room(RecordWriter& writer, std::size_t page_size);
+  /// Takes room between the two for the other bricks that have instances below them, and the blocks of these, since the meshes
+  /// themselves lie elsewhere: the part of a subtree that is open, in one page. Takes none if there are no instances.
+  void take_open_room(RecordWriter& writer);
   /// Writes the records, for which room has been taken and made. `told`: as BlockWriter has it.
   void write(std::span<const PrimitiveValues> primitives, std::span<const ShadingReference> shading,
              std::span<const KeptPlane> planes, RecordWriter& writer, std::span<const std::uint32_t> told = {}) const;

@@ -285,30 +285,41 @@ class DatabaseBuilder {
   void write_kept() {
     write_tables();
     header().has_instances = 1;
-    const Address instances = writer_.allocate_array<InstanceRecord>(kept_.places.size());
-    const std::vector<std::uint32_t> ids = add_boxes(instances);
+    const std::vector<std::uint32_t> ids = add_boxes();
     result_.references_ = ids.size();
     const BrickBuilder builder(conversion_.primitives, result_.pad_, header().frame, parallel_, levels_above_instances);
-    std::vector<BrickTree> trees;
-    trees.push_back(build_top(builder, ids));
-    write_forest(trees);
+    BrickTree top = build_top(builder, ids);
+    top.take_forest_room(writer_, options_.page_size_bytes);
+    for (MeshRecords& mesh : kept_.meshes) {
+      mesh.tree.take_forest_room(writer_, options_.page_size_bytes);
+    }
+    result_.forest_page_count_ = begin_page();
+    const Address instances = take_instance_room();
+    top.take_open_room(writer_);
+    result_.open_page_count_ = begin_page() - result_.forest_page_count_;
     write_textures();
     write_normals(conversion_);
-    DirectoryEntry top;
-    top.bits = static_cast<std::uint32_t>(trees[0].take_room(writer_));
+    DirectoryEntry entry;
+    entry.bits = static_cast<std::uint32_t>(top.take_room(writer_));
     take_mesh_room();
     write_sky_tiles();
     writer_.make_room();
-    trees[0].count(result_.records_);
-    trees[0].write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_, kept_.told);
+    top.count(result_.records_);
+    top.write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_, kept_.told);
     write_meshes();
     write_instances(instances);
-    writer_.write(header().directory, 0, top);
+    writer_.write(header().directory, 0, entry);
     conversion_.primitives.resize(conversion_.primitives.size() - kept_.places.size());  // without boxes
   }
 
+  /// What is taken next begins a page; returns how many are before it.
+  std::size_t begin_page() {
+    writer_.begin_page();
+    return writer_.page_bytes() / options_.page_size_bytes;
+  }
+
   /// The boxes of places become primitives behind all others. Returns what the top tree is over.
-  std::vector<std::uint32_t> add_boxes(Address instances) {
+  std::vector<std::uint32_t> add_boxes() {
     std::vector<std::uint32_t> ids = std::move(kept_.own_ids);
     for (std::size_t i = 0; i < kept_.places.size(); ++i) {
       const Bounds& bounds = kept_.places[i].bounds;
@@ -322,15 +333,22 @@ class DatabaseBuilder {
         kept_.told.push_back(header().primitive_count + static_cast<std::uint32_t>(i));
       }
       conversion_.primitives.push_back(box);
-      conversion_.shading.push_back({static_cast<std::uint32_t>(advance(instances, i * sizeof(InstanceRecord)))});
     }
     return ids;
+  }
+
+  /// Blocks of boxes tell where each record lies.
+  Address take_instance_room() {
+    const Address instances = writer_.allocate_array<InstanceRecord>(kept_.places.size());
+    for (std::size_t i = 0; i < kept_.places.size(); ++i) {
+      conversion_.shading.push_back({static_cast<std::uint32_t>(advance(instances, i * sizeof(InstanceRecord)))});
+    }
+    return instances;
   }
 
   void take_mesh_room() {
     for (MeshRecords& mesh : kept_.meshes) {
       write_normals(mesh.conversion);
-      mesh.tree.take_forest_room(writer_, options_.page_size_bytes);
       mesh.tree.take_room(writer_);
     }
   }
@@ -511,9 +529,9 @@ class DatabaseBuilder {
     for (BrickTree& tree : trees) {
       tree.take_forest_room(writer_, options_.page_size_bytes);
     }
-    writer_.begin_page();
+    const std::size_t pages = begin_page();
     if (options_.record_order == RecordOrder::spatial) {
-      result_.forest_page_count_ = writer_.page_bytes() / options_.page_size_bytes;
+      result_.forest_page_count_ = pages;
     }
   }
 

@@ -154,16 +154,19 @@ class Database {
   /// Copies of primitives in blocks, at least one each.
   std::uint64_t references() const { return references_; }
   const RecordCounts& records() const { return records_; }
-  /// How many pages of one tree in spatial order lie before the first subtree: tables and the bricks above. What a page behind
-  /// them holds of the tree holds all that is below it. 0 for any other database.
+  /// How many pages of one tree in spatial order lie before the first subtree: tables and the bricks above, those of kept meshes,
+  /// too. What a page behind them and the open ones holds of a tree holds all that is below it. 0 for any other database.
   std::size_t forest_page_count() const { return forest_page_count_; }
+  /// How many pages behind those are open, where meshes are kept once: what they have of the tree, and its InstanceRecords, leads
+  /// into meshes, which lie elsewhere. 0 for any other database.
+  std::size_t open_page_count() const { return open_page_count_; }
   /// Half the width of the slab within which a primitive counts as touching a cell, grid-local.
   double pad() const { return pad_; }
 
  private:
   friend class DatabaseBuilder;
   DatabaseHeader header_;
-  std::size_t page_size_ = 0, page_count_ = 0, forest_page_count_ = 0;
+  std::size_t page_size_ = 0, page_count_ = 0, forest_page_count_ = 0, open_page_count_ = 0;
   std::vector<std::byte> bytes_;
   std::vector<PrimitiveValues> primitives_;
   std::vector<PrimitiveSource> sources_;

@@ -17,24 +17,24 @@ Address sky_record(const Ray& ray, const DatabaseHeader& header) {
   return sky_tile_address(header.sky, sky_place(header.sky, ray.full_direction()).tile);
 }
 
-ShadingRecord shading_record_of(const HitState& state) {
+RecordKind record_kind_of(const HitState& state) {
   switch (state.stage) {
     case HitState::Stage::instance:
     case HitState::Stage::placed_normals:
     case HitState::Stage::geometry:
-      return ShadingRecord::block;
+      return RecordKind::block;
     case HitState::Stage::normals:
     case HitState::Stage::color_texture:
-      return ShadingRecord::normals;
+      return RecordKind::normals;
     case HitState::Stage::texture:
     case HitState::Stage::sky:
     case HitState::Stage::sky_aim:
-      return ShadingRecord::tile;
+      return RecordKind::tile;
     default:
       break;
   }
   expect(false, "tables, materials, lights and emitters are never absent by themselves");
-  return ShadingRecord::block;
+  return RecordKind::block;
 }
 
 Address record_needed(const HitState& state, const DatabaseHeader& header) {

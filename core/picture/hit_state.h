@@ -15,7 +15,7 @@
 #include "core/record/instance.h"
 #include "core/record/ray.h"
 #include "core/record/record.h"
-#include "core/record/shading_record.h"
+#include "core/record/record_kind.h"
 
 namespace dmpc::core {
 
@@ -207,7 +207,7 @@ constexpr std::uint32_t waiting_count(std::span<Hits> stack, std::uint32_t count
 }
 
 /// What the next step reads, if that is neither material nor light nor a table of tiles.
-ShadingRecord shading_record_of(const HitState& state);
+RecordKind record_kind_of(const HitState& state);
 
 /// The record that the next step reads, or no_address if it reads none.
 Address record_needed(const HitState& state, const DatabaseHeader& header);

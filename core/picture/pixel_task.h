@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "core/base/expect.h"
 #include "core/picture/background.h"
@@ -12,6 +13,7 @@
 #include "core/picture/refinement.h"
 #include "core/picture/shade.h"
 #include "core/trace/below.h"
+#include "core/trace/below_in_mesh.h"
 #include "core/trace/bundle_walk.h"
 #include "core/trace/instance_walk.h"
 #include "core/trace/operations.h"
@@ -154,13 +156,22 @@ class PixelTaskWith {
   /// shading of a hit.
   bool is_tracing() const { return tracing_; }
   core::Below below(const Skips& skips) const { return core::below(ray_, cursor_, skips); }
+  /// Where the mesh stands that the walk is in; nothing if it is in none.
+  std::optional<ToldPlace> place_of_walk() const {
+    if constexpr (std::is_same_v<RayCursor, InstanceCursor>) {
+      return cursor_.is_inside ? std::optional(told_place(cursor_)) : std::nullopt;
+    }
+    return std::nullopt;
+  }
   /// What lies below has been looked through; run() goes on behind it.
   void take_below(const Hit& found, const Skips& skips, Operations& operations) {
     expect(tracing_, "a walk is what waits for what lies below");
     core::take_below(found, ray_, skips, cursor_, operations);
   }
-  /// Which record the shading needs.
-  ShadingRecord absent_kind() const { return shading_record_of(stack_[stack_size_ - 1]); }
+  /// Which record the shading needs, or the walk outside of meshes.
+  RecordKind absent_kind() const {
+    return !tracing_ ? record_kind_of(stack_[stack_size_ - 1]) : cursor_.next.is_block() ? RecordKind::block : RecordKind::brick;
+  }
   /// Rays that a run() which returned `more` has ended.
   std::uint32_t rays_ended() const { return 1; }
   std::uint32_t pixel_count() const { return 1; }

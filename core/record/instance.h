@@ -23,6 +23,9 @@ struct InstanceRecord {
 };
 static_assert(sizeof(InstanceRecord) == 128);
 
+/// Whether what begins so is an InstanceRecord, and no block.
+constexpr bool is_instance(const BlockHeader& header) { return header.kind == PrimitiveKind::instance && header.count == 0; }
+
 /// Levels of bricks above blocks of instances, at most: such a block leaves up to 8 children where it was one, as a brick does.
 inline constexpr int levels_above_instances = brick_levels_max - 1;
 

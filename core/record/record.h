@@ -5,7 +5,7 @@
 //
 //   directory   one DirectoryEntry a top cell of the grid
 //   references  of a plain grid, whose top cells are voxels: VoxelReference, the list of each voxel in one piece
-//   instances   InstanceRecord (core/record/instance.h), where meshes are kept once: their bricks come behind all others
+//   instances   InstanceRecord (core/record/instance.h), where meshes are kept once, behind the topmost bricks of all trees
 //   bricks      Brick, the primitive blocks that it names, and its bricks in turn (top cells in Morton order)
 //   normals     PatchNormals, TexturedNormals, FacetedNormals } shading data, read for final hits only
 //   materials   MaterialRecord, then FinishRecord     }

@@ -31,16 +31,16 @@ static_assert(sizeof(Below) == 80 && std::is_trivially_copyable_v<Below>);
 /// Whether any hit ends the ray's walk.
 inline bool ends_at_any_hit(const Ray& ray, const Skips& skips) { return skips.any_hit && ray.kind == RayKind::shadow; }
 
-/// What trace() has left undone that has answered Traced::absent below the directory.
-inline Below below(const Ray& ray, const Cursor& cursor, const Skips& skips) {
-  expect(cursor.stage == Cursor::Stage::child && cursor.next.found(), "a walk that waits for a child is below the directory");
+/// What trace() has left undone that has answered Traced::absent at `child`.
+inline Below below(const Ray& ray, const Cursor& cursor, BrickChild child, const Skips& skips) {
+  expect(cursor.stage == Cursor::Stage::child && child.found(), "a walk that waits for a child is below the directory");
   return {.origin = ray.origin,
           .origin_rest = ray.origin_rest,
           .direction = ray.direction,
           .direction_rest = ray.direction_rest,
           .t_max = ray.t_max,
           .ignored_primitive = ray.ignored_primitive,
-          .child = cursor.next,
+          .child = child,
           .t_low = static_cast<float>(cursor.t_enter),
           .t_high = static_cast<float>(cursor.exit.t),
           .best_t = cursor.best.t,
@@ -48,16 +48,22 @@ inline Below below(const Ray& ray, const Cursor& cursor, const Skips& skips) {
           .any = ends_at_any_hit(ray, skips) ? 1U : 0U};
 }
 
-/// Does it with records that are all here. Found if something is nearer than what was the nearest.
-template <Records R>
-Hit trace_below(const Below& below, R& records, Operations& operations) {
-  const Ray ray{.origin = below.origin,
-                .t_max = below.t_max,
-                .direction = below.direction,
-                .ignored_primitive = below.ignored_primitive,
-                .origin_rest = below.origin_rest,
-                .direction_rest = below.direction_rest};
-  Cursor cursor;
+inline Below below(const Ray& ray, const Cursor& cursor, const Skips& skips) { return below(ray, cursor, cursor.next, skips); }
+
+/// The ray as far as a walk below a child knows it.
+inline Ray ray_of(const Below& below) {
+  return {.origin = below.origin,
+          .t_max = below.t_max,
+          .direction = below.direction,
+          .ignored_primitive = below.ignored_primitive,
+          .origin_rest = below.origin_rest,
+          .direction_rest = below.direction_rest};
+}
+
+/// Where a walk is that looks through what is below.
+template <class RayCursor = Cursor>
+RayCursor cursor_of(const Below& below) {
+  RayCursor cursor;
   cursor.best.t = below.best_t;
   cursor.best.primitive = below.best_primitive;
   cursor.best.block = Address{0};  // known to whoever asks
@@ -66,6 +72,19 @@ Hit trace_below(const Below& below, R& records, Operations& operations) {
   cursor.next = below.child;
   cursor.waiting.count = 0;
   cursor.waiting.t_taken = 0;
+  return cursor;
+}
+
+/// What a walk that is through has found, if that is not what was known.
+inline Hit found_below(const Below& below, const Cursor& cursor) {
+  return cursor.best.primitive == below.best_primitive ? Hit{} : cursor.best;
+}
+
+/// Does it with records that are all here. Found if something is nearer than what was the nearest.
+template <Records R>
+Hit trace_below(const Below& below, R& records, Operations& operations) {
+  const Ray ray = ray_of(below);
+  auto cursor = cursor_of(below);
   const ShearedRay sheared(ray);
   const auto test = [&](const std::byte* record, Address address, Hit& best) {
     test_block(ray, sheared, record, address, best, operations);
@@ -73,18 +92,28 @@ Hit trace_below(const Below& below, R& records, Operations& operations) {
   const bool visited = RayWalk(ray, cursor, records, operations)
                            .visit_children(BoxRay(ray, reciprocal_direction(ray)), below.any != 0, meet_children, test);
   expect(visited, "whoever has a child's record has all that is below it");
-  return cursor.best.primitive == below.best_primitive ? Hit{} : cursor.best;
+  return found_below(below, cursor);
 }
 
-/// Takes what trace_below() has found into the walk that asked: trace() then goes on behind the child.
-inline void take_below(const Hit& found, const Ray& ray, const Skips& skips, Cursor& cursor, Operations& operations) {
+/// Takes what was found below a child for the nearest. Returns whether that ends the walk.
+inline bool take_found(const Hit& found, const Ray& ray, const Skips& skips, Cursor& cursor, Operations& operations) {
   if (found.found()) {
     expect(nearer(found.t, found.primitive, cursor.best), "what is found below a child is nearer than what was known");
     cursor.best = found;
   }
   const bool ends = ends_at_any_hit(ray, skips) && cursor.best.found();
-  operations.skipped.any_hit += ends ? count_before(cursor.waiting, cursor.best) : 0;
-  cursor.next = ends ? BrickChild::none() : cursor.waiting.take_up_to(cursor.best.t);
+  if (ends) {
+    operations.skipped.any_hit += count_before(cursor.waiting, cursor.best);
+    cursor.next = BrickChild::none();
+  }
+  return ends;
+}
+
+/// Takes what trace_below() has found into the walk that asked: trace() then goes on behind the child.
+inline void take_below(const Hit& found, const Ray& ray, const Skips& skips, Cursor& cursor, Operations& operations) {
+  if (!take_found(found, ray, skips, cursor, operations)) {
+    cursor.next = cursor.waiting.take_up_to(cursor.best.t);
+  }
 }
 
 }  // namespace dmpc::core

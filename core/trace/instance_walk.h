@@ -27,6 +27,33 @@ class InstanceWalk {
     });
   }
 
+  /// Goes through the mesh that the cursor is in. False if a record is absent.
+  bool visit_mesh(bool any) {
+    const auto t_low = static_cast<float>(cursor_.t_enter), t_high = std::min(static_cast<float>(cursor_.exit.t), ray_.t_max);
+    for (BrickChild child = cursor_.next_in_mesh; child.found();) {
+      cursor_.next_in_mesh = child;
+      const std::byte* const record = find(child.address());
+      if (record == nullptr) {
+        return false;
+      }
+      if (child.is_block()) {
+        test_placed(record, child.address());
+        if (any && cursor_.best.found()) {
+          return true;
+        }
+        child = BrickChild::none();
+      } else {
+        ++operations_.brick_reads;
+        child = cursor_.ray.meet(*reinterpret_cast<const Brick*>(record), t_low, std::min(t_high, cursor_.best.t), !any,
+                                 cursor_.waiting_in_mesh);
+      }
+      if (!child.found()) {
+        child = cursor_.waiting_in_mesh.take_up_to(cursor_.best.t);
+      }
+    }
+    return true;
+  }
+
  private:
   const std::byte* find(Address address) {
     const std::byte* const record = records_.find(address);
@@ -48,7 +75,7 @@ class InstanceWalk {
         child = visit(child, record, box, t_low, t_high, any);
       }
       if (cursor_.is_inside) {
-        if (!visit_mesh(t_low, t_high, any)) {
+        if (!visit_mesh(any)) {
           return false;
         }
         cursor_.is_inside = false;
@@ -78,7 +105,7 @@ class InstanceWalk {
       return BrickChild::none();
     }
     ++operations_.brick_reads;
-    if (header.count > 0) {
+    if (!is_instance(header)) {
       return meet_instances(record, box, t_low, t_most, !any);
     }
     enter(read<InstanceRecord>(record));
@@ -113,31 +140,6 @@ class InstanceWalk {
     cursor_.waiting_in_mesh.count = 0;
     cursor_.is_inside = true;
     place_.reset();
-  }
-
-  bool visit_mesh(float t_low, float t_high, bool any) {
-    for (BrickChild child = cursor_.next_in_mesh; child.found();) {
-      cursor_.next_in_mesh = child;
-      const std::byte* const record = find(child.address());
-      if (record == nullptr) {
-        return false;
-      }
-      if (child.is_block()) {
-        test_placed(record, child.address());
-        if (any && cursor_.best.found()) {
-          return true;
-        }
-        child = BrickChild::none();
-      } else {
-        ++operations_.brick_reads;
-        child = cursor_.ray.meet(*reinterpret_cast<const Brick*>(record), t_low, std::min(t_high, cursor_.best.t), !any,
-                                 cursor_.waiting_in_mesh);
-      }
-      if (!child.found()) {
-        child = cursor_.waiting_in_mesh.take_up_to(cursor_.best.t);
-      }
-    }
-    return true;
   }
 
   void test_placed(const std::byte* record, Address block) {

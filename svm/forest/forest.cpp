@@ -15,24 +15,28 @@ using nodes::Category;
 constexpr std::uint32_t packet_questions_max = 16;
 
 constexpr std::size_t question_bytes(QuestionKind kind) {
-  return sizeof(QuestionHeader) + (kind == QuestionKind::below ? sizeof(core::Below) : sizeof(core::Address));
+  return sizeof(QuestionHeader) + (kind == QuestionKind::below           ? sizeof(core::Below)
+                                   : kind == QuestionKind::below_in_mesh ? sizeof(core::Below) + sizeof(core::ToldPlace)
+                                                                         : sizeof(core::Address));
 }
 
-core::ShadingRecord record_kind(QuestionKind kind) {
-  core::expect(kind != QuestionKind::below, "a question is about a record");
-  return kind == QuestionKind::block     ? core::ShadingRecord::block
-         : kind == QuestionKind::normals ? core::ShadingRecord::normals
-                                         : core::ShadingRecord::tile;
+core::RecordKind record_kind(QuestionKind kind) {
+  core::expect(!is_about_ray(kind), "a question is about a record");
+  return kind == QuestionKind::block     ? core::RecordKind::block
+         : kind == QuestionKind::normals ? core::RecordKind::normals
+         : kind == QuestionKind::tile    ? core::RecordKind::tile
+                                         : core::RecordKind::brick;
 }
 
-QuestionKind question_about(core::ShadingRecord kind) {
-  return kind == core::ShadingRecord::block     ? QuestionKind::block
-         : kind == core::ShadingRecord::normals ? QuestionKind::normals
-                                                : QuestionKind::tile;
+QuestionKind question_about(core::RecordKind kind) {
+  return kind == core::RecordKind::block     ? QuestionKind::block
+         : kind == core::RecordKind::normals ? QuestionKind::normals
+         : kind == core::RecordKind::tile    ? QuestionKind::tile
+                                             : QuestionKind::brick;
 }
 
 std::size_t answer_bytes_max(QuestionKind kind) {
-  return sizeof(AnswerHeader) + (kind == QuestionKind::below ? sizeof(core::Hit) : core::bytes_max(record_kind(kind)));
+  return sizeof(AnswerHeader) + (is_about_ray(kind) ? sizeof(core::Hit) : core::bytes_max(record_kind(kind)));
 }
 
 /// Appends to what a packet has; `end` is where that ends.
@@ -67,14 +71,17 @@ std::size_t question_packet_bytes(const PageCapacity& capacity) {
     return 0;
   }
   const std::uint32_t questions = std::min(capacity.in_flight, packet_questions_max);
-  return std::max(questions * question_bytes(QuestionKind::below), answer_bytes_max(QuestionKind::block));
+  const QuestionKind longest = capacity.open_pages > 0 ? QuestionKind::below_in_mesh : QuestionKind::below;
+  return std::max(questions * question_bytes(longest), answer_bytes_max(QuestionKind::block));
 }
 
-nodes::Layout<Forest::Question, Forest::Queue, std::byte, std::byte> Forest::own_layout(const PageCapacity& capacity) {
+nodes::Layout<Forest::Question, Forest::Queue, std::byte, std::byte, core::ToldPlace> Forest::own_layout(
+    const PageCapacity& capacity) {
   return {{Category::queues, capacity.in_flight},
           {Category::queues, capacity.node_count},
           {Category::queues, question_packet_bytes(capacity)},
-          {Category::queues, lent_bytes}};
+          {Category::queues, lent_bytes},
+          {Category::queues, capacity.open_pages > 0 ? capacity.in_flight : 0}};
 }
 
 nodes::MemoryPlan Forest::layout(const PageCapacity& capacity, std::uint32_t index) {
@@ -85,10 +92,11 @@ nodes::MemoryPlan Forest::layout(const PageCapacity& capacity, std::uint32_t ind
 Forest::Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
     : geometry_(capacity.page_size_bytes()),
       forest_(nodes::kept(node.memory(), core::MemoryUse::home_pages, database, capacity.leading_bytes(), core::overread_bytes)),
+      closed_from_(capacity.leading_bytes() + capacity.open_pages * capacity.page_size_bytes()),
       homes_(node, capacity, database),
       self_(nodes::index_of(node.id())),
       node_(&node) {
-  std::tie(asked_, queues_, packet_, lent_) = own_layout(capacity).in(node.memory());
+  std::tie(asked_, queues_, packet_, lent_, places_) = own_layout(capacity).in(node.memory());
   grant_requests(node, capacity);
 }
 
@@ -104,14 +112,21 @@ const std::byte* Forest::find_below(core::Address address) {
   return nullptr;
 }
 
-void Forest::ask(std::uint32_t slot, const core::Below& below) {
+void Forest::ask(std::uint32_t slot, const core::Below& below) { ask_below(slot, QuestionKind::below, below); }
+
+void Forest::ask(std::uint32_t slot, const core::Below& below, const core::ToldPlace& place) {
+  places_[slot] = place;
+  ask_below(slot, QuestionKind::below_in_mesh, below);
+}
+
+void Forest::ask_below(std::uint32_t slot, QuestionKind kind, const core::Below& below) {
   asked_[slot].below = below;
-  asked_[slot].kind = QuestionKind::below;
+  asked_[slot].kind = kind;
   ++questions_counted_.rays_asked;
   add(slot, below.child.address());
 }
 
-void Forest::ask(std::uint32_t slot, core::ShadingRecord kind, core::Address address) {
+void Forest::ask(std::uint32_t slot, core::RecordKind kind, core::Address address) {
   asked_[slot].record = address;
   asked_[slot].kind = question_about(kind);
   ++questions_counted_.records_asked;
@@ -154,10 +169,13 @@ bool Forest::send(std::uint32_t owner) {
     }
     answers_left -= answer_bytes_max(question.kind);
     writer.add(QuestionHeader{.slot = static_cast<std::uint16_t>(queue.first), .kind = question.kind});
-    if (question.kind == QuestionKind::below) {
-      writer.add(question.below);
-    } else {
+    if (!is_about_ray(question.kind)) {
       writer.add(question.record);
+    } else {
+      writer.add(question.below);
+    }
+    if (question.kind == QuestionKind::below_in_mesh) {
+      writer.add(places_[queue.first]);
     }
     queue.first = question.next;
     --queue.count;
@@ -168,14 +186,18 @@ bool Forest::send(std::uint32_t owner) {
   return true;
 }
 
-void Forest::answer(const nodes::Packet& questions, core::Operations& operations) {
+void Forest::answer(const nodes::Packet& questions, const core::DatabaseHeader& database, core::Operations& operations) {
   PacketWriter writer(packet_);
   for (std::span<const std::byte> rest = questions.payload; !rest.empty();) {
     const auto header = core::read<QuestionHeader>(rest.data());
     const std::byte* const content = rest.data() + sizeof(header);
     rest = rest.subspan(question_bytes(header.kind));
-    if (header.kind == QuestionKind::below) {
-      const core::Hit hit = core::trace_below(core::read<core::Below>(content), *this, operations);
+    if (is_about_ray(header.kind)) {
+      const auto below = core::read<core::Below>(content);
+      const core::Hit hit =
+          header.kind == QuestionKind::below
+              ? core::trace_below(below, *this, operations)
+              : core::trace_below(below, core::read<core::ToldPlace>(content + sizeof(below)), *this, database, operations);
       writer.add(AnswerHeader{header.slot, hit.found() ? std::uint16_t{sizeof(hit)} : std::uint16_t{0}});
       if (hit.found()) {
         writer.add(hit);

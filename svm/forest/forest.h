@@ -4,7 +4,9 @@
 //
 // Invariants: (1) what lies in a page behind the forest holds all that is below it in the tree, so its home answers from its own
 // memory at once, and waits for nothing; (2) a pixel waits for one answer at most, so there are never more questions than slots;
-// (3) packets of questions are answered one by one, so that an answer's place is reserved by its questions.
+// (3) packets of questions are answered one by one, so that an answer's place is reserved by its questions. Pages that lead into
+// kept meshes are open, which (1) does not hold for: of these a walk asks for one record after the other, and goes on by itself;
+// in a mesh (1) holds again, and the question tells where the mesh stands.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +14,10 @@
 #include <cstring>
 #include <span>
 
+#include "core/record/record_kind.h"
 #include "core/record/records.h"
-#include "core/record/shading_record.h"
 #include "core/trace/below.h"
+#include "core/trace/below_in_mesh.h"
 #include "core/trace/operations.h"
 #include "nodes/lasting_pieces.h"
 #include "nodes/layout.h"
@@ -62,7 +65,7 @@ class Forest : public PlainRecords {
   bool receive(const nodes::Packet& packet, Waiting& waiting) {
     switch (Kind{packet.kind}) {
       case Kind::questions:
-        answer(packet, waiting.operations());
+        answer(packet, waiting.settings().header, waiting.operations());
         return true;
       case Kind::answers:
         take(packet, [&waiting](std::uint32_t slot, const core::Hit* hit) {
@@ -80,21 +83,25 @@ class Forest : public PlainRecords {
   template <class Waiting>
   void lacks(std::uint32_t slot, Waiting& waiting) {
     const auto& task = waiting.task(slot);
-    if (task.is_tracing()) {
-      ask(slot, task.below(waiting.settings().skips));
-    } else {
+    if (!task.is_tracing() || is_open(task.absent())) {
       ask(slot, task.absent_kind(), task.absent());
+    } else if (const auto place = task.place_of_walk()) {
+      ask(slot, task.below(waiting.settings().skips), *place);
+    } else {
+      ask(slot, task.below(waiting.settings().skips));
     }
   }
   /// `slot` goes on when it is known what its ray meets below a child, which find() has just said is absent.
   void ask(std::uint32_t slot, const core::Below& below);
+  /// The same in a mesh that stands there.
+  void ask(std::uint32_t slot, const core::Below& below, const core::ToldPlace& place);
   /// `slot` goes on when the record, of which find() has just said the same, has come.
-  void ask(std::uint32_t slot, core::ShadingRecord kind, core::Address address);
+  void ask(std::uint32_t slot, core::RecordKind kind, core::Address address);
   /// Sends what is asked, in full packets or not, as far as credits go.
   void flush();
 
-  /// Answers a packet of questions at once. What it takes to trace them is added to `operations`.
-  void answer(const nodes::Packet& questions, core::Operations& operations);
+  /// Answers a packet of questions at once. `header`: the database's. What it takes to trace them is added to `operations`.
+  void answer(const nodes::Packet& questions, const core::DatabaseHeader& header, core::Operations& operations);
   /// Takes a packet of answers: calls go_on(slot, hit) for each; `hit` is what trace_below() has found, or nullptr if a record
   /// has come, which find() then finds until go_on() returns.
   template <class GoOn>
@@ -106,7 +113,7 @@ class Forest : public PlainRecords {
       rest = rest.subspan(sizeof(header) + header.bytes);
       ++questions_counted_.answers;
       --under_way_;
-      if (asked_[header.slot].kind == QuestionKind::below) {
+      if (is_about_ray(asked_[header.slot].kind)) {
         const core::Hit hit = bytes.empty() ? core::Hit{} : core::read<core::Hit>(bytes.data());
         go_on(std::uint32_t{header.slot}, &hit);
       } else {
@@ -138,8 +145,11 @@ class Forest : public PlainRecords {
     std::uint32_t count = 0;
   };
 
-  static nodes::Layout<Question, Queue, std::byte, std::byte> own_layout(const PageCapacity& capacity);
+  static nodes::Layout<Question, Queue, std::byte, std::byte, core::ToldPlace> own_layout(const PageCapacity& capacity);
   const std::byte* find_below(core::Address address);
+  /// Of a record that is not in the forest.
+  bool is_open(core::Address address) const { return core::byte_offset(address) < closed_from_; }
+  void ask_below(std::uint32_t slot, QuestionKind kind, const core::Below& below);
   void add(std::uint32_t slot, core::Address address);
   bool send(std::uint32_t owner);
   std::span<const std::byte> begin_taking(const nodes::Packet& answers);
@@ -147,6 +157,7 @@ class Forest : public PlainRecords {
 
   PageGeometry geometry_;
   std::span<const std::byte> forest_;
+  std::uint64_t closed_from_;  ///< where pages begin that hold all that is below their records
   HomePages homes_;
   std::uint32_t self_;
   PageCounters counters_;
@@ -156,6 +167,7 @@ class Forest : public PlainRecords {
   std::span<Queue> queues_;    ///< by owner
   std::span<std::byte> packet_;
   std::span<std::byte> lent_;
+  std::span<core::ToldPlace> places_;  ///< of questions in meshes, by slot
   core::Address lent_address_ = core::no_address;
   std::uint32_t waiting_ = 0, under_way_ = 0;
 };

@@ -12,10 +12,13 @@
 
 namespace dmpc::svm {
 
-/// What a question asks for: what a ray meets below a child, or a record for shading.
-enum class QuestionKind : std::uint8_t { below, block, normals, tile };
+/// What a question asks for: what a ray meets below a child, outside of kept meshes or in one, or a record.
+enum class QuestionKind : std::uint8_t { below, block, normals, tile, brick, below_in_mesh };
 
-/// Stands before a core::Below or, of a record, its core::Address.
+/// Whether it is about a ray.
+constexpr bool is_about_ray(QuestionKind kind) { return kind == QuestionKind::below || kind == QuestionKind::below_in_mesh; }
+
+/// Stands before a core::Below, in a mesh with a core::ToldPlace behind, or, of a record, its core::Address.
 struct QuestionHeader {
   std::uint16_t slot = 0;  ///< of the pixel that waits, for the answer
   QuestionKind kind{};

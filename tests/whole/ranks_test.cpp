@@ -19,6 +19,7 @@
 #include "nodes/ranks/rank_links.h"
 #include "nodes/ranks/ranks_runner.h"
 #include "svm/ranks.h"
+#include "tests/support/kept_scenes.h"
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
@@ -124,11 +125,16 @@ TEST_CASE("questions travel between ranks, and samples follow where a pass befor
                      {.page_size_bytes = 1024, .structure = core::Structure::extents});
   const Subject refined(scene, {.width = 12, .height = 9, .samples = 2, .refinement = {.error = 0.03}},
                         {.page_size_bytes = 1024});
+  const core::Scene balls = tests::balls_in_places(0.3, tests::Arrangement::apart, 21);
+  const Subject kept(balls, {.width = scaled_edge(24), .height = scaled_edge(20)}, tests::with_instances());
+  REQUIRE(kept.database().records().instances > 0);
   for (const std::uint32_t ranks : rank_counts) {
     CAPTURE(ranks);
-    const auto forest = pages_on_ranks(
-        ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_forest(tree, {.computer = computer}); });
-    CHECK(outcome_of(forest.report) == tree.outcome());
+    for (const Subject* const subject : {&tree, &kept}) {
+      const auto forest = pages_on_ranks(
+          ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_forest(*subject, {.computer = computer}); });
+      CHECK(outcome_of(forest.report) == subject->outcome());
+    }
     const auto svm = pages_on_ranks(
         ranks, 7, [&](const nodes::ComputerRequest& computer) { return run_svm(refined, {.computer = computer}); });
     CHECK(outcome_of(svm.report) == refined.outcome());

@@ -59,7 +59,7 @@ struct LoneForest {
   /// About the first record of a page behind the forest, which is at home at node `page` mod 4.
   void ask(std::uint32_t slot, std::uint32_t page) {
     CHECK(forest.find(record_of(plan, page)) == nullptr);
-    forest.ask(slot, core::ShadingRecord::tile, record_of(plan, page));
+    forest.ask(slot, core::RecordKind::tile, record_of(plan, page));
   }
   /// An answer of `owner` that brings a tile of zeros for each of the slots.
   tests::Parcel answer(std::uint32_t owner, std::initializer_list<std::uint16_t> slots) {

@@ -1,0 +1,151 @@
+// Where the records of kept meshes and their places lie: in the forest, in open pages, and in pages that hold all that is below.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <set>
+
+#include "core/database/database.h"
+#include "core/record/instance.h"
+#include "core/record/record_kind.h"
+#include "core/record/records.h"
+#include "tests/support/kept_scenes.h"
+
+namespace dmpc::tests::open_pages_test {
+namespace {
+
+using core::Address;
+using core::BrickChild;
+
+/// What is found below the directory.
+struct Found {
+  std::set<Address> instances, meshes;
+  std::uint32_t open_bricks = 0, open_blocks = 0, closed_pages = 0;
+};
+
+class Walker {
+ public:
+  explicit Walker(const core::Database& database) : database_(database), records_(database.bytes()) {}
+
+  Found all() {
+    const auto entry = core::read<core::DirectoryEntry>(records_.find(database_.header().directory));
+    visit(BrickChild::brick(entry.brick()));
+    return found_;
+  }
+
+ private:
+  bool is_in_forest(Address address) const { return page_of(address) < database_.forest_page_count(); }
+  bool is_open(Address address) const {
+    return !is_in_forest(address) && page_of(address) < database_.forest_page_count() + database_.open_page_count();
+  }
+  std::size_t page_of(Address address) const { return core::byte_offset(address) / database_.page_size(); }
+
+  void visit(BrickChild child) {
+    const Address address = child.address();
+    if (!is_in_forest(address) && !is_open(address)) {
+      ++found_.closed_pages;
+      stay(child, page_of(address));
+    } else if (child.is_block()) {
+      visit_block(address);
+    } else {
+      found_.open_bricks += is_open(address) ? 1 : 0;
+      const auto brick = core::read<core::Brick>(records_.find(address));
+      for (std::size_t i = 0; i < brick.child_count; ++i) {
+        visit(brick.child[i]);
+        const bool is_open_brick = is_open(address) && is_open(brick.child[i].address());
+        CHECK((!is_open_brick || page_of(brick.child[i].address()) == page_of(address)));
+      }
+    }
+  }
+
+  void visit_block(Address address) {
+    const std::byte* const block = records_.find(address);
+    const auto header = core::read<core::BlockHeader>(block);
+    if (header.kind != core::PrimitiveKind::instance) {
+      CHECK(is_in_forest(address));
+      return;
+    }
+    found_.open_blocks += is_open(address) ? 1 : 0;
+    for (std::uint32_t lane = 0; lane < header.count; ++lane) {
+      const auto instance = core::read<Address>(core::ids_of(header, block) + (header.count + lane) * sizeof(Address));
+      CHECK(is_open(instance));
+      CHECK(found_.instances.insert(instance).second);
+      const std::byte* const record = records_.find(instance);
+      CHECK(core::bytes_of(core::RecordKind::block, record) == sizeof(core::InstanceRecord));
+      const Address root = core::read<core::InstanceRecord>(record).root;
+      if (found_.meshes.insert(root).second) {
+        visit(BrickChild::brick(root));
+      }
+    }
+  }
+
+  /// All that is below lies in this page, and leads nowhere else.
+  void stay(BrickChild child, std::size_t page) {
+    CHECK(page_of(child.address()) == page);
+    if (child.is_block()) {
+      CHECK(core::read<core::BlockHeader>(records_.find(child.address())).kind != core::PrimitiveKind::instance);
+      return;
+    }
+    const auto brick = core::read<core::Brick>(records_.find(child.address()));
+    for (std::size_t i = 0; i < brick.child_count; ++i) {
+      stay(brick.child[i], page);
+    }
+  }
+
+  const core::Database& database_;
+  core::LocalRecords records_;
+  Found found_;
+};
+
+/// So many patched balls in a field, beside a floor and a sphere.
+core::Scene field_of(std::uint32_t side) {
+  core::Scene scene = lit_scene();
+  scene.textures = {leaves(16), leaves(9)};
+  add_patched_ball(scene, 8);
+  const auto end = static_cast<std::uint32_t>(scene.objects.size());
+  core::Instances instances{.meshes = {{0, end}}};
+  for (std::uint32_t i = 0; i < side * side; ++i) {
+    const double step = 2.0 / side;
+    instances.places.push_back(
+        {turned_place(0.3 * step, {-1 + (i % side) * step, -1 + (i / side) * step, 0.1}, i % 2 == 0), 0, end});
+  }
+  core::settle(scene, instances, core::Copies::put);
+  add_floor(scene, false);
+  core::SceneBuilder(scene).sphere({0.4, -1, 0.3}, 0.3);
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("what leads into meshes is in the forest or in open pages, and all other pages hold all that is below them") {
+  for (const std::size_t page_size : {512U, 1024U, 4096U, 65536U}) {
+    for (const core::Scene& scene : {field_of(8), balls_in_places(0.3, Arrangement::deep_in_each_other, 21)}) {
+      CAPTURE(page_size);
+      const core::Database database = core::build_database(scene, with_instances(page_size));
+      REQUIRE(database.records().instances > 0);
+      const Found found = Walker(database).all();
+      CHECK(found.instances.size() == database.records().instances);
+      CHECK(found.meshes.size() == database.records().kept_meshes);
+      CHECK(database.open_page_count() > 0);
+      CHECK(found.closed_pages > 0);
+      CHECK((found.open_blocks > 0 || page_size < 1024));
+    }
+  }
+}
+
+TEST_CASE(
+    "places that are many lie in open pages, of which no node has to hold all, and the forest grows by few bytes for each") {
+  const core::Database few = core::build_database(field_of(4), with_instances(4096)),
+                       many = core::build_database(field_of(40), with_instances(4096));
+  const std::uint64_t places = many.records().instances - few.records().instances;
+  CHECK(places == 40 * 40 - 4 * 4);
+  CHECK((many.forest_page_count() - few.forest_page_count()) * 4096 < 8 * places);
+  CHECK((many.open_page_count() - few.open_page_count()) * 4096 >= sizeof(core::InstanceRecord) * places);
+}
+
+TEST_CASE("a scene without places has no open pages") {
+  const core::Scene scene = rug_on_floor(true, true, 6);
+  CHECK(core::build_database(scene, with_instances()).open_page_count() == 0);
+  CHECK(core::build_database(scene, {}).open_page_count() == 0);
+}
+
+}  // namespace dmpc::tests::open_pages_test

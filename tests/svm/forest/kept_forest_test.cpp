@@ -1,0 +1,185 @@
+// Meshes that are kept once, by nodes that ask each other.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/database/database.h"
+#include "core/picture/frame_settings.h"
+#include "core/picture/memory_use.h"
+#include "core/picture/partial_picture.h"
+#include "svm/forest/run.h"
+#include "svm/forest/strategy.h"
+#include "svm/frames.h"
+#include "svm/run.h"
+#include "tests/support/kept_scenes.h"
+#include "tests/support/scaled.h"
+#include "tests/support/strategies.h"
+#include "tests/support/subject.h"
+
+namespace dmpc::tests::kept_forest_test {
+namespace {
+
+constexpr Arrangement arrangements[] = {Arrangement::apart, Arrangement::deep_in_each_other, Arrangement::coincident};
+
+/// Some 18 places of two meshes.
+const Subject& balls(std::size_t page_size_bytes = 512) {
+  const auto of_pages = [](std::size_t bytes) {
+    const int side = scaled_edge(32);
+    return Subject(balls_in_places(0.3, Arrangement::deep_in_each_other, 21), {side, side, 2}, with_instances(bytes));
+  };
+  static const Subject small = of_pages(512), large = of_pages(4096);
+  return page_size_bytes == 512 ? small : large;
+}
+
+svm::RunOptions computer_of(std::uint32_t nodes, std::optional<std::uint32_t> in_flight = std::nullopt) {
+  return {.computer = {.node_count = nodes}, .pages = {.in_flight = in_flight}};
+}
+
+/// Threads, a pool, a model, and threads that chaos disturbs, by number.
+svm::RunOptions way_of(int number, std::uint64_t seed) {
+  svm::RunOptions options = computer_of(2 + static_cast<std::uint32_t>(seed % 7));
+  options.computer.pool_threads = number == 1 ? std::optional(2U) : std::nullopt;
+  options.computer.machine = number == 2 ? std::optional(nodes::Machine{}) : std::nullopt;
+  options.computer.chaos = number == 3 ? std::optional(nodes::chaos_of(seed)) : std::nullopt;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("nodes that ask each other show of what is kept once what its copies show, on threads, a pool, a model, in chaos") {
+  std::uint64_t seed = 40;
+  for (const Arrangement arrangement : arrangements) {
+    for (const double size : {0.3, 0.01}) {
+      const core::Scene scene = balls_in_places(size, arrangement, ++seed);
+      const int side = scaled_edge(24);
+      for (const std::size_t page_size : {512U, 4096U}) {
+        const Subject copies(scene, {side, side, 2}, with_copies(page_size)),
+            kept(scene, {side, side, 2}, with_instances(page_size));
+        REQUIRE(kept.database().records().instances > 0);
+        for (int number = 0; number < 4; ++number) {
+          CAPTURE(++seed);
+          CAPTURE(number);
+          CHECK(outcome_of(run_forest(kept, way_of(number, seed))) == copies.outcome());
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("of what is kept once the film, the rays and all that walks do are those of replicated, on any number of nodes") {
+  const core::Skips alone{.bundles = false};
+  const core::Operations expected = run_replicated(balls(), computer_of(1), alone).operations();
+  for (const std::uint32_t nodes : {1U, 2U, 5U, 16U}) {
+    for (const auto in_flight : {std::optional(1U), std::optional(64U), std::optional<std::uint32_t>()}) {
+      CAPTURE(nodes);
+      const svm::Report report = run_forest(balls(), computer_of(nodes, in_flight));
+      CHECK(outcome_of(report) == balls().outcome());
+      const core::Operations done = report.operations();
+      CHECK(done.brick_reads == expected.brick_reads);
+      CHECK(done.primitive_tests == expected.primitive_tests);
+      CHECK(done.normal_reads == expected.normal_reads);
+      CHECK(done.skipped.any_hit == expected.skipped.any_hit);
+    }
+  }
+}
+
+TEST_CASE("in chaos what is kept once shows the same, whatever is under way") {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    CAPTURE(seed);
+    svm::RunOptions options = way_of(3, seed);
+    options.pages.in_flight = seed % 3 == 0 ? std::optional(1U) : seed % 3 == 1 ? std::optional(5U) : std::nullopt;
+    CHECK(outcome_of(run_forest(balls(seed % 2 == 0 ? 512 : 4096), options)) == balls().outcome());
+  }
+}
+
+TEST_CASE("a node alone asks nobody about what is kept, and of several each question has one answer") {
+  for (const std::uint32_t nodes : {1U, 2U, 5U}) {
+    const svm::QuestionCounters questions = run_forest(balls(), computer_of(nodes)).questions();
+    CHECK((questions.rays_asked > 0) == (nodes > 1));
+    CHECK((questions.records_asked > 0) == (nodes > 1));
+    CHECK(questions.rays_asked == questions.rays_answered);
+    CHECK(questions.records_asked == questions.records_answered);
+  }
+}
+
+TEST_CASE("a node of forest uses exactly the memory of its plan where meshes are kept, with the smallest that is named too") {
+  for (const std::uint32_t nodes : {1U, 3U, 16U}) {
+    CAPTURE(nodes);
+    svm::RunOptions options = computer_of(nodes);
+    for (const svm::NodeReport& node : run_forest(balls(), options).nodes) {
+      CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+    }
+    const svm::Plan plan = svm::plan_of(*svm::forest_strategy(), balls().database(), balls().settings(), options);
+    options.computer.node_memory_bytes = svm::smallest_node_memory_bytes(plan.request);
+    const svm::Report least = run_forest(balls(), options);
+    CHECK(least.plan.in_flight == 1);
+    CHECK(outcome_of(least) == balls().outcome());
+    --*options.computer.node_memory_bytes;
+    CHECK_THROWS_AS(run_forest(balls(), options), core::RoomError);
+  }
+}
+
+TEST_CASE("where meshes are kept nodes hold no more than their share of the pages of places and meshes, and the forest") {
+  const svm::Report report = run_forest(balls(), computer_of(8));
+  const core::Database& database = balls().database();
+  const std::size_t spread = database.page_count() - database.forest_page_count();
+  for (const svm::NodeReport& node : report.nodes) {
+    CHECK(node.memory_used[core::MemoryUse::home_pages] <=
+          (database.forest_page_count() + spread / 8 + 2) * database.page_size() + 128);
+  }
+}
+
+TEST_CASE("paths, and samples that follow where a pass before has found the picture uneven, show the same of what is kept") {
+  const core::Scene scene = balls_in_places(0.3, Arrangement::deep_in_each_other, 33);
+  const int side = scaled_edge(16);
+  const Subject::Size by_paths{.width = side,
+                               .height = side,
+                               .samples = 2,
+                               .transport = {.kind = core::TransportKind::paths, .has_sky = true},
+                               .depth_max = 3};
+  const Subject::Size refined{.width = side, .height = side, .samples = 2, .refinement = {.error = 0.01, .samples_max = 64}};
+  for (const Subject::Size& size : {by_paths, refined}) {
+    const Subject copies(scene, size, with_copies()), kept(scene, size, with_instances());
+    CHECK(outcome_of(run_forest(kept, computer_of(5))) == copies.outcome());
+  }
+}
+
+TEST_CASE("frames of what is kept have the films of runs of them alone") {
+  const core::Database& database = balls().database();
+  std::vector<core::RenderSettings> settings;
+  for (const double step : {0.0, 0.05, 0.1}) {
+    core::View view = lit_scene().view;
+    view.from.x += step;
+    const core::Camera camera(view, database.header().frame, scaled_edge(32), scaled_edge(32), 2);
+    settings.push_back(core::seen_by(camera, balls().settings(), database));
+  }
+  for (const int way : {0, 2, 3}) {
+    const svm::RunOptions options = way_of(way, 5);
+    svm::Frames frames(*svm::forest_strategy(), database, settings[0], options, {});
+    for (const core::RenderSettings& frame : settings) {
+      const auto alone = svm::run_replicated(database, frame, computer_of(1), {});
+      CHECK(frames.render(frame, {}).film.hash() == alone.film.hash());
+    }
+  }
+}
+
+TEST_CASE("what a run has left undone of what is kept is done by questions, to the same picture") {
+  std::optional<core::PartialPicture> half;
+  svm::RunOptions options = computer_of(3);
+  options.continuation.is_due = [&] { return !half; };
+  options.continuation.keep = [&](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
+    half = core::partial_picture(film, pass, done);
+  };
+  run_forest(balls(), options);
+  REQUIRE(half);
+  REQUIRE(half->missing().count() > 0);
+  options = computer_of(4);
+  options.continuation.start = &*half;
+  const svm::Report rest = run_forest(balls(), options);
+  CHECK(rest.film.hash() == balls().outcome().film_hash);
+  CHECK(rest.pixels_done == half->missing().count());
+}
+
+}  // namespace dmpc::tests::kept_forest_test
