@@ -45,6 +45,7 @@ void put(nodes::FlatWriter& flat, const PlanRequest& request) {
   flat.put(request.refinement);
   flat.put(request.is_dealt_on_the_way);
   flat.put(request.bundles);
+  flat.put(request.has_instances);
 }
 
 PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks) {
@@ -60,6 +61,7 @@ PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks) {
   request.refinement = flat.take<core::RefinementOptions>();
   request.is_dealt_on_the_way = flat.take<bool>();
   request.bundles = flat.take<bool>();
+  request.has_instances = flat.take<bool>();
   return request;
 }
 

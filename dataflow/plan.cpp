@@ -144,6 +144,8 @@ void check(const PlanRequest& request) {
   nodes::check_ranks(request.computer);
   const std::uint32_t tested = request.rays.tested_objects;
   check_use(tested <= tested_objects_max, tested_field, "=", tested, ": at most ", tested_objects_max, " names");
+  check_use(tested == 0 || !request.has_instances, tested_field, "=", tested,
+            ": a block of a mesh that is kept once stands in many places, and a list would name it once for all of them");
   const std::uint32_t batch = request.rays.ray_batch.value_or(1), batch_max = rays_in(packet_bytes_max, tested);
   core::Sentence batches(batch_field, "=", batch, ": from 1 to ", batch_max, " rays");
   if (tested > 0) {

@@ -41,6 +41,7 @@ struct PlanRequest {
   core::RefinementOptions refinement;
   bool is_dealt_on_the_way = false;  ///< the host deals the primary rays of the first pass as nodes have room for them
   bool bundles = false;              ///< rays walk together, where the memory has room for that
+  bool has_instances = false;        ///< of the database: rays have longer cursors
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(shares.size()); }
   /// Regions are units that nodes hand over.
   bool is_moving() const { return !shares.empty() && shares.front().page_bytes > 0; }

@@ -61,10 +61,10 @@ RayQueue::Capacity backlog_capacity(const Plan& plan) {
 template <class RaysTask>
 RaysTask make_task(nodes::Node& node, const Plan& plan) {
   if constexpr (RaysTask::rays_max == 1) {
-    return RaysTask(node.memory(), node.id(), plan.request.waiting_hits_max, plan.tested_objects());
+    return RaysTask(node.memory(), node.id(), plan.request.waiting_hits_max, plan.tested_objects(), plan.request.has_instances);
   } else {
     core::expect(plan.tested_objects() == 0, "rays with lists of what they have tested walk alone");
-    return RaysTask(node.memory(), node.id(), plan.request.waiting_hits_max);
+    return RaysTask(node.memory(), node.id(), plan.request.waiting_hits_max, plan.request.has_instances);
   }
 }
 
@@ -102,6 +102,8 @@ RayProgram<RaysTask, Units>::RayProgram(nodes::Node& node, const Plan& plan, con
       backpressure_(tells_host_alone_ ? 1 : plan.node_count() - 1, plan.queue_packets, !plan.request.rays.without_backpressure),
       termination_(Termination::member(node.id(), {plan.node_count()})) {
   core::expect(RaysTask::rays_max == plan.rays_a_task, "a node's task is that of the plan");
+  core::expect(plan.request.has_instances == (deal.header.has_instances != 0),
+               "rays have the cursors that the database asks for");
 }
 
 nodes::MemoryPlan NodeProgram::layout(const Plan& plan, std::uint32_t index) {
@@ -113,9 +115,9 @@ nodes::MemoryPlan NodeProgram::layout(const Plan& plan, std::uint32_t index) {
                              RayQueue::layout(backlog_capacity(plan)) + Places::layout(places_of(plan)) +
                              Gather::layout(plan.gather()) + FilmGather::layout();
   if (plan.rays_a_task > 1) {
-    memory += BundleTask::layout(plan.request.waiting_hits_max);
+    memory += BundleTask::layout(plan.request.waiting_hits_max, plan.request.has_instances);
   } else {
-    memory += RayTask::layout(plan.request.waiting_hits_max);
+    memory += RayTask::layout(plan.request.waiting_hits_max, plan.request.has_instances);
   }
   return memory;
 }

@@ -144,7 +144,8 @@ PlanRequest plan_request(std::vector<Share> shares, const core::RenderSettings& 
           .first_samples = settings.first_samples().count,
           .refinement = settings.refinement,
           .is_dealt_on_the_way = is_dealt_on_the_way(options),
-          .bundles = settings.skips.bundles && options.rays.tested_objects == 0 && walks_in_bundles(options)};
+          .bundles = settings.skips.bundles && options.rays.tested_objects == 0 && walks_in_bundles(options),
+          .has_instances = settings.header.has_instances != 0};
 }
 
 Prepared prepare(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,

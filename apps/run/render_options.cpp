@@ -26,8 +26,7 @@ void add_computer_options(OptionSet& options, RenderOptions& render) {
   add_options(options, render.database);
   options.add_choice<bool>(
       "--instances", render.database.build.keeps_instances, {{"expand", false}, {"keep", true}},
-      "Of a mesh that stands in several places: a copy in each, or one for all, which takes less memory (the same picture; svm, "
-      "replicated, forest)");
+      "Of a mesh that stands in several places: a copy in each, or one for all, which takes less memory (the same picture)");
 }
 
 void add_runner_options(OptionSet& options, RenderOptions& render) {
@@ -93,8 +92,8 @@ void settle_instances(const OptionSet& options, RenderOptions& render) {
     throw UsageError("--instances=keep does not go with " + option + ": " + why +
                      "; --instances=expand has a copy in each place");
   };
-  if (render.strategy == Strategy::dataflow) {
-    refuse("--strategy=dataflow", "rays that travel do not go into meshes that are kept");
+  if (render.rays.tested_objects > 0) {
+    refuse("--tested-objects", "a list names blocks, and one of a mesh that is kept stands in many places");
   }
   if (render.tracer == TracerChoice::embree) {
     refuse("--tracer=embree", "Embree has a copy in each place");

@@ -299,8 +299,8 @@ class DatabaseBuilder {
     result_.open_page_count_ = begin_page() - result_.forest_page_count_;
     write_textures();
     write_normals(conversion_);
-    DirectoryEntry entry;
-    entry.bits = static_cast<std::uint32_t>(top.take_room(writer_));
+    std::vector<DirectoryEntry> directory(directory_entry_count(header().directory_size));  // two share a record
+    directory[0].bits = static_cast<std::uint32_t>(top.take_room(writer_));
     take_mesh_room();
     write_sky_tiles();
     writer_.make_room();
@@ -308,7 +308,7 @@ class DatabaseBuilder {
     top.write(conversion_.primitives, conversion_.shading, conversion_.planes, writer_, kept_.told);
     write_meshes();
     write_instances(instances);
-    writer_.write(header().directory, 0, entry);
+    writer_.write(header().directory, 0, std::as_bytes(std::span(directory)));
     conversion_.primitives.resize(conversion_.primitives.size() - kept_.places.size());  // without boxes
   }
 

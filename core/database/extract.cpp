@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/database/address_map.h"
 #include "core/database/block_values.h"
+#include "core/database/mesh_needs.h"
 #include "core/database/record_writer.h"
 #include "core/database/region_records.h"
 #include "core/database/texture_records.h"
@@ -37,6 +39,12 @@ class Extractor {
         writer_(part_page_bytes, keeps) {
     expect(!regions.empty(), "a part is of one region or more");
     part_.holds.resize(regions.size());
+    if (whole_.has_instances != 0) {
+      needs_.emplace(database);
+      for (std::size_t region = 0; region < regions.size(); ++region) {
+        part_.holds[region] = needs_->add(regions[region]);
+      }
+    }
   }
 
   DatabasePart extract() {
@@ -58,6 +66,9 @@ class Extractor {
     if (has_emitters(whole_)) {
       header.emitters = copy_array<EmitterRecord>(whole_.emitters, whole_.emitter_count);
       copy_array<EmitterChoice>(choice_address(whole_, 0), whole_.emitter_count);
+    }
+    if (needs_) {
+      next_instance_ = writer_.allocate_array<InstanceRecord>(needs_->place_count());
     }
     if (has_sky_picture(whole_)) {
       header.sky.choices = copy_array<EmitterChoice>(whole_.sky.choices, sky_tile_count(whole_.sky));
@@ -219,9 +230,21 @@ class Extractor {
   bool needs(const Brick& brick, std::size_t child, const Those& those) {
     const BrickChild& link = brick.child[child];
     const Those left = touched(brick, child, those);
-    const bool is_needed = left.count > 0 && (link.is_block() || needs_any_child(brick_at(link.address()), left));
+    const bool is_needed =
+        left.count > 0 && (link.is_block() ? needs_block(link.address()) : needs_any_child(brick_at(link.address()), left));
     let_go(left);
     return is_needed;
+  }
+  /// Of boxes of places, whether one of them brings something; any other block whose box touches a region is needed.
+  bool needs_block(Address block) const { return !needs_ || !has_places(block) || needed_places(block) != 0; }
+  bool has_places(Address block) const { return read<BlockHeader>(at(block)).kind == PrimitiveKind::instance; }
+  /// A bit for each lane.
+  std::uint32_t needed_places(Address block) const {
+    std::uint32_t needed = 0;
+    for (std::size_t lane = 0; lane < read<BlockHeader>(at(block)).count; ++lane) {
+      needed |= (needs_->has_place(instance_in(at(block), lane)) ? 1U : 0U) << lane;
+    }
+    return needed;
   }
   bool needs_any_child(const Brick& brick, const Those& those) {
     for (std::size_t child = 0; child < brick.child_count; ++child) {
@@ -244,16 +267,20 @@ class Extractor {
 
   /// Copies what a brick has for the regions; no_address if that is nothing.
   Address copy_brick(const Brick& from, const Those& those) {
-    std::uint32_t needed = needed_children(from, those);
-    if (needed == 0) {
-      return no_address;
-    }
+    const std::uint32_t needed = needed_children(from, those);
+    return needed == 0 ? no_address
+                       : write_brick(from, needed, [&](std::size_t child) { return copy_child(from, child, those); });
+  }
+
+  /// The brick's copy, and those of its children that are needed, by copy(child).
+  template <class Copy>
+  Address write_brick(const Brick& from, std::uint32_t needed, const Copy& copy) {
     const Address to = writer_.allocate(sizeof(Brick));
     Brick brick{.origin = from.origin, .unit = from.unit};
     for (; needed != 0; needed &= needed - 1) {
       const auto child = static_cast<std::size_t>(std::countr_zero(needed));
       const std::size_t place = brick.child_count++;
-      brick.child[place] = copy_child(from, child, those);
+      brick.child[place] = copy(child);
       for (std::size_t row = 0; row < 6; ++row) {
         brick.bounds[row][place] = from.bounds[row][child];
       }
@@ -265,8 +292,9 @@ class Extractor {
   BrickChild copy_child(const Brick& from, std::size_t child, const Those& those) {
     const Address old = from.child[child].address();
     const Those left = touched(from, child, those);
-    const BrickChild copy = from.child[child].is_block() ? BrickChild::block(copy_block(old, left, is_shared(from, child, left)))
-                                                         : BrickChild::brick(copy_brick(brick_at(old), left));
+    const BrickChild copy = !from.child[child].is_block() ? BrickChild::brick(copy_brick(brick_at(old), left))
+                            : needs_ && has_places(old)   ? BrickChild::block(copy_places(old))
+                                                        : BrickChild::block(copy_block(old, left, is_shared(from, child, left)));
     let_go(left);
     return copy;
   }
@@ -285,10 +313,65 @@ class Extractor {
     return std::none_of(first, first + static_cast<std::ptrdiff_t>(those.count), holds);
   }
 
+  /// Copies of a block of instances the lanes that are needed, with their meshes.
+  Address copy_places(Address from) {
+    const std::uint32_t needed = needed_places(from);
+    auto header = read<BlockHeader>(at(from));
+    const std::size_t lanes = header.count, rows = value_count(header.kind) + 1;  // of boxes, and ids
+    header.count = static_cast<std::uint8_t>(std::popcount(needed));
+    const Address to = writer_.allocate(block_bytes(header));
+    writer_.write(to, 0, header);
+    std::size_t place = 0;
+    for (std::uint32_t left = needed; left != 0; left &= left - 1, ++place) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      const auto offset = [&](std::size_t row) { return sizeof(header) + sizeof(float) * (row * header.count + place); };
+      for (std::size_t row = 0; row < rows; ++row) {
+        writer_.write(to, offset(row), read<std::uint32_t>(at(from) + sizeof(header) + sizeof(float) * (row * lanes + lane)));
+      }
+      writer_.write(to, offset(rows), copy_instance(instance_in(at(from), lane)));
+    }
+    part_.primitive_copies += header.count;
+    return to;
+  }
+
+  Address copy_instance(Address from) {
+    auto instance = read<InstanceRecord>(at(from));
+    instance.root = copy_mesh(instance.root);
+    const Address to = next_instance_;
+    next_instance_ = advance(to, sizeof(InstanceRecord));
+    writer_.write(to, 0, instance);
+    return to;
+  }
+
+  /// Once, for all places.
+  Address copy_mesh(Address root) {
+    if (const auto [copy, is_new] = meshes_.find_or_add(root); !is_new) {
+      return copy;
+    }
+    const Address to = copy_mesh_brick(root);
+    meshes_.find_or_add(root).first = to;
+    return to;
+  }
+
+  Address copy_mesh_brick(Address address) {
+    const Brick& from = brick_at(address);
+    return write_brick(from, needs_->children_of(address), [&](std::size_t child) {
+      const BrickChild link = from.child[child];
+      return link.is_block() ? BrickChild::block(copy_lanes(link.address(), false))
+                             : BrickChild::brick(copy_mesh_brick(link.address()));
+    });
+  }
+
   Address copy_block(Address from, const Those& those, bool is_shared) {
     for (std::size_t i = 0; i < those.count; ++i) {
       part_.holds[among_[those.first + i]] = true;
     }
+    part_.primitive_copies += read<BlockHeader>(at(from)).count;
+    return copy_lanes(from, is_shared);
+  }
+
+  /// With normals and textures.
+  Address copy_lanes(Address from, bool is_shared) {
     auto header = read<BlockHeader>(at(from));
     const std::size_t rows = block_bytes(header.kind, header.count), size = block_bytes(header);
     const std::size_t row = sizeof(ShadingReference) * header.count;
@@ -305,7 +388,6 @@ class Extractor {
     writer_.write(to, rows - row, std::as_bytes(shading));
     header.shared_name = is_shared ? static_cast<std::uint32_t>(from) + 1 : 0;
     writer_.write(to, 0, header);
-    part_.primitive_copies += header.count;
     return to;
   }
 
@@ -377,6 +459,9 @@ class Extractor {
   DatabasePart part_;
   std::vector<DirectoryEntry> entries_;  ///< of voxels
   std::vector<VoxelReference> listed_;   ///< by them
+  std::optional<MeshNeeds> needs_;       ///< where meshes are kept once
+  Address next_instance_ = no_address;   ///< of the copies
+  AddressMap meshes_;                    ///< by their first bricks
   AddressMap normals_;
   std::map<std::uint32_t, UsedTexture> textures_;  ///< by the old address of their tables
 };

@@ -8,6 +8,7 @@
 
 #include "core/base/box.h"
 #include "core/base/region.h"
+#include "core/database/placed_boxes.h"
 #include "core/database/texture_records.h"
 #include "core/record/directory.h"
 #include "core/record/record.h"
@@ -37,15 +38,26 @@ inline bool touches_region(const GridFrame& frame, const Box& box, const Region&
   }
   return true;
 }
+/// Whether it lies in the region, borders included.
+inline bool lies_in_region(const GridFrame& frame, const Box& box, const Region& region) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (box.low[axis] < plane_at(frame, axis, region.low[axis]) || box.high[axis] > plane_at(frame, axis, region.high[axis])) {
+      return false;
+    }
+  }
+  return true;
+}
 
 /// Calls visit(address) for the records of a whole database that rays in `region`, and shading the hits there, may ask for, but
-/// for materials and lights; some more than once. Takes no memory but a stack as deep as the trees. Requires that all of them
-/// are there: `records` never answers nullptr.
+/// for materials and lights; some more than once, though of few meshes that are kept once all anew for each place. Takes no
+/// memory but a stack as deep as the trees. Requires that all of them are there: `records` never answers nullptr.
 template <Records R, class Visit>
 class RegionRecords {
  public:
   RegionRecords(R& records, const DatabaseHeader& header, const Region& region, const Visit& visit)
-      : records_(&records), header_(&header), region_(&region), visit_(&visit) {}
+      : records_(&records), header_(&header), region_(&region), visit_(&visit) {
+    seen_.fill(no_address);
+  }
 
   void visit_all() {
     Corner first;
@@ -100,6 +112,11 @@ class RegionRecords {
   void visit_block(Address address) {
     const std::byte* const block = at(address);
     const auto header = read<BlockHeader>(block);
+    if (header.kind == PrimitiveKind::instance) {
+      std::array<std::byte, record_bytes_max> places;
+      std::memcpy(places.data(), block, block_bytes(header));
+      return visit_places(places.data(), header.count);
+    }
     std::array<ShadingReference, block_lanes> lanes;
     const std::size_t row = sizeof(ShadingReference) * header.count;
     std::memcpy(lanes.data(), block + block_bytes(header.kind, header.count) - row, row);
@@ -109,6 +126,36 @@ class RegionRecords {
       }
     }
   }
+
+  void visit_places(const std::byte* block, std::size_t count) {
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const Box box = instance_box(block, lane);
+      if (touches_region(header_->frame, box, *region_)) {
+        const auto instance = read<InstanceRecord>(at(instance_in(block, lane)));
+        if (!lies_in_region(header_->frame, box, *region_)) {
+          const PlacedBoxes boxes(instance, header_->frame);
+          visit_mesh(instance.root, &boxes);
+        } else if (Address& seen = seen_of(instance.root); seen != instance.root) {
+          visit_mesh(instance.root, nullptr);
+          seen = instance.root;
+        }
+      }
+    }
+  }
+
+  /// Of a kept mesh what touches the region in a place; without boxes all of it.
+  void visit_mesh(Address address, const PlacedBoxes* boxes) {
+    const auto brick = read<Brick>(at(address));
+    for (std::size_t child = 0; child < brick.child_count; ++child) {
+      if (boxes == nullptr || touches_region(header_->frame, boxes->box_of(brick, child), *region_)) {
+        brick.child[child].is_block() ? visit_block(brick.child[child].address())
+                                      : visit_mesh(brick.child[child].address(), boxes);
+      }
+    }
+  }
+
+  /// Which mesh was visited last, of some: each has one entry, which it may share with others.
+  Address& seen_of(Address mesh) { return seen_[static_cast<std::uint32_t>(mesh) * 0x9e3779b1U >> 26U]; }
 
   void visit_normals(Address address) {
     const std::byte* const normals = at(address);
@@ -135,6 +182,7 @@ class RegionRecords {
   const DatabaseHeader* header_;
   const Region* region_;
   const Visit* visit_;
+  std::array<Address, 64> seen_;  ///< the first bricks of meshes of which all has been visited
 };
 
 template <Records R, class Visit>

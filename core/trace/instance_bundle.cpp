@@ -118,6 +118,9 @@ void InstanceBundle::meet_instances(const std::byte* block, bool in_order) {
 }
 
 Brick padded(const Brick& brick, double pad) {
+  if (brick.child_count == 0) {
+    return brick;  // where a node has no record it has one of nothing, whose unit is 0
+  }
   const auto steps = static_cast<std::uint64_t>(std::ceil(pad / double{brick.unit}));
   const int doublings = std::max(0, static_cast<int>(std::bit_width(2 * steps + 255)) - 8);
   const std::uint64_t rounding = (std::uint64_t{1} << doublings) - 1;

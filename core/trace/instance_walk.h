@@ -138,6 +138,7 @@ class InstanceWalk {
     cursor_.ray = MeshRay(ray_, instance, header_.frame);
     cursor_.next_in_mesh = BrickChild::brick(instance.root);
     cursor_.waiting_in_mesh.count = 0;
+    cursor_.waiting_in_mesh.t_taken = cursor_.waiting.t_taken;
     cursor_.is_inside = true;
     place_.reset();
   }
@@ -164,7 +165,10 @@ class InstanceWalk {
     core::test_block(ray_, sheared_, placed.record(), block, best, operations_);
     return best;
   }
-  bool is_new(const Hit& hit) const { return hit.t != cursor_.best.t || hit.primitive != cursor_.best.primitive; }
+  /// Another block, if it is the same hit of which nobody here knew where its record is.
+  bool is_new(const Hit& hit) const {
+    return hit.t != cursor_.best.t || hit.primitive != cursor_.best.primitive || hit.block != cursor_.best.block;
+  }
 
   const Ray& ray_;
   const ShearedRay sheared_;

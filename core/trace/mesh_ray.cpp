@@ -5,8 +5,7 @@
 #include <cstddef>
 
 #include "core/base/vector_width.h"
-#include "core/scene/frame.h"
-#include "core/trace/placed_block.h"
+#include "core/scene/mesh_to_grid.h"
 
 namespace dmpc::core {
 namespace {
@@ -18,17 +17,11 @@ constexpr double rounding_pad = 0x1p-20;
 }  // namespace
 
 MeshGate::MeshGate(const InstanceRecord& instance, const GridFrame& frame) : pad_(double{instance.pad}) {
-  // Grid-local p = rows m + shift, for m in units of the mesh's records.
-  const Transform world = transform_of(instance);
-  const double unit = double{instance.unit} * frame.scale;
-  std::array<Vec3d, 3> rows;
-  for (std::size_t row = 0; row < 3; ++row) {
-    rows[row] =
-        (world.rows[0] * frame.axes[row].x + world.rows[1] * frame.axes[row].y + world.rows[2] * frame.axes[row].z) * unit;
-  }
+  const MeshToGrid way(instance, frame);
+  const std::array<Vec3d, 3>& rows = way.rows;
   const double share = 1 / dot(rows[0], cross(rows[1], rows[2]));
   columns_ = {cross(rows[1], rows[2]) * share, cross(rows[2], rows[0]) * share, cross(rows[0], rows[1]) * share};
-  shift_ = to_local(frame, world.shift);
+  shift_ = way.shift;
 }
 
 MeshWay MeshGate::way_of(const Ray& ray) const {

@@ -9,6 +9,7 @@
 #include "core/record/coordinate.h"
 #include "core/record/vanishing.h"
 #include "core/scene/frame.h"
+#include "core/scene/mesh_to_grid.h"
 
 namespace dmpc::core {
 namespace {
@@ -16,12 +17,6 @@ namespace {
 using Rows = std::array<std::array<float, block_lanes>, 9>;
 
 }  // namespace
-
-Transform transform_of(const InstanceRecord& instance) {
-  const auto& world = instance.world;
-  return {.rows = {{{world[0], world[1], world[2]}, {world[3], world[4], world[5]}, {world[6], world[7], world[8]}}},
-          .shift = {world[9], world[10], world[11]}};
-}
 
 MeshPlace::MeshPlace(const InstanceRecord& instance, const GridFrame& frame)
     : world_(transform_of(instance)),

@@ -13,8 +13,6 @@
 
 namespace dmpc::core {
 
-Transform transform_of(const InstanceRecord& instance);
-
 /// What an instance does to its mesh's records. Keeps `frame`, which outlives it.
 class MeshPlace {
  public:

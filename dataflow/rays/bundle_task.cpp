@@ -9,26 +9,32 @@
 
 namespace dmpc::dataflow {
 
-BundleTask::BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max) : self_(self) {
-  std::span<Flights> flights;
-  std::tie(flights, stack_) = layout(waiting_max).in(memory);
-  flights_ = flights.data();
+BundleTask::BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max, bool has_instances)
+    : self_(self), has_instances_(has_instances) {
+  std::span<FlightsWith<core::RayBundle>> flights;
+  std::span<FlightsWith<core::InstanceBundle>> longer;
+  std::tie(flights, longer, stack_) = layout(waiting_max, has_instances).in(memory);
+  flights_ = has_instances ? static_cast<Flights*>(longer.data()) : flights.data();
+  bundle_ = has_instances ? &longer.data()->bundle : &flights.data()->bundle;
 }
 
-nodes::Layout<BundleTask::Flights, core::BundleHit> BundleTask::layout(std::uint32_t waiting_max) {
-  return {{core::MemoryUse::ray_stacks, 1}, {core::MemoryUse::ray_stacks, waiting_max}};
+nodes::Layout<BundleTask::FlightsWith<core::RayBundle>, BundleTask::FlightsWith<core::InstanceBundle>, core::BundleHit>
+BundleTask::layout(std::uint32_t waiting_max, bool has_instances) {
+  return {{core::MemoryUse::ray_stacks, has_instances ? 0U : 1U},
+          {core::MemoryUse::ray_stacks, has_instances ? 1U : 0U},
+          {core::MemoryUse::ray_stacks, waiting_max}};
 }
 
 void BundleTask::shoot(const core::Ray& ray) {
   core::expect(!has_ended() && count_ < rays_max, "a bundle has room for its rays");
-  flights_->bundle.rays[count_] = ray;
+  bundle_->rays[count_] = ray;
   flights_->entry[count_++].finder = self_;
 }
 
 void BundleTask::enter(const RayMessage& message) {
   core::expect(count_ < (has_ended() ? ended_ : rays_max), "a bundle has room for its rays");
   entered_ |= core::RayMask{1} << count_;
-  flights_->bundle.rays[count_] = message.ray;
+  bundle_->rays[count_] = message.ray;
   Entry& entry = flights_->entry[count_++];
   entry.passage.t_enter = message.t_enter;  // one by one: together they would wait until the message has been written
   entry.passage.cell = message.cell;
@@ -45,7 +51,7 @@ void BundleTask::resume_hit(const RayMessage& message) {
 /// Those that waited come behind those that have been taken up since, each to its own place or one before it.
 void BundleTask::gather_waiting() {
   for (; waiting_ > 0; --waiting_, ++count_, ++traced_) {
-    flights_->bundle.rays[count_] = flights_->bundle.rays[traced_];
+    bundle_->rays[count_] = bundle_->rays[traced_];
     flights_->entry[count_] = flights_->entry[traced_];
     entered_ |= core::RayMask{1} << count_;
   }
@@ -56,7 +62,7 @@ void BundleTask::choose_region(PartTracer& tracer, const core::GridFrame& frame)
   if ((entered_ & 1U) != 0) {
     const bool is_here = tracer.enter_taken_up(flights_->entry[0].passage.cell);
     core::expect(is_here, "a ray enters a region of the node's");
-  } else if (const auto passage = core::first_passage(flights_->bundle.rays[0], frame)) {
+  } else if (const auto passage = core::first_passage(bundle_->rays[0], frame)) {
     tracer.enter(passage->cell);
   }
 }
@@ -70,7 +76,7 @@ void BundleTask::part_others(const core::Region& region) {
     }
     --count_;
     ++waiting_;
-    std::swap(flights_->bundle.rays[i], flights_->bundle.rays[count_]);
+    std::swap(bundle_->rays[i], bundle_->rays[count_]);
     std::swap(flights_->entry[i], flights_->entry[count_]);
     const core::RayMask last = entered_ >> count_ & 1U, bit = core::RayMask{1} << i;
     entered_ = static_cast<core::RayMask>((entered_ & ~bit) | (last != 0 ? bit : 0));
@@ -84,7 +90,7 @@ void BundleTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, c
     choose_region(tracer, header.frame);
     part_others(tracer.region());
   }
-  core::RayBundle& bundle = flights_->bundle;
+  core::RayBundle& bundle = *bundle_;
   bundle.count = count_;
   bundle.start();
   for (std::uint32_t i = 0; entered_ != 0 && i < count_; ++i) {
@@ -96,7 +102,9 @@ void BundleTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, c
           {passage.t_enter, passage.cell, passage.entry_axis, {t, primitive, finder == self_ ? block : core::no_address, lane}});
     }
   }
-  core::expect(tracer.trace(bundle, operations), "a node has every record of its region");
+  const bool is_here =
+      has_instances_ ? tracer.trace(static_cast<core::InstanceBundle&>(bundle), operations) : tracer.trace(bundle, operations);
+  core::expect(is_here, "a node has every record of its region");
   traced_ = count_;
   ended_ = count_ = 0;
   entered_ = 0;
@@ -106,21 +114,19 @@ void BundleTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, c
 void BundleTask::find_stops(const Surroundings& surroundings, core::Operations& operations) {
   core::expect(has_ended(), "rays go on that have been traced");
   if (!knows_stops_) {
-    find_next_stops(flights_->bundle, surroundings, self_, operations, flights_->stop);
+    find_next_stops(*bundle_, surroundings, self_, operations, flights_->stop);
     knows_stops_ = true;
   }
 }
 
 core::Traced BundleTask::traced() const {
   const core::RayMask bit = core::RayMask{1} << ended_;
-  return (flights_->bundle.left & bit) != 0    ? core::Traced::left
-         : (flights_->bundle.found & bit) != 0 ? core::Traced::hit
-                                               : core::Traced::miss;
+  return (bundle_->left & bit) != 0 ? core::Traced::left : (bundle_->found & bit) != 0 ? core::Traced::hit : core::Traced::miss;
 }
 
 void BundleTask::shade_hit() {
   core::expect(found_here(), "a hit is shaded where its block is");
-  push(ray(), flights_->bundle.hit(ended_));
+  push(ray(), bundle_->hit(ended_));
 }
 
 /// In the place of those that wait for nothing more.
@@ -143,8 +149,7 @@ void BundleTask::close_hits() {
 }
 
 core::Hit BundleTask::travelling_candidate() const {
-  return found_here() || !flights_->bundle.hit(ended_).found() ? flights_->bundle.hit(ended_)
-                                                               : flights_->entry[ended_].passage.best;
+  return found_here() || !bundle_->hit(ended_).found() ? bundle_->hit(ended_) : flights_->entry[ended_].passage.best;
 }
 
 nodes::NodeId BundleTask::finder_of_candidate() const { return found_here() ? self_ : flights_->entry[ended_].finder; }
@@ -164,7 +169,7 @@ void BundleTask::put_leaving(std::span<std::byte> place) const {
 
 /// Each value once: what is copied from copies has to wait for them. Names of tested objects are left alone.
 void BundleTask::describe_leaving(RayMessage& message) const {
-  const core::RayBundle& bundle = flights_->bundle;
+  const core::RayBundle& bundle = *bundle_;
   message.ray = ray();
   message.t_enter = bundle.t_enter[ended_];
   for (std::size_t axis = 0; axis < 3; ++axis) {

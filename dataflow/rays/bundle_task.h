@@ -7,6 +7,7 @@
 
 #include "core/picture/bundle_hit.h"
 #include "core/trace/bundle.h"
+#include "core/trace/instance_bundle.h"
 #include "dataflow/packets.h"
 #include "dataflow/rays/next_stop.h"
 #include "dataflow/rays/ray_task.h"
@@ -22,14 +23,18 @@ namespace dmpc::dataflow {
 /// to may go on in this region, and is then traced again with others. Thread safety: belongs to one node.
 class BundleTask {
   struct Flights;
+  template <class Bundle>
+  struct FlightsWith;
 
  public:
   static constexpr std::uint32_t rays_max = core::bundle_rays_max;
 
   /// Nothing under way. A stack of `waiting_max` bundles of hits: core::waiting_hits_max().
-  BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max);
+  /// `has_instances`: the database has, and bundles are longer.
+  BundleTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max, bool has_instances = false);
   /// What the constructor takes.
-  static nodes::Layout<Flights, core::BundleHit> layout(std::uint32_t waiting_max);
+  static nodes::Layout<FlightsWith<core::RayBundle>, FlightsWith<core::InstanceBundle>, core::BundleHit> layout(
+      std::uint32_t waiting_max, bool has_instances = false);
 
   /// Rays are to be traced, once those that have ended are seen to.
   bool has_rays() const { return count_ + waiting_ > 0; }
@@ -52,8 +57,8 @@ class BundleTask {
 
   // These speak of the first of those that have ended:
   core::Traced traced() const;
-  const core::Ray& ray() const { return flights_->bundle.rays[ended_]; }
-  bool found_here() const { return flights_->bundle.hit(ended_).block != core::no_address; }
+  const core::Ray& ray() const { return bundle_->rays[ended_]; }
+  bool found_here() const { return bundle_->hit(ended_).block != core::no_address; }
   void shade_hit();
   std::uint32_t stop() const { return flights_->stop[ended_]; }
   RayMessage leaving() const;
@@ -73,11 +78,15 @@ class BundleTask {
     core::Passage passage;
     nodes::NodeId finder{};
   };
-  /// Rays, and where they are.
+  /// Where rays come from and go to.
   struct Flights {
-    core::RayBundle bundle;
     std::array<Entry, rays_max> entry;
     core::Row<std::uint32_t> stop;  ///< the regions that rays go to, by number
+  };
+  /// And the rays, and where they are.
+  template <class Bundle>
+  struct FlightsWith : Flights {
+    Bundle bundle;
   };
 
   void describe_leaving(RayMessage& message) const;
@@ -90,7 +99,9 @@ class BundleTask {
   void part_others(const core::Region& region);
 
   nodes::NodeId self_;
+  bool has_instances_;
   Flights* flights_;
+  core::RayBundle* bundle_;  ///< an InstanceBundle where the database has instances
   std::span<core::BundleHit> stack_;
   std::uint32_t depth_ = 0;       ///< bundles of hits on the stack, all of whose rays have ended
   std::uint32_t fresh_hits_ = 0;  ///< in the next one

@@ -6,15 +6,22 @@
 
 namespace dmpc::dataflow {
 
-RayTask::RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max, std::uint32_t tested_objects)
-    : self_(self), tested_(tested_objects) {
-  std::span<Flight> flight;
-  std::tie(flight, stack_) = layout(waiting_max).in(memory);
-  flight_ = flight.data();
+RayTask::RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max, std::uint32_t tested_objects,
+                 bool has_instances)
+    : self_(self), tested_(tested_objects), has_instances_(has_instances) {
+  core::expect(tested_objects == 0 || !has_instances, "a list of tested objects names no place of a mesh");
+  std::span<FlightWith<core::Cursor>> flight;
+  std::span<FlightWith<core::InstanceCursor>> longer;
+  std::tie(flight, longer, stack_) = layout(waiting_max, has_instances).in(memory);
+  flight_ = has_instances ? static_cast<Flight*>(longer.data()) : flight.data();
+  cursor_ = has_instances ? &longer.data()->cursor : &flight.data()->cursor;
 }
 
-nodes::Layout<RayTask::Flight, core::HitState> RayTask::layout(std::uint32_t waiting_max) {
-  return {{core::MemoryUse::ray_stacks, 1}, {core::MemoryUse::ray_stacks, waiting_max}};
+nodes::Layout<RayTask::FlightWith<core::Cursor>, RayTask::FlightWith<core::InstanceCursor>, core::HitState> RayTask::layout(
+    std::uint32_t waiting_max, bool has_instances) {
+  return {{core::MemoryUse::ray_stacks, has_instances ? 0U : 1U},
+          {core::MemoryUse::ray_stacks, has_instances ? 1U : 0U},
+          {core::MemoryUse::ray_stacks, waiting_max}};
 }
 
 void RayTask::shoot(const core::Ray& ray) {
@@ -27,11 +34,11 @@ void RayTask::shoot(const core::Ray& ray) {
 void RayTask::enter(const RayMessage& message) {
   core::expect(stage_ == Stage::none, "one ray at a time is under way");
   flight_->ray = message.ray;
-  flight_->cursor = core::arrive(message.passage());
+  *cursor_ = core::arrive(message.passage());
   flight_->finder = nodes::NodeId{message.finder};
   flight_->block_at_finder = message.best.block;
   if (flight_->finder != self_) {
-    flight_->cursor.best.block = core::no_address;
+    cursor_->best.block = core::no_address;
   }
   tested_.set(message.tested);
   entered_cell_ = message.cell;
@@ -48,8 +55,7 @@ void RayTask::trace(PartTracer& tracer, const core::DatabaseHeader& header, core
   const bool is_here = stage_ == Stage::entered ? tracer.enter_taken_up(entered_cell_) : begin(tracer, header);
   core::expect(is_here || stage_ != Stage::entered, "a ray enters a region of the node's");
   if (is_here) {
-    traced_ =
-        tested_.capacity() > 0 ? trace_with_list(tracer, operations) : tracer.trace(flight_->ray, flight_->cursor, operations);
+    traced_ = walk(tracer, operations);
   }
   core::expect(traced_ != core::Traced::absent, "a node has every record of its region");
   stage_ = Stage::ended;
@@ -59,13 +65,22 @@ void RayTask::find_stops(const Surroundings& surroundings, core::Operations& ope
   if (traced_ != core::Traced::left) {
     return;
   }
-  core::Cursor& cursor = flight_->cursor;
+  core::Cursor& cursor = *cursor_;
   const NextStop stop = next_stop(flight_->ray, core::passage_of(cursor), surroundings, self_, operations);
   traced_ = stop.traced;
   stop_ = stop.region;
   cursor.t_enter = stop.passage.t_enter;
   cursor.arrival = stop.passage.cell;
   cursor.entry_axis = stop.passage.entry_axis;
+}
+
+core::Traced RayTask::walk(PartTracer& tracer, core::Operations& operations) {
+  if (has_instances_) {
+    auto& cursor = static_cast<core::InstanceCursor&>(*cursor_);
+    cursor.is_inside = false;
+    return tracer.trace(flight_->ray, cursor, operations);
+  }
+  return tested_.capacity() > 0 ? trace_with_list(tracer, operations) : tracer.trace(flight_->ray, *cursor_, operations);
 }
 
 /// A block on the list is tested no more. The candidate's is not put there, though the ray meet it again in another voxel: the
@@ -83,17 +98,17 @@ core::Traced RayTask::trace_with_list(PartTracer& tracer, core::Operations& oper
       }
     }
   };
-  return tracer.trace(flight_->ray, flight_->cursor, operations, test);
+  return tracer.trace(flight_->ray, *cursor_, operations, test);
 }
 
 /// Whether the ray starts in a region of the node's. If not, it has left that, or misses the grid.
 bool RayTask::begin(PartTracer& tracer, const core::DatabaseHeader& header) {
   const auto passage = core::first_passage(flight_->ray, header.frame);
   flight_->finder = self_;
-  flight_->cursor = core::arrive(passage.value_or(core::Passage{}));
+  *cursor_ = core::arrive(passage.value_or(core::Passage{}));
   const bool is_here = passage && tracer.enter(passage->cell);
   if (passage && !is_here) {
-    flight_->cursor.arrival = passage->cell;
+    cursor_->arrival = passage->cell;
   }
   traced_ = passage ? core::Traced::left : core::Traced::miss;
   return is_here;
@@ -101,7 +116,7 @@ bool RayTask::begin(PartTracer& tracer, const core::DatabaseHeader& header) {
 
 void RayTask::shade_hit() {
   core::expect(found_here(), "a hit is shaded where its block is");
-  push(flight_->ray, flight_->cursor.best);
+  push(flight_->ray, cursor_->best);
 }
 
 /// In the place of those that wait for nothing more.
@@ -112,7 +127,7 @@ void RayTask::push(const core::Ray& ray, const core::Hit& hit) {
 }
 
 core::Hit RayTask::travelling_candidate() const {
-  core::Hit candidate = flight_->cursor.best;
+  core::Hit candidate = cursor_->best;
   if (!found_here()) {
     candidate.block = flight_->block_at_finder;
   }
@@ -120,7 +135,7 @@ core::Hit RayTask::travelling_candidate() const {
 }
 
 RayMessage RayTask::leaving() const {
-  core::Passage passage = core::passage_of(flight_->cursor);
+  core::Passage passage = core::passage_of(*cursor_);
   passage.best = travelling_candidate();
   RayMessage message = message_of(flight_->ray, passage, finder_of_candidate());
   message.tested = tested_.names();
@@ -128,7 +143,7 @@ RayMessage RayTask::leaving() const {
 }
 
 RayMessage RayTask::confirmed_hit() const {
-  core::expect(flight_->cursor.best.found() && !found_here(), "a hit found here is shaded here");
+  core::expect(cursor_->best.found() && !found_here(), "a hit found here is shaded here");
   RayMessage message = message_of(flight_->ray, {.best = travelling_candidate()}, flight_->finder);
   message.is_confirmed = 1;
   return message;

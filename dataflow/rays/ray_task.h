@@ -21,15 +21,20 @@ namespace dmpc::dataflow {
 /// safety: belongs to one node.
 class RayTask {
   struct Flight;
+  template <class RayCursor>
+  struct FlightWith;
 
  public:
   static constexpr std::uint32_t rays_max = 1;
 
   /// Nothing under way. A stack of `waiting_max` hits: core::waiting_hits_max().
-  /// With `tested_objects` rays remember so many blocks that they have tested.
-  RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max, std::uint32_t tested_objects = 0);
+  /// With `tested_objects` rays remember so many blocks that they have tested; `has_instances`: the database has, and rays have
+  /// longer cursors. Not both.
+  RayTask(nodes::LocalMemory& memory, nodes::NodeId self, std::uint32_t waiting_max, std::uint32_t tested_objects = 0,
+          bool has_instances = false);
   /// What the constructor takes.
-  static nodes::Layout<Flight, core::HitState> layout(std::uint32_t waiting_max);
+  static nodes::Layout<FlightWith<core::Cursor>, FlightWith<core::InstanceCursor>, core::HitState> layout(
+      std::uint32_t waiting_max, bool has_instances = false);
 
   /// A ray is to be traced.
   bool has_rays() const { return stage_ == Stage::shot || stage_ == Stage::entered; }
@@ -57,7 +62,7 @@ class RayTask {
   core::Traced traced() const { return traced_; }
   const core::Ray& ray() const { return flight_->ray; }
   /// The hit's block was read on this node.
-  bool found_here() const { return flight_->cursor.best.block != core::no_address; }
+  bool found_here() const { return cursor_->best.block != core::no_address; }
   /// Takes up the hit that was found here.
   void shade_hit();
   /// The region that it goes to, by number.
@@ -94,12 +99,16 @@ class RayTask {
   /// How far the ray under way is.
   enum class Stage : std::uint8_t { none, shot, entered, ended };
 
-  /// A ray, where it is, and where its candidate's block is if that is not here.
+  /// A ray, and where its candidate's block is if that is not here.
   struct Flight {
     core::Ray ray;
-    core::Cursor cursor;
     nodes::NodeId finder{};
     core::Address block_at_finder = core::no_address;
+  };
+  /// And where the ray is.
+  template <class RayCursor>
+  struct FlightWith : Flight {
+    RayCursor cursor;
   };
 
   /// The candidate as another node may know it, with the finder's address.
@@ -109,13 +118,16 @@ class RayTask {
   template <class Shine>
   bool next_child(PartTracer& tracer, const core::RenderSettings& settings, core::Ray& child, core::Operations& operations,
                   const Shine& shine);
+  core::Traced walk(PartTracer& tracer, core::Operations& operations);
   core::Traced trace_with_list(PartTracer& tracer, core::Operations& operations);
   bool begin(PartTracer& tracer, const core::DatabaseHeader& header);
 
   nodes::NodeId self_;
   TestedObjects tested_;  ///< by the ray under way
   std::uint64_t tests_avoided_ = 0;
+  bool has_instances_;
   Flight* flight_;
+  core::Cursor* cursor_;  ///< an InstanceCursor where the database has instances
   std::span<core::HitState> stack_;
   std::uint32_t depth_ = 0;      ///< hits on the stack
   core::Corner entered_cell_{};  ///< with Stage::entered: the finest cell

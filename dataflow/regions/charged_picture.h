@@ -51,10 +51,11 @@ class ChargedPicture {
 
  private:
   /// The whole database as records; each look-up ends the step before, which is charged where it was done.
+  template <class RayCursor>
   struct Watch {
     ChargedPicture& picture;
     const core::Ray& ray;
-    const core::Cursor& cursor;
+    const RayCursor& cursor;
 
     const std::byte* find(core::Address address) {
       picture.settle();
@@ -65,9 +66,18 @@ class ChargedPicture {
         cell.high[axis] = std::min(cell.low[axis] + core::finest_per_top, size[axis]);
       }
       const bool in_cell = cursor.stage == core::Cursor::Stage::child;
-      const double t = in_cell ? std::max(cursor.t_enter, double{cursor.waiting.t_taken}) : cursor.t_enter;
+      const double t = in_cell ? std::max(cursor.t_enter, double{t_taken()}) : cursor.t_enter;
       picture.place_ = finest_cell_at(ray, t, cell, frame);
       return picture.records_.find(address);
+    }
+
+    /// Where the ray enters the box of what is looked at.
+    float t_taken() const {
+      if constexpr (std::is_same_v<RayCursor, core::InstanceCursor>) {
+        return cursor.is_inside ? cursor.waiting_in_mesh.t_taken : cursor.waiting.t_taken;
+      } else {
+        return cursor.waiting.t_taken;
+      }
     }
   };
 
@@ -89,15 +99,21 @@ class ChargedPicture {
     settle();
     place_ = start->cell;
     ++operations_.rays[static_cast<std::size_t>(ray.kind)];
-    core::Cursor cursor;
-    Watch watch{*this, ray, cursor};
-    const core::Traced traced = core::trace(ray, cursor, watch, settings_.header, settings_.skips, operations_);
-    settle();
-    if (traced == core::Traced::hit && ray.kind != core::RayKind::shadow) {
+    const core::Hit hit = settings_.header.has_instances != 0 ? trace<core::InstanceCursor>(ray) : trace<core::Cursor>(ray);
+    if (hit.found() && ray.kind != core::RayKind::shadow) {
       const core::GridFrame& frame = settings_.header.frame;
       const core::Region grid{{}, core::grid_size(frame)};
-      shade(core::begin_shading(ray, cursor.best), finest_cell_at(ray, double{cursor.best.t}, grid, frame));
+      shade(core::begin_shading(ray, hit), finest_cell_at(ray, double{hit.t}, grid, frame));
     }
+  }
+
+  template <class RayCursor>
+  core::Hit trace(const core::Ray& ray) {
+    RayCursor cursor;
+    Watch<RayCursor> watch{*this, ray, cursor};
+    core::trace(ray, cursor, watch, settings_.header, settings_.skips, operations_);
+    settle();
+    return cursor.best;
   }
 
   /// Shading and making the children is done where the hit is.

@@ -687,20 +687,23 @@ TEST_CASE("instances are kept in one tree of extents, where rays go into them, a
   CHECK_FALSE(render({"--instances=expand"}).database.build.keeps_instances);
   CHECK(render({"--instances=expand"}).picture.staging.mesh.copies == core::Copies::put);
   CHECK(render({"--instances=keep"}).picture.staging.mesh.copies == core::Copies::left_out);
-  for (const char* const strategy : {"--strategy=svm", "--strategy=replicated", "--strategy=forest", "--system=forest"}) {
+  for (const char* const strategy :
+       {"--strategy=svm", "--strategy=replicated", "--strategy=forest", "--strategy=dataflow", "--system=forest"}) {
     const RenderOptions options = render({"--instances=keep", strategy});
     CHECK(options.database.build.keeps_instances);
     CHECK(options.database.build.structure == core::Structure::extents);
   }
   CHECK(render({"--instances=keep", "--structure=extents"}).database.build.keeps_instances);
-  for (const char* const other :
-       {"--strategy=dataflow", "--system=svm", "--structure=grid", "--structure=voxels", "--record-order=scattered"}) {
+  for (const char* const other : {"--system=svm", "--structure=grid", "--structure=voxels", "--record-order=scattered"}) {
     const std::string complaint = render_complaint({"--instances=keep", other});
     CHECK_MESSAGE(contains(complaint, std::string("--instances=keep does not go with ") + other + ": "), complaint);
     CHECK(contains(complaint, "; --instances=expand has a copy in each place"));
   }
   CHECK(contains(render_complaint({"--instances=keep", "--strategy=replicated", "--tracer=embree"}),
                  "--instances=keep does not go with --tracer=embree: "));
+  CHECK(contains(render_complaint({"--instances=keep", "--strategy=dataflow", "--tested-objects=2"}),
+                 "--instances=keep does not go with --tested-objects: "));
+  CHECK(render({"--instances=keep", "--strategy=dataflow", "--tested-objects=0"}).database.build.keeps_instances);
   CHECK(contains(render_complaint({"--instances=some"}), "--instances"));
 }
 

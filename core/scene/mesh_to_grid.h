@@ -1,0 +1,38 @@
+// The way of a kept mesh's records into the grid.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/base/vec.h"
+#include "core/record/instance.h"
+#include "core/record/record.h"
+#include "core/scene/frame.h"
+#include "core/scene/transform.h"
+
+namespace dmpc::core {
+
+inline Transform transform_of(const InstanceRecord& instance) {
+  const auto& world = instance.world;
+  return {.rows = {{{world[0], world[1], world[2]}, {world[3], world[4], world[5]}, {world[6], world[7], world[8]}}},
+          .shift = {world[9], world[10], world[11]}};
+}
+
+/// For boxes, in double: rows m + shift of a point m in units of the mesh's records. Corners of triangles are placed by Placing
+/// (core/scene/placing.h), in another order of operations.
+struct MeshToGrid {
+  MeshToGrid(const InstanceRecord& instance, const GridFrame& frame) {
+    const Transform world = transform_of(instance);
+    const double unit = double{instance.unit} * frame.scale;
+    for (std::size_t row = 0; row < 3; ++row) {
+      rows[row] =
+          (world.rows[0] * frame.axes[row].x + world.rows[1] * frame.axes[row].y + world.rows[2] * frame.axes[row].z) * unit;
+    }
+    shift = to_local(frame, world.shift);
+  }
+
+  std::array<Vec3d, 3> rows;
+  Vec3d shift;
+};
+
+}  // namespace dmpc::core
