@@ -4,11 +4,17 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "core/base/refusal.h"
+#include "core/picture/partial_picture.h"
+#include "dataflow/frames.h"
+#include "dataflow/ranks.h"
 #include "dataflow/run.h"
+#include "nodes/ranks/rank_links.h"
 #include "tests/support/kept_scenes.h"
+#include "tests/support/loopback_ranks.h"
 #include "tests/support/scaled.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
@@ -138,6 +144,49 @@ TEST_CASE("refined pictures and pictures by paths of what is kept are those of i
   with_paths.emitters_max = 16;
   const Subject by_paths(scene, picture, with_paths);
   CHECK(outcome_of(run_dataflow(by_paths, {.computer = {.node_count = 8}})) == by_paths.outcome());
+}
+
+TEST_CASE("frames of what is kept, runs of it on several ranks, and runs that go on with it have the film of one run") {
+  const core::Scene scene = balls_in_places(0.3, Arrangement::apart, 13);
+  const int side = scaled_edge(24);
+  const Subject kept(scene, {side, side}, with_instances());
+  RunOptions options{.computer = {.node_count = 5}, .are_frames = true};
+  const dataflow::Prepared prepared = dataflow::prepare(kept.database(), kept.settings(), options);
+  dataflow::Frames frames(prepared, kept.settings(), options, {});
+  CHECK(frames.render({}).film.hash() == kept.outcome().film_hash);
+  CHECK(frames.render(kept.settings(), {}, {}).film.hash() == kept.outcome().film_hash);
+
+  const auto ranks = on_ranks(3, {}, [&](nodes::Fabric& fabric) {
+    nodes::RankLinks links(fabric);
+    if (fabric.rank() == 0) {
+      return outcome_of(run_dataflow(kept, {.computer = {.node_count = 7, .ranks = &links}})).film_hash;
+    }
+    dataflow::follow(links, {});
+    return kept.outcome().film_hash;
+  });
+  for (const auto& rank : ranks) {
+    CHECK(rank.failure_text() == "");
+    CHECK(rank.value == kept.outcome().film_hash);
+  }
+
+  std::optional<core::PartialPicture> start;
+  nodes::RunEnd end{};
+  for (int runs = 0; runs < 20 && (runs == 0 || end != nodes::RunEnd::finished); ++runs) {
+    std::stop_source stop;
+    const std::optional<core::PartialPicture> from = start;
+    const core::Continuation continuation{from ? &*from : nullptr, [] { return true; },
+                                          [&](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
+                                            start.emplace(core::partial_picture(film, pass, done));
+                                            stop.request_stop();
+                                          }};
+    const Report report =
+        dataflow::run_dataflow(kept.database(), kept.settings(),
+                               {.computer = {.node_count = 2U + static_cast<std::uint32_t>(runs)}, .continuation = continuation},
+                               runs < 3 ? stop.get_token() : std::stop_token());
+    end = report.end;
+    CHECK((end != nodes::RunEnd::finished || report.film.hash() == kept.outcome().film_hash));
+  }
+  CHECK(end == nodes::RunEnd::finished);
 }
 
 TEST_CASE("a plan has the room for the longer cursors and bundles of a database with instances, and no node takes more") {
