@@ -31,7 +31,7 @@ ObjectCounts count_objects(const core::Scene& scene) {
     std::transform(scene.kept->meshes.begin(), scene.kept->meshes.end(), std::back_inserter(of_meshes), count_own);
     for (const core::KeptPlace& place : scene.kept->places) {
       for (std::size_t kind = 0; kind < counts.size(); ++kind) {
-        counts[kind] += of_meshes[place.mesh][kind];
+        counts[kind] += place.has_copy ? 0 : of_meshes[place.mesh][kind];
       }
     }
   }

@@ -56,8 +56,7 @@ std::string text_of_pools(const core::Scene& scene) {
 
 /// Without copies of kept meshes, which meshes_text() tells: so it is the same whether the scene has them or not.
 std::string objects_text(const core::Scene& scene) {
-  const bool has_copies = scene.kept != nullptr && !leaves_copies_out(scene);
-  return has_copies ? text_of_pools(without_copies(scene)) : text_of_pools(scene);
+  return scene.kept == nullptr ? text_of_pools(scene) : text_of_pools(without_copies(scene));
 }
 
 /// What is decided of meshes by themselves, and so does not follow from the objects (core/scene/kept_meshes.h).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
@@ -9,10 +10,8 @@
 #include "apps/edge/system/progress.h"
 #include "core/database/copy_limits.h"
 #include "core/picture/ray_crowd.h"
-#include "core/scene/expanded_size.h"
 #include "core/scene/frame.h"
 #include "core/scene/kept_meshes.h"
-#include "core/scene/placed_objects.h"
 
 namespace dmpc::apps {
 
@@ -20,17 +19,14 @@ namespace {
 
 std::uint64_t places_of_meshes(const core::Scene& scene) { return scene.kept == nullptr ? 0 : scene.kept->places.size(); }
 
-/// Fine detail is looked for among all that is seen.
-void put_copies_in(core::Scene& scene) {
-  if (!leaves_copies_out(scene)) {
-    return;
+core::CopyLimits copy_limits(const PictureOptions& picture) {
+  core::CopyLimits limits{.bytes_max = reader_memory_bytes_max()};
+  if (picture.is_refined) {
+    limits.corners_max = std::numeric_limits<std::uint64_t>::max();
+    limits.reason = "among which --samples=auto looks for fine detail";
+    limits.advice = "give a number of samples, such as --samples=4";
   }
-  if (const std::uint64_t bytes = size_with_copies(scene).bytes(), room = reader_memory_bytes_max(); bytes > room) {
-    throw core::RoomError("with every instance, among which --samples=auto looks for fine detail, the scene takes " +
-                          bytes_text(bytes) + " of memory, and there are " + bytes_text(room) +
-                          " for it: give a number of samples, such as --samples=4");
-  }
-  put_copies(scene);
+  return limits;
 }
 
 /// Frees the objects of `scene` on the way.
@@ -42,10 +38,7 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
   build.for_paths = picture.transport.is_by_paths();
   build.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
   const auto places = build.keeps_instances ? std::optional(places_of_meshes(scene)) : std::nullopt;
-  if (picture.is_refined) {
-    put_copies_in(scene);
-  }
-  core::Database database = core::build_database(std::move(scene), build, {.bytes_max = reader_memory_bytes_max()});
+  core::Database database = core::build_database(std::move(scene), build, copy_limits(picture));
   const core::RenderSettings settings = render_settings(picture, scene, database);
   const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
   const std::string emitters = emitters_text(database.header().emitter_count, database.records().emitters_met, picture.transport);

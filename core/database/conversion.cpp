@@ -306,13 +306,11 @@ class Steps {
   Steps(const Scene& scene, std::span<const MeshFaces> meshes) : scene_(scene), meshes_(meshes) {
     if (scene.kept != nullptr) {
       expect(meshes.size() == scene.kept->meshes.size(), "each kept mesh has been judged");
-      std::uint32_t left_out = 0;
       for (const KeptPlace& place : scene.kept->places) {
-        add_objects(place.first - left_out);
-        const auto objects = static_cast<std::uint32_t>(scene.kept->meshes[place.mesh].objects.size());
+        add_objects(place.at);
         runs_.push_back({count_, next_, &place, {}});
-        count_ += scene.kept->have_copies ? meshes[place.mesh].triangles.size() : 1;
-        (scene.kept->have_copies ? next_ : left_out) += objects;
+        count_ += place.has_copy ? meshes[place.mesh].triangles.size() : 1;
+        next_ += place.has_copy ? static_cast<std::uint32_t>(scene.kept->meshes[place.mesh].objects.size()) : 0;
       }
     }
     add_objects(static_cast<std::uint32_t>(scene.objects.size()));
@@ -327,7 +325,7 @@ class Steps {
         const MeshFaces& faces = meshes_[run.place->mesh];
         const Placing placing(run.place->world, frame);
         for (const MeshPlane& plane : faces.planes) {
-          if (scene_.kept->have_copies) {
+          if (run.place->has_copy) {
             run.planes.push_back(number_of(plane, placing, all.planes));
           } else {
             add_layer(plane, placing, all.place_layers);
@@ -400,7 +398,7 @@ class Steps {
     if (run.place == nullptr) {
       return converter.add_object(run.first + static_cast<std::uint32_t>(step));
     }
-    if (!scene_.kept->have_copies) {
+    if (!run.place->has_copy) {
       return converter.add_place();
     }
     const MeshTriangle& triangle = meshes_[run.place->mesh].triangles[step];

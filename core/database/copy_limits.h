@@ -14,11 +14,15 @@ struct CopyLimits {
   /// No more corners of copies than this are put in on the way: then all is said of them that is said of others. Of more,
   /// places alone are there (core/database/left_out_places.h), and nobody looks at what rounding does to copies.
   std::uint64_t corners_max = std::uint64_t{3} << 21U;
-  /// The scene with all copies may be so large where a mesh or a place cannot be kept, so that they have to be put in.
+  /// With all copies that are put in the scene may be so large while it becomes primitives.
   std::uint64_t bytes_max = std::numeric_limits<std::uint64_t>::max();
+  /// Why somebody wants all of them, where that is so, and what to do if they have no room.
+  const char *reason = "", *advice = "";
 };
 
-/// build_database() within other limits. Throws RoomError, too, if copies that have to be put in have no room.
+/// build_database() within other limits. Of more copies than these allow those are put in that have to be there, since something
+/// keeps their mesh or place from being kept (core/database/obstacle.h). Throws RoomError, too, if copies that are put in have no
+/// room.
 Database build_database(Scene&& scene, const BuildOptions& options, const CopyLimits& limits);
 
 }  // namespace dmpc::core

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "core/database/left_out_places.h"
 #include "core/database/material_records.h"
 #include "core/database/mesh_faces.h"
+#include "core/database/obstacle.h"
 #include "core/database/parallel.h"
 #include "core/database/record_writer.h"
 #include "core/database/sky_records.h"
@@ -62,10 +64,12 @@ void forget_texels(Scene& scene) {
 /// Builds in order: frame, primitives, then the records.
 class DatabaseBuilder {
  public:
-  /// `places`: where the records go that it writes; by default in order. `expendable`: the scene, if its objects may be freed
-  /// once they have been converted.
-  DatabaseBuilder(const Scene& scene, const BuildOptions& options, std::vector<Address> places = {}, Scene* expendable = nullptr)
+  /// `meshes`: what faces_of_meshes() says of the scene. `places`: where the records go that it writes; by default in order.
+  /// `expendable`: the scene, if its objects may be freed once they have been converted.
+  DatabaseBuilder(const Scene& scene, const BuildOptions& options, std::span<const MeshFaces> meshes,
+                  std::vector<Address> places = {}, Scene* expendable = nullptr)
       : scene_(scene),
+        meshes_(meshes),
         expendable_(expendable),
         options_(options),
         parallel_(options.threads),
@@ -78,25 +82,20 @@ class DatabaseBuilder {
     result_.page_size_ = options.page_size_bytes;
   }
 
-  /// Nothing if the scene leaves copies out, and has to have some of them.
+  /// Nothing if the scene leaves copies out, and there are obstacles() of some of them.
   std::optional<Database> build() {
-    const std::vector<MeshFaces> meshes = faces_of_meshes(scene_, options_.cells_per_primitive, parallel_);
     if (leaves_copies_out(scene_)) {
-      auto places = LeftOutPlaces::of(scene_, meshes, parallel_);
-      if (!places) {
-        return std::nullopt;
-      }
-      left_out_.emplace(std::move(*places));
+      left_out_.emplace(scene_, meshes_, parallel_);
     }
     fit();
-    conversion_ = convert(scene_, header().frame, parallel_, {.meshes = meshes});
+    conversion_ = convert(scene_, header().frame, parallel_, {.meshes = meshes_});
     set_pad();  // places of meshes may have brought layers
     TopCells cells = sort_into_top_cells();
     if (settle_coplanar(conversion_, cells, scene_, header().frame, parallel_)) {
       set_pad();                      // there are layers now
       cells = sort_into_top_cells();  // which may look for twins among the scene's objects
     }
-    if (options_.keeps_instances && !keep(meshes)) {
+    if (options_.keeps_instances && !keep()) {
       return std::nullopt;
     }
     if (expendable_ != nullptr) {
@@ -137,6 +136,9 @@ class DatabaseBuilder {
     return std::move(result_);
   }
 
+  /// By place of Scene::kept, once build() has made nothing.
+  std::span<const Obstacle> obstacles() const { return obstacles_; }
+
   /// For the records that build() has written, which the next builder writes in the same sequence.
   std::vector<Address> scattered() const {
     return scattered_places(writer_.sizes(), writer_.front_bytes(), options_.page_size_bytes);
@@ -146,16 +148,17 @@ class DatabaseBuilder {
   DatabaseHeader& header() { return result_.header_; }
 
   /// Whether all places that have no copies can be kept.
-  bool keep(std::span<const MeshFaces> meshes) {
+  bool keep() {
     if (!left_out_) {
-      kept_ = keep_instances(scene_, meshes, header().frame, result_.pad_, conversion_, parallel_);
+      kept_ = keep_instances(scene_, meshes_, header().frame, result_.pad_, conversion_, parallel_);
       return true;
     }
-    auto kept = left_out_->keep(header().frame, result_.pad_, conversion_, parallel_);
-    if (kept) {
-      kept_ = std::move(*kept);
+    obstacles_ = left_out_->obstacles(header().frame, result_.pad_);
+    if (any_of(obstacles_)) {
+      return false;
     }
-    return kept.has_value();
+    kept_ = left_out_->keep(header().frame, result_.pad_, conversion_, parallel_);
+    return true;
   }
 
   void fit() {
@@ -569,6 +572,7 @@ class DatabaseBuilder {
   }
 
   const Scene& scene_;
+  std::span<const MeshFaces> meshes_;
   Scene* expendable_;
   BuildOptions options_;
   Parallel parallel_;
@@ -580,6 +584,7 @@ class DatabaseBuilder {
   bool has_looked_for_twins_ = false;
   Conversion conversion_;
   std::optional<LeftOutPlaces> left_out_;
+  std::vector<Obstacle> obstacles_;
   KeptInstances kept_;
   Emitters emitters_;
   SkyRecords sky_;
@@ -591,6 +596,9 @@ namespace {
 void find_places_in(const LocalRecords& records, Address address, std::vector<Database::Place>& places) {
   const std::byte* const block = records.find(address);
   const auto header = read<BlockHeader>(block);
+  if (header.kind == PrimitiveKind::instance) {
+    return;
+  }
   const std::byte* const ids = ids_of(header, block);
   for (std::uint32_t lane = 0; lane < header.count; ++lane) {
     places[read<std::uint32_t>(ids + lane * sizeof(std::uint32_t))] = {address, lane};
@@ -607,25 +615,43 @@ void find_places_below(const LocalRecords& records, Address from, std::vector<Da
 }
 
 /// Of the copies that a scene leaves out.
-std::uint64_t copied_corners(const Scene& scene) {
-  std::uint64_t count = 0;
-  for (const KeptPlace& place : scene.kept->places) {
-    count += scene.kept->meshes[place.mesh].vertices.size();
+std::uint64_t copied_corners(const Scene& scene) { return size_with_copies(scene).vertices - scene.vertices.size(); }
+
+/// What is there while a scene with copies in these places becomes primitives. Their records take its objects' place.
+std::uint64_t bytes_with_copies(const Scene& scene, const std::vector<bool>& places) {
+  constexpr std::uint64_t a_primitive = sizeof(PrimitiveValues) + sizeof(PrimitiveSource) + sizeof(ShadingReference);
+  const ExpandedSize size = size_with_copies(scene, places);
+  const std::uint64_t triangles = size.vertices - std::min(size.vertices, 2 * size.objects);
+  return size.bytes() + std::max(size.objects, triangles) * a_primitive;
+}
+
+/// `why`: they have to be there, behind "with a copy in each place".
+void put_copies_in(Scene& scene, const std::vector<bool>& places, const CopyLimits& limits, const std::string& why,
+                   const char* advice) {
+  if (const std::uint64_t bytes = bytes_with_copies(scene, places); bytes > limits.bytes_max) {
+    throw RoomError("with a copy in each place" + why + ", the scene takes " + std::to_string(bytes >> 20U) +
+                    " MiB of memory, and there are " + std::to_string(limits.bytes_max >> 20U) + " for it: " + advice);
   }
-  return count;
+  put_copies(scene, places);
 }
 
-bool may_stay_left_out(const Scene& scene, const BuildOptions& options, const CopyLimits& limits) {
-  return options.keeps_instances && leaves_copies_out(scene) && copied_corners(scene) > limits.corners_max;
+constexpr const char* fewer_places = "give the scene fewer places, or coarser meshes";
+
+void put_obstacles_in(Scene& scene, std::span<const Obstacle> obstacles, const CopyLimits& limits) {
+  if (any_of(obstacles)) {
+    std::vector<bool> places;
+    for (const Obstacle obstacle : obstacles) {
+      places.push_back(obstacle != Obstacle::none);
+    }
+    put_copies_in(scene, places, limits, " of what cannot be kept once (" + text_of(scene, obstacles) + ")", fewer_places);
+  }
 }
 
-void check_room_of_copies(const Scene& scene, const CopyLimits& limits) {
-  if (const std::uint64_t bytes = size_with_copies(scene).bytes(); bytes > limits.bytes_max) {
-    throw RoomError(
-        "a mesh of it cannot be kept once in all its places, as it shines, has no triangle or too many, or coordinates that no "
-        "float holds, or is too small in one of them, and with a copy in each place it takes " +
-        std::to_string(bytes >> 20U) + " MiB of memory; there are " + std::to_string(limits.bytes_max >> 20U) +
-        " for it: give the scene fewer places, or coarser meshes");
+void put_all_in(Scene& scene, const CopyLimits& limits) {
+  if (leaves_copies_out(scene)) {
+    const bool is_asked_for = *limits.reason != 0;
+    put_copies_in(scene, std::vector<bool>(scene.kept->places.size(), true), limits,
+                  is_asked_for ? std::string(", ") + limits.reason : "", is_asked_for ? limits.advice : fewer_places);
   }
 }
 
@@ -653,10 +679,12 @@ Database build_database(const Scene& scene, const BuildOptions& options) {
     Scene whole = scene;
     return build_database(std::move(whole), options);
   }
-  DatabaseBuilder builder(scene, options);
+  const std::vector<MeshFaces> meshes = faces_of_meshes(scene, options.cells_per_primitive, Parallel(options.threads));
+  DatabaseBuilder builder(scene, options, meshes);
   Database database = builder.build().value();
-  return options.record_order == RecordOrder::spatial ? std::move(database)
-                                                      : DatabaseBuilder(scene, options, builder.scattered()).build().value();
+  return options.record_order == RecordOrder::spatial
+             ? std::move(database)
+             : DatabaseBuilder(scene, options, meshes, builder.scattered()).build().value();
 }
 
 Database build_database(Scene&& scene, const BuildOptions& options) {
@@ -664,15 +692,21 @@ Database build_database(Scene&& scene, const BuildOptions& options) {
 }
 
 Database build_database(Scene&& scene, const BuildOptions& options, const CopyLimits& limits) {
-  if (may_stay_left_out(scene, options, limits)) {
-    if (auto database = DatabaseBuilder(scene, options, {}, &scene).build()) {
-      return std::move(*database);
+  const Parallel parallel(options.threads);
+  const std::vector<MeshFaces> meshes = faces_of_meshes(scene, options.cells_per_primitive, parallel);
+  if (options.keeps_instances && copied_corners(scene) > limits.corners_max) {
+    put_obstacles_in(scene, obstacles_of(scene, meshes, parallel), limits);
+    while (copied_corners(scene) > limits.corners_max) {
+      DatabaseBuilder builder(scene, options, meshes, {}, &scene);
+      if (auto database = builder.build()) {
+        return std::move(*database);
+      }
+      put_obstacles_in(scene, builder.obstacles(), limits);
     }
-    check_room_of_copies(scene, limits);
   }
-  put_copies(scene);
+  put_all_in(scene, limits);
   if (options.record_order == RecordOrder::spatial) {
-    return DatabaseBuilder(scene, options, {}, &scene).build().value();
+    return DatabaseBuilder(scene, options, meshes, {}, &scene).build().value();
   }
   Database database = build_database(std::as_const(scene), options);
   forget_objects(scene);

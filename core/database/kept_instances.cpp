@@ -1,14 +1,13 @@
 #include "core/database/kept_instances.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include "core/base/expect.h"
+#include "core/database/obstacle.h"
 #include "core/database/overlap.h"
-#include "core/database/usable_place.h"
 #include "core/record/coordinate.h"
 #include "core/record/vanishing.h"
 #include "core/scene/kept_meshes.h"
@@ -42,11 +41,11 @@ class Keeper {
       : scene_(scene), faces_(faces), frame_(frame), pad_(pad), old_(conversion) {}
 
   KeptInstances keep(const Parallel& parallel) {
-    take_meshes(parallel);
+    choose(parallel);
     std::vector<std::uint32_t> to(old_.primitives.size(), nowhere);
     for (std::size_t i = 0; i < old_.primitives.size();) {
       const KeptPlace* const place = place_of(scene_, old_.sources[i].object);
-      if (place != nullptr && is_kept(*place)) {
+      if (place != nullptr && is_kept_[place - scene_.kept->places.data()]) {
         i = add_place(*place, i);
       } else {
         to[i] = static_cast<std::uint32_t>(primitives_.size());
@@ -55,6 +54,7 @@ class Keeper {
       }
     }
     if (!result_.empty()) {
+      result_.meshes = std::move(meshes_.records);
       hand_over(to);
     }
     return std::move(result_);
@@ -63,23 +63,15 @@ class Keeper {
  private:
   static constexpr std::uint32_t nowhere = 0xffffffffU;
 
-  void take_meshes(const Parallel& parallel) {
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-      auto records = records_of(scene_.kept->meshes[i], scene_.materials, faces_[i], parallel);
-      index_.push_back(records ? static_cast<std::uint32_t>(result_.meshes.size()) : nowhere);
-      if (records) {
-        result_.meshes.push_back(std::move(*records));
-      }
+  void choose(const Parallel& parallel) {
+    for (const Obstacle obstacle : obstacles_of(scene_, faces_, parallel)) {
+      is_kept_.push_back(obstacle == Obstacle::none);
     }
-  }
-
-  bool is_kept(const KeptPlace& place) const {
-    if (index_[place.mesh] == nowhere) {
-      return false;
+    meshes_ = records_of(scene_, faces_, is_kept_, parallel);
+    for (std::size_t i = 0; i < is_kept_.size(); ++i) {
+      const KeptPlace& place = scene_.kept->places[i];
+      is_kept_[i] = is_kept_[i] && can_have_boxes(place.world, frame_, meshes_.records[meshes_.index[place.mesh]].unit, pad_);
     }
-    const auto& vertices = scene_.kept->meshes[place.mesh].vertices;
-    return can_have_boxes(place.world, frame_, result_.meshes[index_[place.mesh]].unit, pad_) &&
-           std::all_of(vertices.begin(), vertices.end(), [&](const Vec3d& vertex) { return usable(place.world.point(vertex)); });
   }
 
   void copy(std::size_t i) {
@@ -93,7 +85,7 @@ class Keeper {
     const MeshFaces& faces = faces_[place.mesh];
     const Scene& mesh = scene_.kept->meshes[place.mesh];
     const Placing placing(place.world, frame_);
-    KeptInstance instance{place.world, index_[place.mesh], static_cast<std::uint32_t>(primitives_.size()), {}};
+    KeptInstance instance{place.world, meshes_.index[place.mesh], static_cast<std::uint32_t>(primitives_.size()), {}};
     for (const MeshTriangle& triangle : faces.triangles) {
       const Object& object = mesh.objects[triangle.object];
       std::array<Vec3d, 3> corners;
@@ -102,11 +94,11 @@ class Keeper {
       }
       if (leaves_nothing(corners)) {
         primitives_.push_back({.kind = PrimitiveKind::triangle});
-        sources_.push_back({place.first + triangle.object});
+        sources_.push_back({place.at + triangle.object});
         shading_.push_back(ShadingReference::flat(object.material));
       } else {
         const std::size_t first = placing.is_mirrored() ? 2 : 0;
-        expect(i < old_.primitives.size() && old_.sources[i].object == place.first + triangle.object &&
+        expect(i < old_.primitives.size() && old_.sources[i].object == place.at + triangle.object &&
                    old_.primitives[i].vector(0) == corners[first],
                "a copy has the triangles of its mesh, in their order");
         instance.bounds.include(rounded_bounds_of(old_.primitives[i]));
@@ -138,7 +130,8 @@ class Keeper {
   double pad_;
   Conversion& old_;
   KeptInstances result_;
-  std::vector<std::uint32_t> index_;  ///< of Scene::kept's meshes among those of the result
+  MeshesRecords meshes_;
+  std::vector<bool> is_kept_;  ///< by place
   std::vector<PrimitiveValues> primitives_;
   std::vector<PrimitiveSource> sources_;
   std::vector<ShadingReference> shading_;

@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/database/top_cells.h"
-#include "core/database/usable_place.h"
 #include "core/record/coordinate.h"
 #include "core/record/vanishing.h"
 #include "core/scene/frame.h"
@@ -25,6 +25,13 @@ constexpr std::size_t places_together = 64;
 constexpr std::uint64_t copied_triangles_end = std::uint64_t{1} << 28U;
 /// Ids that are no primitive's, and those of the boxes of places, have room behind.
 constexpr std::uint64_t ids_max = 0xf0000000U;
+
+void check_ids(std::uint64_t count) {
+  if (count > ids_max) {
+    throw RoomError("with all places of meshes it has up to " + std::to_string(count) +
+                    " primitives, and a database counts up to " + std::to_string(ids_max) + ": leave some of them out");
+  }
+}
 
 /// What the copies of a box's corners are within, grid-local, as floats have them: rounding keeps their order.
 Box local_reach(const Box& own, const KeptPlace& place, const GridFrame& frame) {
@@ -45,52 +52,31 @@ void for_each_place(const std::vector<KeptPlace>& places, const Parallel& parall
 
 }  // namespace
 
-std::optional<LeftOutPlaces> LeftOutPlaces::of(const Scene& scene, std::span<const MeshFaces> faces, const Parallel& parallel) {
-  LeftOutPlaces places(scene, faces);
+LeftOutPlaces::LeftOutPlaces(const Scene& scene, std::span<const MeshFaces> faces, const Parallel& parallel)
+    : scene_(scene), faces_(faces) {
+  std::vector<bool> is_left_out;
   for (const KeptPlace& place : scene.kept->places) {
-    places.triangles_ += places.triangles_of(place);
-  }
-  if (places.triangles_ + 2 * scene.objects.size() > ids_max) {
-    throw RoomError("all places of meshes have " + std::to_string(places.triangles_) +
-                    " triangles, and a database counts up to " + std::to_string(ids_max) + ": leave some of them out");
-  }
-  return places.take_meshes(parallel) && places.are_usable(parallel) ? std::optional(std::move(places)) : std::nullopt;
-}
-
-bool LeftOutPlaces::take_meshes(const Parallel& parallel) {
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
-    const Scene& mesh = scene_.kept->meshes[i];
-    auto records = records_of(mesh, scene_.materials, faces_[i], parallel);
-    if (!records) {
-      return false;
+    is_left_out.push_back(!place.has_copy);
+    if (!place.has_copy) {
+      places_.push_back(place);
+      triangles_ += triangles_of(place);
     }
-    chunks_.emplace_back(mesh, faces_[i], records->tree.ids);
-    records_.push_back(std::move(*records));
   }
-  return true;
-}
-
-bool LeftOutPlaces::are_usable(const Parallel& parallel) const {
-  const std::vector<KeptPlace>& places = scene_.kept->places;
-  std::vector<std::uint8_t> is_usable(places.size());
-  for_each_place(places, parallel, [&](std::size_t i) { is_usable[i] = this->is_usable(places[i]) ? 1 : 0; });
-  return std::all_of(is_usable.begin(), is_usable.end(), [](std::uint8_t is) { return is != 0; });
-}
-
-bool LeftOutPlaces::is_usable(const KeptPlace& place) const {
-  const Box reach = reach_of(chunks_[place.mesh].box(), place.world);
-  const auto& vertices = scene_.kept->meshes[place.mesh].vertices;
-  return (usable(reach.low) && usable(reach.high)) ||
-         std::all_of(vertices.begin(), vertices.end(), [&](const Vec3d& vertex) { return usable(place.world.point(vertex)); });
+  check_ids(triangles_ + 2 * scene.objects.size());
+  meshes_ = records_of(scene, faces, is_left_out, parallel);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (meshes_.index[i] != MeshesRecords::nowhere) {
+      chunks_.emplace_back(scene.kept->meshes[i], faces[i], meshes_.records[meshes_.index[i]].tree.ids);
+    }
+  }
 }
 
 std::int64_t LeftOutPlaces::excess(const GridFrame& frame, double pad, bool is_exact, const Parallel& parallel) const {
   if (triangles_ > copied_triangles_end) {
     return 0;
   }
-  const std::vector<KeptPlace>& places = scene_.kept->places;
-  std::vector<std::int64_t> excess(places.size());
-  for_each_place(places, parallel, [&](std::size_t i) { excess[i] = excess_of(places[i], frame, pad, is_exact); });
+  std::vector<std::int64_t> excess(places_.size());
+  for_each_place(places_, parallel, [&](std::size_t i) { excess[i] = excess_of(places_[i], frame, pad, is_exact); });
   std::int64_t sum = 0;
   for (const std::int64_t one : excess) {
     sum += one;
@@ -101,7 +87,7 @@ std::int64_t LeftOutPlaces::excess(const GridFrame& frame, double pad, bool is_e
 /// What lies in one cell has no excess, however it is rounded.
 std::int64_t LeftOutPlaces::excess_of(const KeptPlace& place, const GridFrame& frame, double pad, bool is_exact) const {
   const Scene& mesh = scene_.kept->meshes[place.mesh];
-  const MeshChunks& chunks = chunks_[place.mesh];
+  const MeshChunks& chunks = chunks_[index_of(place)];
   const Placing placing(place.world, frame);
   const bool is_mirrored = placing.is_mirrored();
   std::vector<PrimitiveValues> copies;
@@ -127,25 +113,25 @@ std::int64_t LeftOutPlaces::excess_of(const KeptPlace& place, const GridFrame& f
   return TopCells::excess_of(copies, frame, pad);
 }
 
-std::optional<KeptInstances> LeftOutPlaces::keep(const GridFrame& frame, double pad, Conversion& conversion,
-                                                 const Parallel& parallel) {
-  const std::vector<KeptPlace>& places = scene_.kept->places;
-  if (!std::all_of(places.begin(), places.end(),
-                   [&](const KeptPlace& place) { return can_have_boxes(place.world, frame, records_[place.mesh].unit, pad); })) {
-    return std::nullopt;
+std::vector<Obstacle> LeftOutPlaces::obstacles(const GridFrame& frame, double pad) const {
+  std::vector<Obstacle> obstacles;
+  for (const KeptPlace& place : scene_.kept->places) {
+    const bool may_stay = place.has_copy || can_have_boxes(place.world, frame, meshes_.records[index_of(place)].unit, pad);
+    obstacles.push_back(may_stay ? Obstacle::none : Obstacle::smallness);
   }
+  return obstacles;
+}
+
+KeptInstances LeftOutPlaces::keep(const GridFrame& frame, double pad, Conversion& conversion, const Parallel& parallel) {
+  expect(!any_of(obstacles(frame, pad)), "a place that is too small has a copy");
+  check_ids(conversion.sources.size() + triangles_);
   KeptInstances kept;
   std::vector<std::uint32_t> own;
-  if (conversion.sources.size() + triangles_ > ids_max) {
-    throw RoomError("it has " + std::to_string(conversion.sources.size() + triangles_) +
-                    " primitives with all places of meshes, and a database counts up to " + std::to_string(ids_max) +
-                    ": leave some of them out");
-  }
   std::uint32_t next = 0;
   for (std::uint32_t i = 0; i < conversion.sources.size(); ++i) {
     if (conversion.sources[i].object == source_is_place) {
-      const KeptPlace& place = places[kept.places.size()];
-      kept.places.push_back({place.world, place.mesh, next, {}});
+      const KeptPlace& place = places_[kept.places.size()];
+      kept.places.push_back({place.world, index_of(place), next, {}});
       next += static_cast<std::uint32_t>(triangles_of(place));
     } else {
       kept.own_ids.push_back(static_cast<std::uint32_t>(own.size()));
@@ -153,16 +139,16 @@ std::optional<KeptInstances> LeftOutPlaces::keep(const GridFrame& frame, double 
       own.push_back(i);
     }
   }
-  for_each_place(places, parallel, [&](std::size_t i) { kept.places[i].bounds = bounds_of(places[i], frame); });
+  for_each_place(places_, parallel, [&](std::size_t i) { kept.places[i].bounds = bounds_of(places_[i], frame); });
   rearrange(conversion, own);
   kept.triangles = triangles_;
-  kept.meshes = std::move(records_);
+  kept.meshes = std::move(meshes_.records);
   return kept;
 }
 
 Bounds LeftOutPlaces::bounds_of(const KeptPlace& place, const GridFrame& frame) const {
   Box box;
-  for (const MeshChunks::Chunk& chunk : chunks_[place.mesh].chunks()) {
+  for (const MeshChunks::Chunk& chunk : chunks_[index_of(place)].chunks()) {
     const Box reach = local_reach(chunk.box, place, frame);
     box.include(reach.low);
     box.include(reach.high);

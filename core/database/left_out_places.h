@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +10,8 @@
 #include "core/database/kept_instances.h"
 #include "core/database/mesh_chunks.h"
 #include "core/database/mesh_faces.h"
+#include "core/database/mesh_records.h"
+#include "core/database/obstacle.h"
 #include "core/database/parallel.h"
 #include "core/record/record.h"
 #include "core/scene/kept_meshes.h"
@@ -21,34 +22,34 @@ namespace dmpc::core {
 /// The scene and its faces outlive it.
 class LeftOutPlaces {
  public:
-  /// Nothing if a mesh that stands somewhere cannot be kept (core/database/mesh_records.h), or has a corner in some place that no
-  /// grid takes. Throws RoomError if the scene has more triangles than 32 bits count.
-  static std::optional<LeftOutPlaces> of(const Scene& scene, std::span<const MeshFaces> faces, const Parallel& parallel);
+  /// Requires that nothing is in the way (core/database/obstacle.h) of those places whose copies the scene leaves out. Throws
+  /// RoomError if it has more triangles than 32 bits count.
+  LeftOutPlaces(const Scene& scene, std::span<const MeshFaces> faces, const Parallel& parallel);
 
   /// TopCells::excess_of() of all copies, if there were any. Unless it `is_exact` it may be more than that, for which few
   /// triangles are looked at. 0 if there are so many that nobody could have copies of them.
   std::int64_t excess(const GridFrame& frame, double pad, bool is_exact, const Parallel& parallel) const;
 
+  /// Those that this pad makes too small, one entry for each of Scene::kept.
+  std::vector<Obstacle> obstacles(const GridFrame& frame, double pad) const;
+
   /// Takes what stands for places out of `conversion`. The ids of all that stays are as if there were copies, none of which
-  /// rounding left nothing of. Boxes of places hold these copies, and may be a little larger than they are. Nothing, and
-  /// `conversion` stays, if a place has to be copied. To be called once.
-  std::optional<KeptInstances> keep(const GridFrame& frame, double pad, Conversion& conversion, const Parallel& parallel);
+  /// rounding left nothing of. Boxes of places hold these copies, and may be a little larger than they are. Requires that there
+  /// are no obstacles(). To be called once.
+  KeptInstances keep(const GridFrame& frame, double pad, Conversion& conversion, const Parallel& parallel);
 
  private:
-  LeftOutPlaces(const Scene& scene, std::span<const MeshFaces> faces) : scene_(scene), faces_(faces) {}
-
-  bool take_meshes(const Parallel& parallel);
-  bool are_usable(const Parallel& parallel) const;
-  bool is_usable(const KeptPlace& place) const;
   std::int64_t excess_of(const KeptPlace& place, const GridFrame& frame, double pad, bool is_exact) const;
   Bounds bounds_of(const KeptPlace& place, const GridFrame& frame) const;
   std::uint64_t triangles_of(const KeptPlace& place) const { return faces_[place.mesh].triangles.size(); }
+  std::uint32_t index_of(const KeptPlace& place) const { return meshes_.index[place.mesh]; }
 
   const Scene& scene_;
   std::span<const MeshFaces> faces_;
-  std::vector<MeshRecords> records_;  ///< of Scene::kept's meshes, as the next
-  std::vector<MeshChunks> chunks_;
-  std::uint64_t triangles_ = 0;  ///< of all places
+  std::vector<KeptPlace> places_;  ///< whose copies are left out
+  MeshesRecords meshes_;
+  std::vector<MeshChunks> chunks_;  ///< as records
+  std::uint64_t triangles_ = 0;     ///< of all these places
 };
 
 }  // namespace dmpc::core

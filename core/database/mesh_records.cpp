@@ -1,54 +1,20 @@
 #include "core/database/mesh_records.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <vector>
 
 #include "core/database/brick_builder.h"
+#include "core/database/obstacle.h"
 #include "core/database/usable_place.h"
 #include "core/scene/kept_meshes.h"
 
 namespace dmpc::core {
 namespace {
 
-/// Of a mesh's largest coordinate, so that records, in units of it, keep all the bits that floats have.
-constexpr int exponent_max = 100;
 /// Boxes of bricks hold what is in them; how far rays keep from them is the place's to say.
 constexpr double box_pad = 0x1p-30;
-
-bool is_in_float(double value) { return double{static_cast<float>(value)} == value; }
-bool is_in_floats(const Vec3d& v) { return is_in_float(v.x) && is_in_float(v.y) && is_in_float(v.z); }
-
-bool shines(const Scene& mesh, std::span<const Material> materials) {
-  return std::any_of(mesh.objects.begin(), mesh.objects.end(),
-                     [&](const Object& object) { return materials[object.material].shines(); });
-}
-
-/// The power of two above all of the mesh's coordinates; 0 if floats in units of it do not hold them.
-double unit_of(const Scene& mesh) {
-  double largest = 0;
-  for (const Vec3d& vertex : mesh.vertices) {
-    largest = std::max(largest, largest_component(vertex));
-  }
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  if (!(largest > 0) || std::abs(exponent) > exponent_max) {
-    return 0;
-  }
-  const double unit = std::ldexp(1.0, exponent);
-  const bool are_held = std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [&](const Vec3d& vertex) {
-    return is_in_floats(vertex) && is_in_floats(vertex * (1 / unit));
-  });
-  return are_held ? unit : 0;
-}
-
-bool has_normals_in_floats(const Scene& mesh) {
-  return std::all_of(mesh.normals.begin(), mesh.normals.end(), is_in_floats) &&
-         std::all_of(mesh.corners.begin(), mesh.corners.end(),
-                     [](const TexturedCorner& corner) { return is_in_floats(corner.normal); });
-}
 
 /// A cell that has all of it.
 GridFrame frame_around() {
@@ -117,13 +83,8 @@ class MeshConverter {
 
 }  // namespace
 
-std::optional<MeshRecords> records_of(const Scene& mesh, std::span<const Material> materials, const MeshFaces& faces,
-                                      const Parallel& parallel) {
+MeshRecords records_of(const Scene& mesh, std::span<const Material> materials, const MeshFaces& faces, const Parallel& parallel) {
   MeshRecords records{.conversion = {}, .unit = unit_of(mesh), .tree = {}};
-  if (records.unit == 0 || faces.triangles.empty() || faces.triangles.size() > kept_triangles_max || shines(mesh, materials) ||
-      !has_normals_in_floats(mesh)) {
-    return std::nullopt;
-  }
   for (const MeshPlane& plane : faces.planes) {
     records.conversion.planes.push_back({plane, plane.is_level ? BlockHeader::level_plane : plane.kept_as});
   }
@@ -135,6 +96,24 @@ std::optional<MeshRecords> records_of(const Scene& mesh, std::span<const Materia
   std::iota(ids.begin(), ids.end(), 0U);
   records.tree = BrickBuilder(records.conversion.primitives, box_pad, frame_around(), parallel).build({0, 0, 0}, ids);
   return records;
+}
+
+MeshesRecords records_of(const Scene& scene, std::span<const MeshFaces> faces, const std::vector<bool>& places,
+                         const Parallel& parallel) {
+  std::vector<bool> is_kept(faces.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i]) {
+      is_kept[scene.kept->places[i].mesh] = true;
+    }
+  }
+  MeshesRecords meshes;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    meshes.index.push_back(is_kept[i] ? static_cast<std::uint32_t>(meshes.records.size()) : MeshesRecords::nowhere);
+    if (is_kept[i]) {
+      meshes.records.push_back(records_of(scene.kept->meshes[i], scene.materials, faces[i], parallel));
+    }
+  }
+  return meshes;
 }
 
 }  // namespace dmpc::core

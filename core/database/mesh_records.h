@@ -1,8 +1,9 @@
 // A kept mesh as its records hold it.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/database/brick_tree.h"
 #include "core/database/conversion.h"
@@ -19,9 +20,19 @@ struct MeshRecords {
   BrickTree tree;
 };
 
-/// Nothing if the mesh cannot be kept: if a float does not hold a coordinate or normal of it, or if it shines by itself, since
-/// paths aim at what does, one by one. `materials`: what its objects' indices are of.
-std::optional<MeshRecords> records_of(const Scene& mesh, std::span<const Material> materials, const MeshFaces& faces,
-                                      const Parallel& parallel);
+/// Requires that nothing is in the way (obstacle_of()). `materials`: what its objects' indices are of.
+MeshRecords records_of(const Scene& mesh, std::span<const Material> materials, const MeshFaces& faces, const Parallel& parallel);
+
+/// Of some of a scene's kept meshes.
+struct MeshesRecords {
+  static constexpr std::uint32_t nowhere = 0xffffffffU;
+
+  std::vector<MeshRecords> records;
+  std::vector<std::uint32_t> index;  ///< by the number of the mesh: of its records, or nowhere
+};
+
+/// Of those that are kept in some of these places, one entry for each of Scene::kept.
+MeshesRecords records_of(const Scene& scene, std::span<const MeshFaces> faces, const std::vector<bool>& places,
+                         const Parallel& parallel);
 
 }  // namespace dmpc::core

@@ -163,7 +163,6 @@ class Expansion {
   void keep_meshes() {
     const std::vector<bool> are_kept = kept_meshes(scene_, instances_);
     kept_as_.assign(are_kept.size(), nowhere);
-    kept_.have_copies = false;
     MeshTaker taker(scene_);
     for (std::size_t i = 0; i < are_kept.size(); ++i) {
       if (are_kept[i]) {
@@ -215,7 +214,8 @@ class Expansion {
     };
     for_each(
         [&](const Instance& place, std::uint32_t mesh) {
-          kept_.places.push_back({place.world, mesh, static_cast<std::uint32_t>(scene_.objects.size()) + left_objects});
+          const auto at = static_cast<std::uint32_t>(scene_.objects.size());
+          kept_.places.push_back({.world = place.world, .mesh = mesh, .first = at + left_objects, .at = at});
           left_objects += static_cast<std::uint32_t>(kept_.meshes[mesh].objects.size());
         },
         [&](const Object& object) {

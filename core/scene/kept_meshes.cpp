@@ -28,17 +28,17 @@ bool can_be_kept(const Transform& world) {
 }
 
 const KeptPlace* place_of(const Scene& scene, std::uint32_t object) {
-  if (scene.kept == nullptr || !scene.kept->have_copies) {
+  if (scene.kept == nullptr) {
     return nullptr;
   }
   const std::vector<KeptPlace>& places = scene.kept->places;
   const auto behind = std::upper_bound(places.begin(), places.end(), object,
-                                       [](std::uint32_t index, const KeptPlace& place) { return index < place.first; });
+                                       [](std::uint32_t index, const KeptPlace& place) { return index < place.at; });
   if (behind == places.begin()) {
     return nullptr;
   }
   const KeptPlace& place = *(behind - 1);
-  return object - place.first < scene.kept->meshes[place.mesh].objects.size() ? &place : nullptr;
+  return place.has_copy && object - place.at < scene.kept->meshes[place.mesh].objects.size() ? &place : nullptr;
 }
 
 std::array<std::uint32_t, 3> placed_triangle(bool is_mirrored, std::uint32_t corner_count,
@@ -54,7 +54,7 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of(const Scene& scene, std::
     return triangulate(vertices_of(scene, copy));
   }
   const Scene& mesh = scene.kept->meshes[place->mesh];
-  auto triangles = triangulate(vertices_of(mesh, mesh.objects[object - place->first]));
+  auto triangles = triangulate(vertices_of(mesh, mesh.objects[object - place->at]));
   for (auto& corners : triangles) {
     corners = placed_triangle(place->world.determinant() < 0, copy.vertex_count, corners);
   }

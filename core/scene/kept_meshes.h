@@ -10,11 +10,13 @@
 
 namespace dmpc::core {
 
-/// A copy of a mesh among a scene's objects.
+/// A mesh in one of its places.
 struct KeptPlace {
   Transform world;          ///< from the mesh's coordinates
   std::uint32_t mesh = 0;   ///< index into KeptMeshes::meshes
   std::uint32_t first = 0;  ///< the index of the copy's first object, with all copies: as many come as the mesh has, in its order
+  std::uint32_t at = 0;     ///< the same among Scene::objects, where the copy is or, if it is left out, would be
+  bool has_copy = false;    ///< among Scene::objects. Where it is left out core/scene/placed_objects.h makes it
 };
 
 /// What is decided of a mesh, and not of each of its places: how its polygons are divided, what its normals say, and which of its
@@ -23,8 +25,6 @@ struct KeptPlace {
 struct KeptMeshes {
   std::vector<Scene> meshes;      ///< objects and their pools alone, in coordinates of their own; materials are the scene's
   std::vector<KeptPlace> places;  ///< by `first`, ascending
-  /// Whether Scene::objects has these copies. Where they are left out core/scene/placed_objects.h makes them.
-  bool have_copies = true;
 };
 
 /// A mesh of no more triangles is copied and then forgotten, as one that stands in one place is.
@@ -37,7 +37,7 @@ inline constexpr std::uint64_t kept_triangles_max = std::uint64_t{1} << 21U;
 /// takes it where doubles end.
 bool can_be_kept(const Transform& world);
 
-/// The place that an object is of; null if it is of none.
+/// The place of which an object of the scene's own is a copy; null if it is of none.
 const KeptPlace* place_of(const Scene& scene, std::uint32_t object);
 
 /// The i-th corner of a copy is this one of the mesh's polygon, and the reverse: mirrors turn faces back.

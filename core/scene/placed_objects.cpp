@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <span>
 #include <utility>
 
 #include "core/base/forget.h"
@@ -50,55 +49,78 @@ class PoolWriter {
   std::size_t shaded_ = 0;
 };
 
+std::vector<bool> all_places(const Scene& scene) {
+  return std::vector<bool>(scene.kept == nullptr ? 0 : scene.kept->places.size(), true);
+}
+
+/// In the file's order, with those of `places` alone.
+template <class Take>
+void for_each_left_out(const Scene& scene, const std::vector<bool>& places, const Take& take) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i] && !scene.kept->places[i].has_copy) {
+      take(scene.kept->places[i]);
+    }
+  }
+}
+
+/// Those in `places` have been put.
+void mark_copies(KeptMeshes& kept, const std::vector<bool>& places) {
+  std::uint32_t left_out = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    KeptPlace& place = kept.places[i];
+    place.at = place.first - left_out;
+    place.has_copy = place.has_copy || places[i];
+    left_out += place.has_copy ? 0 : static_cast<std::uint32_t>(kept.meshes[place.mesh].objects.size());
+  }
+}
+
 }  // namespace
 
-bool leaves_copies_out(const Scene& scene) { return scene.kept != nullptr && !scene.kept->have_copies; }
-
-PlacedObjects::PlacedObjects(const Scene& scene) : scene_(scene) {
-  if (leaves_copies_out(scene)) {
-    for (const KeptPlace& place : scene.kept->places) {
-      add_own(place.first);
-      const std::uint64_t end = count_ + scene.kept->meshes[place.mesh].objects.size();
-      runs_.push_back({count_, end, 0, &place});
-      count_ = end;
-    }
-  }
-  add_own(count_ + (scene.objects.size() - own_));
+bool leaves_copies_out(const Scene& scene) {
+  return scene.kept != nullptr && std::any_of(scene.kept->places.begin(), scene.kept->places.end(),
+                                              [](const KeptPlace& place) { return !place.has_copy; });
 }
 
-void PlacedObjects::add_own(std::uint64_t until) {
-  if (count_ < until) {
-    runs_.push_back({count_, until, own_, nullptr});
-    own_ += static_cast<std::size_t>(until - count_);
-    count_ = until;
+PlacedObjects::PlacedObjects(const Scene& scene) : PlacedObjects(scene, all_places(scene)) {}
+
+PlacedObjects::PlacedObjects(const Scene& scene, const std::vector<bool>& places) : scene_(scene) {
+  for_each_left_out(scene, places, [this](const KeptPlace& place) { add_place(place); });
+  add_own(scene.objects.size());
+}
+
+void PlacedObjects::add_place(const KeptPlace& place) {
+  add_own(place.at);
+  const std::uint64_t end = count_ + scene_.kept->meshes[place.mesh].objects.size();
+  runs_.push_back({count_, end, 0, &place});
+  count_ = end;
+}
+
+/// Up to this one of the scene's.
+void PlacedObjects::add_own(std::size_t until) {
+  if (own_ < until) {
+    runs_.push_back({count_, count_ + (until - own_), own_, nullptr});
+    count_ += until - own_;
+    own_ = until;
   }
 }
 
-std::uint64_t object_count(const Scene& scene) {
-  std::uint64_t count = scene.objects.size();
-  if (leaves_copies_out(scene)) {
-    for (const KeptPlace& place : scene.kept->places) {
-      count += scene.kept->meshes[place.mesh].objects.size();
-    }
-  }
-  return count;
-}
+std::uint64_t object_count(const Scene& scene) { return size_with_copies(scene).objects; }
 
-ExpandedSize size_with_copies(const Scene& scene) {
+ExpandedSize size_with_copies(const Scene& scene) { return size_with_copies(scene, all_places(scene)); }
+
+ExpandedSize size_with_copies(const Scene& scene, const std::vector<bool>& places) {
   ExpandedSize size = size_of_pools(scene);
-  if (leaves_copies_out(scene)) {
-    for (const KeptPlace& place : scene.kept->places) {
-      size = size + size_of_pools(scene.kept->meshes[place.mesh]);
-    }
-  }
+  for_each_left_out(scene, places, [&](const KeptPlace& place) { size = size + size_of_pools(scene.kept->meshes[place.mesh]); });
   return size;
 }
 
-void put_copies(Scene& scene) {
+void put_copies(Scene& scene) { put_copies(scene, all_places(scene)); }
+
+void put_copies(Scene& scene, const std::vector<bool>& places) {
   if (!leaves_copies_out(scene)) {
     return;
   }
-  const ExpandedSize size = size_with_copies(scene);
+  const ExpandedSize size = size_with_copies(scene, places);
   size.check();
   Scene left;
   left.kept = std::exchange(scene.kept, nullptr);
@@ -106,7 +128,7 @@ void put_copies(Scene& scene) {
   left.vertices.swap(scene.vertices);
   left.normals.swap(scene.normals);
   left.corners.swap(scene.corners);
-  const PlacedObjects all(left);
+  const PlacedObjects all(left, places);
   PoolWriter writer(scene);
   scene.objects.reserve(size.objects);
   scene.vertices.reserve(size.vertices);
@@ -116,7 +138,7 @@ void put_copies(Scene& scene) {
   scene.corners.reserve(size.corners);
   all.for_each([&](const PlacedObject& object) { writer.add_shading(object); });
   KeptMeshes kept = *left.kept;
-  kept.have_copies = true;
+  mark_copies(kept, places);
   scene.kept = std::make_shared<const KeptMeshes>(std::move(kept));
 }
 
@@ -125,7 +147,6 @@ Scene without_copies(const Scene& scene) {
   own.spheres = scene.spheres;
   own.cones = scene.cones;
   PoolWriter writer(own);
-  const bool has_copies = scene.kept != nullptr && scene.kept->have_copies;
   std::uint32_t next = 0;
   const auto add_until = [&](std::uint32_t end) {
     for (; next < end; ++next) {
@@ -134,9 +155,11 @@ Scene without_copies(const Scene& scene) {
       writer.add_shading(object);
     }
   };
-  for (const KeptPlace& place : has_copies ? std::span(scene.kept->places) : std::span<const KeptPlace>()) {
-    add_until(place.first);
-    next += static_cast<std::uint32_t>(scene.kept->meshes[place.mesh].objects.size());
+  if (scene.kept != nullptr) {
+    for (const KeptPlace& place : scene.kept->places) {
+      add_until(place.at);
+      next += place.has_copy ? static_cast<std::uint32_t>(scene.kept->meshes[place.mesh].objects.size()) : 0;
+    }
   }
   add_until(static_cast<std::uint32_t>(scene.objects.size()));
   return own;

@@ -1,4 +1,4 @@
-// All objects of a scene with each copy of its kept meshes, whether it has these copies or leaves them out.
+// All objects of a scene with each copy of its kept meshes, whether it has these copies or leaves some or all of them out.
 #pragma once
 
 #include <cstdint>
@@ -75,7 +75,7 @@ class PlacedObject {
   const CopyPlacing* placing_;
 };
 
-/// Whether the scene's objects are those alone that are no copies of kept meshes.
+/// Whether there are copies of kept meshes that the scene's objects are without.
 bool leaves_copies_out(const Scene& scene);
 
 /// All of a scene's objects by the indices that they have with all copies. Whatever asks for them gets the same bits of one that
@@ -83,6 +83,8 @@ bool leaves_copies_out(const Scene& scene);
 class PlacedObjects {
  public:
   explicit PlacedObjects(const Scene& scene);
+  /// Of copies that are left out only those of these places are among them, one entry for each of Scene::kept.
+  PlacedObjects(const Scene& scene, const std::vector<bool>& places);
 
   std::uint64_t size() const { return count_; }
 
@@ -116,7 +118,8 @@ class PlacedObjects {
     std::size_t own;
     const KeptPlace* place;
   };
-  void add_own(std::uint64_t until);
+  void add_own(std::size_t until);
+  void add_place(const KeptPlace& place);
 
   const Scene& scene_;
   std::vector<Run> runs_;
@@ -129,10 +132,14 @@ std::uint64_t object_count(const Scene& scene);
 
 /// What the pools of a scene hold with all copies.
 ExpandedSize size_with_copies(const Scene& scene);
+/// With those in these places, one entry for each of Scene::kept, beside those that it has.
+ExpandedSize size_with_copies(const Scene& scene, const std::vector<bool>& places);
 
 /// Puts copies of kept meshes where they are left out: then the scene is what expand() makes of it. Others stay as they are.
 /// Throws RoomError if pools outgrow 32 bits.
 void put_copies(Scene& scene);
+/// In these places alone, one entry for each of Scene::kept.
+void put_copies(Scene& scene, const std::vector<bool>& places);
 
 /// The objects, and their pools alone, that are no copies of kept meshes, as a scene that leaves copies out has them.
 Scene without_copies(const Scene& scene);

@@ -84,6 +84,52 @@ inline core::Scene balls_in_places(double size, Arrangement arrangement, std::ui
   return scene;
 }
 
+/// A sheet of 72 triangles that stands on the floor, in this material.
+inline void add_sheet(core::Scene& scene, const core::Material& material) {
+  core::SceneBuilder builder(scene);
+  builder.material(material);
+  const auto at = [](int row, int column) { return core::Vec3d{column / 8.0, 0.25 * (row % 2), row / 8.0}; };
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) {
+      builder.polygon({at(row, column), at(row, column + 1), at(row + 1, column)});
+      builder.polygon({at(row, column + 1), at(row + 1, column + 1), at(row + 1, column)});
+    }
+  }
+}
+
+/// Balls in twelve places, and among these what has to have copies: four lamps, four sheets with a corner that no float holds, a
+/// ball too small beside the scene and one too far away.
+inline core::Scene with_obstacles(core::Copies copies) {
+  core::Scene scene = lit_scene();
+  scene.textures = {leaves(16), leaves(9)};
+  add_patched_ball(scene, 8);
+  const auto ball_end = static_cast<std::uint32_t>(scene.objects.size());
+  add_sheet(scene, {.color = {0.9, 0.8, 0.5}, .diffuse = 0.5, .emission = {3, 2, 1}});
+  const auto lamp_end = static_cast<std::uint32_t>(scene.objects.size());
+  for (core::Vec3d& vertex : scene.vertices) {
+    vertex = core::Vec3d(core::Vec3f(vertex));
+  }
+  add_sheet(scene, rug_material);
+  const auto end = static_cast<std::uint32_t>(scene.objects.size());
+  scene.vertices.back().x += 1e-12;
+  add_floor(scene, false);
+  core::Instances instances{.meshes = {{0, ball_end}, {ball_end, lamp_end}, {lamp_end, end}}};
+  apps::Random random(7);
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    const core::Vec3d at = random.in_box(-1, 1) + core::Vec3d{0, 0, 1};
+    const std::uint32_t mesh = i % 5 == 1 ? 1 : i % 5 == 3 ? 2 : 0;
+    instances.places.push_back({turned_place(0.3 + 0.02 * i, at, i % 3 == 0), mesh, end + (i >= 9 ? 1 : 0)});
+    if (i == 8 || i == 14) {
+      const bool is_small = i == 8;
+      instances.places.push_back(
+          {turned_place(is_small ? 1e-14 : 0.1, {0, is_small ? 0 : 1e31, 0}, false), 0, end + (is_small ? 0 : 1)});
+    }
+  }
+  core::settle(scene, instances, copies);
+  core::SceneBuilder(scene).sphere({0.4, -1, 0.3}, 0.3);
+  return scene;
+}
+
 inline core::BuildOptions with_copies(std::size_t page_size_bytes = 1024) {
   return {.page_size_bytes = page_size_bytes, .structure = core::Structure::extents};
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -184,8 +185,7 @@ TEST_CASE("what copies that are left out would touch of cells is what copies tou
     Scene whole = left;
     core::put_copies(whole);
     const auto faces = core::faces_of_meshes(left, 0.125, parallel);
-    const auto places = core::LeftOutPlaces::of(left, faces, parallel);
-    REQUIRE(places.has_value());
+    const core::LeftOutPlaces places(left, faces, parallel);
     std::int64_t most = 0;
     for (const double cells : {0.125, 1.0, 64.0}) {
       const core::GridFrame frame = core::fit_frame(core::bounds_of(left, core::world_axes, parallel), 8000, cells);
@@ -198,9 +198,9 @@ TEST_CASE("what copies that are left out would touch of cells is what copies tou
       }
       const double pad = core::insertion_pad(frame, 1);
       const std::int64_t expected = core::TopCells::excess_of(copies, frame, pad);
-      CHECK(places->excess(frame, pad, true, parallel) == expected);
-      CHECK(places->excess(frame, pad, false, parallel) >= expected);
-      CHECK(places->excess(frame, pad, false, parallel) <= std::max<std::int64_t>(expected + 2 * copies.size(), 0));
+      CHECK(places.excess(frame, pad, true, parallel) == expected);
+      CHECK(places.excess(frame, pad, false, parallel) >= expected);
+      CHECK(places.excess(frame, pad, false, parallel) <= std::max<std::int64_t>(expected + 2 * copies.size(), 0));
       most = std::max(most, expected);
     }
     CHECK((most > 0) == are_long);
@@ -224,10 +224,64 @@ TEST_CASE("where a mesh cannot be kept, copies are put in all the same") {
   const Database light = built(left, with_instances(), none);
   CHECK(light.records().instances == 0);
   CHECK(hits_of(light) == hits_of(built(with_odd_corner(Copies::put), with_instances(), all)));
-  const std::uint64_t bytes = size_with_copies(left).bytes();
-  CHECK_NOTHROW(core::build_database(Scene(left), with_instances(), {.corners_max = none, .bytes_max = bytes}));
-  CHECK_THROWS_AS(core::build_database(Scene(left), with_instances(), {.corners_max = none, .bytes_max = bytes - 1}),
-                  core::RoomError);
+}
+
+TEST_CASE("what has to have copies has them, and all else is kept, with the ids, the grid and the films of all copies") {
+  const Scene left = with_obstacles(Copies::left_out);
+  REQUIRE(left.kept->places.size() == 22);
+  for (const bool for_paths : {false, true}) {
+    BuildOptions options = with_instances();
+    options.for_paths = for_paths;
+    options.emitters_max = for_paths ? 400 : 0;
+    const Database light = built(left, options, none), whole = built(left, options, all);
+    CHECK(light.records().instances == 12);
+    CHECK(light.records().kept_meshes == 1);
+    CHECK(light.header().emitter_count == (for_paths ? 4 * 72 : 0));
+    CHECK(light.primitives().size() < whole.primitives().size());
+    check_alike(light, whole);
+    CHECK(hits_of(light) == hits_of(whole));
+    const core::TransportKind kind = for_paths ? core::TransportKind::paths : core::TransportKind::whitted;
+    BuildOptions copies = options;
+    copies.keeps_instances = false;
+    CHECK(film(light, left.view, kind) == film(whole, left.view, kind));
+    CHECK(film(light, left.view, kind) == film(built(with_obstacles(Copies::put), copies, all), left.view, kind));
+  }
+}
+
+TEST_CASE("copies that have to be there and have no room are an error that names them, and those that are kept need none") {
+  const Scene left = with_obstacles(Copies::left_out);
+  const auto complaint = [&left](std::uint64_t bytes) -> std::string {
+    try {
+      core::build_database(Scene(left), with_instances(), {.corners_max = none, .bytes_max = bytes});
+    } catch (const core::RoomError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::uint64_t bytes_of_all = size_with_copies(left).bytes();
+  CHECK(complaint(bytes_of_all / 2).empty());
+  CHECK(complaint(0) ==
+        "with a copy in each place of what cannot be kept once (mesh 1 of 3, which reaches too far out, in 1 place, mesh 2 of 3, "
+        "which shines, in 4 places, mesh 3 of 3, which has numbers that no float holds, in 4 places), the scene takes 0 MiB of "
+        "memory, and there are 0 for it: give the scene fewer places, or coarser meshes");
+}
+
+TEST_CASE("all copies that somebody wants and that have no room are an error that says why") {
+  const Scene left = furnished(0.3, Arrangement::apart, 1, Copies::left_out);
+  core::CopyLimits limits{.corners_max = all, .bytes_max = 0, .reason = "which are counted", .advice = "count less"};
+  CHECK_THROWS_WITH_AS(core::build_database(Scene(left), with_instances(), limits),
+                       "with a copy in each place, which are counted, the scene takes 0 MiB of memory, and there are 0 for it: "
+                       "count less",
+                       core::RoomError);
+}
+
+TEST_CASE("where each primitive lies is known of those that are no copies of what is kept") {
+  const Database light = built(with_obstacles(Copies::left_out), with_instances(), none);
+  const auto places = light.find_places();
+  REQUIRE(places.size() == light.header().primitive_count);
+  const auto known =
+      std::count_if(places.begin(), places.end(), [](const Database::Place& place) { return place.block != core::no_address; });
+  CHECK(static_cast<std::size_t>(known) == light.primitives().size());
 }
 
 TEST_CASE("few copies are put in, so that all is said of them, and so are all that are to be expanded") {

@@ -137,6 +137,42 @@ TEST_CASE("copies that are put make it the expanded one, and taken out leave it"
   }
 }
 
+TEST_CASE("copies may be put in some places alone: the objects stay, and those that are copies know their places") {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    CAPTURE(seed);
+    const Scene whole = expanded(seed), without = left(seed);
+    if (without.kept == nullptr) {
+      continue;
+    }
+    std::vector<bool> odd;
+    for (std::size_t i = 0; i < without.kept->places.size(); ++i) {
+      odd.push_back(i % 2 == 1);
+    }
+    Scene some = without;
+    put_copies(some, odd);
+    CHECK(leaves_copies_out(some));
+    CHECK(some.objects.size() == size_with_copies(without, odd).objects);
+    CHECK(object_count(some) == whole.objects.size());
+    CHECK(all_told(some) == all_told(whole));
+    CHECK(same_corners(without_copies(some), without_copies(whole)));
+    CHECK(without_copies(some).objects.size() == without.objects.size());
+    std::vector<std::uint64_t> copies(odd.size());
+    for (std::uint32_t i = 0; i < some.objects.size(); ++i) {
+      if (const core::KeptPlace* const place = place_of(some, i)) {
+        ++copies[place - some.kept->places.data()];
+      }
+    }
+    for (std::size_t i = 0; i < odd.size(); ++i) {
+      const std::size_t size = some.kept->meshes[some.kept->places[i].mesh].objects.size();
+      REQUIRE(copies[i] == (odd[i] ? size : 0));
+    }
+    put_copies(some);
+    CHECK_FALSE(leaves_copies_out(some));
+    CHECK(same_scene(some, whole));
+    CHECK(same_corners(some, whole));
+  }
+}
+
 TEST_CASE("a scene that leaves copies out is sent with them, as the expanded one is") {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     CAPTURE(seed);
