@@ -97,6 +97,9 @@ inline constexpr auto counters_of<core::Operations> = std::array{
     counter<&core::Operations::primitive_tests, 0>({"triangle_tests"}),
     counter<&core::Operations::primitive_tests, 1>({"sphere_tests"}),
     counter<&core::Operations::primitive_tests, 2>({"cone_tests"}),
+    counter<&core::Operations::instance_entries>({"instance_entries", "rays that went into a kept mesh"}),
+    counter<&core::Operations::placed_triangles>(
+        {"placed_triangles", "of kept meshes, by walks (once for a bundle) and to be shaded"}),
     counter<&core::Operations::shadings>({"shadings", "", "shadings"}),
     counter<&core::Operations::normal_reads>({"normal_reads", "vertex normals of smooth triangles"}),
     counter<&core::Operations::texture_lookups>({"texture_lookups", "hits on textured triangles"}),

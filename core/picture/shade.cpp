@@ -206,7 +206,7 @@ void Shader::read_geometry(HitState& state, const std::byte* record) const {
   PlacedBlock placed;
   if (is_in_instance(state.hit)) {
     const MeshPlace place(state.place(), header_.frame);
-    placed.place(record, place);
+    operations_.placed_triangles += placed.place(record, place);
     record = placed.record();
     state.is_in_mirror = place.is_mirrored();
   }
@@ -315,6 +315,7 @@ void Shader::place_normals(HitState& state, const std::byte* instance) const {
   const auto two = std::bit_cast<std::array<Vec3f, 2>>(state.normal);
   const CutEllipse ellipse = state.of_mesh.ellipse;
   const MeshPlace place(read<InstanceRecord>(instance), header_.frame);
+  ++operations_.placed_triangles;
   const std::array<Vec3f, 3> normals = place.normals({two[0], two[1], state.of_mesh.third});
   state.normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
   std::construct_at(&state.ellipse, ellipse);

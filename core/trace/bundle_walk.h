@@ -176,12 +176,13 @@ class BundleWalk {
   void visit(const std::byte* record, Address address) {
     const bool is_block = bundle_.next.is_block();
     const bool is_of_instances = is_block && !bundle_.is_inside && read<BlockHeader>(record).kind == PrimitiveKind::instance;
-    operations_.brick_reads += is_block && !is_of_instances ? 0 : count_of(bundle_.next_rays);
     if (is_of_instances && read<BlockHeader>(record).count == 0) {
+      operations_.instance_entries += count_of(bundle_.next_rays);
       bundle_.enter(read<InstanceRecord>(record), address, header_.frame);
       place_.reset();
       return;
     }
+    operations_.brick_reads += is_block && !is_of_instances ? 0 : count_of(bundle_.next_rays);
     if (is_of_instances) {
       bundle_.meet_instances(record, !bundle_.any);
     } else if (!is_block) {
@@ -211,7 +212,7 @@ class BundleWalk {
       place_.emplace(bundle_.instance, header_.frame);
     }
     PlacedBlock placed;
-    placed.place(record, *place_);
+    operations_.placed_triangles += placed.place(record, *place_);
     const BundleHits before = bundle_.best;
     const RayMask found = bundle_.found;
     test_block(placed.record(), block);

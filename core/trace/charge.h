@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/trace/operations.h"
+#include "core/trace/work.h"
 
 namespace dmpc::core {
 
@@ -14,8 +15,8 @@ namespace dmpc::core {
 enum class Charge : std::uint8_t {
   ray_setup,      ///< a ray made and its walk begun
   cell_step,      ///< of the walk through the grid
-  brick_read,     ///< a record of the grid read
-  triangle_test,  ///< one primitive of a block against a ray
+  brick_read,     ///< a record of the grid read; a ray's way into a kept mesh counts as bricks_an_entry of them
+  triangle_test,  ///< one primitive of a block against a ray; a triangle of a kept mesh that is placed as tests_a_placing of them
   sphere_test,
   cone_test,
   shading,        ///< of a hit: geometry, normals, material, lights
@@ -39,8 +40,8 @@ inline ChargeCounts charges_of(const Operations& operations) {
   const auto set = [&counts](Charge charge, std::uint64_t count) { counts[static_cast<std::size_t>(charge)] = count; };
   set(Charge::ray_setup, operations.traced_ray_count());
   set(Charge::cell_step, operations.cell_steps);
-  set(Charge::brick_read, operations.brick_reads);
-  set(Charge::triangle_test, operations.primitive_tests[0]);
+  set(Charge::brick_read, operations.brick_reads + operations.instance_entries * bricks_an_entry);
+  set(Charge::triangle_test, operations.primitive_tests[0] + operations.placed_triangles * tests_a_placing);
   set(Charge::sphere_test, operations.primitive_tests[1]);
   set(Charge::cone_test, operations.primitive_tests[2]);
   set(Charge::shading, operations.shadings);

@@ -104,10 +104,11 @@ class InstanceWalk {
       core::test_block(ray_, sheared_, record, child.address(), cursor_.best, operations_);
       return BrickChild::none();
     }
-    ++operations_.brick_reads;
     if (!is_instance(header)) {
+      ++operations_.brick_reads;
       return meet_instances(record, box, t_low, t_most, !any);
     }
+    ++operations_.instance_entries;
     enter(read<InstanceRecord>(record));
     return BrickChild::none();
   }
@@ -148,7 +149,7 @@ class InstanceWalk {
       place_.emplace(cursor_.instance, header_.frame);
     }
     PlacedBlock placed;
-    placed.place(record, *place_);
+    operations_.placed_triangles += placed.place(record, *place_);
     Hit best = test(placed, block);
     if (is_new(best) && placed.has_vanished(best.lane)) {
       placed.take_vanished_away();

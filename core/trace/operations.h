@@ -16,10 +16,13 @@ struct Operations {
   std::uint64_t cell_steps = 0;  ///< steps from one cell to the next, on any level
   std::uint64_t brick_reads = 0;
   std::array<std::uint64_t, primitive_kind_count> primitive_tests{};  ///< lanes tested, by kind
-  std::uint64_t shadings = 0;                                         ///< hits that were shaded
-  std::uint64_t normal_reads = 0;                                     ///< of those, hits on smooth triangles
-  std::uint64_t texture_lookups = 0;                                  ///< of those, hits on textured triangles
-  std::uint64_t tile_reads = 0;                                       ///< of tiles of textures: 1 to 8 for each probe of those
+  std::uint64_t instance_entries = 0;                                 ///< rays that went into a kept mesh, by its place
+  std::uint64_t placed_triangles =
+      0;                       ///< of kept meshes, brought to a place: by a walk, once for all rays of a bundle, or to be shaded
+  std::uint64_t shadings = 0;  ///< hits that were shaded
+  std::uint64_t normal_reads = 0;     ///< of those, hits on smooth triangles
+  std::uint64_t texture_lookups = 0;  ///< of those, hits on textured triangles
+  std::uint64_t tile_reads = 0;       ///< of tiles of textures: 1 to 8 for each probe of those
 
   std::array<std::uint64_t, ray_kind_count> rays{};  ///< shot, hit or miss, by kind
   std::uint64_t primary_hits = 0;

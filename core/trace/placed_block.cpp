@@ -36,7 +36,7 @@ std::array<Vec3f, 3> MeshPlace::normals(const std::array<Vec3f, 3>& of_mesh) con
   return placed;
 }
 
-void PlacedBlock::place(const std::byte* record, const MeshPlace& place) {
+std::uint32_t PlacedBlock::place(const std::byte* record, const MeshPlace& place) {
   const auto header = read<BlockHeader>(record);
   const std::size_t count = header.count;
   std::memcpy(record_.data(), record, block_bytes(header.kind, count));
@@ -49,6 +49,7 @@ void PlacedBlock::place(const std::byte* record, const MeshPlace& place) {
   if (header.has_plane()) {
     place_plane(record, place);
   }
+  return header.count;
 }
 
 void PlacedBlock::place_corners(const float* rows, std::size_t count, const MeshPlace& place) {

@@ -38,8 +38,8 @@ class MeshPlace {
 
 class PlacedBlock {
  public:
-  /// `record`: a block of the mesh.
-  void place(const std::byte* record, const MeshPlace& place);
+  /// `record`: a block of the mesh. Returns how many triangles it has.
+  std::uint32_t place(const std::byte* record, const MeshPlace& place);
   const std::byte* record() const { return record_.data(); }
   /// Whether the copy has no such triangle, as rounding leaves nothing of it.
   bool has_vanished(std::uint32_t lane) const;

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/trace/charge.h"
 #include "svm/run.h"
 #include "tests/support/kept_scenes.h"
+#include "tests/support/priced_machine.h"
 #include "tests/support/scaled.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
@@ -55,6 +57,30 @@ TEST_CASE("rays that walk alone and in bundles show the same of what is kept") {
     CHECK(outcome_of(report) == copies.outcome());
     CHECK((report.operations().bundles > 0) == bundles);
   }
+}
+
+TEST_CASE("a modelled node computes what its ways into kept meshes and the triangles that it places cost, beside all else") {
+  const core::Scene scene = balls_in_places(0.3, Arrangement::apart, 24);
+  const Subject kept(scene, {16, 16}, with_instances());
+  const nodes::Machine machine = priced_machine();
+  const svm::Report report = run_svm(kept, {.computer = {.node_count = 1, .machine = machine}});
+  const core::Operations done = report.operations();
+  core::Operations of_copies = done;
+  of_copies.instance_entries = of_copies.placed_triangles = 0;
+  const auto price_ns = [&](const core::Operations& operations) {
+    nodes::Charges charges{core::charges_of(operations)};
+    charges[core::Charge::home_lookup] = report.pages().home_hits;
+    return machine.price_ps(charges) / 1000;
+  };
+  const auto cost_ps = [&](core::Charge charge) { return machine.cost_ps[static_cast<std::size_t>(charge)]; };
+  CHECK(report.virtual_time->nodes[0].computing_ns == price_ns(done));
+  CHECK(price_ns(done) - price_ns(of_copies) ==
+        doctest::Approx(1e-3 *
+                        static_cast<double>(done.instance_entries * core::bricks_an_entry * cost_ps(core::Charge::brick_read) +
+                                            done.placed_triangles * core::tests_a_placing * cost_ps(core::Charge::triangle_test)))
+            .epsilon(1e-6)
+            .scale(0));
+  CHECK(done.instance_entries > 0);
 }
 
 TEST_CASE("a plan has the room for the longer cursors of a database with instances") {

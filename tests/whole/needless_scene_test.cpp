@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "tests/support/kept_scenes.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
@@ -73,6 +74,11 @@ Features features_of(const core::Operations& operations) {
           {"lights behind surfaces", operations.skipped.unlit}};
 }
 
+/// Those of scenes whose meshes are kept once.
+Features kept_features_of(const core::Operations& operations) {
+  return {{"ways into kept meshes", operations.instance_entries}, {"triangles placed", operations.placed_triangles}};
+}
+
 /// Those that also several nodes can do without.
 Features features_of(const svm::Report& report) {
   Features features = features_of(report.operations());
@@ -131,6 +137,7 @@ TEST_CASE("one triangle under one light does nothing that it does not need, on o
     check_zero(features_of(run_svm(subject, {.computer = {.node_count = nodes}})));
     check_zero(features_of(run_replicated(subject, {.computer = {.node_count = nodes}})));
     check_zero(features_of(run_dataflow(subject, {.computer = {.node_count = nodes}})));
+    check_zero(kept_features_of(run_svm(subject, {.computer = {.node_count = nodes}}).operations()));
   }
 }
 
@@ -157,6 +164,12 @@ TEST_CASE("what one triangle does not need other scenes do") {
   const dataflow::Report dataflow = run_dataflow(subject, starved);
   check_used(features_of(dataflow));
   check_used(lonely_features_of(dataflow));
+}
+
+TEST_CASE("meshes that are kept take what their copies do not") {
+  const core::Scene scene = balls_in_places(0.3, Arrangement::apart, 2);
+  check_used(kept_features_of(run_svm(Subject(scene, {16, 16}, with_instances()), {}).operations()));
+  check_zero(kept_features_of(run_svm(Subject(scene, {16, 16}, with_copies()), {}).operations()));
 }
 
 }  // namespace dmpc::tests::needless_scene_test

@@ -3,8 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +17,7 @@
 #include "core/families/scenes.h"
 #include "core/scene/frame.h"
 #include "core/scene/kept_meshes.h"
+#include "core/trace/bundle_walk.h"
 #include "core/trace/instance_bundle.h"
 #include "tests/support/kept_scenes.h"
 #include "tests/support/scaled.h"
@@ -114,6 +118,42 @@ TEST_CASE("rays meet what is kept where they meet its copies, in the same object
       }
     }
   }
+}
+
+TEST_CASE(
+    "a ray's ways into kept meshes and the triangles that are placed for it are counted, in a bundle the latter once for all") {
+  Scene scene = placed(rug_on_floor(true, true, 6), {turned_place(0.5, {}, false), turned_place(0.01, {-0.9, -0.9, -0.9}, true)});
+  add_far_specks(scene);
+  const core::Database kept = core::build_database(scene, with_instances());
+  const core::KeptPlace& place = scene.kept->places[0];
+  const Vec3d target = place.world.point(scene.kept->meshes[0].vertices[0] * 0.9);
+  const auto local = [&](const Vec3d& point) { return core::to_local(kept.header().frame, point); };
+  const Ray ray = apps::ray_through(local(target + Vec3d{0.1, 0.2, 1.5}), local(target)),
+            away = apps::ray_through(local({0.9, 0.9, 0.9}), local({1, 1, 0.9}));
+  const auto walked = [&](const Ray& one) {
+    core::LocalRecords records(kept.bytes());
+    core::InstanceCursor cursor;
+    core::Operations operations;
+    core::trace(one, cursor, records, kept.header(), {}, operations);
+    return operations;
+  };
+  const core::Operations alone = walked(ray);
+  CHECK(alone.instance_entries == 1);
+  CHECK(alone.placed_triangles > 0);
+  CHECK(alone.placed_triangles == alone.primitive_tests[0]);  // nothing is tested but what is placed
+  CHECK(walked(away).instance_entries == 0);
+  CHECK(walked(away).placed_triangles == 0);
+  auto bundle = std::make_unique<core::InstanceBundle>();
+  bundle->count = 16;
+  std::fill_n(std::begin(bundle->rays), 16, ray);
+  bundle->start();
+  core::LocalRecords records(kept.bytes());
+  core::Operations together;
+  CHECK(core::trace(*bundle, records, kept.header(), {}, together));
+  CHECK(together.instance_entries == 16);
+  CHECK(together.placed_triangles == alone.placed_triangles);
+  CHECK(together.primitive_tests[0] == 16 * alone.primitive_tests[0]);
+  CHECK(together.brick_reads == 16 * alone.brick_reads);
 }
 
 TEST_CASE("no ray hits a kept mesh's triangle that rounding leaves nothing of, as no copy has it") {

@@ -18,6 +18,14 @@ TEST_CASE("work is each operation at its price") {
   CHECK(core::work_of(operations, prices) == 100'000'000 + 5'000'000 + 600'000 + 70'000 + 8'000 + 900 + 100 + 11);
 }
 
+TEST_CASE("to go into a kept mesh is work of bricks, and to place its triangles work of tests, as machines are charged") {
+  core::Operations operations;
+  operations.instance_entries = 3;
+  operations.placed_triangles = 40;
+  const core::WorkPrices prices{.brick_read_ps = 1'000'000, .primitive_test_ps = {1000, 1, 1}};
+  CHECK(core::work_of(operations, prices) == 3 * core::bricks_an_entry * 1'000'000 + 40 * core::tests_a_placing * 1000);
+}
+
 TEST_CASE("a ray that is known to meet only the background is no work") {
   core::Operations operations;
   operations.rays = {5, 0, 0, 0};
