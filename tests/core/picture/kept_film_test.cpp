@@ -1,11 +1,14 @@
 // Meshes that are kept once show what their copies show, to the bit.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/database/database.h"
+#include "core/families/scenes.h"
 #include "core/picture/render.h"
 #include "core/record/records.h"
 #include "tests/support/kept_scenes.h"
@@ -55,6 +58,24 @@ std::uint64_t film_by_one_page(const core::Database& database, const core::Rende
   return film.hash();
 }
 
+/// A built-in scene's polygons, in four places of the scene, one of them its own and one a mirror; seen and lit as it is.
+Scene family_in_places(const std::string& name) {
+  Scene mesh = core::built_in_scene(core::parse_scene_name(name));
+  std::erase_if(mesh.objects, [](const core::Object& object) { return object.vertex_count == 0; });
+  for (core::Vec3d& normal : mesh.normals) {
+    normal = core::Vec3d(core::Vec3f(normal));
+  }
+  const core::Vec3d middle = mesh.view.at;
+  const double reach = length(mesh.view.from - middle);
+  std::vector<core::Transform> places{{}};
+  for (const double side : {-0.2, 0.1, 0.3}) {
+    core::Transform world = turned_place(0.3, {}, side > 0.2);
+    world.shift = middle + core::Vec3d{side, 0.5 * side, std::fabs(side)} * reach - world.direction(middle);
+    places.push_back(world);
+  }
+  return placed(mesh, places);
+}
+
 std::uint64_t path_film(const Scene& scene, core::BuildOptions options) {
   options.for_paths = true;
   options.emitters_max = 16;
@@ -79,6 +100,20 @@ TEST_CASE("what is kept once shows what its copies show, to the bit, small and l
       CHECK(kept.database().records().kept_meshes == 2);
       CHECK(kept.database().page_count() < copies.database().page_count());
     }
+  }
+}
+
+TEST_CASE("each of the eleven families shows in several places, kept once, what its copies show") {
+  for (const char* const name : {"balls-2-t2", "gears-1", "jacks-1-t3", "lattice-2-t1", "mount-4", "rings-1-t1", "shells-1-t1",
+                                 "sombrero-1", "teapot-4", "tetra-5", "tree-3-t2"}) {
+    CAPTURE(std::string(name));
+    const Scene scene = family_in_places(name);
+    const int side = scaled_edge(32);
+    const Subject copies(scene, {side, side}, with_copies()), kept(scene, {side, side}, with_instances());
+    CHECK(kept.outcome() == copies.outcome());
+    CHECK(kept.outcome().primary_hits > 0);
+    CHECK(kept.database().records().instances == 4);
+    CHECK(kept.database().records().kept_meshes == 1);
   }
 }
 
