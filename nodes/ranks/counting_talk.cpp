@@ -52,13 +52,10 @@ void CountingTalk::count_if_quiet() {
 }
 
 void CountingTalk::close_account() {
-  traffic_.frames_sent = links_->frames_sent() - before_.frames_sent;
-  traffic_.bytes_sent = links_->bytes_sent() - before_.bytes_sent;
+  const RankLinks::Sent sent = links_->take_sent();
+  traffic_.frames_sent = sent.frames;
+  traffic_.bytes_sent = sent.bytes;
   traffic_.waves = waves_.waves();
-}
-
-RankTraffic CountingTalk::reported() const {
-  return {.frames_sent = before_.frames_sent + traffic_.frames_sent, .bytes_sent = before_.bytes_sent + traffic_.bytes_sent};
 }
 
 void CountingTalk::expect_nothing_lost() const {

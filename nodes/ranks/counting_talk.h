@@ -18,9 +18,8 @@ namespace dmpc::nodes {
 class CountingTalk {
  public:
   /// All of it outlives this. `outbox` has what nodes here send to nodes elsewhere, of `node_count` in all and the host.
-  /// `before`: frames and bytes that were reported of earlier runs.
-  CountingTalk(RankLinks& links, NodeThreads& nodes, Mailbox& outbox, std::uint32_t node_count, const RankTraffic& before = {})
-      : links_(&links), nodes_(&nodes), outbox_(&outbox), node_count_(node_count), waves_(links.rank_count()), before_(before) {}
+  CountingTalk(RankLinks& links, NodeThreads& nodes, Mailbox& outbox, std::uint32_t node_count)
+      : links_(&links), nodes_(&nodes), outbox_(&outbox), node_count_(node_count), waves_(links.rank_count()) {}
 
   /// Takes an item of this talk; false if it is of another.
   bool receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes);
@@ -38,8 +37,6 @@ class CountingTalk {
   /// All were told how the run has ended. Call it before the next two.
   void close_account();
   const RankTraffic& traffic() const { return traffic_; }
-  /// What has been reported, of this run and those before it: for the next.
-  RankTraffic reported() const;
   /// What was sent here or came here was received here or left.
   void expect_nothing_lost() const;
 
@@ -49,7 +46,7 @@ class CountingTalk {
   Mailbox* outbox_;
   std::uint32_t node_count_;
   CountingWaves waves_;
-  RankTraffic before_, traffic_;
+  RankTraffic traffic_;
   bool is_closing_ = false;
 };
 

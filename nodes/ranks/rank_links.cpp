@@ -83,20 +83,14 @@ void RankLinks::look_after() {
   }
 }
 
-std::uint64_t RankLinks::frames_sent() const {
-  std::uint64_t sum = 0;
+RankLinks::Sent RankLinks::take_sent() {
+  Sent sent;
   for (const RankWay& way : ways_) {
-    sum += way.frames();
+    sent.frames += way.frames();
+    sent.bytes += way.bytes();
   }
-  return sum;
-}
-
-std::uint64_t RankLinks::bytes_sent() const {
-  std::uint64_t sum = 0;
-  for (const RankWay& way : ways_) {
-    sum += way.bytes();
-  }
-  return sum;
+  const Sent before = std::exchange(taken_, sent);
+  return {sent.frames - before.frames, sent.bytes - before.bytes};
 }
 
 }  // namespace dmpc::nodes

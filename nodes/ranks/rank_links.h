@@ -70,9 +70,11 @@ class RankLinks {
   /// Shows others that this rank lives; throws LostRank if one has been silent for too long.
   void look_after();
 
-  /// Frames sent so far, and their bytes.
-  std::uint64_t frames_sent() const;
-  std::uint64_t bytes_sent() const;
+  struct Sent {
+    std::uint64_t frames = 0, bytes = 0;
+  };
+  /// What was sent since this was called last.
+  Sent take_sent();
   /// What is set aside for frames that are sent.
   std::size_t room_bytes() const { return 2 * frame_bytes() * (rank_count() - 1); }
   /// And for those that have come.
@@ -103,6 +105,7 @@ class RankLinks {
   std::vector<Peer> peers_;    ///< likewise
   Clock::time_point last_look_ = Clock::now();
   Clock::duration time_run_{};
+  Sent taken_;
 };
 
 }  // namespace dmpc::nodes

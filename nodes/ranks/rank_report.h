@@ -12,7 +12,7 @@ namespace dmpc::nodes {
 /// What went between a rank and others.
 struct RankTraffic {
   std::uint64_t packets_sent = 0, packets_received = 0;  ///< of nodes
-  std::uint64_t frames_sent = 0, bytes_sent = 0;         ///< of frames; those before the run count, too
+  std::uint64_t frames_sent = 0, bytes_sent = 0;         ///< of frames, from the end of the run before on
   std::uint64_t waves = 0;                               ///< that were counted until all stood still
 };
 static_assert(std::is_trivially_copyable_v<RankTraffic>, "it travels as bytes to rank 0");

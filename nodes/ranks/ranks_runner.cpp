@@ -89,7 +89,7 @@ struct RanksRunner::Implementation {
   void begin_again() {
     nodes.begin_again();
     clocks = ClockTalk(links, compares_clocks);
-    counting = CountingTalk(links, nodes, outbox, node_count(), counting.reported());
+    counting = CountingTalk(links, nodes, outbox, node_count());
     closing = ClosingTalk(links, nodes);
     gathering = GatheringTalk(links, is_here.size());
     has_started = false;

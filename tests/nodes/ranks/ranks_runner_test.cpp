@@ -326,6 +326,31 @@ TEST_CASE("after the nodes each rank speaks for itself, and rank 0 hears what we
   }
 }
 
+TEST_CASE("nodes that are made anew on the same ranks begin to count what is sent anew, as those do that run again") {
+  for (const bool are_made_anew : {true, false}) {
+    CAPTURE(are_made_anew);
+    const auto results = on_ranks(2, {}, [&](Fabric& fabric) {
+      RankLinks links(fabric);
+      std::vector<RankReport> sums;
+      std::optional<RanksRunner> runner;
+      for (const std::uint32_t rounds : {200U, 1U}) {
+        if (!runner || are_made_anew) {
+          runner.emplace(equal_nodes(4, TokenRound::mailbox, making<TokenRound>(rounds)), links);
+        }
+        CHECK(runner->run({}) == RunEnd::finished);
+        const std::vector<RankReport> reports = runner->gather_ranks("");
+        sums.insert(sums.end(), reports.begin(), reports.begin() + std::min<std::ptrdiff_t>(1, std::ssize(reports)));
+      }
+      return sums;
+    });
+    const std::vector<RankReport>& heard = *results[0].value;
+    REQUIRE(heard.size() == 2);
+    CHECK(heard[0].traffic.frames_sent >= 200);
+    CHECK(heard[1].traffic.frames_sent < 100);
+    CHECK(heard[1].traffic.bytes_sent < heard[0].traffic.bytes_sent / 2);
+  }
+}
+
 TEST_CASE("where somebody looks on, each rank's clock is set to that of rank 0, and compared with it after the run") {
   class Sees final : public Observer {
    public:
