@@ -62,6 +62,11 @@ class PacketWriter {
   std::size_t end_ = 0;
 };
 
+/// Of open pages that not every node holds.
+std::size_t asked_open_bytes(const PageCapacity& capacity) {
+  return holds_open_pages(capacity.open_pages, capacity.page_size_bytes()) ? 0 : capacity.open_pages * capacity.page_size_bytes();
+}
+
 constexpr std::size_t lent_bytes = core::record_bytes_max + core::overread_bytes;
 
 }  // namespace
@@ -92,7 +97,7 @@ nodes::MemoryPlan Forest::layout(const PageCapacity& capacity, std::uint32_t ind
 Forest::Forest(nodes::Node& node, const PageCapacity& capacity, const nodes::ByteSource& database)
     : geometry_(capacity.page_size_bytes()),
       forest_(nodes::kept(node.memory(), core::MemoryUse::home_pages, database, capacity.leading_bytes(), core::overread_bytes)),
-      closed_from_(capacity.leading_bytes() + capacity.open_pages * capacity.page_size_bytes()),
+      closed_from_(capacity.leading_bytes() + asked_open_bytes(capacity)),
       homes_(node, capacity, database),
       self_(nodes::index_of(node.id())),
       node_(&node) {

@@ -5,8 +5,8 @@
 // Invariants: (1) what lies in a page behind the forest holds all that is below it in the tree, so its home answers from its own
 // memory at once, and waits for nothing; (2) a pixel waits for one answer at most, so there are never more questions than slots;
 // (3) packets of questions are answered one by one, so that an answer's place is reserved by its questions. Pages that lead into
-// kept meshes are open, which (1) does not hold for: of these a walk asks for one record after the other, and goes on by itself;
-// in a mesh (1) holds again, and the question tells where the mesh stands.
+// kept meshes are open, which (1) does not hold for: few are at every node, of more a walk asks for one record after the other,
+// and goes on by itself; in a mesh (1) holds again, and the question tells where the mesh stands.
 #pragma once
 
 #include <cstddef>
@@ -32,6 +32,13 @@
 #include "svm/pages/plain_records.h"
 
 namespace dmpc::svm {
+
+/// Open pages that every node holds as the forest, at most: records that are so few are met by many rays, each of which would ask
+/// for them one by one.
+inline constexpr std::size_t held_open_bytes_max = std::size_t{256} << 10U;
+constexpr bool holds_open_pages(std::uint32_t count, std::size_t page_size_bytes) {
+  return count * page_size_bytes <= held_open_bytes_max;
+}
 
 /// The room that a full packet of questions takes, as that of its answers; none if there is nobody to ask.
 std::size_t question_packet_bytes(const PageCapacity& capacity);

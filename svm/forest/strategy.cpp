@@ -41,7 +41,10 @@ class ForestStrategy final : public Strategy {
     const std::uint64_t quarter = std::uint64_t{request.width} * request.height / (4 * workers);
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(quarter, forest_in_flight_least, forest_in_flight_most));
   }
-  std::uint32_t leading_pages(const PlanRequest& request) const override { return request.forest_page_count; }
+  std::uint32_t leading_pages(const PlanRequest& request) const override {
+    const bool are_held = holds_open_pages(request.open_page_count, request.page_size_bytes);
+    return request.forest_page_count + (are_held ? request.open_page_count : 0);
+  }
 
   /// Packets of questions: no more than tasks, each of which asks one at a time.
   std::uint32_t request_credits(const Plan& plan) const override {

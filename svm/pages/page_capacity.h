@@ -28,7 +28,7 @@ struct PageCapacity {
   std::uint32_t faults_max = 0;           ///< under way at a time
   std::uint32_t request_credits = 0;      ///< page requests, or other packets that ask, that may be under way to one home
   std::uint32_t leading_pages = 0;        ///< the first ones, if every node holds them: they have no home
-  std::uint32_t open_pages = 0;           ///< behind these, that lead into pages with a home elsewhere
+  std::uint32_t open_pages = 0;           ///< the last of these, or behind, that lead into pages elsewhere
 
   std::size_t page_size_bytes() const { return cache.page_size_bytes; }
   std::size_t database_bytes() const { return page_count * page_size_bytes(); }

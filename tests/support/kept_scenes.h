@@ -130,6 +130,24 @@ inline core::Scene with_obstacles(core::Copies copies) {
   return scene;
 }
 
+/// Patched balls in a field of so many along a side, beside a floor and a sphere.
+inline core::Scene field_of_balls(std::uint32_t side, int ball_side = 8) {
+  core::Scene scene = lit_scene();
+  scene.textures = {leaves(16), leaves(9)};
+  add_patched_ball(scene, ball_side);
+  const auto end = static_cast<std::uint32_t>(scene.objects.size());
+  core::Instances instances{.meshes = {{0, end}}};
+  const double step = 2.0 / side;
+  for (std::uint32_t i = 0; i < side * side; ++i) {
+    const double x = -1 + (i % side) * step, y = -1 + static_cast<double>(i / side) * step;
+    instances.places.push_back({turned_place(0.3 * step, {x, y, 0.1}, i % 2 == 0), 0, end});
+  }
+  core::settle(scene, instances, core::Copies::put);
+  add_floor(scene, false);
+  core::SceneBuilder(scene).sphere({0.4, -1, 0.3}, 0.3);
+  return scene;
+}
+
 inline core::BuildOptions with_copies(std::size_t page_size_bytes = 1024) {
   return {.page_size_bytes = page_size_bytes, .structure = core::Structure::extents};
 }

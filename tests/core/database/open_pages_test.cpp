@@ -96,29 +96,11 @@ class Walker {
   Found found_;
 };
 
-/// So many patched balls in a field, beside a floor and a sphere.
-core::Scene field_of(std::uint32_t side) {
-  core::Scene scene = lit_scene();
-  scene.textures = {leaves(16), leaves(9)};
-  add_patched_ball(scene, 8);
-  const auto end = static_cast<std::uint32_t>(scene.objects.size());
-  core::Instances instances{.meshes = {{0, end}}};
-  for (std::uint32_t i = 0; i < side * side; ++i) {
-    const double step = 2.0 / side;
-    instances.places.push_back(
-        {turned_place(0.3 * step, {-1 + (i % side) * step, -1 + (i / side) * step, 0.1}, i % 2 == 0), 0, end});
-  }
-  core::settle(scene, instances, core::Copies::put);
-  add_floor(scene, false);
-  core::SceneBuilder(scene).sphere({0.4, -1, 0.3}, 0.3);
-  return scene;
-}
-
 }  // namespace
 
 TEST_CASE("what leads into meshes is in the forest or in open pages, and all other pages hold all that is below them") {
   for (const std::size_t page_size : {512U, 1024U, 4096U, 65536U}) {
-    for (const core::Scene& scene : {field_of(8), balls_in_places(0.3, Arrangement::deep_in_each_other, 21)}) {
+    for (const core::Scene& scene : {field_of_balls(8), balls_in_places(0.3, Arrangement::deep_in_each_other, 21)}) {
       CAPTURE(page_size);
       const core::Database database = core::build_database(scene, with_instances(page_size));
       REQUIRE(database.records().instances > 0);
@@ -134,8 +116,8 @@ TEST_CASE("what leads into meshes is in the forest or in open pages, and all oth
 
 TEST_CASE(
     "places that are many lie in open pages, of which no node has to hold all, and the forest grows by few bytes for each") {
-  const core::Database few = core::build_database(field_of(4), with_instances(4096)),
-                       many = core::build_database(field_of(40), with_instances(4096));
+  const core::Database few = core::build_database(field_of_balls(4), with_instances(4096)),
+                       many = core::build_database(field_of_balls(40), with_instances(4096));
   const std::uint64_t places = many.records().instances - few.records().instances;
   CHECK(places == 40 * 40 - 4 * 4);
   CHECK((many.forest_page_count() - few.forest_page_count()) * 4096 < 8 * places);

@@ -9,6 +9,7 @@
 #include "core/picture/frame_settings.h"
 #include "core/picture/memory_use.h"
 #include "core/picture/partial_picture.h"
+#include "svm/forest/forest.h"
 #include "svm/forest/run.h"
 #include "svm/forest/strategy.h"
 #include "svm/frames.h"
@@ -28,6 +29,16 @@ const Subject& balls(std::size_t page_size_bytes = 512) {
   const auto of_pages = [](std::size_t bytes) {
     const int side = scaled_edge(32);
     return Subject(balls_in_places(0.3, Arrangement::deep_in_each_other, 21), {side, side, 2}, with_instances(bytes));
+  };
+  static const Subject small = of_pages(512), large = of_pages(4096);
+  return page_size_bytes == 512 ? small : large;
+}
+
+/// So many places that not every node holds what leads into them.
+const Subject& field(std::size_t page_size_bytes = 512) {
+  const auto of_pages = [](std::size_t bytes) {
+    const int side = scaled_edge(32);
+    return Subject(field_of_balls(42, 6), {side, side, 2}, with_instances(bytes));
   };
   static const Subject small = of_pages(512), large = of_pages(4096);
   return page_size_bytes == 512 ? small : large;
@@ -68,19 +79,48 @@ TEST_CASE("nodes that ask each other show of what is kept once what its copies s
   }
 }
 
+TEST_CASE("what leads into few meshes is at every node, and of what leads into many each node has its share") {
+  for (const Subject* const subject : {&balls(), &field()}) {
+    const core::Database& database = subject->database();
+    const svm::Plan plan = svm::plan_of(*svm::forest_strategy(), database, subject->settings(), computer_of(8));
+    const bool are_few = subject == &balls();
+    CHECK(svm::holds_open_pages(plan.request.open_page_count, 512) == are_few);
+    const std::size_t leading = database.forest_page_count() + (are_few ? database.open_page_count() : 0);
+    CHECK(plan.pages().leading_pages == leading);
+    for (const svm::NodeReport& node : run_forest(*subject, computer_of(8)).nodes) {
+      CHECK(node.memory_used[core::MemoryUse::home_pages] <=
+            (leading + (database.page_count() - leading) / 8 + 2) * database.page_size() + 128);
+    }
+  }
+}
+
+TEST_CASE("many places that are kept once show what their copies show, where nodes ask each other for the way to them") {
+  const int side = scaled_edge(32);
+  const Subject copies(field_of_balls(42, 6), {side, side, 2}, with_copies());
+  for (const std::size_t page_size : {512U, 4096U}) {
+    REQUIRE_FALSE(svm::holds_open_pages(static_cast<std::uint32_t>(field(page_size).database().open_page_count()), page_size));
+    for (int number = 0; number < 4; ++number) {
+      CAPTURE(number);
+      CHECK(outcome_of(run_forest(field(page_size), way_of(number, 71))) == copies.outcome());
+    }
+  }
+}
+
 TEST_CASE("of what is kept once the film, the rays and all that walks do are those of replicated, on any number of nodes") {
   const core::Skips alone{.bundles = false};
-  const core::Operations expected = run_replicated(balls(), computer_of(1), alone).operations();
-  for (const std::uint32_t nodes : {1U, 2U, 5U, 16U}) {
-    for (const auto in_flight : {std::optional(1U), std::optional(64U), std::optional<std::uint32_t>()}) {
-      CAPTURE(nodes);
-      const svm::Report report = run_forest(balls(), computer_of(nodes, in_flight));
-      CHECK(outcome_of(report) == balls().outcome());
-      const core::Operations done = report.operations();
-      CHECK(done.brick_reads == expected.brick_reads);
-      CHECK(done.primitive_tests == expected.primitive_tests);
-      CHECK(done.normal_reads == expected.normal_reads);
-      CHECK(done.skipped.any_hit == expected.skipped.any_hit);
+  for (const Subject* const subject : {&balls(), &field()}) {
+    const core::Operations expected = run_replicated(*subject, computer_of(1), alone).operations();
+    for (const std::uint32_t nodes : {1U, 2U, 5U, 16U}) {
+      for (const auto in_flight : {std::optional(1U), std::optional<std::uint32_t>()}) {
+        CAPTURE(nodes);
+        const svm::Report report = run_forest(*subject, computer_of(nodes, in_flight));
+        CHECK(outcome_of(report) == subject->outcome());
+        const core::Operations done = report.operations();
+        CHECK(done.brick_reads == expected.brick_reads);
+        CHECK(done.primitive_tests == expected.primitive_tests);
+        CHECK(done.normal_reads == expected.normal_reads);
+        CHECK(done.skipped.any_hit == expected.skipped.any_hit);
+      }
     }
   }
 }
@@ -88,46 +128,43 @@ TEST_CASE("of what is kept once the film, the rays and all that walks do are tho
 TEST_CASE("in chaos what is kept once shows the same, whatever is under way") {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     CAPTURE(seed);
+    const std::size_t page_size = seed % 2 == 0 ? 512 : 4096;
+    const Subject& subject = seed % 4 < 2 ? balls(page_size) : field(page_size);
     svm::RunOptions options = way_of(3, seed);
     options.pages.in_flight = seed % 3 == 0 ? std::optional(1U) : seed % 3 == 1 ? std::optional(5U) : std::nullopt;
-    CHECK(outcome_of(run_forest(balls(seed % 2 == 0 ? 512 : 4096), options)) == balls().outcome());
+    CHECK(outcome_of(run_forest(subject, options)) == subject.outcome());
   }
 }
 
 TEST_CASE("a node alone asks nobody about what is kept, and of several each question has one answer") {
-  for (const std::uint32_t nodes : {1U, 2U, 5U}) {
-    const svm::QuestionCounters questions = run_forest(balls(), computer_of(nodes)).questions();
-    CHECK((questions.rays_asked > 0) == (nodes > 1));
-    CHECK((questions.records_asked > 0) == (nodes > 1));
-    CHECK(questions.rays_asked == questions.rays_answered);
-    CHECK(questions.records_asked == questions.records_answered);
+  for (const Subject* const subject : {&balls(), &field()}) {
+    for (const std::uint32_t nodes : {1U, 2U, 5U}) {
+      const svm::Report report = run_forest(*subject, computer_of(nodes));
+      const svm::QuestionCounters questions = report.questions();
+      CHECK((questions.rays_asked > 0) == (nodes > 1));
+      CHECK((questions.records_asked > 0) == (nodes > 1));
+      CHECK(questions.rays_asked == questions.rays_answered);
+      CHECK(questions.records_asked == questions.records_answered);
+    }
   }
 }
 
 TEST_CASE("a node of forest uses exactly the memory of its plan where meshes are kept, with the smallest that is named too") {
-  for (const std::uint32_t nodes : {1U, 3U, 16U}) {
-    CAPTURE(nodes);
-    svm::RunOptions options = computer_of(nodes);
-    for (const svm::NodeReport& node : run_forest(balls(), options).nodes) {
-      CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+  for (const Subject* const subject : {&balls(), &field()}) {
+    for (const std::uint32_t nodes : {1U, 3U, 16U}) {
+      CAPTURE(nodes);
+      svm::RunOptions options = computer_of(nodes);
+      for (const svm::NodeReport& node : run_forest(*subject, options).nodes) {
+        CHECK(node.memory_used.bytes == node.memory_planned.bytes);
+      }
+      const svm::Plan plan = svm::plan_of(*svm::forest_strategy(), subject->database(), subject->settings(), options);
+      options.computer.node_memory_bytes = svm::smallest_node_memory_bytes(plan.request);
+      const svm::Report least = run_forest(*subject, options);
+      CHECK(least.plan.in_flight == 1);
+      CHECK(outcome_of(least) == subject->outcome());
+      --*options.computer.node_memory_bytes;
+      CHECK_THROWS_AS(run_forest(*subject, options), core::RoomError);
     }
-    const svm::Plan plan = svm::plan_of(*svm::forest_strategy(), balls().database(), balls().settings(), options);
-    options.computer.node_memory_bytes = svm::smallest_node_memory_bytes(plan.request);
-    const svm::Report least = run_forest(balls(), options);
-    CHECK(least.plan.in_flight == 1);
-    CHECK(outcome_of(least) == balls().outcome());
-    --*options.computer.node_memory_bytes;
-    CHECK_THROWS_AS(run_forest(balls(), options), core::RoomError);
-  }
-}
-
-TEST_CASE("where meshes are kept nodes hold no more than their share of the pages of places and meshes, and the forest") {
-  const svm::Report report = run_forest(balls(), computer_of(8));
-  const core::Database& database = balls().database();
-  const std::size_t spread = database.page_count() - database.forest_page_count();
-  for (const svm::NodeReport& node : report.nodes) {
-    CHECK(node.memory_used[core::MemoryUse::home_pages] <=
-          (database.forest_page_count() + spread / 8 + 2) * database.page_size() + 128);
   }
 }
 
