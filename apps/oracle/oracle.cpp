@@ -5,6 +5,8 @@
 
 #include "apps/oracle/curved.h"
 #include "apps/oracle/embree.h"
+#include "core/record/instance.h"
+#include "core/trace/placed_block.h"
 #include "core/trace/primitive.h"
 
 namespace dmpc::apps {
@@ -121,9 +123,8 @@ bool EmbreeScene::occluded(const core::Ray& ray) const {
 
 namespace {
 
-/// t of lane `lane` of the block at `record` by our own kernels, so that its bits do not depend on who named the primitive. Where
-/// they deny the hit (the ray brushes the silhouette), Embree's t stays.
-float own_distance(const core::Ray& ray, const std::byte* record, std::uint32_t lane, float embree_t) {
+/// t of lane `lane` of the block at `record` by our own kernels.
+float distance_in(const core::Ray& ray, const std::byte* record, std::uint32_t lane) {
   core::BlockHeader header;
   std::memcpy(&header, record, sizeof(header));
   const auto* rows = reinterpret_cast<const float*>(record + sizeof(header));
@@ -132,15 +133,27 @@ float own_distance(const core::Ray& ray, const std::byte* record, std::uint32_t 
     core::hit_shared_faces(core::ShearedRay(ray), record, core::no_primitive, ray.t_max, times);
     return times[lane];
   };
-  const float t = (header.shared_lanes >> lane & 1U) != 0 ? shared_distance()
-                  : header.kind == core::PrimitiveKind::triangle
-                      ? core::intersect_triangle(core::ShearedRay(ray), rows, header.count, lane)
-                  : header.kind == core::PrimitiveKind::sphere ? core::intersect_sphere(ray, rows, header.count, lane)
-                                                               : core::intersect_cone(ray, rows, header.count, lane);
-  return t > 0 && t < ray.t_max ? t : embree_t;
+  return (header.shared_lanes >> lane & 1U) != 0 ? shared_distance()
+         : header.kind == core::PrimitiveKind::triangle
+             ? core::intersect_triangle(core::ShearedRay(ray), rows, header.count, lane)
+         : header.kind == core::PrimitiveKind::sphere ? core::intersect_sphere(ray, rows, header.count, lane)
+                                                      : core::intersect_cone(ray, rows, header.count, lane);
 }
 
 }  // namespace
+
+/// By our own kernels, so that its bits do not depend on who named the primitive. Where they deny the hit (the ray brushes the
+/// silhouette), Embree's t stays.
+float EmbreeTracer::own_distance(const core::Ray& ray, const core::Hit& hit) const {
+  const std::byte* record = find(hit.block);
+  core::PlacedBlock placed;
+  if (is_in_instance(hit)) {
+    placed.place(record, core::MeshPlace(core::read<core::InstanceRecord>(find(instance_of(hit))), *frame_));
+    record = placed.record();
+  }
+  const float t = distance_in(ray, record, hit.lane & core::lane_mask);
+  return t > 0 && t < ray.t_max ? t : hit.t;
+}
 
 core::Traced EmbreeTracer::trace(const core::Ray& ray, core::Cursor& cursor, core::Operations&) {
   cursor.best = {};
@@ -155,7 +168,7 @@ core::Traced EmbreeTracer::trace(const core::Ray& ray, core::Cursor& cursor, cor
   const core::Database::Place place = places_[best.primitive];
   best.block = place.block;
   best.lane = place.lane;
-  best.t = own_distance(ray, find(place.block), place.lane, best.t);
+  best.t = own_distance(ray, best);
   return core::Traced::hit;
 }
 

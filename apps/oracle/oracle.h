@@ -43,16 +43,20 @@ class EmbreeScene {
 /// differing pixel means a differing primitive. Cheap to make, one for each node over one shared scene.
 class EmbreeTracer {
  public:
-  /// `places` are the database's, and `local` is a whole copy of its records; all three outlive the tracer.
-  EmbreeTracer(const EmbreeScene& scene, std::span<const core::Database::Place> places, core::LocalRecords local)
-      : scene_(&scene), places_(places), local_(local) {}
+  /// `places` and `frame` are the database's, and `local` is a whole copy of its records; all four outlive the tracer.
+  EmbreeTracer(const EmbreeScene& scene, std::span<const core::Database::Place> places, const core::GridFrame& frame,
+               core::LocalRecords local)
+      : scene_(&scene), places_(places), frame_(&frame), local_(local) {}
 
   core::Traced trace(const core::Ray& ray, core::Cursor& cursor, core::Operations& operations);
   const std::byte* find(core::Address address) const { return local_.find(address); }
 
  private:
+  float own_distance(const core::Ray& ray, const core::Hit& hit) const;
+
   const EmbreeScene* scene_;
   std::span<const core::Database::Place> places_;
+  const core::GridFrame* frame_;
   core::LocalRecords local_;
 };
 

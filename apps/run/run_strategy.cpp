@@ -34,7 +34,7 @@ svm::Report run_with_embree(const core::Database& database, const core::RenderSe
   const EmbreeScene scene(database.primitives(), EmbreeMode::robust);
   const std::vector<core::Database::Place> places = database.find_places();
   return svm::run_replicated(database, settings, run, std::move(stop), [&](std::uint32_t, std::span<const std::byte> copy) {
-    return EmbreeTracer(scene, places, core::LocalRecords(copy));
+    return EmbreeTracer(scene, places, database.header().frame, core::LocalRecords(copy));
   });
 }
 

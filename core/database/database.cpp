@@ -593,25 +593,48 @@ class DatabaseBuilder {
 
 namespace {
 
-void find_places_in(const LocalRecords& records, Address address, std::vector<Database::Place>& places) {
-  const std::byte* const block = records.find(address);
-  const auto header = read<BlockHeader>(block);
-  if (header.kind == PrimitiveKind::instance) {
-    return;
-  }
-  const std::byte* const ids = ids_of(header, block);
-  for (std::uint32_t lane = 0; lane < header.count; ++lane) {
-    places[read<std::uint32_t>(ids + lane * sizeof(std::uint32_t))] = {address, lane};
-  }
-}
-
-/// Looks through the bricks below one.
-void find_places_below(const LocalRecords& records, Address from, std::vector<Database::Place>& places) {
+/// visit(address, block) for each block below a brick.
+template <class Visit>
+void for_each_block_below(const LocalRecords& records, Address from, const Visit& visit) {
   const auto brick = read<Brick>(records.find(from));
   for (std::size_t child = 0; child < brick.child_count; ++child) {
     const Address address = brick.child[child].address();
-    brick.child[child].is_block() ? find_places_in(records, address, places) : find_places_below(records, address, places);
+    brick.child[child].is_block() ? visit(address, records.find(address)) : for_each_block_below(records, address, visit);
   }
+}
+
+/// `first` is the id of what the block calls 0; `lane_of` makes the lane of a hit of the block's.
+template <class LaneOf>
+void add_places(Address address, const std::byte* block, std::uint32_t first, const LaneOf& lane_of,
+                std::vector<Database::Place>& places) {
+  const auto header = read<BlockHeader>(block);
+  const std::byte* const ids = ids_of(header, block);
+  for (std::uint32_t lane = 0; lane < header.count; ++lane) {
+    places[first + read<std::uint32_t>(ids + lane * sizeof(std::uint32_t))] = {address, lane_of(lane)};
+  }
+}
+
+/// What each instance of a block of them puts in its place.
+void find_places_of_instances(const LocalRecords& records, const std::byte* block, std::vector<Database::Place>& places) {
+  const auto header = read<BlockHeader>(block);
+  const std::byte* const addresses = ids_of(header, block) + header.count * sizeof(std::uint32_t);
+  for (std::size_t i = 0; i < header.count; ++i) {
+    const Address address{read<std::uint32_t>(addresses + i * sizeof(std::uint32_t))};
+    const auto instance = read<InstanceRecord>(records.find(address));
+    for_each_block_below(records, instance.root, [&](Address at, const std::byte* of_mesh) {
+      add_places(
+          at, of_mesh, instance.first, [&](std::uint32_t lane) { return lane_in_instance(lane, address); }, places);
+    });
+  }
+}
+
+void find_places_in(const LocalRecords& records, Address address, std::vector<Database::Place>& places) {
+  const std::byte* const block = records.find(address);
+  if (read<BlockHeader>(block).kind == PrimitiveKind::instance) {
+    return find_places_of_instances(records, block, places);
+  }
+  add_places(
+      address, block, 0, [](std::uint32_t lane) { return lane; }, places);
 }
 
 /// Of the copies that a scene leaves out.
@@ -668,7 +691,8 @@ std::vector<Database::Place> Database::find_places() const {
     if (header_.has_voxels()) {
       for_each_listed(records, header_, entry, [&](Address block) { find_places_in(records, block, places); });
     } else {
-      find_places_below(records, entry.brick(), places);
+      for_each_block_below(records, entry.brick(),
+                           [&](Address address, const std::byte*) { find_places_in(records, address, places); });
     }
   }
   return places;

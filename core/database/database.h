@@ -121,7 +121,8 @@ class Database {
   std::span<const PrimitiveSource> sources() const { return sources_; }
   /// By PrimitiveValues::plane() - 1.
   std::span<const KeptPlane> planes() const { return planes_; }
-  /// Where some copy of primitive `id` lies: what Hit::block and Hit::lane of a hit on it may be.
+  /// Where some copy of primitive `id` lies: what Hit::block and Hit::lane of a hit on it may be. Of a kept mesh's triangle the
+  /// lane tells the instance, too.
   struct Place {
     Address block = no_address;
     std::uint32_t lane = 0;

@@ -201,7 +201,8 @@ std::uint64_t print_report(std::ostream& output, const CheckOptions& options, co
                            const core::Camera& camera, const Inspection& inspection) {
   const auto width = static_cast<std::uint32_t>(camera.width());
   output << options.picture.scene << ": " << database.primitives().size() << " primitives, " << width << "x" << camera.height()
-         << " pixels, our " << name_of(options.database.build.structure) << " against Embree " << embree_version()
+         << " pixels, our " << name_of(options.database.build.structure)
+         << (database.header().has_instances != 0 ? " with kept meshes" : "") << " against Embree " << embree_version()
          << " (robust)\n";
   const Referee referee(database);
   std::uint64_t unexplained = print_table(output, inspection);
@@ -212,6 +213,24 @@ std::uint64_t print_report(std::ostream& output, const CheckOptions& options, co
   const std::uint64_t failed = print_certified(output, inspection, options.list, width);
   output << (failed == 0 ? "" : "CERTIFICATES FAIL: our bounds or our kernels have an error.\n");
   return unexplained + failed;
+}
+
+/// What meshes are kept in that stand in several places.
+void settle_instances(const OptionSet& options, core::BuildOptions& build) {
+  if (!build.keeps_instances) {
+    return;
+  }
+  if (!options.is_given("--structure")) {
+    build.structure = core::Structure::extents;
+  }
+  const bool is_tree = build.structure == core::Structure::extents;
+  if (!is_tree || build.record_order != core::RecordOrder::spatial) {
+    throw core::UsageError("--instances=keep does not go with " +
+                           (is_tree ? "--record-order=scattered: a mesh that is kept lies in one piece"
+                                    : std::string("--structure=") + name_of(build.structure) +
+                                          ": meshes that are kept are trees of boxes below one of all") +
+                           "; --instances=expand has a copy in each place");
+  }
 }
 
 void announce_effort(const CheckOptions& options, const Subject& subject) {
@@ -229,8 +248,12 @@ void add_options(OptionSet options, CheckOptions& check) {
   add_options(options, check.picture);
   add_transport_options(options, check.picture);
   add_options(options, check.database);
+  options.add_choice<bool>("--instances", check.database.build.keeps_instances, {{"expand", false}, {"keep", true}},
+                           "Of a mesh that stands in several places: rays meet a copy in each, or go into one for all, as with "
+                           "dmpc render --instances=keep. Embree and the referee have copies");
   options.check_in_the_end([options, &check] {
     check_voxels(options, check.database.build);
+    settle_instances(options, check.database.build);
     if (check.picture.is_refined) {
       throw core::UsageError(
           "--samples=auto and --quality go with render and study; check traces as many rays through each pixel as you say");
@@ -254,6 +277,7 @@ void add_options(OptionSet options, CheckOptions& check) {
       "  dmpc check tetra-9 --resolution=128x128 --brute-force=1000\n"
       "  dmpc check rings-3 --certify=1000000\n"
       "  dmpc check balls-4 --structure=voxels\n"
+      "  dmpc check grove-4 --instances=keep\n"
       "Exit status 3 says that a difference stays unexplained or a certificate does not hold.");
 }
 

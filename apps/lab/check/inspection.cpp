@@ -75,7 +75,8 @@ class BothTracer {
              Draw& draw, Draw& hits)
       : grid_(grid), scene_(scene), background_(background), differences_(differences), draw_(draw), hits_(hits) {}
 
-  core::Traced trace(const core::Ray& ray, core::Cursor& cursor, core::Operations& operations) {
+  template <class Cursor>
+  core::Traced trace(const core::Ray& ray, Cursor& cursor, core::Operations& operations) {
     const core::Traced result = grid_.trace(ray, cursor, operations);
     const bool shadow = ray.kind == core::RayKind::shadow;
     const core::Hit& best = cursor.best;
@@ -134,12 +135,13 @@ void trace_pixels(const core::Database& database, const EmbreeScene& scene, cons
   BothTracer::Grid grid(records, settings.header, settings.skips);
   BothTracer tracer(grid, scene, settings.background, harvest.differences, harvest.draw, harvest.hits);
   std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
-  core::PixelTask task(stack);
   const core::RenderSettings every_ray = settings.with_every_ray_traced();
-  for (std::uint32_t pixel = first; pixel < last; ++pixel) {
-    tracer.start_pixel();
-    core::render_pixel(task, pixel, settings.first_samples(), tracer, every_ray, harvest.operations);
-  }
+  core::with_pixel_task(settings.header, stack, [&](auto& task) {
+    for (std::uint32_t pixel = first; pixel < last; ++pixel) {
+      tracer.start_pixel();
+      core::render_pixel(task, pixel, settings.first_samples(), tracer, every_ray, harvest.operations);
+    }
+  });
 }
 
 /// The pixels that the rays belong to, once each. `rays` come by pixel.
@@ -160,17 +162,18 @@ std::uint64_t count_differing(const core::Database& database, const EmbreeScene&
   const auto count = [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t differing) {
     core::LocalRecords records(database.bytes());
     BothTracer::Grid grid(records, settings.header, settings.skips);
-    EmbreeTracer embree(scene, places, records);
+    EmbreeTracer embree(scene, places, settings.header.frame, records);
     std::vector<core::HitState> stack(static_cast<std::size_t>(settings.shade.depth_max));
-    core::PixelTask task(stack);
     core::Operations unused;
     const core::RenderSettings every_ray = settings.with_every_ray_traced();
-    const auto sums = [&](auto& tracer, std::uint32_t pixel) {
-      return core::render_pixel(task, pixel, settings.first_samples(), tracer, every_ray, unused);
-    };
-    for (std::size_t index = range.begin(); index < range.end(); ++index) {
-      differing += sums(grid, pixels[index]) == sums(embree, pixels[index]) ? 0 : 1;
-    }
+    core::with_pixel_task(settings.header, stack, [&](auto& task) {
+      const auto sums = [&](auto& tracer, std::uint32_t pixel) {
+        return core::render_pixel(task, pixel, settings.first_samples(), tracer, every_ray, unused);
+      };
+      for (std::size_t index = range.begin(); index < range.end(); ++index) {
+        differing += sums(grid, pixels[index]) == sums(embree, pixels[index]) ? 0 : 1;
+      }
+    });
     return differing;
   };
   return tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, pixels.size()), std::uint64_t{0}, count, std::plus<>());

@@ -55,11 +55,31 @@ TEST_CASE("compare takes two pictures or two files of counters, and each has opt
   CHECK(counters.figures.tolerances.size() == 1);
 }
 
+TEST_CASE("studies and benchmarks have copies in all places, and say who keeps meshes once") {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"study", "systems"},
+                                                {"study", "traffic"},
+                                                {"study", "frames"},
+                                                {"bench", "speed"},
+                                                {"bench", "precision"}}) {
+    const std::string complaint = command_complaint({words[0], words[1], "grove-2", "--instances=keep"});
+    CHECK_MESSAGE(contains(complaint, "--instances is no option of dmpc " + words[0] + " " + words[1] + ", but of "), complaint);
+  }
+  CHECK(command_complaint({"study", "sweep", "grove-2", "--vary=instances:expand,keep"}).empty());
+}
+
 TEST_CASE("scene, check and compare take their own options") {
   const auto scene = parse({"scene", "rings-4-t1"}).options<SceneOptions>();
   CHECK(scene.name == "rings-4-t1");
   CHECK_FALSE(scene.output);
   CHECK(parse({"scene", "balls-4", "-o", "b.nff"}).options<SceneOptions>().output == "b.nff");
+  const auto kept = parse({"check", "grove-2", "--instances=keep"}).options<CheckOptions>();
+  CHECK(kept.database.build.keeps_instances);
+  CHECK(kept.database.build.structure == core::Structure::extents);
+  CHECK(kept.picture.staging.mesh.copies == core::Copies::put);  // for the oracle
+  for (const char* const other : {"--structure=grid", "--structure=voxels", "--record-order=scattered"}) {
+    CHECK(contains(command_complaint({"check", "grove-2", "--instances=keep", other}),
+                   std::string("--instances=keep does not go with ") + other + ": "));
+  }
   const auto check = parse({"check", "tetra-6", "--list=3", "--brute-force=100", "--resolution=8x8"}).options<CheckOptions>();
   CHECK(check.picture.scene == "tetra-6");
   CHECK(check.list == 3);

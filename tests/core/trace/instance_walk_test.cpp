@@ -211,6 +211,38 @@ TEST_CASE("a padded brick's boxes are larger by the pad on all sides, however la
   }
 }
 
+TEST_CASE("a database tells of every triangle of a kept mesh where it lies, and whose it is: there its copy's corners come out") {
+  for (const Arrangement arrangement : {Arrangement::apart, Arrangement::coincident}) {
+    const core::Database kept = core::build_database(balls_in_places(0.3, arrangement, 4), with_instances());
+    core::LocalRecords records(kept.bytes());
+    const std::vector<core::Database::Place> places = kept.find_places();
+    REQUIRE(places.size() == kept.primitives().size());
+    std::size_t of_instances = 0, others = 0;
+    for (std::size_t id = 0; id < places.size(); ++id) {
+      const core::PrimitiveValues& expected = kept.primitives()[id];
+      const Hit hit{.block = places[id].block, .lane = places[id].lane};
+      const std::byte* record = records.find(hit.block);
+      core::PlacedBlock placed;
+      if (is_in_instance(hit)) {
+        ++of_instances;
+        const auto instance = core::read<core::InstanceRecord>(records.find(instance_of(hit)));
+        placed.place(record, core::MeshPlace(instance, kept.header().frame));
+        record = placed.record();
+      }
+      const auto header = core::read<core::BlockHeader>(record);
+      const std::uint32_t lane = hit.lane & core::lane_mask;
+      bool is_same = core::read<std::uint32_t>(core::ids_of(header, record) + std::size_t{4} * lane) == id;
+      for (std::size_t row = 0; row < core::value_count(header.kind); ++row) {
+        const auto value = core::read<float>(record + sizeof(header) + sizeof(float) * (row * header.count + lane));
+        is_same = is_same && value == expected.value[row];
+      }
+      others += is_same ? 0 : 1;
+    }
+    CHECK(of_instances == kept.records().placed_triangles);
+    CHECK(others == 0);
+  }
+}
+
 TEST_CASE("a hit's lane tells the instance and the lane of the block") {
   for (const std::uint32_t at : {0U, 16U, 0x7ffffff0U}) {
     for (std::uint32_t lane = 0; lane < core::block_lanes; ++lane) {

@@ -82,6 +82,17 @@ TEST_CASE("check traces the structure that is asked for, and says which") {
   }
 }
 
+TEST_CASE("check sends rays into meshes that are kept, and says so") {
+  apps::CheckOptions options = small("grove-1");
+  options.database.build.structure = core::Structure::extents;
+  options.database.build.keeps_instances = true;
+  options.certify = 100;
+  const Said said = check(options);
+  CHECK(said.status == 0);
+  CHECK(said.text.find("40x30 pixels, our extents with kept meshes against Embree ") != std::string::npos);
+  CHECK(said.text.find("Every ray is explained.") != std::string::npos);
+}
+
 TEST_CASE("check of a scene that does not exist is bad input") {
   CHECK_THROWS_AS(check(small("no-such-scene")), core::InputError);
 }

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -11,6 +12,8 @@
 #include "core/picture/render.h"
 #include "core/record/records.h"
 #include "tests/support/close_faces.h"
+#include "tests/support/kept_scenes.h"
+#include "tests/support/scaled.h"
 
 namespace dmpc::tests::inspection_test {
 namespace {
@@ -18,9 +21,10 @@ namespace {
 /// A built-in scene, its database and how it is looked at: `side` x `side` pixels.
 struct Looked {
   explicit Looked(const std::string& name, int side) : Looked(core::built_in_scene(core::parse_scene_name(name)), side) {}
-  Looked(core::Scene looked_at, int side)
+  Looked(core::Scene looked_at, int side) : Looked(looked_at, side, apps::several_top_cells(looked_at)) {}
+  Looked(core::Scene looked_at, int side, const core::BuildOptions& build)
       : scene(std::move(looked_at)),
-        database(core::build_database(scene, apps::several_top_cells(scene))),
+        database(core::build_database(scene, build)),
         settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, 1), {}} {}
 
   apps::Inspection inspect(const apps::InspectionOptions& options = {}) const {
@@ -69,13 +73,45 @@ TEST_CASE("every ray is explained where faces lie so near to each other that dou
   }
 }
 
+TEST_CASE("every ray that may go into kept meshes is explained, by Embree among their copies and by every copy in double") {
+  for (const Arrangement arrangement : {Arrangement::apart, Arrangement::deep_in_each_other}) {
+    const Looked looked(balls_in_places(0.4, arrangement, 6), scaled_edge(48), with_instances());
+    REQUIRE(looked.database.records().instances == 18);
+    const apps::Inspection inspection = looked.inspect({.brute_force = 40});
+    CHECK(inspection.operations.instance_entries > 0);
+    CHECK(unexplained(inspection.differences) == 0);
+    CHECK(unexplained(inspection.brute_forced) == 0);
+  }
+}
+
+TEST_CASE("an oracle that lacks a triangle of one place is found out where the mesh is kept, in favour of the walk") {
+  const Looked looked(balls_in_places(0.4, Arrangement::apart, 6), 48, with_instances());
+  std::vector<core::PrimitiveValues> without(looked.database.primitives().begin(), looked.database.primitives().end());
+  const std::vector<core::Database::Place> places = looked.database.find_places();
+  const apps::Referee referee(looked.database);
+  std::uint32_t victim = core::no_primitive;
+  for (std::uint32_t pixel = 0; victim == core::no_primitive && pixel < 48 * 48; pixel += 7) {
+    const apps::Answer met = referee.exact(looked.settings.camera.primary_ray(pixel, 0));
+    victim = met.hit && core::is_in_instance({.lane = places[met.primitive].lane}) ? met.primitive : victim;
+  }
+  REQUIRE(victim < without.size());
+  without[victim] = {core::PrimitiveKind::sphere, {9, 9, 9, 0.001F}};
+  const apps::Inspection inspection =
+      apps::inspect(looked.database, apps::EmbreeScene(without, apps::EmbreeMode::robust), looked.settings, {});
+  const auto in_favour = std::ranges::count_if(inspection.differences, [](const apps::SettledRay& difference) {
+    return difference.ruling.verdict == apps::Verdict::oracle_wrong && difference.ruling.favours_grid;
+  });
+  CHECK(in_favour > 0);
+  CHECK(unexplained(inspection.differences) == 0);
+}
+
 TEST_CASE("an inspection counts the pixels that the tracers render differently") {
   const Looked looked("rings-2", 96);
   const apps::EmbreeScene embree(looked.database.primitives(), apps::EmbreeMode::robust);
   core::LocalRecords records(looked.database.bytes());
   core::GridTracer<core::LocalRecords> grid(records, looked.database.header(), {});
   const auto places = looked.database.find_places();
-  apps::EmbreeTracer oracle(embree, places, records);
+  apps::EmbreeTracer oracle(embree, places, looked.database.header().frame, records);
   core::Operations operations;
   const core::Film ours = core::render(grid, looked.settings, operations),
                    theirs = core::render(oracle, looked.settings, operations);
@@ -144,8 +180,48 @@ TEST_CASE("progress begins at nothing and ends with every pixel") {
 core::Film render_by_embree(const Looked& looked, core::Operations& operations) {
   const apps::EmbreeScene embree(looked.database.primitives(), apps::EmbreeMode::robust);
   const auto places = looked.database.find_places();
-  apps::EmbreeTracer tracer(embree, places, core::LocalRecords(looked.database.bytes()));
+  apps::EmbreeTracer tracer(embree, places, looked.database.header().frame, core::LocalRecords(looked.database.bytes()));
   return core::render(tracer, looked.settings, operations);
+}
+
+TEST_CASE("with Embree naming the primitives the picture of kept meshes has the bits of their copies") {
+  core::Scene ball = lit_scene();
+  ball.textures = {leaves(16), leaves(9)};
+  add_patched_ball(ball, 8);
+  const core::Scene scene = placed(ball, {turned_place(0.4, {0.3, 0, 0.5}, false), turned_place(0.3, {-0.6, 0.4, 0.7}, true)});
+  const int side = scaled_edge(48);
+  const Looked kept(scene, side, with_instances()), copies(scene, side, with_copies());
+  REQUIRE(kept.database.records().instances == 2);
+  core::LocalRecords records(copies.database.bytes());
+  core::GridTracer<core::LocalRecords> walk(records, copies.database.header(), {});
+  core::Operations by_walk, by_embree;
+  const std::uint64_t hash = core::render(walk, copies.settings, by_walk).hash();
+  CHECK(render_by_embree(kept, by_embree).hash() == hash);
+  CHECK(by_embree.rays == by_walk.rays);
+}
+
+TEST_CASE("where Embree names a triangle of a kept mesh the hit is the walk's, with its t, its block and its instance") {
+  const Looked kept(balls_in_places(0.4, Arrangement::apart, 6), 48, with_instances());
+  const apps::EmbreeScene embree(kept.database.primitives(), apps::EmbreeMode::robust);
+  const auto places = kept.database.find_places();
+  core::LocalRecords records(kept.database.bytes());
+  apps::EmbreeTracer oracle(embree, places, kept.database.header().frame, records);
+  core::GridTracer<core::LocalRecords> walk(records, kept.database.header(), {});
+  core::Operations operations;
+  std::uint32_t of_instances = 0, others = 0;
+  for (std::uint32_t pixel = 0; pixel < 48 * 48; ++pixel) {
+    const core::Ray ray = kept.settings.camera.primary_ray(pixel, 0);
+    core::InstanceCursor named, walked;
+    oracle.trace(ray, named, operations);
+    walk.trace(ray, walked, operations);
+    if (is_in_instance(named.best) && named.best.primitive == walked.best.primitive) {
+      ++of_instances;
+      others +=
+          named.best.t == walked.best.t && named.best.block == walked.best.block && named.best.lane == walked.best.lane ? 0 : 1;
+    }
+  }
+  CHECK(of_instances > 100);
+  CHECK(others == 0);
 }
 
 TEST_CASE("with Embree naming the primitives the picture has the grid's bits") {
