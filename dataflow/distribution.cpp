@@ -96,7 +96,7 @@ double Distribution::duplication(const core::Database& database) const {
 }
 
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Regions& regions,
-                        const std::stop_token& stop, bool deals_primaries) {
+                        const std::stop_token& stop, bool deals_primaries, const PixelOrder& order) {
   Distribution distribution{.regions = regions,
                             .parts = {},
                             .primaries = {},
@@ -113,9 +113,10 @@ Distribution distribute(const core::Database& database, const core::RenderSettin
   }
   const core::PixelMask done(settings.camera.pixel_count(), !deals_primaries);
   if (regions.are_moving()) {
-    deal_by_unit(distribution, deal_primaries(settings, distribution.regions.by_unit(), settings.first_pass(), done, stop));
+    deal_by_unit(distribution,
+                 deal_primaries(settings, distribution.regions.by_unit(), settings.first_pass(), done, stop, order));
   } else {
-    distribution.primaries = deal_primaries(settings, distribution.regions, settings.first_pass(), done, stop);
+    distribution.primaries = deal_primaries(settings, distribution.regions, settings.first_pass(), done, stop, order);
     distribution.runs_of_unit.resize(regions.node_count());
   }
   return distribution;
@@ -140,13 +141,13 @@ MeasuredParts measure_parts(const core::Database& database, const core::RenderSe
 
 std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& settings, std::span<const Regions> partitions,
                                                std::span<const MeasuredParts> parts, const std::stop_token& stop,
-                                               bool deals_primaries) {
+                                               bool deals_primaries, const PixelOrder& order) {
   std::vector<Regions> dealt;
   for (const Regions& partition : partitions) {
     dealt.push_back(partition.are_moving() ? partition.by_unit() : partition);
   }
   auto runs = count_primary_runs(settings, dealt, settings.first_pass(),
-                                 core::PixelMask(settings.camera.pixel_count(), !deals_primaries), stop);
+                                 core::PixelMask(settings.camera.pixel_count(), !deals_primaries), stop, order);
   std::vector<std::vector<Share>> shares(partitions.size());
   for (std::size_t i = 0; i < partitions.size(); ++i) {
     runs[i] = partitions[i].are_moving() ? by_owner(partitions[i], runs[i]) : std::move(runs[i]);

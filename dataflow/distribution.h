@@ -15,6 +15,7 @@
 #include "core/picture/pixel_task.h"
 #include "core/trace/traversal.h"
 #include "dataflow/plan.h"
+#include "dataflow/rays/pixel_order.h"
 #include "dataflow/rays/primaries.h"
 #include "dataflow/regions/regions.h"
 
@@ -49,9 +50,9 @@ struct Distribution {
 };
 
 /// Cuts the database up; values keep their bits. Marks the regions that hold nothing, if they are to be skipped. After a stop is
-/// requested some primary rays are dealt to nobody; without primary rays all of them wait.
+/// requested some primary rays are dealt to nobody; without primary rays all of them wait. They start in `order`.
 Distribution distribute(const core::Database& database, const core::RenderSettings& settings, const Regions& regions,
-                        const std::stop_token& stop = {}, bool deals_primaries = true);
+                        const std::stop_token& stop = {}, bool deals_primaries = true, const PixelOrder& order = {});
 
 /// What distribute() would deal as parts, by node.
 struct MeasuredParts {
@@ -67,7 +68,7 @@ MeasuredParts measure_parts(const core::Database& database, const core::RenderSe
 /// What distribute() would deal to computers whose regions are `partitions`, of which `parts` have been measured.
 std::vector<std::vector<Share>> measure_shares(const core::RenderSettings& settings, std::span<const Regions> partitions,
                                                std::span<const MeasuredParts> parts, const std::stop_token& stop = {},
-                                               bool deals_primaries = true);
+                                               bool deals_primaries = true, const PixelOrder& order = {});
 
 /// The smallest number of nodes above the request's with which make_plan() succeeds under the request's memory bound, as far as
 /// halving the interval finds it: more nodes need less for their parts but more for their queues.

@@ -1,6 +1,9 @@
 #include "dataflow/film_gather.h"
 
+#include <algorithm>
+
 #include "core/base/expect.h"
+#include "dataflow/rays/pixel_order.h"
 
 namespace dmpc::dataflow {
 
@@ -23,13 +26,23 @@ void FilmGather::add(std::uint32_t pixel, std::uint32_t plane, const core::Fixed
 void FilmGather::add_only(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {
   core::expect(count_ < film_packet_entries, "no light is gathered while a film packet waits");
   ++counters_.deposits;
-  FilmEntry* const last = count_ > 0 ? &room_->entries[count_ - 1] : nullptr;
-  if (last != nullptr && last->plane == plane && last->light == light && pixel == last->pixel + last->more + 1 &&
-      last->more + 1U < film_entry_pixels_max) {
-    ++last->more;
+  if (FilmEntry* const before = entry_before(pixel, plane, light)) {
+    ++before->more;
   } else {
     append(pixel, plane, light);
   }
+}
+
+/// Among the newest, one for each row of a square: the entry that ends before this pixel and has the same light, or nullptr.
+FilmEntry* FilmGather::entry_before(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {
+  for (std::uint32_t i = 1; i <= std::min(count_, PixelOrder::side); ++i) {
+    FilmEntry& entry = room_->entries[count_ - i];
+    if (pixel == entry.pixel + entry.more + 1 && entry.plane == plane && entry.light == light &&
+        entry.more + 1U < film_entry_pixels_max) {
+      return &entry;
+    }
+  }
+  return nullptr;
 }
 
 void FilmGather::append(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {

@@ -36,8 +36,8 @@ class FilmGather {
   /// Requires that the packet did not wait before as many deposits as may come at once. Sends it if it has no room for as many
   /// more and a credit is left.
   void add(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
-  /// The same for light that is all that the pixel gets on this plane: pixels that follow each other, and have the same, share an
-  /// entry.
+  /// The same for light that is all that the pixel gets on this plane: pixels of a row that follow each other, and have the same,
+  /// share an entry, also where they come square by square (PixelOrder).
   void add_only(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
   /// Sends what is there, full or not, if a credit is left.
   void flush();
@@ -55,6 +55,7 @@ class FilmGather {
   /// The entry for this plane of a pixel alone in the open packet, or nullptr; the newest first, since a pixel's deposits come
   /// together.
   FilmEntry* find(std::uint32_t pixel, std::uint32_t plane);
+  FilmEntry* entry_before(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
   void append(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light);
 
   /// A packet as it is sent.

@@ -12,6 +12,7 @@
 #include "dataflow/packets.h"
 #include "dataflow/ray_options.h"
 #include "dataflow/rays/gather.h"
+#include "dataflow/rays/pixel_order.h"
 #include "dataflow/regions/regions.h"
 #include "dataflow/units/unit_pages.h"
 #include "dataflow/units/unit_primaries.h"
@@ -47,6 +48,8 @@ struct PlanRequest {
   bool is_moving() const { return !shares.empty() && shares.front().page_bytes > 0; }
   /// The host deals primary rays after the start, for which nodes have room.
   bool is_dealt() const { return is_dealt_on_the_way || refinement.is_wanted(); }
+  /// In which primary rays start: on modelled machines as on those of the article, row by row.
+  PixelOrder pixel_order() const { return computer.machine ? PixelOrder() : PixelOrder::squares(width, height); }
 };
 
 inline constexpr std::uint32_t ray_credits_max = 64;

@@ -94,6 +94,7 @@ RayProgram<RaysTask, Units>::RayProgram(nodes::Node& node, const Plan& plan, con
       backlog_(node.memory(), backlog_capacity(plan)),
       places_(node.memory(), places_of(plan)),
       tested_objects_(plan.tested_objects()),
+      pixel_order_(plan.request.pixel_order()),
       leaves_runs_(!plan.request.computer.machine && plan.request.first_samples == 1),
       task_(make_task<RaysTask>(node, plan)),
       gather_(node, plan.gather()),
@@ -375,7 +376,7 @@ void RayProgram<RaysTask, Units>::start_primary() {
   if (const std::uint32_t count = primaries_.packets_worked_off(); count > 0) {
     send_control(*node_, host_, Kind::primaries_taken, PrimariesTaken{count});
   }
-  const std::uint32_t pixel = pixel_of(number, samples), sample = sample_of(number, samples);
+  const std::uint32_t pixel = pixel_order_.pixel_at(place_of(number, samples)), sample = sample_of(number, samples);
   newest_ = {.pixel = pixel, .sample = sample};
   if (constants_->settings.shows_background(pixel)) {
     return leave_background(pixel, sample);

@@ -34,6 +34,7 @@
 #include "dataflow/rays/bundle_task.h"
 #include "dataflow/rays/gather.h"
 #include "dataflow/rays/next_stop.h"
+#include "dataflow/rays/pixel_order.h"
 #include "dataflow/rays/primaries.h"
 #include "dataflow/rays/ray_queue.h"
 #include "dataflow/rays/ray_task.h"
@@ -170,6 +171,7 @@ class RayProgram final : public NodeProgram {
   RayQueue backlog_;
   Places places_;
   std::uint32_t tested_objects_;
+  PixelOrder pixel_order_;
   bool leaves_runs_;  ///< of background
   RaysTask task_;
   Gather gather_;

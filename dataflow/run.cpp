@@ -58,7 +58,9 @@ Plan plan_for(const Distribution& distribution, const core::Database& database, 
     }
     Regions regions = regions_for(node_count, loads, settings, options).regions;
     const MeasuredParts parts = measure_parts(database, settings, regions);
-    return measure_shares(settings, std::span(&regions, 1), std::span(&parts, 1), stop, !is_dealt_on_the_way(options)).front();
+    return measure_shares(settings, std::span(&regions, 1), std::span(&parts, 1), stop, !is_dealt_on_the_way(options),
+                          request.pixel_order())
+        .front();
   };
   return make_plan(request, [&] { return smallest_node_count(request, make_shares); });
 }
@@ -152,7 +154,8 @@ Prepared prepare(const core::Database& database, const core::RenderSettings& set
                  const std::stop_token& stop) {
   const ColumnLoads loads = column_loads(database, settings, options.rays.balance, stop);
   Balanced balanced = regions_for(options.computer.node_count, loads, settings, options);
-  Prepared prepared{.distribution = distribute(database, settings, balanced.regions, stop, !is_dealt_on_the_way(options)),
+  Prepared prepared{.distribution = distribute(database, settings, balanced.regions, stop, !is_dealt_on_the_way(options),
+                                               plan_request({}, settings, options).pixel_order()),
                     .predicted = std::move(balanced.predicted),
                     .detail = settings.fine_detail(database)};
   prepared.duplication = prepared.distribution.duplication(database);
@@ -184,8 +187,9 @@ std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const 
         nodes::meter_for(options.watching, options.computer, node.id()));
   };
   std::vector<nodes::NodeSpecification> specifications = specifications_without_host(plan, make_program);
-  const auto deal = [&settings, &distribution, stop](const core::Pass& pass, const core::PixelMask& done) {
-    std::optional runs = deal_primaries(settings, distribution.regions, pass, done, stop);
+  const auto deal = [&settings, &distribution, stop, order = plan.request.pixel_order()](const core::Pass& pass,
+                                                                                         const core::PixelMask& done) {
+    std::optional runs = deal_primaries(settings, distribution.regions, pass, done, stop, order);
     return stop.stop_requested() ? std::nullopt : std::move(runs);
   };
   const auto make_host = [&, deal, detail](nodes::Node& node) {

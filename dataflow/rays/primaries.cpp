@@ -16,7 +16,7 @@ constexpr std::uint32_t nobody = ~std::uint32_t{0};
 /// begins, with `nobody` for rays that are not dealt and, in the end, behind the last.
 template <class Begin>
 void deal(const core::RenderSettings& settings, std::span<const Regions> partitions, const core::Pass& pass,
-          const core::PixelMask& done, const std::stop_token& stop, const Begin& begin) {
+          const core::PixelMask& done, const std::stop_token& stop, const PixelOrder& order, const Begin& begin) {
   PrimaryOwners owners(settings, partitions);
   const auto begin_each = [&](std::uint64_t those, std::uint64_t number, bool is_dealt) {
     for (; those != 0; those &= those - 1) {
@@ -27,18 +27,19 @@ void deal(const core::RenderSettings& settings, std::span<const Regions> partiti
   const core::SampleRange numbered = numbered_samples(pass);
   std::uint64_t end = 0;    // behind the ray before
   bool follows_on = false;  // there is one that is dealt
-  for (std::uint32_t pixel = 0; pixel < settings.camera.pixel_count() && !stop.stop_requested(); ++pixel) {
+  for (std::uint32_t place = 0; place < settings.camera.pixel_count() && !stop.stop_requested(); ++place) {
+    const std::uint32_t pixel = order.pixel_at(place);
     if (done.has(pixel) || !pass.has(pixel)) {
       continue;
     }
     const core::SampleRange samples = pass.samples(pixel);
-    std::uint64_t number = std::uint64_t{pixel} * numbered.count + samples.first;
+    std::uint64_t number = std::uint64_t{place} * numbered.count + samples.first;
     if (follows_on && number != end) {
       begin_each(owners.all_partitions(), end, false);
       follows_on = false;
     }
     for (std::uint32_t i = 0; i < samples.count; ++i, ++number) {
-      const std::uint64_t changed = owners.find(pixel, samples.first + i);
+      const std::uint64_t changed = owners.find(place, pixel, samples.first + i);
       begin_each(follows_on ? changed : owners.all_partitions(), number, true);
       follows_on = true;
     }
@@ -62,10 +63,10 @@ std::size_t joint_count(std::span<const Regions> partitions) {
 
 std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Regions& partition,
                                                     const core::Pass& pass, const core::PixelMask& done,
-                                                    const std::stop_token& stop) {
+                                                    const std::stop_token& stop, const PixelOrder& order) {
   std::vector<std::vector<PrimaryRun>> runs(partition.node_count());
   PrimaryRun* before = nullptr;
-  deal(settings, std::span(&partition, 1), pass, done, stop, [&](std::size_t, std::uint32_t node, std::uint64_t number) {
+  deal(settings, std::span(&partition, 1), pass, done, stop, order, [&](std::size_t, std::uint32_t node, std::uint64_t number) {
     if (before != nullptr) {
       before->count = number - before->first;
     }
@@ -76,7 +77,8 @@ std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& 
 
 std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings,
                                                          std::span<const Regions> partitions, const core::Pass& pass,
-                                                         const core::PixelMask& done, const std::stop_token& stop) {
+                                                         const core::PixelMask& done, const std::stop_token& stop,
+                                                         const PixelOrder& order) {
   std::vector<std::vector<std::size_t>> counts;
   while (counts.size() < partitions.size()) {
     const std::size_t first = counts.size();
@@ -84,7 +86,7 @@ std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSetti
     for (const Regions& partition : joint) {
       counts.emplace_back(partition.node_count());
     }
-    deal(settings, joint, pass, done, stop, [&](std::size_t partition, std::uint32_t node, std::uint64_t) {
+    deal(settings, joint, pass, done, stop, order, [&](std::size_t partition, std::uint32_t node, std::uint64_t) {
       if (node != nobody) {
         ++counts[first + partition][node];
       }

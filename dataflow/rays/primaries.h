@@ -10,6 +10,7 @@
 #include "core/picture/pixel_task.h"
 #include "core/picture/sample_pass.h"
 #include "dataflow/packets.h"
+#include "dataflow/rays/pixel_order.h"
 #include "dataflow/regions/regions.h"
 #include "nodes/layout.h"
 #include "nodes/local_memory.h"
@@ -18,17 +19,19 @@ namespace dmpc::dataflow {
 
 /// For each node, the rays of a pass, but for those of pixels that are done, that enter the grid in a region of its own, or reach
 /// one before any other that holds something, ascending. A ray that meets no such region, or whose pixel shows the background,
-/// only leaves that on the film: these are spread by pixel number, an equal share of the picture a node, so that no node has all
-/// of the sky. Nodes whose regions hold nothing get no ray at all. After a stop is requested it ends early, with what it has.
+/// only leaves that on the film: these are spread by their places in `order`, an equal share of the picture a node, so that no
+/// node has all of the sky. Nodes whose regions hold nothing get no ray at all. After a stop is requested it ends early, with
+/// what it has.
 std::vector<std::vector<PrimaryRun>> deal_primaries(const core::RenderSettings& settings, const Regions& partition,
                                                     const core::Pass& pass, const core::PixelMask& done,
-                                                    const std::stop_token& stop = {});
+                                                    const std::stop_token& stop = {}, const PixelOrder& order = {});
 
 /// How many runs deal_primaries() would deal to each node, for each of `partitions`, which share out one grid. Takes hardly
 /// longer for many partitions than for one.
 std::vector<std::vector<std::size_t>> count_primary_runs(const core::RenderSettings& settings,
                                                          std::span<const Regions> partitions, const core::Pass& pass,
-                                                         const core::PixelMask& done, const std::stop_token& stop = {});
+                                                         const core::PixelMask& done, const std::stop_token& stop = {},
+                                                         const PixelOrder& order = {});
 
 /// A primary ray that is to start: its number, and that by which it is numbered.
 struct PrimaryStart {

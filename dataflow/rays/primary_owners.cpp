@@ -21,10 +21,10 @@ SkyOwners::SkyOwners(const Regions& partition, std::uint32_t pixel_count) : pixe
   }
 }
 
-void SkyOwners::take(std::uint32_t pixel) {
-  const std::uint64_t place = std::uint64_t{pixel} * nodes_.size() / pixel_count_;
-  owner_ = nodes_[place];
-  end_ = static_cast<std::uint32_t>(core::ceil_divide((place + 1) * pixel_count_, std::uint64_t{nodes_.size()}));
+void SkyOwners::take(std::uint32_t place) {
+  const std::uint64_t share = std::uint64_t{place} * nodes_.size() / pixel_count_;
+  owner_ = nodes_[share];
+  end_ = static_cast<std::uint32_t>(core::ceil_divide((share + 1) * pixel_count_, std::uint64_t{nodes_.size()}));
 }
 
 PrimaryOwners::PrimaryOwners(const core::RenderSettings& settings, std::span<const Regions> partitions)
@@ -34,19 +34,19 @@ PrimaryOwners::PrimaryOwners(const core::RenderSettings& settings, std::span<con
   }
 }
 
-std::uint64_t PrimaryOwners::find(std::uint32_t pixel, std::uint32_t sample) {
+std::uint64_t PrimaryOwners::find(std::uint32_t place, std::uint32_t pixel, std::uint32_t sample) {
   const bool was_sky = is_sky_;
   is_sky_ = settings_.shows_background(pixel) || !walk_.enter(settings_.camera.primary_ray(pixel, sample));
   if (!is_sky_) {
-    return follow(pixel);
+    return follow(place);
   }
   deciding_count_ = 0;
-  return was_sky && pixel < sky_end_ ? 0 : take_sky(lattice_.all_partitions(), pixel);
+  return was_sky && place < sky_end_ ? 0 : take_sky(lattice_.all_partitions(), place);
 }
 
 /// Gives each partition the owner of the first cell on the way that is occupied there, or that of the sky. Returns those that
 /// change.
-std::uint64_t PrimaryOwners::follow(std::uint32_t pixel) {
+std::uint64_t PrimaryOwners::follow(std::uint32_t place) {
   std::uint64_t left = lattice_.all_partitions(), changed = 0;
   std::size_t count = 0;
   bool is_as_before = true;  // the cells that decide are those that did for the ray before, and so are the owners
@@ -61,7 +61,7 @@ std::uint64_t PrimaryOwners::follow(std::uint32_t pixel) {
     }
   } while (left != 0 && walk_.advance());
   deciding_count_ = count;
-  return changed | take_sky(left, pixel);
+  return changed | take_sky(left, place);
 }
 
 std::uint64_t PrimaryOwners::take_cell(std::uint64_t partitions, std::size_t cell) {
@@ -74,12 +74,12 @@ std::uint64_t PrimaryOwners::take_cell(std::uint64_t partitions, std::size_t cel
   return changed;
 }
 
-std::uint64_t PrimaryOwners::take_sky(std::uint64_t partitions, std::uint32_t pixel) {
+std::uint64_t PrimaryOwners::take_sky(std::uint64_t partitions, std::uint32_t place) {
   std::uint64_t changed = 0;
   sky_end_ = std::numeric_limits<std::uint32_t>::max();
   for (; partitions != 0; partitions &= partitions - 1) {
     const auto partition = static_cast<std::size_t>(std::countr_zero(partitions));
-    changed |= take(partition, sky_[partition].owner_of(pixel));
+    changed |= take(partition, sky_[partition].owner_of(place));
     sky_end_ = std::min(sky_end_, sky_[partition].end());
   }
   return changed;

@@ -7,8 +7,8 @@
 
 namespace dmpc::dataflow {
 
-Undealt::Undealt(std::uint32_t node_count, std::uint64_t run_rays_max)
-    : runs_(node_count), held_back_(node_count), run_rays_max_(run_rays_max), begun_(0) {
+Undealt::Undealt(std::uint32_t node_count, std::uint64_t run_rays_max, const PixelOrder& order)
+    : runs_(node_count), held_back_(node_count), run_rays_max_(run_rays_max), order_(order), begun_(0) {
   core::expect(run_rays_max > 0, "a run of primary rays has some");
 }
 
@@ -44,17 +44,17 @@ DealtPrimaries Undealt::take(std::uint32_t node) {
 }
 
 void Undealt::begin_pixels(const PrimaryRun& run) {
-  for (std::uint32_t pixel = pixel_of(run.first, samples_); pixel <= pixel_of(run.first + run.count - 1, samples_); ++pixel) {
-    begun_.add(pixel);
+  for (std::uint32_t place = place_of(run.first, samples_); place <= place_of(run.first + run.count - 1, samples_); ++place) {
+    begun_.add(order_.pixel_at(place));
   }
 }
 
 /// Where the rays from `first` on, before `end`, stop to be all of pixels that have begun, or all of others.
 std::uint64_t Undealt::end_of_stretch(std::uint64_t first, std::uint64_t end) const {
-  const bool has_begun = begun_.has(pixel_of(first, samples_));
+  const bool has_begun = begun_.has(pixel_of(first));
   std::uint64_t number = first;
-  while (number < end && begun_.has(pixel_of(number, samples_)) == has_begun) {
-    number = (std::uint64_t{pixel_of(number, samples_)} + 1) * samples_.count;
+  while (number < end && begun_.has(pixel_of(number)) == has_begun) {
+    number = (std::uint64_t{place_of(number, samples_)} + 1) * samples_.count;
   }
   return std::min(number, end);
 }
@@ -67,7 +67,7 @@ void Undealt::hold_back() {
       const std::uint64_t end = run->first + run->count;
       for (std::uint64_t first = run->first, next = 0; first < end; first = next) {
         next = end_of_stretch(first, end);
-        Runs& target = begun_.has(pixel_of(first, samples_)) ? runs_[node] : held_back_[node];
+        Runs& target = begun_.has(pixel_of(first)) ? runs_[node] : held_back_[node];
         target.push_back({first, next - first});
       }
     }

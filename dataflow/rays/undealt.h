@@ -6,6 +6,7 @@
 
 #include "core/picture/refinement.h"
 #include "dataflow/packets.h"
+#include "dataflow/rays/pixel_order.h"
 #include "dataflow/regions/primary_run.h"
 
 namespace dmpc::dataflow {
@@ -16,7 +17,7 @@ namespace dmpc::dataflow {
 class Undealt {
  public:
   /// `run_rays_max`: no run that is dealt has more rays, which bounds those that a node has room for; at least 1.
-  Undealt(std::uint32_t node_count, std::uint64_t run_rays_max);
+  Undealt(std::uint32_t node_count, std::uint64_t run_rays_max, const PixelOrder& order = {});
 
   /// Takes the rays of a pass, ascending for each node, of pixels that are not among `done`. Requires is_empty(), and that none
   /// is held back.
@@ -43,11 +44,13 @@ class Undealt {
   using Runs = std::vector<PrimaryRun>;
 
   std::uint64_t end_of_stretch(std::uint64_t first, std::uint64_t end) const;
+  std::uint32_t pixel_of(std::uint64_t number) const { return order_.pixel_at(place_of(number, samples_)); }
   void begin_pixels(const PrimaryRun& run);
 
   std::vector<Runs> runs_;
   std::vector<Runs> held_back_;
   std::uint64_t run_rays_max_;
+  PixelOrder order_;
   core::SampleRange samples_;
   core::PixelMask begun_;
   bool holds_back_ = false;

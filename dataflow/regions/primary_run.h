@@ -8,7 +8,7 @@
 namespace dmpc::dataflow {
 
 /// Consecutive primary rays of a pass. They are numbered by the samples that some pixel of it may have: of `count` samples from
-/// `first` on, the ray of sample `first + i` of a pixel has the number pixel * count + i.
+/// `first` on, the ray of sample `first + i` of a pixel has the number place * count + i, by its place in the PixelOrder.
 struct PrimaryRun {
   std::uint64_t first = 0;
   std::uint64_t count = 0;
@@ -17,7 +17,7 @@ struct PrimaryRun {
 /// From 0 on to the last that any pixel of the pass has, since every pixel may have others.
 inline core::SampleRange numbered_samples(const core::Pass& pass) { return {0, pass.samples_end()}; }
 
-constexpr std::uint32_t pixel_of(std::uint64_t number, const core::SampleRange& samples) {
+constexpr std::uint32_t place_of(std::uint64_t number, const core::SampleRange& samples) {
   return static_cast<std::uint32_t>(number / samples.count);
 }
 constexpr std::uint32_t sample_of(std::uint64_t number, const core::SampleRange& samples) {

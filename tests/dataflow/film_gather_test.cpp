@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 #include "core/base/expect.h"
+#include "dataflow/rays/pixel_order.h"
 #include "nodes/threads/threads_runner.h"
 #include "tests/support/shuffled_machine.h"
 
@@ -89,6 +91,26 @@ TEST_CASE("pixels that follow each other and have one light share an entry: none
       CHECK(entry_in(parcel, 0).light == core::FixedColor{{1, 2, 3}});
     }
   }
+}
+
+TEST_CASE("where pixels come square by square, those of a row that follow each other share an entry as well") {
+  constexpr std::uint32_t width = 40, height = 8;
+  const auto order = dataflow::PixelOrder::squares(width, height);
+  FilmSender sender(1);
+  for (std::uint32_t place = 0; place < width * height; ++place) {
+    sender.film.add_only(order.pixel_at(place), 0, {{1, 2, 3}});
+  }
+  sender.film.flush();
+  const tests::Parcel parcel = sender.single.take();
+  REQUIRE(sender.film.counters().entries == height - 1);  // the last row of the first squares goes on in the next squares' first
+  std::vector<int> times(width * height);
+  for (std::uint32_t i = 0; i < height - 1; ++i) {
+    const FilmEntry entry = entry_in(parcel, i);
+    for (std::uint32_t pixel = entry.pixel; pixel <= entry.pixel + entry.more; ++pixel) {
+      ++times.at(pixel);
+    }
+  }
+  CHECK(times == std::vector<int>(width * height, 1));
 }
 
 TEST_CASE("pixels of other light, of another plane or apart do not share an entry, and a packet of them leaves when it is full") {

@@ -60,8 +60,8 @@ TEST_CASE("rays of later passes come packet by packet, and each makes room for a
   CHECK(primaries.empty());
 }
 
-TEST_CASE("a ray's number tells its pixel and its sample") {
-  CHECK(dataflow::pixel_of(17, {8, 4}) == 4);
+TEST_CASE("a ray's number tells its pixel's place and its sample") {
+  CHECK(dataflow::place_of(17, {8, 4}) == 4);
   CHECK(dataflow::sample_of(17, {8, 4}) == 9);
 }
 
@@ -91,6 +91,35 @@ TEST_CASE("every primary ray is dealt once, to the owner of the cell in which it
   for (const int of_node : sky) {
     CHECK(of_node > 0);
     CHECK(of_node <= static_cast<int>(dealt.size()) / 5);
+  }
+}
+
+TEST_CASE("square by square, every primary ray is dealt once, to whom it is dealt row by row") {
+  const core::Scene scene = tests::mirrors_and_glass();
+  const core::Database database = core::build_database(scene, {});
+  const core::GridFrame& frame = database.header().frame;
+  const core::Camera camera(scene.view, frame, 30, 18, 3);
+  const dataflow::Bsp bsp = dataflow::equal_size_bsp(core::grid_size(frame), dataflow::axes_facing(camera), 5);
+  const core::RenderSettings settings{.header = database.header(), .camera = camera};
+  const auto owners_in = [&](const dataflow::PixelOrder& order) {
+    const auto runs =
+        dataflow::deal_primaries(settings, bsp, settings.first_pass(), core::PixelMask(camera.pixel_count()), {}, order);
+    std::vector<std::uint32_t> owners(camera.pixel_count() * 3, 5);
+    for (std::uint32_t node = 0; node < 5; ++node) {
+      for (const PrimaryRun& run : runs[node]) {
+        for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
+          std::uint32_t& owner = owners[order.pixel_at(static_cast<std::uint32_t>(number / 3)) * 3 + number % 3];
+          CHECK(owner == 5);
+          owner = node;
+        }
+      }
+    }
+    return owners;
+  };
+  const std::vector<std::uint32_t> by_rows = owners_in({}), by_squares = owners_in(dataflow::PixelOrder::squares(30, 18));
+  for (std::uint32_t ray = 0; ray < by_rows.size(); ++ray) {
+    const bool enters = core::first_passage(camera.primary_ray(ray / 3, ray % 3), frame).has_value();
+    CHECK((by_squares[ray] == by_rows[ray] || (!enters && by_squares[ray] < 5)));
   }
 }
 

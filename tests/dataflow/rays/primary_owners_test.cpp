@@ -70,7 +70,7 @@ int check_owners(const SharedHat& hat) {
   int passed = 0;
   for (std::uint32_t pixel = 0; pixel < hat.settings.camera.pixel_count(); ++pixel) {
     for (std::uint32_t sample = 0; sample < static_cast<std::uint32_t>(hat.settings.camera.samples()); ++sample) {
-      owners.find(pixel, sample);
+      owners.find(pixel, pixel, sample);
       for (std::size_t i = 0; i < hat.bsps.size(); ++i) {
         CHECK(owners.owners()[i] == owner_by_next_stop(hat, hat.bsps[i], pixel, sample));
       }
@@ -131,12 +131,12 @@ TEST_CASE("runs of primary rays are counted for many computers as they are dealt
         rays += run.count;
         CHECK(run.count > 0);
         for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
-          const std::uint32_t pixel = dataflow::pixel_of(number, numbered), sample = dataflow::sample_of(number, numbered);
+          const std::uint32_t pixel = dataflow::place_of(number, numbered), sample = dataflow::sample_of(number, numbered);
           const core::SampleRange range = pass.samples(pixel);
           CHECK_FALSE(done.has(pixel));
           CHECK((sample >= range.first && sample < range.first + range.count));
         }
-        const std::uint32_t first = dataflow::pixel_of(run.first, numbered);
+        const std::uint32_t first = dataflow::place_of(run.first, numbered);
         CHECK(owner_by_next_stop(hat, hat.bsps[i], first, dataflow::sample_of(run.first, numbered)) == node);
       }
     }

@@ -77,6 +77,20 @@ TEST_CASE("when rays are held back, pixels that have begun are dealt to the end 
   CHECK(rays_for(undealt, 1).size() == 30);
 }
 
+TEST_CASE("where places are in squares, the pixels that have begun are those of the places") {
+  Undealt undealt(1, 1, dataflow::PixelOrder::squares(20, 16));
+  undealt.begin_pass({{{0, 320}}}, {0, 1}, PixelMask(320));
+  undealt.take(0);  // 60 places: three squares, and three rows of the fourth
+  for (std::uint32_t pixel = 0; pixel < 320; ++pixel) {
+    const std::uint32_t x = pixel % 20, y = pixel / 20;
+    CHECK(undealt.begun().has(pixel) == (y < 4 && x < (y < 3 ? 16 : 12)));
+  }
+  undealt.hold_back();
+  CHECK(undealt.begun().count() == 60);
+  undealt.release();
+  CHECK(rays_for(undealt, 0).front() == 60);
+}
+
 TEST_CASE("the other rays of a pixel that one node has begun are dealt to another") {
   Undealt undealt(2, 1);
   undealt.begin_pass({{{0, 1}, {2, 1}, {4, 1}}, {{1, 1}, {3, 1}, {5, 4}}}, {0, 2}, PixelMask(70));
