@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "core/base/expect.h"
+#include "core/database/brick_boxes.h"
 #include "core/database/overlap.h"
 
 namespace dmpc::core {
 namespace {
 
-constexpr std::uint32_t bound_max = 255;
 /// A million grids: kernels cannot overflow, and from where rays need more than that, a float cannot aim at the grid.
 constexpr double pad_max = 0x1p20;
 
@@ -47,30 +47,6 @@ void cut_evenly(std::vector<Group>& groups, Cutter& cutter) {
     const auto [first, second] = cutter.cut(largest, true);
     largest = first;
     groups.push_back(second);
-  }
-}
-
-/// A brick without children that can hold groups within `bounds`, padded.
-Brick brick_over(const Bounds& bounds, double pad) {
-  Brick brick;
-  double size = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    brick.origin[axis] = rounded_down(double{bounds.low[axis]} - pad);
-    size = std::max(size, double{bounds.high[axis]} + pad - double{brick.origin[axis]});
-  }
-  int exponent = 0;
-  std::frexp(size / bound_max, &exponent);
-  brick.unit = std::ldexp(1.0F, exponent);
-  return brick;
-}
-
-void add_child(Brick& brick, const Bounds& bounds, double pad) {
-  const std::size_t child = brick.child_count++;
-  const double unit = double{brick.unit};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double origin = double{brick.origin[axis]};
-    brick.bounds[axis][child] = static_cast<std::uint8_t>((double{bounds.low[axis]} - pad - origin) / unit);
-    brick.bounds[axis + 3][child] = static_cast<std::uint8_t>(std::ceil((double{bounds.high[axis]} + pad - origin) / unit));
   }
 }
 

@@ -1,14 +1,18 @@
 #include "core/database/outline.h"
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "core/base/bounds.h"
 #include "core/base/units.h"
+#include "core/database/brick_boxes.h"
 #include "core/database/empty_space.h"
+#include "core/database/placed_boxes.h"
 #include "core/database/record_writer.h"
 #include "core/record/directory.h"
 
@@ -23,7 +27,8 @@ constexpr std::size_t small_outline_bytes = 16_KiB;
 /// A topmost brick stands for some 4,096 primitives: about a 4,096th of the database.
 constexpr std::size_t database_share = 2048;
 
-/// Copies bricks in the order in which they are met, level by level.
+/// Copies bricks in the order in which they are met, level by level. Where meshes are kept once those of each place are brought
+/// to where it stands.
 class Outliner {
  public:
   Outliner(const Database& database, std::size_t bytes_max)
@@ -36,7 +41,9 @@ class Outliner {
       return std::nullopt;
     }
     for (; !waiting_.empty(); waiting_.pop_front()) {
-      copy_brick(waiting_.front().first, waiting_.front().second);
+      const Waiting next = waiting_.front();
+      const bool is_in_place = next.from.is_block() || next.instance != no_address;
+      writer_.write(next.to, 0, is_in_place ? brick_in_place(next) : copy_of_brick(next));
     }
     part.record_bytes = writer_.page_bytes();
     part.bytes = std::move(writer_).finish();
@@ -44,15 +51,24 @@ class Outliner {
   }
 
  private:
+  /// What is to be outlined.
+  struct Waiting {
+    BrickChild from;   ///< a brick, or a block of boxes of places
+    Address instance;  ///< in which the brick of a mesh stands; no_address: it is none
+    Address to;        ///< room for the outline's brick
+    int level;         ///< bricks down to this one
+  };
+
   const std::byte* at(Address address) const { return bytes_ + byte_offset(address); }
+  const Brick& brick_at(Address address) const { return *reinterpret_cast<const Brick*>(at(address)); }
 
   /// For one brick more, the last page filled up.
   bool has_room() const { return writer_.page_bytes_with(sizeof(Brick)) <= bytes_max_; }
 
-  /// Room for the copy of a brick, which is made when its turn comes.
-  Address wait_for(Address from) {
+  /// Room for a brick, which is made when its turn comes.
+  Address wait_for(BrickChild from, Address instance, int level) {
     const Address to = writer_.allocate(sizeof(Brick));
-    waiting_.emplace_back(from, to);
+    waiting_.push_back({from, instance, to, level});
     return to;
   }
 
@@ -65,28 +81,71 @@ class Outliner {
       auto entry = read<DirectoryEntry>(at(directory_address(whole_, index)) + directory_offset(index));
       fits = entry.empty() || has_room();
       if (!entry.empty() && fits) {
-        entry.bits = static_cast<std::uint32_t>(wait_for(entry.brick()));
+        entry.bits = static_cast<std::uint32_t>(wait_for(BrickChild::brick(entry.brick()), no_address, 1));
       }
       writer_.write(directory_address(header, index), directory_offset(index), entry);
     }
     return fits;
   }
 
-  void copy_brick(Address from, Address to) {
-    auto brick = read<Brick>(at(from));
+  /// The child of an outlined brick for one of the whole: a brick if there is something to say of it, and room, and rays that
+  /// have no more places for children that wait than a tree has levels can come there.
+  BrickChild child_for(BrickChild whole, Address instance, int level) {
+    const bool has_boxes = !whole.is_block() || (whole_.has_instances != 0 && instance == no_address &&
+                                                 read<BlockHeader>(at(whole.address())).kind == PrimitiveKind::instance);
+    return has_boxes && level < brick_levels_max && has_room() ? BrickChild::brick(wait_for(whole, instance, level + 1))
+                                                               : BrickChild::block(Address{0});
+  }
+
+  Brick copy_of_brick(const Waiting& next) {
+    auto brick = read<Brick>(at(next.from.address()));
     for (std::size_t child = 0; child < brick.child_count; ++child) {
-      const BrickChild whole = brick.child[child];
-      brick.child[child] =
-          whole.is_block() || !has_room() ? BrickChild::block(Address{0}) : BrickChild::brick(wait_for(whole.address()));
+      brick.child[child] = child_for(brick.child[child], no_address, next.level);
     }
-    writer_.write(to, 0, brick);
+    return brick;
+  }
+
+  /// Of places, or of a mesh's brick in one.
+  Brick brick_in_place(const Waiting& next) {
+    const std::byte* const record = at(next.from.address());
+    std::array<Bounds, brick_children_max> boxes;
+    std::array<BrickChild, brick_children_max> children;
+    std::size_t count = 0;
+    if (next.from.is_block()) {
+      for (; count < read<BlockHeader>(record).count; ++count) {
+        const Address instance = instance_in(record, count);
+        boxes[count] = Bounds::around(instance_box(record, count));
+        children[count] = child_for(BrickChild::brick(read<InstanceRecord>(at(instance)).root), instance, next.level);
+      }
+    } else {
+      const Brick& brick = brick_at(next.from.address());
+      const PlacedBoxes placed(read<InstanceRecord>(at(next.instance)), whole_.frame);
+      for (; count < brick.child_count; ++count) {
+        boxes[count] = Bounds::around(placed.box_of(brick, count));
+        children[count] = child_for(brick.child[count], next.instance, next.level);
+      }
+    }
+    return brick_of(std::span(boxes).first(count), children);
+  }
+
+  static Brick brick_of(std::span<const Bounds> boxes, const std::array<BrickChild, brick_children_max>& children) {
+    Bounds around;
+    for (const Bounds& box : boxes) {
+      around.include(box);
+    }
+    Brick brick = brick_over(around, 0);
+    for (std::size_t child = 0; child < boxes.size(); ++child) {
+      add_child(brick, boxes[child], 0);
+    }
+    brick.child = children;
+    return brick;
   }
 
   const DatabaseHeader& whole_;
   const std::byte* bytes_;
   std::size_t bytes_max_;
   RecordWriter writer_;
-  std::deque<std::pair<Address, Address>> waiting_;  ///< bricks to be copied: from, to
+  std::deque<Waiting> waiting_;
 };
 
 /// Which voxels have lists, or which cubes of so many voxels that the directory fits.

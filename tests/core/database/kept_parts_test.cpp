@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstdint>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "apps/lab/bench/stability/random.h"
 #include "apps/lab/bench/stability/rays.h"
 #include "core/database/extract.h"
+#include "core/database/outline.h"
 #include "core/database/placed_boxes.h"
 #include "core/database/region_records.h"
 #include "core/record/coordinate.h"
@@ -300,6 +302,48 @@ TEST_CASE("a box in a place holds its corners as rounding leaves them, and the g
         CHECK(box.holds(placed - Vec3d{pad, pad, pad}));
       }
       CHECK(length(box.half()) < 4 * size * frame.scale);
+    }
+  }
+}
+
+TEST_CASE("no ray hits what is kept before the first block of any outline, and of a finer one some have a later one") {
+  for (const Arrangement arrangement : {Arrangement::apart, Arrangement::deep_in_each_other}) {
+    const core::Scene scene = balls_in_places(0.3, arrangement, 17);
+    const core::Database database = core::build_database(scene, with_instances());
+    Random random(18);
+    std::vector<Ray> rays;
+    for (std::size_t i = 0; i < scaled(2000); ++i) {
+      Ray ray = ray_at_place(scene, database, i, random);
+      ray.kind = core::RayKind::reflected;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        ray.direction[axis] += static_cast<float>(random.between(-0.1, 0.1));
+      }
+      rays.push_back(ray);
+    }
+    std::vector<float> before(rays.size());
+    for (const std::size_t bytes_max : {1024U, 4096U, 1U << 24U}) {
+      CAPTURE(bytes_max);
+      const DatabasePart outline = core::outline_of(database, bytes_max);
+      REQUIRE(outline.header.directory != core::no_address);
+      CHECK(outline.record_bytes <= bytes_max);
+      core::LocalRecords records(outline.bytes);
+      std::size_t later = 0, early = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Ray& ray = rays[i];
+        const auto start = core::first_passage(ray, database.header().frame);
+        if (!start) {
+          continue;
+        }
+        core::Operations operations;
+        core::Cursor cursor = core::arrive(*start);
+        const core::Walk walk(ray, outline.header.frame, outline.header.region);
+        const float first = core::RayWalk(ray, cursor, records, operations).first_block(walk, outline.header, {});
+        const Answer whole = trace_whole(database, ray);
+        early += whole.hit.found() && whole.hit.t < first ? 1 : 0;
+        later += first > std::exchange(before[i], first) ? 1 : 0;
+      }
+      CHECK(early == 0);
+      CHECK(later > 0);
     }
   }
 }
