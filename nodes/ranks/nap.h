@@ -13,10 +13,11 @@ enum class Idle : std::uint8_t {
 };
 
 /// Its own nodes' packets wake it at once; it is frames of other ranks for which it has to look. It does not yield before it
-/// sleeps: where others compute, a yield takes milliseconds, and who wakes goes before them.
+/// sleeps: where others compute, a yield takes milliseconds, and who wakes goes before them. So every nap's end takes a core from
+/// one that computes, and naps of a few us would be no more than a poll with two switches of threads.
 class Nap {
  public:
-  static constexpr std::chrono::nanoseconds shortest{1'000}, longest{100'000};
+  static constexpr std::chrono::nanoseconds shortest{30'000}, longest{100'000};
   /// After so long a silence naps are ten times as long.
   static constexpr std::chrono::nanoseconds silence{50'000'000};
 
