@@ -218,8 +218,9 @@ class DatabaseBuilder {
     if (!left_out_) {
       return list(0);
     }
-    auto cells = list(left_out_->excess(frame, result_.pad_, false, parallel_));
-    return cells ? std::move(cells) : list(left_out_->excess(frame, result_.pad_, true, parallel_));
+    const std::size_t listed = conversion_.primitives.size();
+    auto cells = list(left_out_->excess(frame, result_.pad_, listed, false, parallel_));
+    return cells ? std::move(cells) : list(left_out_->excess(frame, result_.pad_, listed, true, parallel_));
   }
 
   /// One top cell in place of all. Whatever depends on cells but the boxes of bricks has been settled before, and rays start

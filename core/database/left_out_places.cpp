@@ -21,8 +21,12 @@ namespace {
 
 /// Places that one thread takes at a time.
 constexpr std::size_t places_together = 64;
+/// Those that are counted before the sum is looked at.
+constexpr std::size_t places_a_group = 4096;
 /// Copies of more triangles would be records of more than 16 GiB.
 constexpr std::uint64_t copied_triangles_end = std::uint64_t{1} << 28U;
+/// More than what 32 bits count has room for in a list.
+constexpr std::int64_t excess_without_list = std::int64_t{1} << 48U;
 /// Ids that are no primitive's, and those of the boxes of places, have room behind.
 constexpr std::uint64_t ids_max = 0xf0000000U;
 
@@ -41,9 +45,9 @@ Box local_reach(const Box& own, const KeptPlace& place, const GridFrame& frame) 
 }
 
 template <class Part>
-void for_each_place(const std::vector<KeptPlace>& places, const Parallel& parallel, const Part& part) {
-  parallel.for_each(ceil_divide(places.size(), places_together), [&](std::size_t chunk) {
-    const std::size_t end = std::min(places.size(), (chunk + 1) * places_together);
+void for_each_place(std::size_t count, const Parallel& parallel, const Part& part) {
+  parallel.for_each(ceil_divide(count, places_together), [&](std::size_t chunk) {
+    const std::size_t end = std::min(count, (chunk + 1) * places_together);
     for (std::size_t i = chunk * places_together; i < end; ++i) {
       part(i);
     }
@@ -71,21 +75,38 @@ LeftOutPlaces::LeftOutPlaces(const Scene& scene, std::span<const MeshFaces> face
   }
 }
 
-std::int64_t LeftOutPlaces::excess(const GridFrame& frame, double pad, bool is_exact, const Parallel& parallel) const {
+/// Long triangles touch so many cells that to count them all would take minutes. Side by side a place is looked at until it has
+/// four times its share of what there may be, and then, if it has more, by itself: so that it ends where all have too many.
+std::int64_t LeftOutPlaces::excess(const GridFrame& frame, double pad, std::uint64_t listed, bool is_exact,
+                                   const Parallel& parallel) const {
   if (triangles_ > copied_triangles_end) {
     return 0;
   }
-  std::vector<std::int64_t> excess(places_.size());
-  for_each_place(places_, parallel, [&](std::size_t i) { excess[i] = excess_of(places_[i], frame, pad, is_exact); });
-  std::int64_t sum = 0;
-  for (const std::int64_t one : excess) {
-    sum += one;
+  const std::uint64_t touches_max = TopCells::touches_max(triangles_, listed);
+  const std::size_t group = std::min(places_a_group, places_.size());
+  Touches all;
+  std::vector<Touches> some(group);
+  for (std::size_t first = 0; first < places_.size(); first += group) {
+    const std::size_t count = std::min(group, places_.size() - first);
+    const std::uint64_t share = 4 * touches_max / group;
+    for_each_place(count, parallel,
+                   [&](std::size_t i) { some[i] = touches_of(places_[first + i], frame, pad, share, is_exact); });
+    for (std::size_t i = 0; i < count; ++i) {
+      const Touches here =
+          some[i].touches <= share ? some[i] : touches_of(places_[first + i], frame, pad, touches_max - all.touches, is_exact);
+      all.triangles += here.triangles;
+      all.touches += here.touches;
+      if (all.touches > touches_max) {
+        return excess_without_list;
+      }
+    }
   }
-  return sum;
+  return TopCells::excess_of(all.touches, all.triangles);
 }
 
 /// What lies in one cell has no excess, however it is rounded.
-std::int64_t LeftOutPlaces::excess_of(const KeptPlace& place, const GridFrame& frame, double pad, bool is_exact) const {
+LeftOutPlaces::Touches LeftOutPlaces::touches_of(const KeptPlace& place, const GridFrame& frame, double pad,
+                                                 std::uint64_t touches_max, bool is_exact) const {
   const Scene& mesh = scene_.kept->meshes[place.mesh];
   const MeshChunks& chunks = chunks_[index_of(place)];
   const Placing placing(place.world, frame);
@@ -110,7 +131,7 @@ std::int64_t LeftOutPlaces::excess_of(const KeptPlace& place, const GridFrame& f
       }
     }
   }
-  return TopCells::excess_of(copies, frame, pad);
+  return {copies.size(), TopCells::touches_of(copies, frame, pad, touches_max)};
 }
 
 std::vector<Obstacle> LeftOutPlaces::obstacles(const GridFrame& frame, double pad) const {
@@ -139,7 +160,7 @@ KeptInstances LeftOutPlaces::keep(const GridFrame& frame, double pad, Conversion
       own.push_back(i);
     }
   }
-  for_each_place(places_, parallel, [&](std::size_t i) { kept.places[i].bounds = bounds_of(places_[i], frame); });
+  for_each_place(places_.size(), parallel, [&](std::size_t i) { kept.places[i].bounds = bounds_of(places_[i], frame); });
   rearrange(conversion, own);
   kept.triangles = triangles_;
   kept.meshes = std::move(meshes_.records);

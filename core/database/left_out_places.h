@@ -26,9 +26,10 @@ class LeftOutPlaces {
   /// RoomError if it has more triangles than 32 bits count.
   LeftOutPlaces(const Scene& scene, std::span<const MeshFaces> faces, const Parallel& parallel);
 
-  /// TopCells::excess_of() of all copies, if there were any. Unless it `is_exact` it may be more than that, for which few
-  /// triangles are looked at. 0 if there are so many that nobody could have copies of them.
-  std::int64_t excess(const GridFrame& frame, double pad, bool is_exact, const Parallel& parallel) const;
+  /// TopCells::excess_of() all copies, if there were any. Unless it `is_exact` it may be more than that, for which few triangles
+  /// are looked at. Once it is known that there is no list of these and `listed` primitives beside them it is more than any list
+  /// has room for. 0 if there are so many that nobody could have copies of them.
+  std::int64_t excess(const GridFrame& frame, double pad, std::uint64_t listed, bool is_exact, const Parallel& parallel) const;
 
   /// Those that this pad makes too small, one entry for each of Scene::kept.
   std::vector<Obstacle> obstacles(const GridFrame& frame, double pad) const;
@@ -39,7 +40,11 @@ class LeftOutPlaces {
   KeptInstances keep(const GridFrame& frame, double pad, Conversion& conversion, const Parallel& parallel);
 
  private:
-  std::int64_t excess_of(const KeptPlace& place, const GridFrame& frame, double pad, bool is_exact) const;
+  /// That a copy's triangles touch cells; more than `touches_max` if those that are looked at touch more.
+  struct Touches {
+    std::uint64_t triangles = 0, touches = 0;
+  };
+  Touches touches_of(const KeptPlace& place, const GridFrame& frame, double pad, std::uint64_t touches_max, bool is_exact) const;
   Bounds bounds_of(const KeptPlace& place, const GridFrame& frame) const;
   std::uint64_t triangles_of(const KeptPlace& place) const { return faces_[place.mesh].triangles.size(); }
   std::uint32_t index_of(const KeptPlace& place) const { return meshes_.index[place.mesh]; }

@@ -178,15 +178,28 @@ std::optional<TopCells> TopCells::list(std::span<const PrimitiveValues> primitiv
                      Order::morton, parallel);
 }
 
-std::int64_t TopCells::excess_of(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad) {
+std::uint64_t TopCells::touches_of(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
+                                   std::uint64_t most) {
   const Lister lister(primitives, frame, pad);
-  std::int64_t touches = 0;
+  std::uint64_t touches = 0;
   for (std::size_t chunk = 0; chunk < lister.chunk_count(); ++chunk) {
     Listed listed;
-    lister.list(chunk, std::numeric_limits<std::uint32_t>::max(), listed);
-    touches += static_cast<std::int64_t>(listed.touches.size());
+    lister.list(chunk, most - touches, listed);
+    if (listed.is_cut_off) {
+      return most + 1;
+    }
+    touches += listed.touches.size();
   }
-  return touches - std::int64_t{top_cells_max} * static_cast<std::int64_t>(primitives.size());
+  return touches;
+}
+
+std::int64_t TopCells::excess_of(std::uint64_t touches, std::uint64_t count) {
+  return static_cast<std::int64_t>(touches) - std::int64_t{top_cells_max} * static_cast<std::int64_t>(count);
+}
+
+/// Else list() has no room for `listed` ones that are in a cell each.
+std::uint64_t TopCells::touches_max(std::uint64_t count, std::uint64_t listed) {
+  return top_cells_max * (count + listed + 8) - listed;
 }
 
 bool TopCells::is_within_one(const Box& box, const GridFrame& frame, double pad) {

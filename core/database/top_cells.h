@@ -24,8 +24,14 @@ class TopCells {
   /// of instances nowhere. `excess`: excess_of() of all that is judged together with these, and listed nowhere.
   static std::optional<TopCells> list(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
                                       const Parallel& parallel, std::int64_t excess = 0);
-  /// How many more cells primitives touch than their share of a list has; negative if they leave room to others.
-  static std::int64_t excess_of(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad);
+  /// How many cells primitives touch, added up; `most` + 1 of more than that, which ends the look at them.
+  static std::uint64_t touches_of(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
+                                  std::uint64_t most);
+  /// The `excess` of primitives that touch so many cells: how many more than their share of a list has; negative if they leave
+  /// room to others.
+  static std::int64_t excess_of(std::uint64_t touches, std::uint64_t count);
+  /// With more touches of so many primitives that are judged together with `listed` ones there are none.
+  static std::uint64_t touches_max(std::uint64_t count, std::uint64_t listed);
   /// Whether whatever lies in a box, grid-local, touches one cell alone.
   static bool is_within_one(const Box& box, const GridFrame& frame, double pad);
 

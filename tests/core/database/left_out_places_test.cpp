@@ -197,10 +197,12 @@ TEST_CASE("what copies that are left out would touch of cells is what copies tou
         }
       }
       const double pad = core::insertion_pad(frame, 1);
-      const std::int64_t expected = core::TopCells::excess_of(copies, frame, pad);
-      CHECK(places.excess(frame, pad, true, parallel) == expected);
-      CHECK(places.excess(frame, pad, false, parallel) >= expected);
-      CHECK(places.excess(frame, pad, false, parallel) <= std::max<std::int64_t>(expected + 2 * copies.size(), 0));
+      const std::uint64_t touches = core::TopCells::touches_of(copies, frame, pad, all / 2);
+      const std::int64_t expected = core::TopCells::excess_of(touches, copies.size());
+      constexpr std::uint64_t many = 1'000'000'000;  // so that nothing ends early
+      CHECK(places.excess(frame, pad, many, true, parallel) == expected);
+      CHECK(places.excess(frame, pad, many, false, parallel) >= expected);
+      CHECK(places.excess(frame, pad, many, false, parallel) <= std::max<std::int64_t>(expected + 2 * copies.size(), 0));
       most = std::max(most, expected);
     }
     CHECK((most > 0) == are_long);
@@ -224,6 +226,21 @@ TEST_CASE("where a mesh cannot be kept, copies are put in all the same") {
   const Database light = built(left, with_instances(), none);
   CHECK(light.records().instances == 0);
   CHECK(hits_of(light) == hits_of(built(with_odd_corner(Copies::put), with_instances(), all)));
+}
+
+TEST_CASE("where no list has room for what copies touch, the look at them ends, and says so") {
+  const core::Parallel parallel(2);
+  const Scene left = long_straws(Copies::left_out);
+  const auto faces = core::faces_of_meshes(left, 0.125, parallel);
+  const core::LeftOutPlaces places(left, faces, parallel);
+  const core::GridFrame frame = core::fit_frame(core::bounds_of(left, core::world_axes, parallel), 8000, 64);
+  const double pad = core::insertion_pad(frame, 1);
+  std::vector<core::PrimitiveValues> one(1);
+  for (const bool is_exact : {false, true}) {
+    const std::int64_t excess = places.excess(frame, pad, 1, is_exact, parallel);
+    CHECK(excess >= std::int64_t{1} << 48U);
+    CHECK_FALSE(core::TopCells::list(one, frame, pad, parallel, excess));
+  }
 }
 
 TEST_CASE("what has to have copies has them, and all else is kept, with the ids, the grid and the films of all copies") {
