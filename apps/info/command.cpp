@@ -13,6 +13,7 @@
 #include "apps/info/json.h"
 #include "apps/info/record.h"
 #include "apps/info/text.h"
+#include "apps/run/instance_options.h"
 #include "apps/run/region_options.h"
 #include "apps/run/strategy_options.h"
 #include "apps/scene/load_scene.h"
@@ -55,6 +56,7 @@ void add_options(OptionSet options, InfoOptions& info) {
   add_options(options, info.picture);
   add_transport_options(options, info.picture);
   add_options(options, info.database);
+  add_instance_option(options, info.database);
   options.begin_group("The forecast");
   options.add_text(
       "--nodes", "N,N,... [1,2,4,...,256]",
@@ -72,6 +74,7 @@ void add_options(OptionSet options, InfoOptions& info) {
     if (info.system) {
       settle(options, info);
     }
+    settle_instances(options, {info.system}, info.database, info.picture.staging.mesh);
     check_voxels(options, info.database.build);
     check_homes(options, info.pages.homes);
     check_regions(options, info.balance);
@@ -81,6 +84,7 @@ void add_options(OptionSet options, InfoOptions& info) {
       "  dmpc info rings-4-t1\n"
       "  dmpc info tetra-9 --system=pixel-machine\n"
       "  dmpc info model.glb --nodes=8,64 --page-size=4KiB\n"
+      "  dmpc info grove-10 --instances=keep --nodes=64\n"
       "  dmpc info balls-4 --transport=paths --light-radius=0.5\n"
       "  dmpc info tetra-9 --nodes=16 --balance=subsampled --format=json > tetra.json\n"
       "Nothing is rendered, unless --balance=subsampled or moving asks for the regions that render would make: that takes as "

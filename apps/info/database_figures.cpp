@@ -1,10 +1,12 @@
 #include "apps/info/database_figures.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/database/address_map.h"
 #include "core/record/directory.h"
 #include "core/record/emitter.h"
+#include "core/record/instance.h"
 #include "core/record/records.h"
 #include "core/record/voxel_list.h"
 
@@ -16,6 +18,10 @@ using core::PrimitiveKind;
 
 constexpr std::array<const char*, core::primitive_kind_count> block_names = {"blocks of triangles", "blocks of spheres",
                                                                              "blocks of cones"};
+constexpr const char* place_block_name = "blocks of places";
+/// What grows with triangles and places, beside blocks.
+constexpr std::array<const char*, 5> geometry_names = {"bricks", place_block_name, "places of meshes", "normals",
+                                                       "textured triangles"};
 
 /// Goes through the trees below all top cells.
 class TreeWalk {
@@ -34,6 +40,7 @@ class TreeWalk {
 
   std::uint64_t occupied = 0, levels_max = 0;
   std::array<RecordFigures, core::primitive_kind_count> blocks{};
+  RecordFigures place_blocks{.kind = place_block_name};
 
  private:
   /// `level` is at most core::brick_levels_max.
@@ -42,9 +49,28 @@ class TreeWalk {
     levels_max = std::max(levels_max, level);
     for (std::size_t child = 0; child < brick.child_count; ++child) {
       if (brick.child[child].is_block()) {
-        count(core::read<core::BlockHeader>(records_.find(brick.child[child].address())));
+        visit_block(brick.child[child].address(), level);
       } else {
         visit(brick.child[child].address(), level + 1);
+      }
+    }
+  }
+
+  /// Below a block of places are the meshes that stand there, each looked at once.
+  void visit_block(core::Address address, std::uint64_t level) {
+    const std::byte* const block = records_.find(address);
+    const auto header = core::read<core::BlockHeader>(block);
+    if (header.kind != PrimitiveKind::instance) {
+      return count(header);
+    }
+    ++place_blocks.count;
+    place_blocks.bytes += core::block_bytes(header);
+    const std::byte* const places = core::ids_of(header, block) + header.count * sizeof(std::uint32_t);
+    for (std::size_t lane = 0; lane < header.count; ++lane) {
+      const core::Address place{core::read<std::uint32_t>(places + lane * sizeof(std::uint32_t))};
+      const core::Address root = core::read<core::InstanceRecord>(records_.find(place)).root;
+      if (listed_.find_or_add(root).second) {
+        visit(root, level + 1);
       }
     }
   }
@@ -64,7 +90,7 @@ class TreeWalk {
   }
 
   core::LocalRecords records_;
-  core::AddressMap listed_;  ///< blocks of voxels
+  core::AddressMap listed_;  ///< blocks of voxels, roots of meshes
 };
 
 template <class Record>
@@ -84,6 +110,8 @@ std::vector<RecordFigures> records_of(const core::Database& database, const Scen
   for (std::size_t kind = 0; kind < trees.blocks.size(); ++kind) {
     records.push_back({block_names[kind], trees.blocks[kind].count, trees.blocks[kind].bytes});
   }
+  records.push_back(trees.place_blocks);
+  records.push_back(figures_for<core::InstanceRecord>("places of meshes", counts.instances));
   records.push_back(figures_for<core::PatchNormals>("normals", counts.normals));
   records.push_back(figures_for<core::TexturedNormals>("textured triangles", counts.textured - counts.faceted));
   if (counts.faceted > 0) {
@@ -125,6 +153,16 @@ double DatabaseFigures::primitives_a_block() const {
   return ratio(copies, blocks);
 }
 
+std::uint64_t DatabaseFigures::bytes_otherwise(double stored_share) const {
+  std::uint64_t geometry = 0;
+  for (const RecordFigures& record : records) {
+    const auto is_among = [&](const auto& names) { return std::find(names.begin(), names.end(), record.kind) != names.end(); };
+    geometry += is_among(block_names) || is_among(geometry_names) ? record.bytes : 0;
+  }
+  const double share = instances > 0 ? 1 / stored_share : stored_share;
+  return bytes - geometry + static_cast<std::uint64_t>(static_cast<double>(geometry) * share);
+}
+
 DatabaseFigures figures_of(const core::Database& database, const SceneFigures& scene) {
   const TreeWalk trees(database);
   DatabaseFigures figures{.bytes = database.page_count() * database.page_size(),
@@ -133,13 +171,14 @@ DatabaseFigures figures_of(const core::Database& database, const SceneFigures& s
                           .primitives = database.header().primitive_count,
                           .dropped = database.dropped(),
                           .duplicates = database.duplicates(),
-                          .copies = database.references(),
+                          .copies = database.references() - database.records().instances + database.records().kept_triangles,
                           .cells = database.header().frame.resolution,
                           .top_cells = core::top_cells(database.header().frame),
                           .occupied_top_cells = trees.occupied,
                           .levels_max = trees.levels_max,
                           .has_voxels = database.header().has_voxels(),
                           .references = database.records().voxel_references,
+                          .instances = database.records().instances,
                           .records = records_of(database, scene, trees)};
   figures.unused_bytes = figures.bytes;
   for (const RecordFigures& record : figures.records) {

@@ -28,6 +28,7 @@ struct DatabaseFigures {
   std::uint64_t levels_max = 0;  ///< bricks from a top cell to a block, at most
   bool has_voxels = false;       ///< which are the top cells then
   std::uint64_t references = 0;  ///< of voxels
+  std::uint64_t instances = 0;   ///< places of meshes that are kept once
   std::vector<RecordFigures> records;
   std::uint64_t unused_bytes = 0;  ///< between records, so that they begin at 8 bytes and cross no page border
 
@@ -35,6 +36,9 @@ struct DatabaseFigures {
   double bytes_each() const;
   double copies_each() const;
   double primitives_a_block() const;
+  /// About what the database takes with each mesh once, or else with a copy in each place, if this is of the other: what
+  /// triangles take goes by `stored_share` (MeshFigures), and all else stays.
+  std::uint64_t bytes_otherwise(double stored_share) const;
 };
 
 /// Goes through all bricks and blocks: `database` has its records still. `scene` is that from which it was built.

@@ -74,6 +74,23 @@ Json textures_json(const SceneFigures& scene) {
   return result;
 }
 
+/// Null where no mesh stands in several places.
+Json meshes_json(const InfoRecord& record) {
+  const MeshFigures& meshes = record.scene.meshes;
+  if (meshes.places == 0) {
+    return {};
+  }
+  const std::uint64_t here = record.database.bytes, otherwise = record.database.bytes_otherwise(meshes.stored_share);
+  const bool are_kept = record.database.instances > 0;
+  return {{"count", meshes.count},
+          {"places", meshes.places},
+          {"triangles", meshes.triangles},
+          {"placed_triangles", meshes.placed_triangles},
+          {"kept_places", record.database.instances},
+          {"kept_bytes", are_kept ? here : otherwise},
+          {"expanded_bytes", are_kept ? otherwise : here}};
+}
+
 Json database_json(const DatabaseFigures& database) {
   Json records = Json::array();
   for (const RecordFigures& record : database.records) {
@@ -136,6 +153,7 @@ std::string info_json(const InfoRecord& record) {
       {"lights", lights_json(record.scene)},
       {"materials", materials_json(record.scene.materials)},
       {"textures", textures_json(record.scene)},
+      {"meshes", meshes_json(record)},
       {"database", database_json(database)},
       {"build_peak", record.build_peak_bytes},
       {"regions",

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <vector>
 
 #include "core/database/conversion.h"
 #include "core/database/parallel.h"
 #include "core/record/texture_layout.h"
+#include "core/scene/kept_meshes.h"
+#include "core/scene/kept_share.h"
 #include "core/scene/placed_objects.h"
 
 namespace dmpc::apps {
@@ -36,6 +39,30 @@ ObjectCounts count_objects(const core::Scene& scene) {
     }
   }
   return counts;
+}
+
+std::uint64_t triangle_count(const core::Scene& mesh) {
+  std::uint64_t count = 0;
+  for (const core::Object& object : mesh.objects) {
+    count += object.vertex_count - std::uint64_t{2};
+  }
+  return count;
+}
+
+MeshFigures count_meshes(const core::Scene& scene) {
+  const core::KeptShare share = core::kept_share(scene);
+  MeshFigures figures{.places = share.places};
+  if (share.places > 0) {
+    std::vector<std::uint64_t> triangles;
+    std::transform(scene.kept->meshes.begin(), scene.kept->meshes.end(), std::back_inserter(triangles), triangle_count);
+    figures.count = triangles.size();
+    figures.triangles = std::accumulate(triangles.begin(), triangles.end(), std::uint64_t{0});
+    for (const core::KeptPlace& place : scene.kept->places) {
+      figures.placed_triangles += triangles[place.mesh];
+    }
+    figures.stored_share = static_cast<double>(share.stored) / static_cast<double>(share.seen);
+  }
+  return figures;
 }
 
 MaterialCounts count_materials(const core::Scene& scene) {
@@ -94,6 +121,7 @@ SceneFigures figures_of(const core::Scene& scene) {
                        .bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0)),
                        .view = scene.view,
                        .background = scene.background,
+                       .meshes = count_meshes(scene),
                        .materials = count_materials(scene)};
   for (const core::PointLight& light : scene.lights) {
     figures.lights.push_back({light.position, core::intensity_of(light, scene), true});

@@ -32,6 +32,13 @@ struct TextureFigures {
 /// "srgb", "srgb of 10 bits", "srgb with alpha" or "shared exponent".
 const char* name_of(core::TexelFormat format);
 
+/// Meshes of a scene that stand in several places of it (core/scene/kept_meshes.h).
+struct MeshFigures {
+  std::uint64_t count = 0, places = 0;
+  std::uint64_t triangles = 0, placed_triangles = 0;  ///< of all of them once; of all places
+  double stored_share = 1;                            ///< of the scene's corners, with each mesh once (core/scene/kept_share.h)
+};
+
 struct SceneFigures {
   std::string name;
   std::array<std::uint64_t, object_kind_count> objects{};  ///< by core::ObjectKind
@@ -39,6 +46,7 @@ struct SceneFigures {
   core::View view;
   core::Vec3d background;
   std::vector<core::PointLight> lights;  ///< with the colours in which they shine
+  MeshFigures meshes;
   MaterialCounts materials;
   std::vector<TextureFigures> textures;
 };

@@ -78,6 +78,20 @@ std::string database_text(const DatabaseFigures& database) {
          fixed(database.copies_each(), 2) + " copies of each";
 }
 
+/// Only where a mesh stands in several places.
+std::string meshes_line(const InfoRecord& record) {
+  const MeshFigures& meshes = record.scene.meshes;
+  if (meshes.places == 0) {
+    return "";
+  }
+  const bool are_kept = record.database.instances > 0;
+  return "\nmeshes     " + grouped(meshes.count) + " in " + counted(meshes.places, "place") + ": " +
+         counted(meshes.triangles, "triangle") + " for " + grouped(meshes.placed_triangles) +
+         (are_kept ? "; kept once in " + counted(record.database.instances, "place") + ", with a copy in each place about "
+                   : "; a copy in each place, kept once (--instances=keep) about ") +
+         bytes_text(record.database.bytes_otherwise(meshes.stored_share)) + " of database";
+}
+
 std::string sizes_text(const std::array<std::int32_t, 3>& sizes) {
   return std::to_string(sizes[0]) + "x" + std::to_string(sizes[1]) + "x" + std::to_string(sizes[2]);
 }
@@ -216,6 +230,7 @@ std::string info_text(const InfoRecord& record) {
                             "\nlights     " + lights_text(scene) +                     //
                             "\nmaterials  " + materials_text(scene.materials) +        //
                             "\ntextures   " + std::to_string(scene.textures.size()) +  //
+                            meshes_line(record) +                                      //
                             "\ndatabase   " + database_text(record.database) +         //
                             "\ngrid       " + grid_text(record.database) +             //
                             system_line(record) +                                      //

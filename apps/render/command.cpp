@@ -306,7 +306,8 @@ class Rendering {
   }
 
   void build(core::Scene scene) {
-    subject_.emplace(build_subject_quietly(std::move(scene), options_.picture, options_.database, true));
+    subject_.emplace(build_subject_quietly(std::move(scene), options_.picture, asked_.database, true));
+    options_.database.build = subject_->built;
     tell_once(notes_of(*subject_));
     const bool looks_for_detail = options_.database.build.keeps_instances && options_.picture.is_refined;
     if (options_.tracer != TracerChoice::embree && !looks_for_detail) {

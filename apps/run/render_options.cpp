@@ -6,6 +6,7 @@
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/line/parsed_number.h"
 #include "apps/edge/table/table_options.h"
+#include "apps/run/instance_options.h"
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
@@ -24,9 +25,7 @@ void add_computer_options(OptionSet& options, RenderOptions& render) {
   add_system_option(options, render.system);
   add_memory_option(options, computer.node_memory_bytes);
   add_options(options, render.database);
-  options.add_choice<bool>(
-      "--instances", render.database.build.keeps_instances, {{"expand", false}, {"keep", true}},
-      "Of a mesh that stands in several places: a copy in each, or one for all, which takes less memory (the same picture)");
+  add_instance_option(options, render.database);
 }
 
 void add_runner_options(OptionSet& options, RenderOptions& render) {
@@ -80,38 +79,6 @@ void check_tracer(const RenderOptions& render) {
   if (render.tracer == TracerChoice::embree && render.strategy != Strategy::replicated) {
     throw UsageError("--tracer=embree needs --strategy=replicated: Embree sees the whole scene, and no other node holds it all");
   }
-}
-
-/// What walks into kept meshes, and what they are kept in.
-void settle_instances(const OptionSet& options, RenderOptions& render) {
-  core::BuildOptions& build = render.database.build;
-  if (!build.keeps_instances) {
-    return;
-  }
-  const auto refuse = [](const std::string& option, const std::string& why) {
-    throw UsageError("--instances=keep does not go with " + option + ": " + why +
-                     "; --instances=expand has a copy in each place");
-  };
-  if (render.rays.tested_objects > 0) {
-    refuse("--tested-objects", "a list names blocks, and one of a mesh that is kept stands in many places");
-  }
-  if (render.tracer == TracerChoice::embree) {
-    refuse("--tracer=embree", "Embree has a copy in each place");
-  }
-  if (!options.is_given("--structure") && !render.system) {
-    build.structure = core::Structure::extents;
-  }
-  if (build.structure != core::Structure::extents && render.system) {
-    refuse(std::string("--system=") + name_of(*render.system),
-           "meshes that are kept are trees of boxes below one of all, as svm-extents, replicated-extents and forest have them");
-  }
-  if (build.structure != core::Structure::extents) {
-    refuse(std::string("--structure=") + name_of(build.structure), "meshes that are kept are trees of boxes below one of all");
-  }
-  if (build.record_order != core::RecordOrder::spatial) {
-    refuse("--record-order=scattered", "a mesh that is kept lies in one piece");
-  }
-  render.picture.staging.mesh.copies = core::Copies::left_out;
 }
 
 /// An option that does not go with one of the runners, and why.
@@ -259,7 +226,8 @@ void add_options(OptionSet options, RenderOptions& render) {
       settle_system(options, *render.system, render, render.database);
     }
     settle_database(options, render.strategy, render.database);
-    settle_instances(options, render);
+    settle_instances(options, {render.system, render.tracer, render.rays.tested_objects}, render.database,
+                     render.picture.staging.mesh);
     render.is_node_count_given = options.is_given("--nodes");
     render.has_several_frames = render.frames.are_several();
     check(options, render);

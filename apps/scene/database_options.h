@@ -24,9 +24,21 @@ const char* name_of(core::Structure structure);
 /// As the command line calls it, by one of its names if it has one.
 std::string text_of(const core::VoxelRule& rule);
 
+/// A mesh that stands in several places has a copy in each or is kept once. automatic: kept where that leaves less than half of
+/// the scene to store (core/scene/kept_share.h), once the scene is known.
+enum class InstancesChoice : std::uint8_t { expand, keep, automatic };
+
 struct DatabaseOptions {
   core::BuildOptions build;             ///< but for the axes, which follow from the scene
   AxesChoice axes = AxesChoice::world;  ///< which those are to be
+  InstancesChoice instances = InstancesChoice::expand;
+  std::string why_copied;  ///< the option that keeps `automatic` from keeping any mesh; empty: none does
+
+  /// Meshes are kept, which takes one tree.
+  void keep_instances() {
+    build.keeps_instances = true;
+    build.structure = core::Structure::extents;
+  }
 };
 
 using DatabaseRow = OptionRow<DatabaseOptions, DatabaseOptions>;

@@ -17,8 +17,6 @@ namespace dmpc::apps {
 
 namespace {
 
-std::uint64_t places_of_meshes(const core::Scene& scene) { return scene.kept == nullptr ? 0 : scene.kept->places.size(); }
-
 core::CopyLimits copy_limits(const PictureOptions& picture) {
   core::CopyLimits limits{.bytes_max = reader_memory_bytes_max()};
   if (picture.is_refined) {
@@ -29,24 +27,32 @@ core::CopyLimits copy_limits(const PictureOptions& picture) {
   return limits;
 }
 
+DatabaseOptions settled(DatabaseOptions options, const core::KeptShare& share) {
+  if (options.instances == InstancesChoice::automatic && options.why_copied.empty() && share.halves()) {
+    options.keep_instances();
+  }
+  return options;
+}
+
 /// Frees the objects of `scene` on the way.
 Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseOptions& options, bool shows_progress) {
   Progress progress(std::cerr, shows_progress && stderr_is_terminal(), "Building:", "primitives");
-  core::BuildOptions build = options.build;
+  const core::KeptShare share = core::kept_share(scene);
+  const core::BuildOptions built = settled(options, share).build;
+  core::BuildOptions build = built;
   build.axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
   build.emitters_max = picture.transport.emitters_max();
   build.for_paths = picture.transport.is_by_paths();
   build.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
-  const auto places = build.keeps_instances ? std::optional(places_of_meshes(scene)) : std::nullopt;
   core::Database database = core::build_database(std::move(scene), build, copy_limits(picture));
   const core::RenderSettings settings = render_settings(picture, scene, database);
   const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
   const std::string emitters = emitters_text(database.header().emitter_count, database.records().emitters_met, picture.transport);
   const bool has_copies = database.primitives().size() == database.header().primitive_count;
   const std::string kept =
-      kept_text(database.records(), places) +
+      instances_text(options, build.keeps_instances, database.records(), share) +
       (has_copies ? "" : "; what rounding moves, or leaves nothing of, was looked for outside of these alone");
-  return {std::move(database), settings, loss, gain_text(scene.materials, picture.transport), emitters, kept};
+  return {std::move(database), built, settings, loss, gain_text(scene.materials, picture.transport), emitters, kept};
 }
 
 }  // namespace
@@ -76,11 +82,8 @@ std::vector<std::string> notes_of(const Subject& subject) {
           subject.kept};
 }
 
-std::string kept_text(const core::RecordCounts& records, std::optional<std::uint64_t> places) {
-  if (!places) {
-    return "";
-  }
-  const std::uint64_t others = *places - std::min(*places, records.instances);
+std::string kept_text(const core::RecordCounts& records, std::uint64_t places) {
+  const std::uint64_t others = places - std::min(places, records.instances);
   const std::string why = " shine, have more than " + grouped(core::kept_triangles_max) +
                           " triangles, are too small beside the scene, or have coordinates that no float holds";
   if (records.instances == 0) {
@@ -92,6 +95,20 @@ std::string kept_text(const core::RecordCounts& records, std::optional<std::uint
   return "kept " + grouped(records.kept_meshes) + (records.kept_meshes == 1 ? " mesh" : " meshes") + " in " +
          counted(records.instances, "place") + ": " + counted(records.kept_triangles, "triangle") + " for " +
          grouped(records.placed_triangles) + copied;
+}
+
+std::string instances_text(const DatabaseOptions& options, bool keeps, const core::RecordCounts& records,
+                           const core::KeptShare& share) {
+  if (keeps) {
+    return kept_text(records, share.places);
+  }
+  if (options.instances == InstancesChoice::expand || share.places == 0) {
+    return "";
+  }
+  return "meshes have a copy in each of " + counted(share.places, "place") + ": " +
+         (options.why_copied.empty() ? "kept once they would still be " + grouped(share.stored / 3) + " triangles of " +
+                                           grouped(share.seen / 3) + ", and --instances=auto keeps them below half of these"
+                                     : "none is kept once with " + options.why_copied);
 }
 
 std::string dropped_text(std::uint64_t count) {

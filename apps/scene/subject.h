@@ -11,6 +11,7 @@
 #include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "core/picture/rounding_loss.h"
+#include "core/scene/kept_share.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
@@ -18,11 +19,12 @@ namespace dmpc::apps {
 /// What is rendered.
 struct Subject {
   core::Database database;
+  core::BuildOptions built;  ///< those of its database, with what the scene decides
   core::RenderSettings settings;
   core::RoundingLoss loss;  ///< of the picture, by the rounding of coordinates
   std::string gain;         ///< gain_text() of its materials
   std::string emitters;     ///< emitters_text()
-  std::string kept;         ///< kept_text()
+  std::string kept;         ///< instances_text()
 };
 
 /// The database of `scene`, whose objects are freed on the way, and its picture. Says on stderr what was left out or is off,
@@ -38,8 +40,13 @@ Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, 
 std::vector<std::string> notes_of(const Subject& subject);
 
 /// What is said of a database whose instances were to be kept, of a scene with so many places of meshes (core::KeptMeshes): how
-/// many are; empty if copies were wanted.
-std::string kept_text(const core::RecordCounts& records, std::optional<std::uint64_t> places);
+/// many are.
+std::string kept_text(const core::RecordCounts& records, std::uint64_t places);
+
+/// What is said of how often meshes are there; empty where nobody asked or none stands in several places. `keeps`: whether they
+/// are kept.
+std::string instances_text(const DatabaseOptions& options, bool keeps, const core::RecordCounts& records,
+                           const core::KeptShare& share);
 
 /// A sentence about the primitives that a database left out; empty if it left out none.
 std::string dropped_text(std::uint64_t count);

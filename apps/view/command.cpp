@@ -123,7 +123,7 @@ class Viewing {
     const core::RenderSettings& built = subject_->settings;
     const core::Camera camera(home_, built.header.frame, built.camera.width(), built.camera.height(), built.camera.samples());
     say({dropped_text(subject_->database.dropped()), loss_text(core::find_rounding_loss(subject_->database, camera)),
-         duplicates_text(subject_->database.duplicates()), subject_->gain, subject_->emitters});
+         duplicates_text(subject_->database.duplicates()), subject_->gain, subject_->emitters, subject_->kept});
     subject_->database.forget_primitives();
     resting_.emplace(options_, subject_->database, core::seen_by(camera, built, subject_->database));
     moving_.emplace(options_, subject_->database, moving_settings(built, home_));

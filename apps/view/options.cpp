@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "apps/run/instance_options.h"
 #include "apps/run/render_options.h"
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
@@ -19,6 +20,7 @@ void add_computer_options(OptionSet& options, ViewOptions& view) {
   add_system_option(options, view.system);
   add_memory_option(options, view.computer.node_memory_bytes);
   add_options(options, view.database);
+  add_instance_option(options, view.database);
 }
 
 void add_runner_options(OptionSet& options, ViewOptions& view) {
@@ -69,6 +71,7 @@ void add_options(OptionSet options, ViewOptions& view) {
       settle_system(options, *view.system, view, view.database);
     }
     settle_database(options, view.strategy, view.database);
+    settle_instances(options, {view.system, view.tracer, view.rays.tested_objects}, view.database, view.picture.staging.mesh);
     view.has_several_frames = true;
     check_together(options, view);
     check_runner(options, view.runner.kind);

@@ -28,8 +28,8 @@ def render(
     system: Literal["replicated", "replicated-extents", "svm", "svm-extents", "svm-resident", "pixel-machine", "green-paddon", "forest",
     "forest-static", "equal-size", "scattered", "subsampled", "moving"] | None = None, node_memory: Text | None = None, page_size: Text |
     None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None,
-    voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None, instances: Literal["expand", "keep"] | None = None,
-    runner: Literal["threads", "pool", "virtual", "mpi"] | None = None, pool_threads: int | None = None, machine: Text | None = None,
+    voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None, instances: Literal["expand", "keep", "auto"] | None =
+    None, runner: Literal["threads", "pool", "virtual", "mpi"] | None = None, pool_threads: int | None = None, machine: Text | None = None,
     no_contention: bool = False, memory_port: bool = False, idle: Literal["auto", "spin", "sleep"] | None = None, chaos: Text | None = None,
     cache_pages: int | None = None, homes: Literal["spread", "host", "tree"] | None = None, tree_arity: int | None = None, resident: int |
     None = None, replacement: Literal["lru", "clock", "fifo", "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None,
@@ -67,8 +67,8 @@ def sweep(
     Sequence[Text] | None = None, node_memory: Text | Sequence[Text] | None = None, page_size: Text | Sequence[Text] | None = None,
     record_order: Literal["spatial", "scattered"] | Sequence[Text] | None = None, structure: Literal["grid", "extents", "voxels"] |
     Sequence[Text] | None = None, voxels: Text | Sequence[Text] | None = None, grid_axes: Literal["world", "screen"] | Sequence[Text] | None
-    = None, instances: Literal["expand", "keep"] | Sequence[Text] | None = None, runner: Literal["threads", "pool", "virtual", "mpi"] |
-    Sequence[Text] | None = None, pool_threads: int | Sequence[int] | None = None, machine: Text | Sequence[Text] | None = None,
+    = None, instances: Literal["expand", "keep", "auto"] | Sequence[Text] | None = None, runner: Literal["threads", "pool", "virtual",
+    "mpi"] | Sequence[Text] | None = None, pool_threads: int | Sequence[int] | None = None, machine: Text | Sequence[Text] | None = None,
     no_contention: bool | Sequence[bool] = False, memory_port: bool | Sequence[bool] = False, idle: Literal["auto", "spin", "sleep"] |
     Sequence[Text] | None = None, chaos: Text | Sequence[Text] | None = None, cache_pages: int | Sequence[int] | None = None, homes:
     Literal["spread", "host", "tree"] | Sequence[Text] | None = None, tree_arity: int | Sequence[int] | None = None, resident: int |
@@ -101,13 +101,13 @@ def references(
     "svm-extents", "svm-resident", "pixel-machine", "green-paddon", "forest", "forest-static", "equal-size", "scattered", "subsampled",
     "moving"] | None = None, node_memory: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] |
     None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, grid_axes: Literal["world",
-    "screen"] | None = None, instances: Literal["expand", "keep"] | None = None, runner: Literal["threads", "pool", "virtual", "mpi"] | None
-    = None, pool_threads: int | None = None, machine: Text | None = None, no_contention: bool = False, memory_port: bool = False, idle:
-    Literal["auto", "spin", "sleep"] | None = None, chaos: Text | None = None, cache_pages: int | None = None, homes: Literal["spread",
-    "host", "tree"] | None = None, tree_arity: int | None = None, resident: int | None = None, replacement: Literal["lru", "clock", "fifo",
-    "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int | None = None,
-    work_giver: Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None,
-    count_pages: bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts:
+    "screen"] | None = None, instances: Literal["expand", "keep", "auto"] | None = None, runner: Literal["threads", "pool", "virtual",
+    "mpi"] | None = None, pool_threads: int | None = None, machine: Text | None = None, no_contention: bool = False, memory_port: bool =
+    False, idle: Literal["auto", "spin", "sleep"] | None = None, chaos: Text | None = None, cache_pages: int | None = None, homes:
+    Literal["spread", "host", "tree"] | None = None, tree_arity: int | None = None, resident: int | None = None, replacement: Literal["lru",
+    "clock", "fifo", "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int |
+    None = None, work_giver: Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int |
+    None = None, count_pages: bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts:
     Literal["longer-side", "alternating"] | None = None, regions: int | None = None, subsample: int | None = None, balance_grid: int | None
     = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_places: int | None = None, ray_queue: int | None = None,
     tested_objects: int | None = None, no_backpressure: bool = False, topology: Literal["hypercube", "mesh", "torus", "fat-tree",
@@ -135,13 +135,13 @@ def trace(
     "svm-extents", "svm-resident", "pixel-machine", "green-paddon", "forest", "forest-static", "equal-size", "scattered", "subsampled",
     "moving"] | None = None, node_memory: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] |
     None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, grid_axes: Literal["world",
-    "screen"] | None = None, instances: Literal["expand", "keep"] | None = None, runner: Literal["threads", "pool", "virtual", "mpi"] | None
-    = None, pool_threads: int | None = None, machine: Text | None = None, no_contention: bool = False, memory_port: bool = False, idle:
-    Literal["auto", "spin", "sleep"] | None = None, chaos: Text | None = None, cache_pages: int | None = None, homes: Literal["spread",
-    "host", "tree"] | None = None, tree_arity: int | None = None, resident: int | None = None, replacement: Literal["lru", "clock", "fifo",
-    "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int | None = None,
-    work_giver: Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None,
-    count_pages: bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts:
+    "screen"] | None = None, instances: Literal["expand", "keep", "auto"] | None = None, runner: Literal["threads", "pool", "virtual",
+    "mpi"] | None = None, pool_threads: int | None = None, machine: Text | None = None, no_contention: bool = False, memory_port: bool =
+    False, idle: Literal["auto", "spin", "sleep"] | None = None, chaos: Text | None = None, cache_pages: int | None = None, homes:
+    Literal["spread", "host", "tree"] | None = None, tree_arity: int | None = None, resident: int | None = None, replacement: Literal["lru",
+    "clock", "fifo", "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None, bundles: bool = False, work_item: int |
+    None = None, work_giver: Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"] | None = None, workers: int |
+    None = None, count_pages: bool = False, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts:
     Literal["longer-side", "alternating"] | None = None, regions: int | None = None, subsample: int | None = None, balance_grid: int | None
     = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_places: int | None = None, ray_queue: int | None = None,
     tested_objects: int | None = None, no_backpressure: bool = False, topology: Literal["hypercube", "mesh", "torus", "fat-tree",

@@ -228,6 +228,7 @@ Json options_json(const RenderRecord& record, const Account& account) {
       {"record_order", name_of(options.database.build.record_order)},
       {"structure", name_of(options.database.build.structure)},
       {"voxels", has_voxels ? Json(text_of(options.database.build.voxels)) : Json()},
+      {"instances", options.database.build.keeps_instances ? "keep" : "expand"},
       {"system", options.system ? Json(name_of(*options.system)) : Json()},
       {"strategy", name_of(options.strategy)},
       {"nodes", account.nodes.size()},

@@ -12,6 +12,7 @@
 #include "apps/info/record.h"
 #include "apps/info/text.h"
 #include "apps/main/commands.h"
+#include "apps/run/instance_options.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"
 #include "tests/support/painted_square.h"
@@ -85,13 +86,47 @@ TEST_CASE("with pages at home at the host a node needs less, the more of them th
   CHECK(least("--homes=host") < least("--homes=spread"));
 }
 
+TEST_CASE(
+    "a grove that is kept is told and forecast without its copies, and one of copies as what it could "
+    "be") {
+  const auto found = [](const std::string& option) {
+    return find_out(info("grove-2", {"--nodes=4", "--resolution=8x8", "--quiet", option}));
+  };
+  const InfoRecord kept = found("--instances=keep"), copies = found("--instances=expand");
+  const MeshFigures& meshes = kept.scene.meshes;
+  CHECK(meshes.places == copies.scene.meshes.places);
+  CHECK(meshes.placed_triangles == copies.scene.meshes.placed_triangles);
+  CHECK(meshes.triangles < meshes.placed_triangles / 4);
+  CHECK(kept.database.instances == meshes.places);
+  CHECK(copies.database.instances == 0);
+  CHECK(kept.database.primitives > meshes.placed_triangles);
+  CHECK(kept.forecast.computers.at(0).svm.least_bytes < copies.forecast.computers.at(0).svm.least_bytes);
+  CHECK(kept.forecast.computers.at(0).dataflow.has_value());
+  CHECK(kept.forecast.computers.at(0).forest.has_value());
+  const auto about = [](const InfoRecord& one) {
+    return static_cast<double>(one.database.bytes_otherwise(one.scene.meshes.stored_share));
+  };
+  CHECK(about(kept) == doctest::Approx(static_cast<double>(copies.database.bytes)).epsilon(0.3).scale(0));
+  CHECK(about(copies) == doctest::Approx(static_cast<double>(kept.database.bytes)).epsilon(0.3).scale(0));
+  const Json json = Json::parse(info_json(kept));
+  CHECK(keys_of(json["meshes"]) ==
+        Keys{"count", "places", "triangles", "placed_triangles", "kept_places", "kept_bytes", "expanded_bytes"});
+  CHECK(json["meshes"]["kept_bytes"] == kept.database.bytes);
+  CHECK(
+      contains(info_text(kept), "; kept once in " + std::to_string(meshes.places) + " places, with a copy in each place about "));
+  CHECK(contains(info_text(copies), "; a copy in each place, kept once (--instances=keep) about "));
+  CHECK(info("grove-2", {"--instances=keep"}).database.build.structure == core::Structure::extents);
+  CHECK_THROWS_AS(info("grove-2", {"--instances=keep", "--structure=grid"}), core::UsageError);
+}
+
 TEST_CASE("the keys of a forecast are an interface") {
   const tests::TemporaryFolder folder;
   const InfoRecord record = find_out(info(tests::write_painted_square(folder, 8), {"--nodes=2", "--resolution=8x4", "--quiet"}));
   const Json json = Json::parse(info_json(record));
-  CHECK(keys_of(json) == Keys{"format", "program", "scene", "objects", "primitives", "rounding", "bounds", "view", "background",
-                              "lights", "materials", "textures", "database", "build_peak", "regions", "system", "homes",
-                              "computers", "seconds"});
+  CHECK(keys_of(json) == Keys{"format",     "program",    "scene",  "objects",   "primitives", "rounding", "bounds",
+                              "view",       "background", "lights", "materials", "textures",   "meshes",   "database",
+                              "build_peak", "regions",    "system", "homes",     "computers",  "seconds"});
+  CHECK(json["meshes"].is_null());
   CHECK(keys_of(json["objects"]) == Keys{"polygon", "patch", "textured", "sphere", "cone", "total"});
   CHECK(keys_of(json["primitives"]) == Keys{"count", "dropped", "copies"});
   CHECK(keys_of(json["rounding"]) == Keys{"moved", "moved_pixels", "collapsed", "collapsed_pixels"});

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "apps/scene/load_scene.h"
+#include "tests/support/kept_scenes.h"
 #include "tests/support/painted_square.h"
 
 namespace dmpc::apps::database_figures_test {
@@ -76,6 +77,21 @@ TEST_CASE("of voxels the lists are looked through: each block is counted once, a
   CHECK(found.figures.copies == found.figures.primitives);
   CHECK(found.record_bytes() + found.figures.unused_bytes == found.figures.bytes);
   CHECK(found.figures.unused_bytes < found.figures.bytes / 4);
+}
+
+TEST_CASE("of meshes that are kept trees are looked through once, and places are counted") {
+  const Found found(tests::with_obstacles(core::Copies::put), tests::with_instances());
+  const core::RecordCounts& counts = found.database.records();
+  REQUIRE(counts.instances == 12);
+  CHECK(found.figures.instances == 12);
+  CHECK(found.records("places of meshes").count == 12);
+  CHECK(found.records("places of meshes").bytes == 12 * 128);
+  CHECK(found.records("blocks of places").count == counts.instance_blocks);
+  CHECK(found.records("blocks of triangles").count == counts.blocks[0]);
+  CHECK(found.records("bricks").count == counts.bricks);
+  CHECK(found.figures.copies == found.database.references() - 12 + counts.kept_triangles);
+  CHECK(found.record_bytes() + found.figures.unused_bytes == found.figures.bytes);
+  CHECK(found.figures.unused_bytes < found.figures.bytes / 3);
 }
 
 TEST_CASE("records and what lies between them make up the pages") {

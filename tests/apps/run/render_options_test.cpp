@@ -707,6 +707,24 @@ TEST_CASE("instances are kept in one tree of extents, where rays go into them, a
   CHECK(contains(render_complaint({"--instances=some"}), "--instances"));
 }
 
+TEST_CASE("whether instances are kept the scene decides where that is open, unless something else does not go with it") {
+  for (const char* const open :
+       {"--strategy=svm", "--strategy=replicated", "--strategy=dataflow", "--structure=extents", "--system=svm-extents"}) {
+    const RenderOptions options = render({"--instances=auto", open});
+    CHECK(options.database.instances == InstancesChoice::automatic);
+    CHECK(options.database.why_copied.empty());
+    CHECK_FALSE(options.database.build.keeps_instances);
+    CHECK(options.picture.staging.mesh.copies == core::Copies::left_out);
+  }
+  CHECK(render({"--instances=auto"}).database.build.structure == core::Structure::grid);
+  CHECK(render({"--instances=auto", "--strategy=dataflow", "--tested-objects=2"}).database.why_copied == "--tested-objects");
+  for (const char* const other : {"--system=svm", "--structure=grid", "--structure=voxels", "--record-order=scattered"}) {
+    const RenderOptions options = render({"--instances=auto", other});
+    CHECK(options.database.why_copied == other);
+    CHECK(options.picture.staging.mesh.copies == core::Copies::put);
+  }
+}
+
 TEST_CASE("what does not go with paths, or without, is refused, and what to do is said") {
   CHECK(contains(render_complaint({"--bounces=3"}), "--bounces goes with --transport=paths"));
   CHECK(contains(render_complaint({"--sky=1"}), "--sky goes with --transport=paths"));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "apps/scene/load_scene.h"
 #include "tests/support/placed_meshes.h"
@@ -33,7 +34,6 @@ TEST_CASE("a subject's page size, order of records and axes are those asked for"
 }
 
 TEST_CASE("how much is kept once is told where that was asked for") {
-  CHECK(kept_text({}, {}).empty());
   CHECK(kept_text({.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789}, 67) ==
         "kept 29 meshes in 67 places: 1,234 triangles for 56,789");
   CHECK(kept_text({.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789}, 70) ==
@@ -43,6 +43,36 @@ TEST_CASE("how much is kept once is told where that was asked for") {
         "kept 1 mesh in 1 place: 70 triangles for 70");
   CHECK(kept_text({}, 0) == "no mesh is kept once: none of more than 64 triangles stands in several places as the file has it");
   CHECK(kept_text({}, 5).find("no mesh is kept once: those in 5 places shine, ") == 0);
+}
+
+TEST_CASE("what is kept without having been asked for is told, and why copies are there where something else was open") {
+  const core::RecordCounts records{.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789};
+  const core::KeptShare share{.seen = 3 * 56789, .stored = 3 * 1368, .places = 67};
+  const DatabaseOptions open{.instances = InstancesChoice::automatic};
+  CHECK(instances_text({}, false, {}, share).empty());
+  CHECK(instances_text(open, false, {}, {.seen = 30, .stored = 30}).empty());
+  CHECK(instances_text(open, true, records, share) == kept_text(records, 67));
+  CHECK(instances_text(open, false, {}, {.seen = 600, .stored = 450, .places = 2}) ==
+        "meshes have a copy in each of 2 places: kept once they would still be 150 triangles of 200, and --instances=auto keeps "
+        "them below half of these");
+  CHECK(instances_text({.instances = InstancesChoice::automatic, .why_copied = "--strategy=forest"}, false, {}, share) ==
+        "meshes have a copy in each of 67 places: none is kept once with --strategy=forest");
+}
+
+TEST_CASE("what is open is kept where that leaves less than half of the scene to store, and else has the database asked for") {
+  const auto instances_with = [](std::uint32_t places, const std::string& hindrance) {
+    core::Scene scene = tests::in_floats(tests::rug_on_floor(false, true, 6));
+    const auto end = static_cast<std::uint32_t>(scene.objects.size());
+    const std::vector<core::Instance> at(places, {tests::turned_place(0.3, {0, 0, 1}, false), 0, end});
+    core::settle(scene, {.meshes = {{0, end}}, .places = at}, core::Copies::left_out);
+    const DatabaseOptions options{.instances = InstancesChoice::automatic, .why_copied = hindrance};
+    const Subject subject = build_subject_quietly(scene, {.resolution = Resolution{8, 8}}, options);
+    CHECK(subject.built.keeps_instances == (subject.built.structure == core::Structure::extents));
+    return subject.database.records().instances;
+  };
+  CHECK(instances_with(2, "") == 0);
+  CHECK(instances_with(3, "") == 3);
+  CHECK(instances_with(3, "--strategy=dataflow") == 0);
 }
 
 TEST_CASE("of so many copies that none is made, it is told that nobody looked at their rounding") {

@@ -1,0 +1,65 @@
+#include "apps/run/instance_options.h"
+
+#include <string>
+
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// An option, and why no mesh can be kept with it.
+struct Hindrance {
+  std::string option, reason;
+};
+
+std::optional<Hindrance> hindrance_of(const OptionSet& options, const RayTracers& tracers, const core::BuildOptions& build) {
+  if (tracers.tested_objects > 0) {
+    return Hindrance{"--tested-objects", "a list names blocks, and one of a mesh that is kept stands in many places"};
+  }
+  if (tracers.tracer == TracerChoice::embree) {
+    return Hindrance{"--tracer=embree", "Embree has a copy in each place"};
+  }
+  const bool is_open = !options.is_given("--structure") && !tracers.system;
+  if (!is_open && build.structure != core::Structure::extents) {
+    return Hindrance{tracers.system ? std::string("--system=") + name_of(*tracers.system)
+                                    : std::string("--structure=") + name_of(build.structure),
+                     std::string("meshes that are kept are trees of boxes below one of all") +
+                         (tracers.system ? ", as svm-extents, replicated-extents and forest have them" : "")};
+  }
+  if (build.record_order != core::RecordOrder::spatial) {
+    return Hindrance{"--record-order=scattered", "a mesh that is kept lies in one piece"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void add_instance_option(OptionSet options, DatabaseOptions& database) {
+  options.add_choice<InstancesChoice>(
+      "--instances", database.instances,
+      {{"expand", InstancesChoice::expand}, {"keep", InstancesChoice::keep}, {"auto", InstancesChoice::automatic}},
+      "Of a mesh that stands in several places: a copy in each, or one for all, which takes less memory (the same "
+      "picture). auto: one for all where rays go into such meshes and less than half of the scene is left to store");
+}
+
+void settle_instances(const OptionSet& options, const RayTracers& tracers, DatabaseOptions& database, MeshOptions& mesh) {
+  if (database.instances == InstancesChoice::expand) {
+    return;
+  }
+  const auto hindrance = hindrance_of(options, tracers, database.build);
+  if (hindrance && database.instances == InstancesChoice::keep) {
+    throw core::UsageError("--instances=keep does not go with " + hindrance->option + ": " + hindrance->reason +
+                           "; --instances=expand has a copy in each place");
+  }
+  if (hindrance) {
+    database.why_copied = hindrance->option;
+    return;
+  }
+  mesh.copies = core::Copies::left_out;
+  if (database.instances == InstancesChoice::keep) {
+    database.keep_instances();
+  }
+}
+
+}  // namespace dmpc::apps
