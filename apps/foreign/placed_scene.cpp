@@ -157,6 +157,7 @@ class PlacedScene {
       refuse_without_area("there is no shape in it that has an area", result_.notes);
     }
     note_count(result_.notes, "shapes whose texture is not shown, since no corner has a place on it", writer.unplaced());
+    note_count(result_.notes, "spheres that are turned inside out, shown as if they were not", inside_out_);
     note_count(result_.notes, "shapes that let all light through, so that nothing of them is seen", writer.unseen());
   }
 
@@ -179,6 +180,7 @@ class PlacedScene {
     const bool is_last = --shape.uses == 0;
     const auto stretch = even_stretch(world);
     if (shape.sphere && stretch && material.surface.material.texture == core::Material::no_texture) {
+      inside_out_ += shape.is_turned ? 1 : 0;
       writer.add(core::Sphere{world.point(shape.sphere->center), shape.sphere->radius * *stretch}, material.surface.material);
       return;
     }
@@ -304,6 +306,7 @@ class PlacedScene {
   MeshScene result_;
   BoundingSphere bounds_;
   std::map<std::uint32_t, std::optional<std::uint32_t>> shared_;  ///< by shape; nothing of one without faces
+  std::uint64_t inside_out_ = 0;                                  ///< spheres
   std::vector<PolygonMesh> backs_;                                ///< where their fronts are
 };
 

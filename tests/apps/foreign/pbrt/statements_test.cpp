@@ -192,6 +192,25 @@ TEST_CASE("what is pressed flat is shown flat, and a camera in what is pressed f
                         "pressed flat"));
 }
 
+TEST_CASE(
+    "that spheres are not turned inside out is said, which matters for glass and for light, but not of those that become "
+    "meshes") {
+  CHECK(notes(read_pbrt("ReverseOrientation Shape \"sphere\" Shape \"sphere\" Scale 1 2 1 Shape \"sphere\"\n"),
+              "spheres that are turned inside out, shown as if they were not: 2"));
+  CHECK(!notes(read_pbrt("Shape \"sphere\" ReverseOrientation\n" + pbrt_triangle), "inside out"));
+}
+
+TEST_CASE("of a hundred kinds of what says nothing each is counted by itself, of all others their sum") {
+  std::string shapes;
+  for (int i = 0; i < 30'000; ++i) {
+    shapes += "Shape \"sphere\" \"float w" + std::to_string(i) + "\" 1\n";
+  }
+  const MeshFile file = read_pbrt(shapes);
+  CHECK(notes(file, "parameters \"w99\" that mean nothing where they stand: 1"));
+  CHECK(!notes(file, "parameters \"w100\""));
+  CHECK(notes(file, "what of more kinds is not shown as it is, or means nothing where it stands: 29,900"));
+}
+
 TEST_CASE("what says nothing here is counted once a kind") {
   const MeshFile file = read_pbrt(
       "Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 1 1 0 1 1 1]\nShape \"curve\"\n"
