@@ -291,6 +291,15 @@ bool is_lit_without_lights(const core::Scene& scene, const MeshOptions& options)
   return options.is_below_sky || (options.is_by_paths && std::ranges::any_of(scene.materials, &core::Material::shines));
 }
 
+/// A film goes on as it began: whoever was seen by the file's camera at first is not to be seen by another one later on.
+void check_still_seen(const StillScene& still, const UpAxis& up) {
+  if (still.view.from != whole_view(still.bounds, up).from) {
+    throw core::InputError(
+        "the animation takes the camera beyond 1e30, or presses it flat, so that it sees nothing: show other frames, or give a "
+        "camera by --camera or --camera-path");
+  }
+}
+
 /// `file` may have cameras and lights, if it is there.
 void add_surroundings(MeshScene& result, const aiScene* file, const MeshOptions& options) {
   core::Scene& scene = result.scene;
@@ -305,6 +314,9 @@ void add_surroundings(MeshScene& result, const aiScene* file, const MeshOptions&
   const bool has_camera = file != nullptr && !options.is_seen_otherwise;
   const auto camera = has_camera ? camera_of(*file, options.size, scale, notes) : std::nullopt;
   const UpAxis up = up_of(file, options, camera ? unsaid : notes);
+  if (still != nullptr && has_camera && !camera) {
+    check_still_seen(*still, up);
+  }
   scene.view = camera ? *camera : plain_view(bounds, up, options, notes);
   scene.zenith = axes_of(up).up;
   const bool is_lit_else = is_lit_without_lights(scene, options);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <utility>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
@@ -198,9 +200,12 @@ class Player {
 
  private:
   void move(const Part& channel, const Part& target, const std::string& path, double seconds);
+  const Numbers& played(std::size_t sampler, std::size_t width, double seconds);
 
   std::vector<Part> samplers_, nodes_;
   Accessors& accessors_;
+  std::map<std::pair<std::size_t, std::size_t>, Numbers>
+      played_;  ///< by sampler and width: of large ones the moment alone is kept
 };
 
 /// One without a node moves nothing (3.11).
@@ -227,9 +232,18 @@ void Player::move(const Part& channel, const Part& target, const std::string& pa
     target.fail("moves nodes[" + std::to_string(node) + "] by its " + path + ", which another channel does, too");
   }
   const std::size_t sampler = channel.required_index("sampler", samplers_.size(), "samplers");
-  const Sampler curve(samplers_[sampler], path == "rotation" ? 4 : 3, accessors_);
-  moved = curve.at(seconds);
-  end_seconds = std::max(end_seconds, curve.end_seconds());
+  moved = played(sampler, path == "rotation" ? 4 : 3, seconds);
+}
+
+/// However many channels have it, it is decoded once.
+const Numbers& Player::played(std::size_t sampler, std::size_t width, double seconds) {
+  const auto [found, is_new] = played_.try_emplace({sampler, width});
+  if (is_new) {
+    const Sampler curve(samplers_[sampler], width, accessors_);
+    found->second = curve.at(seconds);
+    end_seconds = std::max(end_seconds, curve.end_seconds());
+  }
+  return found->second;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/formats/mesh_file.h"
+#include "apps/formats/whole_view.h"
 #include "core/base/expect.h"
 #include "tests/support/packed_gltf.h"
 #include "tests/support/read_mesh.h"
@@ -206,6 +207,27 @@ TEST_CASE("what is animated and not played is said with its count") {
   CHECK(notes(file, "channels of the animation that change morph weights, not played: 1"));
   CHECK(notes(file, "channels of the animation that change what extensions name, not played: 1"));
   check_at(file.scene.vertices[1], {4, 0, -1});
+}
+
+TEST_CASE("a camera that an animation takes out of all reach is an error of that frame, and not another view") {
+  const Film film{.values = {0, 0, 10, 0, 0, 3e32F},
+                  .node = R"({"mesh":0,"children":[1]},{"camera":0})",
+                  .target = R"("node":1)",
+                  .more = R"(,"cameras":[{"type":"perspective","perspective":{"yfov":0.6,"znear":0.1}}])"};
+  const core::View first = film.read(0).scene.view;
+  check_at(first.from, {0, 0, 10});
+  const apps::BoundingSphere bounds{{1, 0.5, 0}, 2};
+  const auto complaint = [&](double seconds, const core::View& still) -> std::string {
+    try {
+      read_mesh("a.gltf", film.text(), {.animation = AnimationMoment{"", seconds, 24, apps::StillScene{bounds, still}}});
+    } catch (const core::InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(contains(complaint(1, first), "the animation takes the camera beyond 1e30"));
+  CHECK(complaint(1e-32, first).empty());
+  CHECK(complaint(1, apps::whole_view(bounds, {})).empty());  // which the film began with
 }
 
 TEST_CASE("an animation that does not hold together is refused, with its place") {
