@@ -13,6 +13,7 @@
 #include "apps/edge/system/progress.h"
 #include "apps/effort/render_effort.h"
 #include "apps/lab/check/inspection.h"
+#include "apps/run/instance_options.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
@@ -215,24 +216,6 @@ std::uint64_t print_report(std::ostream& output, const CheckOptions& options, co
   return unexplained + failed;
 }
 
-/// What meshes are kept in that stand in several places.
-void settle_instances(const OptionSet& options, core::BuildOptions& build) {
-  if (!build.keeps_instances) {
-    return;
-  }
-  if (!options.is_given("--structure")) {
-    build.structure = core::Structure::extents;
-  }
-  const bool is_tree = build.structure == core::Structure::extents;
-  if (!is_tree || build.record_order != core::RecordOrder::spatial) {
-    throw core::UsageError("--instances=keep does not go with " +
-                           (is_tree ? "--record-order=scattered: a mesh that is kept lies in one piece"
-                                    : std::string("--structure=") + name_of(build.structure) +
-                                          ": meshes that are kept are trees of boxes below one of all") +
-                           "; --instances=expand has a copy in each place");
-  }
-}
-
 void announce_effort(const CheckOptions& options, const Subject& subject) {
   if (options.quiet || !stderr_is_terminal()) {
     return;
@@ -248,12 +231,11 @@ void add_options(OptionSet options, CheckOptions& check) {
   add_options(options, check.picture);
   add_transport_options(options, check.picture);
   add_options(options, check.database);
-  options.add_choice<bool>("--instances", check.database.build.keeps_instances, {{"expand", false}, {"keep", true}},
-                           "Of a mesh that stands in several places: rays meet a copy in each, or go into one for all, as with "
-                           "dmpc render --instances=keep. Embree and the referee have copies");
+  add_instance_option(options, check.database);
   options.check_in_the_end([options, &check] {
     check_voxels(options, check.database.build);
-    settle_instances(options, check.database.build);
+    settle_instances(options, {}, check.database, check.picture.staging.mesh);
+    check.picture.staging.mesh.copies = core::Copies::put;  // for Embree and the referee, whatever rays go into
     if (check.picture.is_refined) {
       throw core::UsageError(
           "--samples=auto and --quality go with render and study; check traces as many rays through each pixel as you say");
