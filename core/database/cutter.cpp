@@ -67,6 +67,17 @@ Bounds middles_of(std::span<const Bounds> items) {
   return middles.bounds();
 }
 
+void exchange_if(bool condition, Bounds& a, Bounds& b) {
+  const FourCounts mask = FourCounts{} - (condition ? 1 : 0);
+  const auto exchange = [&](std::array<float, 4>& one, std::array<float, 4>& other) {
+    const Four first = std::bit_cast<Four>(one), second = std::bit_cast<Four>(other);
+    one = std::bit_cast<std::array<float, 4>>(mask ? second : first);
+    other = std::bit_cast<std::array<float, 4>>(mask ? first : second);
+  };
+  exchange(a.low, b.low);
+  exchange(a.high, b.high);
+}
+
 std::size_t longest_axis(const Bounds& bounds) {
   const float x = bounds.high[0] - bounds.low[0], y = bounds.high[1] - bounds.low[1], z = bounds.high[2] - bounds.low[2];
   return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
@@ -75,28 +86,46 @@ std::size_t longest_axis(const Bounds& bounds) {
 /// Slices of equal width of where the middles lie along each axis.
 struct Bins {
   struct Bin {
-    Bounds bounds;
+    Gathering bounds;
     std::uint32_t count = 0;
   };
-  std::array<float, 4> low{}, scale{};
+  Four low{}, scale{};
   std::array<std::array<Bin, bin_count>, 3> bins{};
 
-  explicit Bins(const Bounds& middles) : low(middles.low) {
+  explicit Bins(const Bounds& middles) : low(std::bit_cast<Four>(middles.low)) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float slices = static_cast<float>(bin_count) / (middles.high[axis] - middles.low[axis]);
       scale[axis] = std::isfinite(slices) ? slices : 0.0F;
     }
   }
-  /// By one axis: by all at once is slower, as what comes out of a vector register has to be taken apart again.
-  std::size_t of(const Bounds& item, std::size_t axis) const {
+  std::int32_t of(const Bounds& item, std::size_t axis) const {
     const auto slice = static_cast<std::int32_t>((item.middle(axis) - low[axis]) * scale[axis]);
-    return static_cast<std::size_t>(std::min<std::int32_t>(slice, bin_count - 1));
+    return std::min(slice, static_cast<std::int32_t>(bin_count - 1));
+  }
+  /// By all axes.
+  FourCounts of(const Bounds& item) const {
+    const Four along = (std::bit_cast<Four>(item.low) + std::bit_cast<Four>(item.high) - low) * scale;
+    const FourCounts slices = __builtin_convertvector(along, FourCounts),
+                     last = FourCounts{} + static_cast<std::int32_t>(bin_count - 1);
+    return slices < last ? slices : last;
   }
   void add(const Bounds& item) {
+    const FourCounts slices = of(item);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      Bin& bin = bins[axis][of(item, axis)];
+      Bin& bin = bins[axis][static_cast<std::size_t>(slices[axis])];
       bin.bounds.include(item);
       ++bin.count;
+    }
+  }
+  /// Those of both halves by turns: neighbours often go into one bin, and each would wait for the one before it.
+  [[gnu::always_inline]] void add_all(std::span<const Bounds> items) {
+    const std::size_t half = items.size() / 2;
+    for (std::size_t i = 0; i < half; ++i) {
+      add(items[i]);
+      add(items[half + i]);
+    }
+    if (items.size() % 2 != 0) {
+      add(items.back());
     }
   }
   Cut best_cut(std::uint32_t count) const;
@@ -104,25 +133,18 @@ struct Bins {
   Bounds bounds_of(std::size_t axis, std::uint32_t first, std::uint32_t last) const {
     Gathering all;
     for (std::uint32_t i = first; i < last; ++i) {
-      all.include(bins[axis][i].bounds);
+      all.include(bins[axis][i].bounds.bounds());
     }
     return all.bounds();
   }
 };
 
-/// The bins of one number along all three axes, an axis a lane.
+/// One of what is listed along each axis, an axis a lane.
 struct Slices {
-  std::array<Four, 3> low{}, high{};  ///< by coordinate
-  FourCounts count{};
+  std::array<Four, 3> low, high;  ///< by coordinate
 
-  static Slices of(const Bins& bins, std::size_t number) {
-    const auto bin = [&](std::size_t axis) -> const Bins::Bin& { return bins.bins[axis][number]; };
-    Slices slices;
-    slices.low = turned(bin(0).bounds.low, bin(1).bounds.low, bin(2).bounds.low);
-    slices.high = turned(bin(0).bounds.high, bin(1).bounds.high, bin(2).bounds.high);
-    const auto count = [&](std::size_t axis) { return static_cast<std::int32_t>(bin(axis).count); };
-    slices.count = FourCounts{count(0), count(1), count(2), 0};
-    return slices;
+  static Slices of(const Bounds& x, const Bounds& y, const Bounds& z) {
+    return {turned(x.low, y.low, z.low), turned(x.high, y.high, z.high)};
   }
 
  private:
@@ -135,7 +157,7 @@ struct Slices {
   }
 };
 
-/// What lies in several bins along each axis: bounds that grow.
+/// What lies in several of them along each axis: bounds that grow.
 class Sweep {
  public:
   void include(const Slices& slices) {
@@ -143,55 +165,119 @@ class Sweep {
       low_[i] = slices.low[i] < low_[i] ? slices.low[i] : low_[i];
       high_[i] = high_[i] < slices.high[i] ? slices.high[i] : high_[i];
     }
-    count_ += slices.count;
   }
-  const FourCounts& count() const { return count_; }
-  /// Bounds::area() times the number of primitives, 0 of none.
-  Four cost() const {
+  /// As Bounds::area().
+  Four area() const {
     const Four x = high_[0] - low_[0], y = high_[1] - low_[1], z = high_[2] - low_[2];
-    return count_ > 0 ? (x * y + y * z + z * x) * __builtin_convertvector(count_, Four) : Four{};
+    return x * y + y * z + z * x;
   }
 
  private:
   static constexpr Four infinity{Bounds::infinity, Bounds::infinity, Bounds::infinity, Bounds::infinity};
 
   std::array<Four, 3> low_{infinity, infinity, infinity}, high_{-infinity, -infinity, -infinity};
-  FourCounts count_{};
+};
+
+/// The best cut along each axis. Of equal ones the first of the first axis.
+class LeastCuts {
+ public:
+  void take(const Four& cost, std::uint32_t place) { take(cost, place, FourCounts{-1, -1, -1, -1}); }
+  void take(const Four& cost, std::uint32_t place, const FourCounts& is_possible) {
+    const FourCounts is_better = is_possible & (cost < cost_);
+    cost_ = is_better ? cost : cost_;
+    place_ = is_better ? FourCounts{} + static_cast<std::int32_t>(place) : place_;
+  }
+  /// `usual` where none costs less.
+  Cut best(Cut usual) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      usual = cost_[axis] < usual.cost ? Cut{cost_[axis], axis, static_cast<std::uint32_t>(place_[axis])} : usual;
+    }
+    return usual;
+  }
+
+ private:
+  Four cost_{Cut{}.cost, Cut{}.cost, Cut{}.cost, Cut{}.cost};
+  FourCounts place_{};
 };
 
 /// The best cut between two bins of an axis (I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007), for
-/// the three axes side by side. Of equal ones the first of the first axis.
+/// the three axes side by side.
 Cut Bins::best_cut(std::uint32_t count) const {
-  std::array<Slices, bin_count> slices;
-  for (std::size_t i = 0; i < bin_count; ++i) {
-    slices[i] = Slices::of(*this, i);
-  }
-  std::array<Four, bin_count> rest{};
+  const auto slices_of = [&](std::size_t i) {
+    return Slices::of(bins[0][i].bounds.bounds(), bins[1][i].bounds.bounds(), bins[2][i].bounds.bounds());
+  };
+  const auto counts_of = [&](std::size_t i) {
+    const auto in = [&](std::size_t axis) { return static_cast<std::int32_t>(bins[axis][i].count); };
+    return FourCounts{in(0), in(1), in(2), 0};
+  };
+  const auto cost_of = [](const Sweep& sweep, const FourCounts& counts) {
+    return counts > 0 ? sweep.area() * __builtin_convertvector(counts, Four) : Four{};
+  };
+  std::array<Four, bin_count> rest;
   Sweep behind;
+  FourCounts counts{};
   for (std::size_t i = bin_count; i-- > 1;) {
-    behind.include(slices[i]);
-    rest[i] = behind.cost();
+    behind.include(slices_of(i));
+    counts += counts_of(i);
+    rest[i] = cost_of(behind, counts);
   }
-  Four least{Cut{}.cost, Cut{}.cost, Cut{}.cost, Cut{}.cost};
-  FourCounts place{};
+  LeastCuts least;
   Sweep before;
+  counts = FourCounts{};
   for (std::size_t i = 1; i < bin_count; ++i) {
-    before.include(slices[i - 1]);
-    const Four cost = before.cost() + rest[i];
-    const FourCounts is_better = (before.count() > 0) & (before.count() < static_cast<std::int32_t>(count)) & (cost < least);
-    least = is_better ? cost : least;
-    place = is_better ? FourCounts{} + static_cast<std::int32_t>(i) : place;
+    before.include(slices_of(i - 1));
+    counts += counts_of(i - 1);
+    least.take(cost_of(before, counts) + rest[i], static_cast<std::uint32_t>(i),
+               (counts > 0) & (counts < static_cast<std::int32_t>(count)));
   }
-  Cut best;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    best = least[axis] < best.cost ? Cut{least[axis], axis, static_cast<std::uint32_t>(place[axis])} : best;
-  }
-  return best;
+  return least.best({});
 }
+
+/// The best of all cuts between primitives in their order along each axis, where item(axis, i) has them: `usual`, if none costs
+/// less than that.
+template <class Item>
+[[gnu::always_inline]] inline Cut best_sorted_cut(std::uint32_t count, const Item& item, const Cut& usual) {
+  const auto slices_at = [&](std::uint32_t i) { return Slices::of(item(0, i), item(1, i), item(2, i)); };
+  std::array<Four, sorted_count_max> rest;
+  Sweep behind;
+  for (std::uint32_t i = count; i-- > 1;) {
+    behind.include(slices_at(i));
+    rest[i] = behind.area() * blocks_for(count - i);
+  }
+  LeastCuts least;
+  Sweep before;
+  for (std::uint32_t i = 1; i < count; ++i) {
+    before.include(slices_at(i - 1));
+    least.take(before.area() * blocks_for(i) + rest[i], i);
+  }
+  return least.best(usual);
+}
+
+/// Where the middles of a few primitives lie along an axis.
+struct Middles {
+  alignas(64) std::array<float, sorted_count_max> along{};
+  std::array<std::int32_t, sorted_count_max> before{};  ///< how many come before it: of equal ones those that are listed before
+
+  /// By loops as compilers vectorise them.
+  [[gnu::always_inline]] void count_before(std::int32_t count) {
+    constexpr std::int32_t lanes = 16;
+    const std::int32_t end = ceil_divide(count, lanes) * lanes;
+    const float* const all = along.data();
+    std::int32_t* const sums = before.data();
+    for (std::int32_t other = 0; other < count; ++other) {
+      const float at = all[other];
+      for (std::int32_t i = 0; i < end; ++i) {
+        const std::int32_t is_less = at < all[i] ? 1 : 0, is_equal = at == all[i] ? 1 : 0, is_listed_before = other < i ? 1 : 0;
+        sums[i] += is_less | (is_equal & is_listed_before);
+      }
+    }
+  }
+};
 
 }  // namespace
 
-Cutter::Cutter(std::size_t count, std::span<const PrimitiveValues> primitives) : primitives_(primitives) {
+Cutter::Cutter(std::size_t count, std::span<const PrimitiveValues> primitives, VectorWidth width)
+    : primitives_(primitives), width_(width) {
   ids_.reserve(count);
   bounds_.reserve(count);
   for (auto& order : orders_) {
@@ -266,42 +352,26 @@ void Cutter::sort(Group& group) {
   group.base = group.first;
   group.is_sorted = true;
   const std::uint32_t count = group.count();
-  std::array<float, sorted_count_max> middle{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    Middles middles;
     for (std::uint32_t i = 0; i < count; ++i) {
-      middle[i] = bounds_[group.base + i].middle(axis);
+      middles.along[i] = bounds_[group.base + i].middle(axis);
     }
+    run_by(width_, [&] { middles.count_before(static_cast<std::int32_t>(count)); });
     for (std::uint32_t i = 0; i < count; ++i) {
-      std::int32_t before = 0;
-      for (std::uint32_t j = 0; j < i; ++j) {
-        before += middle[j] <= middle[i] ? 1 : 0;
-      }
-      for (std::uint32_t j = i + 1; j < count; ++j) {
-        before += middle[j] < middle[i] ? 1 : 0;
-      }
-      orders_[axis][group.base + static_cast<std::uint32_t>(before)] = static_cast<std::uint8_t>(i);
+      orders_[axis][group.base + static_cast<std::uint32_t>(middles.before[i])] = static_cast<std::uint8_t>(i);
     }
   }
 }
 
 /// The best of all cuts between the primitives in their order along each axis.
 std::uint32_t Cutter::cut_sorted(const Group& whole, bool balanced) {
-  const std::uint32_t count = whole.count();
-  Cut best{.axis = longest_axis(whole.bounds), .place = count / 2};
-  for (std::size_t axis = 0; axis < 3 && !balanced; ++axis) {
-    const auto item = [&](std::uint32_t i) -> const Bounds& { return bounds_[whole.base + orders_[axis][whole.first + i]]; };
-    std::array<float, sorted_count_max> rest{};
-    Gathering bounds;
-    for (std::uint32_t i = count; i-- > 1;) {
-      bounds.include(item(i));
-      rest[i] = bounds.area() * blocks_for(count - i);
-    }
-    bounds = {};
-    for (std::uint32_t i = 1; i < count; ++i) {
-      bounds.include(item(i - 1));
-      const float cost = bounds.area() * blocks_for(i) + rest[i];
-      best = cost < best.cost ? Cut{cost, axis, i} : best;
-    }
+  Cut best{.axis = longest_axis(whole.bounds), .place = whole.count() / 2};
+  if (!balanced) {
+    const auto item = [&](std::size_t axis, std::uint32_t i) -> const Bounds& {
+      return bounds_[whole.base + orders_[axis][whole.first + i]];
+    };
+    run_by(width_, [&] { best = best_sorted_cut(whole.count(), item, best); });
   }
   std::uint64_t is_first = 0;
   for (std::uint32_t place = whole.first; place < whole.first + best.place; ++place) {
@@ -357,16 +427,15 @@ void Cutter::divide(const Group& whole, std::uint64_t is_first) {
 std::pair<Group, Group> Cutter::cut_between_bins(const Group& whole) {
   const auto items = std::span(bounds_).subspan(whole.first, whole.count());
   Bins bins(middles_of(items));
-  for (const Bounds& item : items) {
-    bins.add(item);
-  }
+  run_by(width_, [&] { bins.add_all(items); });
   const Cut best = bins.best_cut(whole.count());
   if (best.place == 0) {
     return halves(whole, cut_in_the_middle(whole));
   }
   std::pair<Group, Group> both{whole, whole};
   both.first.last = both.second.first =
-      partition(whole, [&](std::uint32_t i) { return bins.of(bounds_[i], best.axis) < best.place; });
+      partition(whole, [&, items = bounds_.data(), axis = best.axis, place = static_cast<std::int32_t>(best.place)](
+                           std::uint32_t i) { return bins.of(items[i], axis) < place; });
   both.first.bounds = bins.bounds_of(best.axis, 0, best.place);
   both.second.bounds = bins.bounds_of(best.axis, best.place, bin_count);
   return both;
@@ -385,17 +454,25 @@ std::uint32_t Cutter::cut_in_the_middle(const Group& whole) {
   return partition(whole, [&](std::uint32_t i) { return std::pair(bounds_[i].middle(axis), ids_[i]) < *middle; });
 }
 
-/// Brings the primitives for which is_first(place) holds to the front, and says where the others begin.
+/// Brings the primitives for which is_first(place) holds to the front, and says where the others begin. Without branches, half of
+/// which would be guessed wrong.
 template <class IsFirst>
 std::uint32_t Cutter::partition(const Group& whole, const IsFirst& is_first) {
   std::uint32_t middle = whole.first;
-  for (std::uint32_t i = whole.first; i < whole.last; ++i) {
-    if (is_first(i)) {
-      std::swap(ids_[i], ids_[middle]);
-      std::swap(bounds_[i], bounds_[middle]);
-      ++middle;
+  run_by(width_, [&] {
+    std::uint32_t* const ids = ids_.data();
+    Bounds* const bounds = bounds_.data();
+    std::uint32_t end = whole.first;
+    for (std::uint32_t i = whole.first; i < whole.last; ++i) {
+      const bool belongs = is_first(i);
+      const std::uint32_t id = ids[i], other = ids[end];
+      ids[i] = belongs ? other : id;
+      ids[end] = belongs ? id : other;
+      exchange_if(belongs, bounds[i], bounds[end]);
+      end += belongs ? 1 : 0;
     }
-  }
+    middle = end;
+  });
   return middle;
 }
 

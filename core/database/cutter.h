@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/bounds.h"
+#include "core/base/vector_width.h"
 #include "core/database/database.h"
 #include "core/record/record.h"
 
@@ -33,7 +34,7 @@ struct Group {
 class Cutter {
  public:
   /// Room for `count` primitives. `primitives`, by id, tell the planes of those that need one.
-  explicit Cutter(std::size_t count, std::span<const PrimitiveValues> primitives = {});
+  explicit Cutter(std::size_t count, std::span<const PrimitiveValues> primitives = {}, VectorWidth width = vector_width());
 
   /// Appends a primitive; those of one kind come one behind the other.
   void add(std::uint32_t id, const Bounds& bounds);
@@ -70,6 +71,7 @@ class Cutter {
   std::uint32_t partition(const Group& whole, const IsFirst& is_first);
 
   std::span<const PrimitiveValues> primitives_;
+  VectorWidth width_;
   std::vector<std::uint32_t> ids_;
   std::vector<Bounds> bounds_;
   std::array<std::vector<std::uint8_t>, 3> orders_;  ///< of sorted groups, by axis: places behind the group's base

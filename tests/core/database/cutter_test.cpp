@@ -3,7 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "apps/lab/bench/stability/random.h"
 #include "tests/support/ids.h"
@@ -46,7 +49,104 @@ std::vector<std::uint32_t> cut_up(Cutter& cutter, const Group& group, bool balan
   return ids;
 }
 
+/// Boxes of several sizes here and there, at multiples of `step` if that is not 0.
+std::vector<Bounds> scattered(std::size_t count, double step) {
+  dmpc::apps::Random random(3);
+  std::vector<Bounds> boxes;
+  while (boxes.size() < count) {
+    Vec3d at = random.in_box(-1, 1), half = random.in_box(0.05, 0.2);
+    for (std::size_t axis = 0; axis < 3 && step > 0; ++axis) {
+      at[axis] = std::round(at[axis] / step) * step;
+      half[axis] = step;
+    }
+    boxes.push_back(Bounds::around({at - half, at + half}));
+  }
+  return boxes;
+}
+
+Cutter cutter_of(const std::vector<Bounds>& boxes, VectorWidth width = vector_width()) {
+  Cutter cutter(boxes.size(), {}, width);
+  for (std::uint32_t id = 0; id < boxes.size(); ++id) {
+    cutter.add(id, boxes[id]);
+  }
+  return cutter;
+}
+
+/// Those that this processor has.
+std::vector<VectorWidth> widths_here() {
+  std::vector<VectorWidth> widths;
+  for (const VectorWidth width : {VectorWidth::any, VectorWidth::bits_256, VectorWidth::bits_512}) {
+    if (width <= vector_width()) {
+      widths.push_back(width);
+    }
+  }
+  return widths;
+}
+
+using Ids = std::vector<std::uint32_t>;
+
+/// The ids of both parts, ascending, by looking at every place along every axis.
+std::pair<Ids, Ids> best_of_all_cuts(const std::vector<Bounds>& boxes) {
+  std::pair<Ids, Ids> best;
+  float least = Bounds::infinity;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Ids order(boxes.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return boxes[a].middle(axis) < boxes[b].middle(axis); });
+    for (std::size_t place = 1; place < order.size(); ++place) {
+      const auto cost_of = [&](std::span<const std::uint32_t> part) {
+        Bounds all;
+        for (const std::uint32_t id : part) {
+          all.include(boxes[id]);
+        }
+        return all.area() * static_cast<float>((part.size() + 7) / 8);
+      };
+      const float cost = cost_of(std::span(order).first(place)) + cost_of(std::span(order).subspan(place));
+      if (cost < least) {
+        least = cost;
+        best = {{order.begin(), order.begin() + static_cast<std::ptrdiff_t>(place)},
+                {order.begin() + static_cast<std::ptrdiff_t>(place), order.end()}};
+      }
+    }
+  }
+  std::sort(best.first.begin(), best.first.end());
+  std::sort(best.second.begin(), best.second.end());
+  return best;
+}
+
 }  // namespace
+
+TEST_CASE("of places that cost a ray the same the first is taken") {
+  Cutter cutter = in_a_row({0, 1, 2, 3, 4, 5, 6, 7, 8});  // n cubes have 4 n + 2 faces, both parts 40
+  CHECK(cutter.cut(cutter.group(PrimitiveKind::triangle, 0, 9), false).first.count() == 1);
+}
+
+TEST_CASE("a small group is cut where both parts cost a ray the least, by what comes first of equal middles") {
+  for (const std::size_t count : {std::size_t{9}, std::size_t{17}, std::size_t{33}, std::size_t{64}}) {
+    for (const double step : {0.0, 0.25}) {  // places as they come, and such that many middles and costs are equal
+      const std::vector<Bounds> boxes = scattered(count, step);
+      Cutter cutter = cutter_of(boxes);
+      const auto [first, second] = cutter.cut(cutter.group(PrimitiveKind::triangle, 0, count), false);
+      const auto [best_first, best_second] = best_of_all_cuts(boxes);
+      CHECK(ids_of(cutter, first) == best_first);
+      CHECK(ids_of(cutter, second) == best_second);
+    }
+  }
+}
+
+TEST_CASE("groups are cut alike whatever the width of vectors") {
+  for (const std::size_t count : {std::size_t{9}, std::size_t{50}, std::size_t{64}, std::size_t{65}, std::size_t{1001}}) {
+    for (const double step : {0.0, 0.25}) {
+      std::vector<Ids> cuts;
+      for (const VectorWidth width : widths_here()) {
+        Cutter cutter = cutter_of(scattered(count, step), width);
+        cuts.push_back(cut_up(cutter, cutter.group(PrimitiveKind::triangle, 0, count), false));
+        CHECK(cuts.back() == cuts.front());
+      }
+    }
+  }
+}
 
 TEST_CASE("a cut goes through the gap, whatever the order") {
   for (const std::vector<double>& places : {std::vector<double>{0, 1, 100, 101}, {100, 0, 101, 1}}) {
