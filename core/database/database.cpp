@@ -219,8 +219,11 @@ class DatabaseBuilder {
       return list(0);
     }
     const std::size_t listed = conversion_.primitives.size();
-    auto cells = list(left_out_->excess(frame, result_.pad_, listed, false, parallel_));
-    return cells ? std::move(cells) : list(left_out_->excess(frame, result_.pad_, listed, true, parallel_));
+    const std::int64_t excess = left_out_->excess(frame, result_.pad_, listed, false, parallel_);
+    auto cells = list(excess);
+    return cells || excess == LeftOutPlaces::excess_without_list
+               ? std::move(cells)
+               : list(left_out_->excess(frame, result_.pad_, listed, true, parallel_));
   }
 
   /// One top cell in place of all. Whatever depends on cells but the boxes of bricks has been settled before, and rays start

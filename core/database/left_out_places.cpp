@@ -25,8 +25,6 @@ constexpr std::size_t places_together = 64;
 constexpr std::size_t places_a_group = 4096;
 /// Copies of more triangles would be records of more than 16 GiB.
 constexpr std::uint64_t copied_triangles_end = std::uint64_t{1} << 28U;
-/// More than what 32 bits count has room for in a list.
-constexpr std::int64_t excess_without_list = std::int64_t{1} << 48U;
 /// Ids that are no primitive's, and those of the boxes of places, have room behind.
 constexpr std::uint64_t ids_max = 0xf0000000U;
 
@@ -76,7 +74,7 @@ LeftOutPlaces::LeftOutPlaces(const Scene& scene, std::span<const MeshFaces> face
 }
 
 /// Long triangles touch so many cells that to count them all would take minutes. Side by side a place is looked at until it has
-/// four times its share of what there may be, and then, if it has more, by itself: so that it ends where all have too many.
+/// its share of what there may be, and then, if it has more, by itself: so that it ends where all have too many.
 std::int64_t LeftOutPlaces::excess(const GridFrame& frame, double pad, std::uint64_t listed, bool is_exact,
                                    const Parallel& parallel) const {
   if (triangles_ > copied_triangles_end) {
@@ -88,7 +86,7 @@ std::int64_t LeftOutPlaces::excess(const GridFrame& frame, double pad, std::uint
   std::vector<Touches> some(group);
   for (std::size_t first = 0; first < places_.size(); first += group) {
     const std::size_t count = std::min(group, places_.size() - first);
-    const std::uint64_t share = 4 * touches_max / group;
+    const std::uint64_t share = touches_max / group;
     for_each_place(count, parallel,
                    [&](std::size_t i) { some[i] = touches_of(places_[first + i], frame, pad, share, is_exact); });
     for (std::size_t i = 0; i < count; ++i) {

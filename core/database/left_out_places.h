@@ -26,9 +26,11 @@ class LeftOutPlaces {
   /// RoomError if it has more triangles than 32 bits count.
   LeftOutPlaces(const Scene& scene, std::span<const MeshFaces> faces, const Parallel& parallel);
 
+  /// More than any list has room for.
+  static constexpr std::int64_t excess_without_list = std::int64_t{1} << 48U;
   /// TopCells::excess_of() all copies, if there were any. Unless it `is_exact` it may be more than that, for which few triangles
-  /// are looked at. Once it is known that there is no list of these and `listed` primitives beside them it is more than any list
-  /// has room for. 0 if there are so many that nobody could have copies of them.
+  /// are looked at. Once it is known that there is no list of these and `listed` primitives beside them, however exact, it is
+  /// excess_without_list. 0 if there are so many that nobody could have copies of them.
   std::int64_t excess(const GridFrame& frame, double pad, std::uint64_t listed, bool is_exact, const Parallel& parallel) const;
 
   /// Those that this pad makes too small, one entry for each of Scene::kept.
