@@ -154,12 +154,12 @@ double DatabaseFigures::primitives_a_block() const {
 }
 
 std::uint64_t DatabaseFigures::bytes_otherwise(double stored_share) const {
-  std::uint64_t geometry = 0;
+  std::uint64_t geometry = unused_bytes;
   for (const RecordFigures& record : records) {
     const auto is_among = [&](const auto& names) { return std::find(names.begin(), names.end(), record.kind) != names.end(); };
     geometry += is_among(block_names) || is_among(geometry_names) ? record.bytes : 0;
   }
-  const double share = instances > 0 ? 1 / stored_share : stored_share;
+  const double share = instances > 0 ? ratio(copies - kept_triangles + placed_triangles, copies) : stored_share;
   return bytes - geometry + static_cast<std::uint64_t>(static_cast<double>(geometry) * share);
 }
 
@@ -179,6 +179,8 @@ DatabaseFigures figures_of(const core::Database& database, const SceneFigures& s
                           .has_voxels = database.header().has_voxels(),
                           .references = database.records().voxel_references,
                           .instances = database.records().instances,
+                          .kept_triangles = database.records().kept_triangles,
+                          .placed_triangles = database.records().placed_triangles,
                           .records = records_of(database, scene, trees)};
   figures.unused_bytes = figures.bytes;
   for (const RecordFigures& record : figures.records) {

@@ -49,7 +49,7 @@ class Forecaster {
   /// All computers added. The primary rays are dealt to all at one go.
   Forecast result() {
     stopwatch_.lap();
-    const auto shares = dataflow::measure_shares(settings_, partitions_, parts_);
+    const auto shares = dataflow::measure_shares(settings_, partitions_, parts_, {}, true, request_for({}).pixel_order());
     std::size_t next = 0;
     for (ComputerForecast& computer : computers_) {
       if (can_share_out(computer.nodes)) {
@@ -75,8 +75,10 @@ class Forecaster {
     return forecast_of(svm::plan_of(strategy, database_, settings_, options), node_count);
   }
   MemoryForecast with_rays(const std::vector<dataflow::Share>& shares) const {
-    return forecast_of(dataflow::make_plan(dataflow::plan_request(shares, settings_, {.rays = {.balance = balance_}})),
-                       static_cast<std::uint32_t>(shares.size()));
+    return forecast_of(dataflow::make_plan(request_for(shares)), static_cast<std::uint32_t>(shares.size()));
+  }
+  dataflow::PlanRequest request_for(const std::vector<dataflow::Share>& shares) const {
+    return dataflow::plan_request(shares, settings_, {.rays = {.balance = balance_}});
   }
 
   bool can_share_out(std::uint32_t node_count) const { return dataflow::can_share_out(loads_.lattice, node_count, balance_); }

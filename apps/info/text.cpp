@@ -88,7 +88,8 @@ std::string meshes_line(const InfoRecord& record) {
   return "\nmeshes     " + grouped(meshes.count) + " in " + counted(meshes.places, "place") + ": " +
          counted(meshes.triangles, "triangle") + " for " + grouped(meshes.placed_triangles) +
          (are_kept ? "; kept once in " + counted(record.database.instances, "place") + ", with a copy in each place about "
-                   : "; a copy in each place, kept once (--instances=keep) about ") +
+          : meshes.stored_share >= 1 ? "; a copy in each place, kept once no less than "
+                                     : "; a copy in each place, kept once (--instances=keep) about ") +
          bytes_text(record.database.bytes_otherwise(meshes.stored_share)) + " of database";
 }
 

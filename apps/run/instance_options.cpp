@@ -22,10 +22,13 @@ std::optional<Hindrance> hindrance_of(const OptionSet& options, const RayTracers
   }
   const bool is_open = !options.is_given("--structure") && !tracers.system;
   if (!is_open && build.structure != core::Structure::extents) {
-    return Hindrance{tracers.system ? std::string("--system=") + name_of(*tracers.system)
-                                    : std::string("--structure=") + name_of(build.structure),
-                     std::string("meshes that are kept are trees of boxes below one of all") +
-                         (tracers.system ? ", as svm-extents, replicated-extents and forest have them" : "")};
+    return Hindrance{
+        tracers.system ? std::string("--system=") + name_of(*tracers.system)
+                       : std::string("--structure=") + name_of(build.structure),
+        std::string("meshes that are kept are trees of boxes below one of all") +
+            (tracers.system ? ", as svm-extents, replicated-extents, pixel-machine, forest and forest-static have them, and "
+                              "--strategy=dataflow without --system"
+                            : "")};
   }
   if (build.record_order != core::RecordOrder::spatial) {
     return Hindrance{"--record-order=scattered", "a mesh that is kept lies in one piece"};
@@ -40,7 +43,7 @@ void add_instance_option(OptionSet options, DatabaseOptions& database) {
       "--instances", database.instances,
       {{"expand", InstancesChoice::expand}, {"keep", InstancesChoice::keep}, {"auto", InstancesChoice::automatic}},
       "Of a mesh that stands in several places: a copy in each, or one for all, which takes less memory (the same "
-      "picture). auto: one for all where rays go into such meshes and less than half of the scene is left to store");
+      "picture). auto: one for all where no other option hinders it and less than half of the scene is then left to store");
 }
 
 void settle_instances(const OptionSet& options, const RayTracers& tracers, DatabaseOptions& database, MeshOptions& mesh) {

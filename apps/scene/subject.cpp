@@ -17,8 +17,13 @@ namespace dmpc::apps {
 
 namespace {
 
-core::CopyLimits copy_limits(const PictureOptions& picture) {
+/// `chose_copies`: --instances=auto did.
+core::CopyLimits copy_limits(const PictureOptions& picture, bool chose_copies) {
   core::CopyLimits limits{.bytes_max = reader_memory_bytes_max()};
+  if (chose_copies) {
+    limits.reason = "as --instances=auto has it here";
+    limits.advice = "give --instances=keep";
+  }
   if (picture.is_refined) {
     limits.corners_max = std::numeric_limits<std::uint64_t>::max();
     limits.reason = "among which --samples=auto looks for fine detail";
@@ -28,7 +33,7 @@ core::CopyLimits copy_limits(const PictureOptions& picture) {
 }
 
 DatabaseOptions settled(DatabaseOptions options, const core::KeptShare& share) {
-  if (options.instances == InstancesChoice::automatic && options.why_copied.empty() && share.halves()) {
+  if (options.instances == InstancesChoice::automatic && options.why_copied.empty() && share.halves() && share.has_room()) {
     options.keep_instances();
   }
   return options;
@@ -39,12 +44,14 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
   Progress progress(std::cerr, shows_progress && stderr_is_terminal(), "Building:", "primitives");
   const core::KeptShare share = core::kept_share(scene);
   const core::BuildOptions built = settled(options, share).build;
+  const bool chose_copies =
+      options.instances == InstancesChoice::automatic && options.why_copied.empty() && !built.keeps_instances;
   core::BuildOptions build = built;
   build.axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
   build.emitters_max = picture.transport.emitters_max();
   build.for_paths = picture.transport.is_by_paths();
   build.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };
-  core::Database database = core::build_database(std::move(scene), build, copy_limits(picture));
+  core::Database database = core::build_database(std::move(scene), build, copy_limits(picture, chose_copies));
   const core::RenderSettings settings = render_settings(picture, scene, database);
   const core::RoundingLoss loss = core::find_rounding_loss(database, settings.camera);
   const std::string emitters = emitters_text(database.header().emitter_count, database.records().emitters_met, picture.transport);
@@ -84,8 +91,10 @@ std::vector<std::string> notes_of(const Subject& subject) {
 
 std::string kept_text(const core::RecordCounts& records, std::uint64_t places) {
   const std::uint64_t others = places - std::min(places, records.instances);
-  const std::string why = " shine, have more than " + grouped(core::kept_triangles_max) +
-                          " triangles, are too small beside the scene, or have coordinates that no float holds";
+  const std::string why =
+      " shine, have more than " + grouped(core::kept_triangles_max) +
+      " triangles or none with an area, are too small beside the scene, reach too far out, or have coordinates that no "
+      "float holds";
   if (records.instances == 0) {
     return others > 0 ? "no mesh is kept once: those in " + counted(others, "place") + why
                       : "no mesh is kept once: none of more than " + grouped(core::copied_triangles_max) +
@@ -99,16 +108,22 @@ std::string kept_text(const core::RecordCounts& records, std::uint64_t places) {
 
 std::string instances_text(const DatabaseOptions& options, bool keeps, const core::RecordCounts& records,
                            const core::KeptShare& share) {
-  if (keeps) {
+  if (keeps || (options.instances != InstancesChoice::expand && share.places == 0)) {
     return kept_text(records, share.places);
   }
-  if (options.instances == InstancesChoice::expand || share.places == 0) {
+  if (options.instances == InstancesChoice::expand) {
     return "";
   }
-  return "meshes have a copy in each of " + counted(share.places, "place") + ": " +
-         (options.why_copied.empty() ? "kept once they would still be " + grouped(share.stored / 3) + " triangles of " +
-                                           grouped(share.seen / 3) + ", and --instances=auto keeps them below half of these"
-                                     : "none is kept once with " + options.why_copied);
+  const std::string copied = "meshes have a copy in each of " + counted(share.places, "place") + ": ";
+  if (!options.why_copied.empty()) {
+    return copied + "none is kept once with " + options.why_copied;
+  }
+  if (share.halves()) {
+    return copied + "beside places a tree has room for " + grouped(core::beside_places_max) +
+           " primitives, and the scene has about " + grouped(share.own) + " that are in no mesh that is kept";
+  }
+  return copied + "with each once the scene would still take about " + grouped(share.stored / 3) + " triangles of " +
+         grouped(share.seen / 3) + ", a place for two, and --instances=auto keeps them once below half of these";
 }
 
 std::string dropped_text(std::uint64_t count) {

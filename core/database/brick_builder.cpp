@@ -118,7 +118,8 @@ BrickTree BrickBuilder::build(const Corner& corner, std::span<const std::uint32_
   if (const std::size_t most = carefree_count(levels_max_), weight = weight_of(kinds); weight > most) {
     throw RoomError(
         std::to_string(weight) + " primitives lie in one place, at most " + std::to_string(most) +
-        " may (triangles that cover others in their plane count eightfold): spread them out, or render a smaller scene");
+        " may (triangles that cover others in their plane count eightfold): spread them out, or render a smaller scene" +
+        (levels_max_ < brick_levels_max ? "; without places of meshes that are kept once eight times as many may" : ""));
   }
   const CutTree cuts = cut(kinds, cutter);
   BrickTree tree{.top = {}, .ids = std::vector<std::uint32_t>(ids.size())};

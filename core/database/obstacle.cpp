@@ -23,11 +23,6 @@ constexpr std::size_t meshes_named = 3;
 bool is_in_float(double value) { return double{static_cast<float>(value)} == value; }
 bool is_in_floats(const Vec3d& v) { return is_in_float(v.x) && is_in_float(v.y) && is_in_float(v.z); }
 
-bool shines(const Scene& mesh, std::span<const Material> materials) {
-  return std::any_of(mesh.objects.begin(), mesh.objects.end(),
-                     [&](const Object& object) { return materials[object.material].shines(); });
-}
-
 bool has_normals_in_floats(const Scene& mesh) {
   return std::all_of(mesh.normals.begin(), mesh.normals.end(), is_in_floats) &&
          std::all_of(mesh.corners.begin(), mesh.corners.end(),
@@ -87,7 +82,7 @@ double unit_of(const Scene& mesh) {
   return are_held ? unit : 0;
 }
 
-Obstacle obstacle_of(const Scene& mesh, std::span<const Material> materials, const MeshFaces& faces) {
+Obstacle obstacle_of(const Scene& mesh, const std::vector<Material>& materials, const MeshFaces& faces) {
   if (faces.triangles.empty()) {
     return Obstacle::no_triangle;
   }

@@ -16,6 +16,11 @@ std::span<const Vec3d> vertices_of(const Scene& scene, const Object& object) {
 
 }  // namespace
 
+bool shines(const Scene& mesh, const std::vector<Material>& materials) {
+  return std::any_of(mesh.objects.begin(), mesh.objects.end(),
+                     [&](const Object& object) { return materials[object.material].shines(); });
+}
+
 bool can_be_kept(const Transform& world) {
   // Placed normals are off by what doubles round off products of two of the rows, beside the volume of what the three span.
   constexpr double share_least = 0x1p-24, size_least = 0x1p-200, size_max = 0x1p200;

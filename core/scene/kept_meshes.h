@@ -33,6 +33,9 @@ inline constexpr std::uint64_t copied_triangles_max = 64;
 /// One of more is copied, too: trees of bricks have room for eight times as many, and faces in one plane count so often.
 inline constexpr std::uint64_t kept_triangles_max = std::uint64_t{1} << 21U;
 
+/// Whether something of a mesh shines by itself; `materials`: what its objects' indices are of.
+bool shines(const Scene& mesh, const std::vector<Material>& materials);
+
 /// Whether a place may have a mesh that is decided on elsewhere: one that presses it flat, or all but flat, may not, nor one that
 /// takes it where doubles end.
 bool can_be_kept(const Transform& world);

@@ -198,13 +198,12 @@ Inspection inspect_shown(const CheckOptions& options, const core::Database& data
 }
 
 /// Returns the number of unexplained rays and of certificates that fail.
-std::uint64_t print_report(std::ostream& output, const CheckOptions& options, const core::Database& database,
-                           const core::Camera& camera, const Inspection& inspection) {
+std::uint64_t print_report(std::ostream& output, const CheckOptions& options, core::Structure structure,
+                           const core::Database& database, const core::Camera& camera, const Inspection& inspection) {
   const auto width = static_cast<std::uint32_t>(camera.width());
   output << options.picture.scene << ": " << database.primitives().size() << " primitives, " << width << "x" << camera.height()
-         << " pixels, our " << name_of(options.database.build.structure)
-         << (database.header().has_instances != 0 ? " with kept meshes" : "") << " against Embree " << embree_version()
-         << " (robust)\n";
+         << " pixels, our " << name_of(structure) << (database.header().has_instances != 0 ? " with kept meshes" : "")
+         << " against Embree " << embree_version() << " (robust)\n";
   const Referee referee(database);
   std::uint64_t unexplained = print_table(output, inspection);
   print_list(output, referee, inspection.differences, options.list, width);
@@ -272,7 +271,7 @@ int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostrea
   const core::RenderSettings& settings = subject.settings;
   const Inspection inspection = inspect_shown(options, database, settings);
   interrupt.set_consequence("the report is incomplete");
-  const std::uint64_t unexplained = print_report(output, options, database, settings.camera, inspection);
+  const std::uint64_t unexplained = print_report(output, options, subject.built.structure, database, settings.camera, inspection);
   finish_output(output, "the report");
   return unexplained == 0 ? 0 : unexplained_status;
 }

@@ -36,9 +36,11 @@ TEST_CASE("a subject's page size, order of records and axes are those asked for"
 TEST_CASE("how much is kept once is told where that was asked for") {
   CHECK(kept_text({.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789}, 67) ==
         "kept 29 meshes in 67 places: 1,234 triangles for 56,789");
-  CHECK(kept_text({.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789}, 70) ==
-        "kept 29 meshes in 67 places: 1,234 triangles for 56,789; copied are those in 3 places, which shine, have more than "
-        "2,097,152 triangles, are too small beside the scene, or have coordinates that no float holds");
+  CHECK(
+      kept_text({.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789}, 70) ==
+      "kept 29 meshes in 67 places: 1,234 triangles for 56,789; copied are those in 3 places, which shine, have more than "
+      "2,097,152 triangles or none with an area, are too small beside the scene, reach too far out, or have coordinates that no "
+      "float holds");
   CHECK(kept_text({.instances = 1, .kept_meshes = 1, .kept_triangles = 70, .placed_triangles = 70}, 1) ==
         "kept 1 mesh in 1 place: 70 triangles for 70");
   CHECK(kept_text({}, 0) == "no mesh is kept once: none of more than 64 triangles stands in several places as the file has it");
@@ -50,18 +52,25 @@ TEST_CASE("what is kept without having been asked for is told, and why copies ar
   const core::KeptShare share{.seen = 3 * 56789, .stored = 3 * 1368, .places = 67};
   const DatabaseOptions open{.instances = InstancesChoice::automatic};
   CHECK(instances_text({}, false, {}, share).empty());
-  CHECK(instances_text(open, false, {}, {.seen = 30, .stored = 30}).empty());
+  CHECK(instances_text(open, false, {}, {.seen = 30, .stored = 30}) == kept_text({}, 0));
   CHECK(instances_text(open, true, records, share) == kept_text(records, 67));
-  CHECK(instances_text(open, false, {}, {.seen = 600, .stored = 450, .places = 2}) ==
-        "meshes have a copy in each of 2 places: kept once they would still be 150 triangles of 200, and --instances=auto keeps "
-        "them below half of these");
-  CHECK(instances_text({.instances = InstancesChoice::automatic, .why_copied = "--strategy=forest"}, false, {}, share) ==
-        "meshes have a copy in each of 67 places: none is kept once with --strategy=forest");
+  CHECK(
+      instances_text(open, false, {}, {.seen = 600, .stored = 450, .places = 2}) ==
+      "meshes have a copy in each of 2 places: with each once the scene would still take about 150 triangles of 200, a place for "
+      "two, and --instances=auto keeps them once below half of these");
+  CHECK(instances_text(open, false, {}, {.seen = 60'000'000, .stored = 9'000'000, .places = 2, .own = 2'999'990}) ==
+        "meshes have a copy in each of 2 places: beside places a tree has room for 2,097,152 primitives, and the scene has about "
+        "2,999,990 that are in no mesh that is kept");
+  CHECK(instances_text({.instances = InstancesChoice::automatic, .why_copied = "--structure=grid"}, false, {}, share) ==
+        "meshes have a copy in each of 67 places: none is kept once with --structure=grid");
 }
 
 TEST_CASE("what is open is kept where that leaves less than half of the scene to store, and else has the database asked for") {
-  const auto instances_with = [](std::uint32_t places, const std::string& hindrance) {
+  const auto instances_with = [](std::uint32_t places, const std::string& hindrance, bool shines = false) {
     core::Scene scene = tests::in_floats(tests::rug_on_floor(false, true, 6));
+    for (core::Material& material : scene.materials) {
+      material.emission = shines ? core::Vec3d{1, 1, 1} : core::Vec3d{};
+    }
     const auto end = static_cast<std::uint32_t>(scene.objects.size());
     const std::vector<core::Instance> at(places, {tests::turned_place(0.3, {0, 0, 1}, false), 0, end});
     core::settle(scene, {.meshes = {{0, end}}, .places = at}, core::Copies::left_out);
@@ -72,7 +81,13 @@ TEST_CASE("what is open is kept where that leaves less than half of the scene to
   };
   CHECK(instances_with(2, "") == 0);
   CHECK(instances_with(3, "") == 3);
-  CHECK(instances_with(3, "--strategy=dataflow") == 0);
+  CHECK(instances_with(3, "--tested-objects") == 0);
+  CHECK(instances_with(3, "", true) == 0);
+}
+
+TEST_CASE("a tree with places in its leaves has no room for more than 2^21 primitives and places") {
+  CHECK(core::KeptShare{.places = 152, .own = 2'097'000}.has_room());
+  CHECK_FALSE(core::KeptShare{.places = 153, .own = 2'097'000}.has_room());
 }
 
 TEST_CASE("of so many copies that none is made, it is told that nobody looked at their rounding") {

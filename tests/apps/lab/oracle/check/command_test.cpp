@@ -83,7 +83,7 @@ TEST_CASE("check traces the structure that is asked for, and says which") {
 }
 
 TEST_CASE("check sends rays into meshes that are kept, and says so") {
-  apps::CheckOptions options = small("grove-1");
+  apps::CheckOptions options = small("grove-2");
   options.database.build.structure = core::Structure::extents;
   options.database.build.keeps_instances = true;
   options.certify = 100;
