@@ -96,8 +96,7 @@ TEST_CASE("scattered and moving regions show of what is kept what its copies sho
 }
 
 TEST_CASE("units are handed over with the meshes of the places in them") {
-  // All that is seen lies in one corner of the picture, so its node has most primary rays.
-  core::Scene scene = balls_in_places(0.25, Arrangement::deep_in_each_other, 29);
+  const core::Scene scene = balls_in_places(0.25, Arrangement::deep_in_each_other, 29);
   const Subject kept(scene, {64, 64}, with_instances(512));
   RunOptions options{.computer = {.node_count = 6}};
   options.computer.machine = nodes::Machine{};
@@ -108,7 +107,7 @@ TEST_CASE("units are handed over with the meshes of the places in them") {
   for (const dataflow::NodeReport& node : report.nodes) {
     taken += node.program.movement.units_taken;
   }
-  CHECK((taken > 0 || slowness > 1));
+  CHECK(taken > 0);
 }
 
 TEST_CASE(
@@ -169,6 +168,8 @@ TEST_CASE("frames of what is kept, runs of it on several ranks, and runs that go
     CHECK(rank.value == kept.outcome().film_hash);
   }
 
+  // Not all rays are dealt when it is asked to stop.
+  const Subject large(scene, {64, 64, 3}, with_instances());
   std::optional<core::PartialPicture> start;
   nodes::RunEnd end{};
   for (int runs = 0; runs < 20 && (runs == 0 || end != nodes::RunEnd::finished); ++runs) {
@@ -180,12 +181,13 @@ TEST_CASE("frames of what is kept, runs of it on several ranks, and runs that go
                                             stop.request_stop();
                                           }};
     const Report report =
-        dataflow::run_dataflow(kept.database(), kept.settings(),
+        dataflow::run_dataflow(large.database(), large.settings(),
                                {.computer = {.node_count = 2U + static_cast<std::uint32_t>(runs)}, .continuation = continuation},
                                runs < 3 ? stop.get_token() : std::stop_token());
     end = report.end;
-    CHECK((end != nodes::RunEnd::finished || report.film.hash() == kept.outcome().film_hash));
+    CHECK((end != nodes::RunEnd::finished || report.film.hash() == large.outcome().film_hash));
   }
+  REQUIRE(start);
   CHECK(end == nodes::RunEnd::finished);
 }
 

@@ -76,6 +76,18 @@ TEST_CASE("without a bound a render takes what is forecast") {
   }
 }
 
+TEST_CASE("primary rays of many nodes are forecast as they are dealt, in squares of pixels") {
+  RenderOptions options = small(Strategy::dataflow);
+  options.picture.scene = "tetra-6";
+  options.picture.resolution = Resolution{128, 128};
+  options.computer.node_count = 8;
+  options.rays.balance = {.balance = Balance::equal_size};
+  const MemoryForecast memory = *forecast_for(options).dataflow;
+  CHECK(refusal(options, memory.least_bytes).empty());
+  CHECK(contains(refusal(options, memory.least_bytes - 1),
+                 "the smallest that works is --node-memory=" + nodes::size_text(memory.least_bytes)));
+}
+
 TEST_CASE("regions that move take what is forecast, room for units that come included, and with less are refused") {
   RenderOptions options = small(Strategy::dataflow);
   options.rays.balance = {.balance = Balance::moving, .regions_a_node = 4};

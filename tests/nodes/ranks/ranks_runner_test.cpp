@@ -343,6 +343,9 @@ TEST_CASE("nodes that are made anew on the same ranks begin to count what is sen
       }
       return sums;
     });
+    for (const auto& result : results) {
+      REQUIRE(result.failure_text() == "");
+    }
     const std::vector<RankReport>& heard = *results[0].value;
     REQUIRE(heard.size() == 2);
     CHECK(heard[0].traffic.frames_sent >= 200);
