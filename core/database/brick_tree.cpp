@@ -8,24 +8,25 @@
 namespace dmpc::core {
 namespace {
 
-/// What a subtree takes of a page, if it begins it.
-std::size_t subtree_bytes(const BrickDraft& draft) {
-  std::size_t bytes = round_up(sizeof(Brick), record_alignment);
-  for (const BrickDraft::Block& block : draft.blocks) {
-    bytes += block.count > 0 ? round_up(block.bytes(), record_alignment) : 0;
-  }
-  for (const BrickDraft& brick : draft.bricks) {
-    bytes += subtree_bytes(brick);
-  }
-  return bytes;
-}
-
 bool is_of_instances(const BrickDraft::Block& block) { return block.count > 0 && block.kind == PrimitiveKind::instance; }
 
 /// Whether the walk below the brick may lead into meshes.
 bool is_open(const BrickDraft& draft) {
   return std::any_of(draft.blocks.begin(), draft.blocks.end(), is_of_instances) ||
          std::any_of(draft.bricks.begin(), draft.bricks.end(), is_open);
+}
+
+/// What a subtree takes of a page, if it begins it: all of it, or what is open.
+std::size_t subtree_bytes(const BrickDraft& draft, bool of_open_alone = false) {
+  std::size_t bytes = round_up(sizeof(Brick), record_alignment);
+  for (const BrickDraft::Block& block : draft.blocks) {
+    const bool counts = block.count > 0 && (!of_open_alone || is_of_instances(block));
+    bytes += counts ? round_up(block.bytes(), record_alignment) : 0;
+  }
+  for (const BrickDraft& brick : draft.bricks) {
+    bytes += !of_open_alone || is_open(brick) ? subtree_bytes(brick, of_open_alone) : 0;
+  }
+  return bytes;
 }
 
 /// Takes room for the children of a brick that are blocks and have none: for all, or for those of instances.
@@ -88,7 +89,7 @@ void take_open_room_for(BrickDraft& draft, RecordWriter& writer) {
     return;
   }
   if (draft.address == no_address) {
-    writer.keep_together(subtree_bytes(draft));
+    writer.keep_together(subtree_bytes(draft, of_instances_alone));
     return take_open_records(draft, writer);
   }
   take_block_room(draft, writer, of_instances_alone);

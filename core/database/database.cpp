@@ -22,6 +22,7 @@
 #include "core/database/mesh_faces.h"
 #include "core/database/obstacle.h"
 #include "core/database/parallel.h"
+#include "core/database/placed_boxes.h"
 #include "core/database/record_writer.h"
 #include "core/database/sky_records.h"
 #include "core/database/texture_records.h"
@@ -620,10 +621,8 @@ void add_places(Address address, const std::byte* block, std::uint32_t first, co
 
 /// What each instance of a block of them puts in its place.
 void find_places_of_instances(const LocalRecords& records, const std::byte* block, std::vector<Database::Place>& places) {
-  const auto header = read<BlockHeader>(block);
-  const std::byte* const addresses = ids_of(header, block) + header.count * sizeof(std::uint32_t);
-  for (std::size_t i = 0; i < header.count; ++i) {
-    const Address address{read<std::uint32_t>(addresses + i * sizeof(std::uint32_t))};
+  for (std::size_t i = 0; i < read<BlockHeader>(block).count; ++i) {
+    const Address address = instance_in(block, i);
     const auto instance = read<InstanceRecord>(records.find(address));
     for_each_block_below(records, instance.root, [&](Address at, const std::byte* of_mesh) {
       add_places(
