@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/base/units.h"
@@ -21,15 +22,28 @@ bool is_below(const Vec3d& v, double coordinate_max) {
   return std::fabs(v.x) < coordinate_max && std::fabs(v.y) < coordinate_max && std::fabs(v.z) < coordinate_max;
 }
 
+/// Of a mesh, in its own coordinates.
+struct MeshBoxes {
+  Box all;
+  std::size_t run = 1;    ///< so many vertices, which a file has one after the other, lie in a box
+  std::vector<Box> runs;  ///< as many as a run has vertices, about
+
+  explicit MeshBoxes(const std::vector<Vec3d>& vertices) {
+    run += static_cast<std::size_t>(std::sqrt(static_cast<double>(vertices.size())));
+    runs.resize(ceil_divide(vertices.size(), run));
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      all.include(vertices[i]);
+      runs[i / run].include(vertices[i]);
+    }
+  }
+};
+
 class CopiesBounds {
  public:
   CopiesBounds(const KeptMeshes& kept, const GridAxes& axes, double coordinate_max)
       : kept_(kept), axes_(axes), coordinate_max_(coordinate_max) {
     for (const Scene& mesh : kept.meshes) {
-      Box& own = own_.emplace_back();
-      for (const Vec3d& vertex : mesh.vertices) {
-        own.include(vertex);
-      }
+      own_.emplace_back(mesh.vertices);
     }
   }
 
@@ -42,8 +56,7 @@ class CopiesBounds {
     parallel.for_each(boxes.size(), [&](std::size_t chunk) {
       const std::size_t end = std::min(kept_.places.size(), (chunk + 1) * places_a_chunk);
       for (std::size_t i = chunk * places_a_chunk; i < end; ++i) {
-        const Box reach = this->reach(kept_.places[i]);
-        if (!boxes[chunk].holds(reach.low) || !boxes[chunk].holds(reach.high)) {
+        if (!holds(boxes[chunk], reach(kept_.places[i]))) {
           include(boxes[chunk], kept_.places[i]);
         }
       }
@@ -57,7 +70,8 @@ class CopiesBounds {
   }
 
  private:
-  Box reach(const KeptPlace& place) const { return reach_of(own_[place.mesh], place.world, axes_); }
+  static bool holds(const Box& box, const Box& reach) { return box.holds(reach.low) && box.holds(reach.high); }
+  Box reach(const KeptPlace& place) const { return reach_of(own_[place.mesh].all, place.world, axes_); }
 
   /// To each side of each axis.
   std::vector<std::size_t> farthest() const {
@@ -79,9 +93,19 @@ class CopiesBounds {
     return places;
   }
 
+  /// The corners of runs whose boxes reach out.
   void include(Box& box, const KeptPlace& place) const {
-    for (const Vec3d& vertex : kept_.meshes[place.mesh].vertices) {
-      const Vec3d corner = place.world.point(vertex);
+    const std::vector<Vec3d>& vertices = kept_.meshes[place.mesh].vertices;
+    const MeshBoxes& own = own_[place.mesh];
+    for (std::size_t i = 0; i < own.runs.size(); ++i) {
+      if (!holds(box, reach_of(own.runs[i], place.world, axes_))) {
+        include(box, place.world, std::span(vertices).subspan(i * own.run, std::min(own.run, vertices.size() - i * own.run)));
+      }
+    }
+  }
+  void include(Box& box, const Transform& world, std::span<const Vec3d> vertices) const {
+    for (const Vec3d& vertex : vertices) {
+      const Vec3d corner = world.point(vertex);
       if (is_below(corner, coordinate_max_)) {
         box.include(turned(axes_, corner));
       }
@@ -91,7 +115,7 @@ class CopiesBounds {
   const KeptMeshes& kept_;
   const GridAxes& axes_;
   double coordinate_max_;
-  std::vector<Box> own_;  ///< of each mesh, in its own coordinates
+  std::vector<MeshBoxes> own_;  ///< of each mesh
 };
 
 }  // namespace
