@@ -8,6 +8,7 @@
 #include "dataflow/packets.h"
 #include "dataflow/ranks.h"
 #include "nodes/gathering.h"
+#include "nodes/ranks/repeated_runs.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -173,7 +174,7 @@ Report Frames::render(const core::RenderSettings& settings, const core::FineDeta
   }
   host().begin_frame(&detail_);
   if (options_.computer.ranks != nullptr) {
-    hand_out_frame(settings_, *options_.computer.ranks);
+    nodes::hand_out_again(settings_, *options_.computer.ranks);
   }
   return render(std::move(stop));
 }

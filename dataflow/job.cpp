@@ -95,17 +95,4 @@ Job job_from(std::string_view bytes, nodes::RankLinks& ranks) {
   return job;
 }
 
-std::string frame_bytes(const core::RenderSettings& settings) {
-  nodes::FlatWriter flat;
-  flat.put(nodes::StreamKind::again);
-  flat.put(settings);
-  return flat.take();
-}
-
-core::RenderSettings frame_from(std::string_view bytes) {
-  nodes::FlatReader flat(bytes);
-  core::expect(flat.take<nodes::StreamKind>() == nodes::StreamKind::again, "nodes that are there are told of a frame");
-  return flat.take<core::RenderSettings>();
-}
-
 }  // namespace dmpc::dataflow

@@ -27,8 +27,4 @@ std::string job_bytes(const Plan& plan, const core::RenderSettings& settings, co
 /// From these, on a rank, which makes the plan anew and expects it to be the same.
 Job job_from(std::string_view bytes, nodes::RankLinks& ranks);
 
-/// What another frame is told by: the same but for the camera, and what follows from it.
-std::string frame_bytes(const core::RenderSettings& settings);
-core::RenderSettings frame_from(std::string_view bytes);
-
 }  // namespace dmpc::dataflow

@@ -14,12 +14,10 @@
 namespace dmpc::dataflow {
 
 /// On rank 0, before its own nodes are made: sends each other rank its job, what is to be watched there and, node by node, what
-/// they are dealt. Returns when all have their nodes. `are_frames`: these are kept for hand_out_frame(). Throws what fails on
-/// another rank.
+/// they are dealt. Returns when all have their nodes. `are_frames`: these are kept, for nodes::hand_out_again() of settings
+/// before another picture. Throws what fails on another rank.
 void hand_out(const Plan& plan, const Distribution& distribution, const core::RenderSettings& settings,
               const std::string& watch_order, bool are_frames, nodes::RankLinks& links);
-/// Likewise before another picture on the nodes that are there: sends each other rank from where it is seen.
-void hand_out_frame(const core::RenderSettings& settings, nodes::RankLinks& links);
 
 /// What another rank does while rank 0 renders by run_prepared(). No more of the scene is in its memory than its nodes' parts.
 /// Where there are several frames it goes on with the next, or with new nodes, until rank 0 ends: throws nodes::Dismissed then,

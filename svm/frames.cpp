@@ -4,6 +4,7 @@
 
 #include "core/base/expect.h"
 #include "nodes/ranks/life_signs.h"
+#include "nodes/ranks/repeated_runs.h"
 #include "svm/ranks.h"
 #include "svm/resident.h"
 
@@ -47,7 +48,7 @@ Report Frames::render(const core::RenderSettings& settings, std::stop_token stop
     detail_ = settings.fine_detail(database_);
     computer_->begin_frame(settings_, &detail_);
     if (options_.computer.ranks != nullptr) {
-      hand_out_frame(settings_, *options_.computer.ranks);
+      nodes::hand_out_again(settings_, *options_.computer.ranks);
     }
   }
   Report report = computer_->render(std::move(stop));

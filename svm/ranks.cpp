@@ -9,8 +9,8 @@
 
 #include "nodes/byte_source.h"
 #include "nodes/ranks/ranks_runner.h"
+#include "nodes/ranks/repeated_runs.h"
 #include "nodes/ranks/stream_from_host.h"
-#include "nodes/ranks/stream_kind.h"
 #include "nodes/ranks/streams_to_ranks.h"
 #include "svm/job.h"
 #include "svm/program.h"
@@ -23,10 +23,8 @@ void hand_out(const Plan& plan, const core::RenderSettings& settings, const core
   nodes::StreamsToRanks streams(links);
   const std::uint32_t node_count = plan.request.computer.node_count;
   const std::string job = job_bytes(plan, settings, are_frames);
-  for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
-    streams.write_counted(rank, std::as_bytes(std::span(job)));
-    streams.write_counted(rank, std::as_bytes(std::span(watch_order)));
-  }
+  streams.write_counted_to_all(job);
+  streams.write_counted_to_all(watch_order);
   for (std::uint32_t node = 0; node < node_count; ++node) {
     const std::uint32_t rank = nodes::rank_of(node, node_count, links.rank_count());
     plan.request.strategy->for_each_piece(plan, node, [&](std::size_t offset, std::size_t bytes) {
@@ -34,15 +32,6 @@ void hand_out(const Plan& plan, const core::RenderSettings& settings, const core
         streams.write_piece(rank, database.bytes(), offset, bytes);
       }
     });
-  }
-  streams.finish();
-}
-
-void hand_out_frame(const core::RenderSettings& settings, nodes::RankLinks& links) {
-  nodes::StreamsToRanks streams(links);
-  const std::string frame = frame_bytes(settings);
-  for (std::uint32_t rank = 1; rank < links.rank_count(); ++rank) {
-    streams.write_counted(rank, std::as_bytes(std::span(frame)));
   }
   streams.finish();
 }
@@ -64,10 +53,10 @@ class Part {
     runner_ = nodes::make_runner(specifications_without_host(job_->plan, maker_), job_->plan.request.computer, watching.observer);
   }
 
-  bool are_frames() const { return job_->are_frames; }
+  bool is_repeated() const { return job_->are_frames; }
 
-  void begin_frame(std::string_view frame) {
-    job_->settings = frame_from(frame);
+  void begin_again(std::string_view told) {
+    job_->settings = nodes::read_again<core::RenderSettings>(told);
     for (std::uint32_t node = 0; node < job_->plan.request.computer.node_count; ++node) {
       if (runner_->is_here(node)) {
         dynamic_cast<PictureProgram&>(runner_->program(node)).begin_frame(job_->settings);
@@ -99,20 +88,8 @@ class Part {
 }  // namespace
 
 nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const Following& following) {
-  nodes::StreamFromHost stream(links);
-  std::string told = nodes::read_counted(stream);
-  while (true) {
-    Part part(told, stream, links, following);
-    nodes::Followed followed{.bytes_received = stream.bytes_read()};
-    followed.end = part.run(stop);
-    if (!part.are_frames()) {
-      return followed;
-    }
-    while (nodes::kind_of_stream(told = nodes::read_counted(stream)) == nodes::StreamKind::again) {
-      part.begin_frame(told);
-      part.run(stop);
-    }
-  }
+  return nodes::follow_runs(
+      links, stop, [&](std::string_view job, nodes::StreamFromHost& stream) { return Part(job, stream, links, following); });
 }
 
 }  // namespace dmpc::svm

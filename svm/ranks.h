@@ -18,13 +18,10 @@
 namespace dmpc::svm {
 
 /// On rank 0, before its own nodes are made: sends each other rank its job, what is to be watched there and, node by node, the
-/// pages that its programs keep. Returns when all have their nodes. `are_frames`: these are kept for hand_out_frame(). Throws
-/// what fails on another rank.
+/// pages that its programs keep. Returns when all have their nodes. `are_frames`: these are kept, for nodes::hand_out_again() of
+/// settings before another picture. Throws what fails on another rank.
 void hand_out(const Plan& plan, const core::RenderSettings& settings, const core::Database& database,
               const std::string& watch_order, bool are_frames, nodes::RankLinks& links);
-
-/// Likewise before another picture on the nodes that are there: sends each other rank from where it is seen.
-void hand_out_frame(const core::RenderSettings& settings, nodes::RankLinks& links);
 
 /// What a rank brings to a run of these strategies.
 struct Following : nodes::Following {

@@ -34,6 +34,12 @@ void StreamsToRanks::write_counted(std::uint32_t rank, std::span<const std::byte
   write(rank, bytes);
 }
 
+void StreamsToRanks::write_counted_to_all(std::string_view bytes) {
+  for (std::uint32_t rank = 1; rank < rank_count(); ++rank) {
+    write_counted(rank, std::as_bytes(std::span(bytes)));
+  }
+}
+
 void StreamsToRanks::write_piece(std::uint32_t rank, std::span<const std::byte> whole, std::size_t offset_bytes,
                                  std::size_t bytes) {
   const PieceHeader header{offset_bytes, bytes};

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "nodes/ranks/exchange.h"
@@ -31,6 +32,8 @@ class StreamsToRanks {
   void write(std::uint32_t rank, std::span<const std::byte> bytes);
   /// How many there are, then these bytes: for read_counted().
   void write_counted(std::uint32_t rank, std::span<const std::byte> bytes);
+  /// The same for each rank but this.
+  void write_counted_to_all(std::string_view bytes);
   /// The piece of `whole` from `offset_bytes` on: for a ByteSource.
   void write_piece(std::uint32_t rank, std::span<const std::byte> whole, std::size_t offset_bytes, std::size_t bytes);
   /// Waits until all ranks have read what is for them, and are ready; then streams can be written for another run. Throws as

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include "nodes/ranks/dismissal.h"
 #include "nodes/ranks/failure.h"
 #include "nodes/ranks/life_signs.h"
+#include "nodes/ranks/repeated_runs.h"
 #include "nodes/ranks/stream_from_host.h"
 #include "nodes/ranks/streams_to_ranks.h"
 #include "tests/support/loopback_ranks.h"
@@ -68,6 +71,55 @@ TEST_CASE("each rank reads its own stream, whole and in order, be it empty or lo
         CHECK(result.value == true);
       }
     }
+  }
+}
+
+/// The nodes of a rank, as follow_runs() has them: what they were told is noted, run by run.
+struct Noted {
+  std::string* heard;
+  StreamFromHost* stream;
+
+  bool is_repeated() const { return true; }
+  void begin_again(std::string_view told) { *heard += " again " + std::to_string(nodes::read_again<int>(told)); }
+  nodes::RunEnd run(std::stop_token) {
+    stream->say_ready();
+    return {};
+  }
+};
+
+TEST_CASE("ranks make nodes of a job, run them again by each value that is handed out, and make others of the next job") {
+  const auto results = tests::on_ranks(3, {.seed = 5}, [](nodes::Fabric& fabric) {
+    RankLinks links(fabric);
+    std::string heard;
+    if (fabric.rank() == 0) {
+      for (const int job : {1, 2}) {
+        nodes::FlatWriter flat;
+        flat.put(nodes::StreamKind::job);
+        flat.put(job);
+        StreamsToRanks streams(links);
+        streams.write_counted_to_all(flat.take());
+        streams.finish();
+        nodes::hand_out_again(10 * job, links);
+        nodes::hand_out_again(10 * job + 1, links);
+      }
+      nodes::dismiss(links, 0);
+      return heard;
+    }
+    try {
+      nodes::follow_runs(links, {}, [&](std::string_view told, StreamFromHost& stream) {
+        nodes::FlatReader flat(told);
+        flat.take<nodes::StreamKind>();
+        heard += " job " + std::to_string(flat.take<int>());
+        return Noted{&heard, &stream};
+      });
+    } catch (const nodes::Dismissed&) {
+      heard += " end";
+    }
+    return heard;
+  });
+  for (std::size_t rank : {1, 2}) {
+    CHECK(results[rank].failure_text() == "");
+    CHECK(results[rank].value == " job 1 again 10 again 11 job 2 again 20 again 21 end");
   }
 }
 

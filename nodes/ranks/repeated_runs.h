@@ -1,0 +1,61 @@
+// Several runs on the same nodes, as rank 0 tells the other ranks of them: a job for the first, of which they make their nodes,
+// and for each that follows the one value in which it differs.
+#pragma once
+
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/base/expect.h"
+#include "nodes/byte_source.h"
+#include "nodes/flat_bytes.h"
+#include "nodes/ranks/followed.h"
+#include "nodes/ranks/stream_from_host.h"
+#include "nodes/ranks/stream_kind.h"
+#include "nodes/ranks/streams_to_ranks.h"
+
+namespace dmpc::nodes {
+
+/// On rank 0, before another run on the nodes that are there: sends each other rank the value. Returns when all have taken it up.
+/// Throws what fails on another rank.
+template <class Value>
+void hand_out_again(const Value& value, RankLinks& links) {
+  FlatWriter flat;
+  flat.put(StreamKind::again);
+  flat.put(value);
+  StreamsToRanks streams(links);
+  streams.write_counted_to_all(flat.take());
+  streams.finish();
+}
+
+/// The value, from what another rank was told.
+template <class Value>
+Value read_again(std::string_view told) {
+  FlatReader flat(told);
+  core::expect(flat.take<StreamKind>() == StreamKind::again, "nodes that are there are told of another run");
+  return flat.take<Value>();
+}
+
+/// What another rank does until rank 0 ends: throws Dismissed then, and what fails. `make_part(told, stream)` makes the nodes
+/// that are here by what was told and the rest of the stream; they run, by `run(stop)`, and where `is_repeated()` run anew after
+/// each `begin_again(told)`, until they give way to others. Where they are not to run anew it returns after the first run.
+template <class MakePart>
+Followed follow_runs(RankLinks& links, const std::stop_token& stop, const MakePart& make_part) {
+  StreamFromHost stream(links);
+  std::string told = read_counted(stream);
+  while (true) {
+    auto part = make_part(std::string_view(told), stream);
+    Followed followed{.bytes_received = stream.bytes_read()};
+    followed.end = part.run(stop);
+    if (!part.is_repeated()) {
+      return followed;
+    }
+    while (kind_of_stream(told = read_counted(stream)) == StreamKind::again) {
+      part.begin_again(told);
+      part.run(stop);
+    }
+  }
+}
+
+}  // namespace dmpc::nodes
