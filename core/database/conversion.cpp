@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <span>
 
 #include "core/base/altitude.h"
@@ -131,7 +133,11 @@ void include_cube(Box& box, const Vec3d& center, double half) {
 class Converter {
  public:
   Converter(const Scene& scene, const GridFrame& frame, bool keeps_corners, Conversion& result)
-      : scene_(scene), frame_(frame), keeps_corners_(keeps_corners), result_(result) {}
+      : scene_(scene),
+        frame_(frame),
+        is_turned_(frame.axes != world_axes || frame.origin.x == 0 || frame.origin.y == 0 || frame.origin.z == 0),
+        keeps_corners_(keeps_corners),
+        result_(result) {}
 
   void add_object(std::uint32_t index) {
     const Object& object = scene_.objects[index];
@@ -170,7 +176,9 @@ class Converter {
   }
 
  private:
-  Vec3d local(const Vec3d& point) const { return to_local(frame_, point); }
+  /// As to_local() has it. What turning by the world's axes changes is the sign of a zero, which is lost where the origin has
+  /// none.
+  Vec3d local(const Vec3d& point) const { return is_turned_ ? to_local(frame_, point) : (point - frame_.origin) * frame_.scale; }
 
   /// `size`: what it has across before it is rounded, `at` where; asked if it is degenerate.
   template <class Size>
@@ -296,6 +304,7 @@ class Converter {
 
   const Scene& scene_;
   const GridFrame& frame_;
+  bool is_turned_;
   bool keeps_corners_;
   Conversion& result_;
 };
@@ -413,16 +422,51 @@ class Steps {
   std::uint32_t next_ = 0;  ///< of Scene::objects
 };
 
+/// Numbers along one axis.
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+
+  void include(double at) {
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+};
+
+/// The bounds of points if all of them are usable, as nearly always; in registers, by name: left to itself, GCC has what is
+/// gathered in a loop in memory.
+std::optional<Box> bounds_of_usable(std::span<const Vec3d> points) {
+  Range x, y, z;
+  double nothing = 0;
+  for (const Vec3d& point : points) {
+    x.include(point.x);
+    y.include(point.y);
+    z.include(point.z);
+    nothing += (point.x + point.y + point.z) * 0.0;  // unless one is no number, or infinite
+  }
+  const Box box{{x.low, y.low, z.low}, {x.high, y.high, z.high}};
+  return nothing == 0 && usable(box.low) && usable(box.high) ? std::optional(box) : std::nullopt;
+}
+
+Box bounds_of_points(std::span<const Vec3d> points, const GridAxes& axes) {
+  if (axes == world_axes) {
+    if (const auto bounds = bounds_of_usable(points)) {
+      return *bounds;
+    }
+  }
+  Box box;
+  for (const Vec3d& point : points) {
+    if (usable(point)) {
+      box.include(turned(axes, point));
+    }
+  }
+  return box;
+}
+
 Box bounds_of_vertices(const std::vector<Vec3d>& vertices, const GridAxes& axes, const Parallel& parallel) {
   std::vector<Box> boxes(ceil_divide(vertices.size(), chunk_size));
   parallel.for_each(boxes.size(), [&](std::size_t chunk) {
-    Box box;
-    for (std::size_t i = chunk * chunk_size; i < std::min(vertices.size(), (chunk + 1) * chunk_size); ++i) {
-      if (usable(vertices[i])) {
-        box.include(turned(axes, vertices[i]));
-      }
-    }
-    boxes[chunk] = box;
+    const std::size_t first = chunk * chunk_size;
+    boxes[chunk] = bounds_of_points(std::span(vertices).subspan(first, std::min(chunk_size, vertices.size() - first)), axes);
   });
   Box all;
   for (const Box& box : boxes) {
@@ -504,6 +548,11 @@ Conversion convert(const Scene& scene, const GridFrame& frame, const Parallel& p
   all.primitives.reserve(count);
   all.sources.reserve(count);
   all.shading.reserve(count);
+  if (parallel.threads() == 1) {
+    Converter converter(scene, frame, wishes.keeps_corners, all);
+    steps.convert(0, steps.size(), converter);
+    return all;
+  }
   std::vector<Conversion> chunks(chunks_together);
   for (std::size_t first = 0; first < steps.size(); first += chunk_size * chunks_together) {
     parallel.for_each(chunks.size(), [&](std::size_t chunk) {

@@ -7,6 +7,7 @@
 
 #include "core/base/morton.h"
 #include "core/base/units.h"
+#include "core/base/vector_width.h"
 #include "core/database/overlap.h"
 #include "core/record/directory.h"
 
@@ -29,6 +30,75 @@ void coarsen(GridFrame& frame) {
   frame.finest_cell *= 2;
 }
 
+namespace {
+
+using CellPlace = std::array<std::int32_t, 3>;  ///< of a top cell
+
+/// The first and the last top cells that boxes touch.
+struct CellRange {
+  CellPlace first, last;
+};
+
+/// The cell along an axis, from `begin` to number `most`, with edges so long.
+[[gnu::always_inline]] inline std::int32_t cell_at(double at, double begin, double edge, double most) {
+  const double place = (at - begin) / edge, within = place < 0.0 ? 0.0 : place;
+  return static_cast<std::int32_t>(most < within ? most : within);
+}
+
+/// Ranges of a few primitives, found side by side.
+class CellLanes {
+ public:
+  static constexpr std::size_t count_max = 16;
+
+  /// Of cells from `low` on, with edges so long, which touch what is within `pad`.
+  CellLanes(const CellPlace& size, const Vec3d& low, double edge, double pad)
+      : size_(size), low_(low), edge_(edge), pad_(pad), width_(vector_width()) {}
+
+  void put(std::size_t lane, const Box& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lows_[axis][lane] = box.low[axis];
+      highs_[axis][lane] = box.high[axis];
+    }
+  }
+  void put(std::size_t lane, const PrimitiveValues& primitive) {
+    if (primitive.kind != PrimitiveKind::triangle) {
+      return put(lane, bounds_of(primitive));
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float a = primitive.value[axis], b = primitive.value[3 + axis], c = primitive.value[6 + axis];
+      lows_[axis][lane] = double{std::min(std::min(a, b), c)};
+      highs_[axis][lane] = double{std::max(std::max(a, b), c)};
+    }
+  }
+  void find() {
+    run_by(width_, [this] {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double begin = low_[axis], most = size_[axis] - 1.0;
+        for (std::size_t lane = 0; lane < count_max; ++lane) {
+          first_[axis][lane] = cell_at(lows_[axis][lane] - pad_, begin, edge_, most);
+          last_[axis][lane] = cell_at(highs_[axis][lane] + pad_, begin, edge_, most);
+        }
+      }
+    });
+  }
+  CellRange range(std::size_t lane) const {
+    return {{first_[0][lane], first_[1][lane], first_[2][lane]}, {last_[0][lane], last_[1][lane], last_[2][lane]}};
+  }
+
+ private:
+  template <class T>
+  using Rows = std::array<std::array<T, count_max>, 3>;
+
+  CellPlace size_;
+  Vec3d low_;
+  double edge_, pad_;
+  VectorWidth width_;
+  alignas(64) Rows<double> lows_{}, highs_{};
+  Rows<std::int32_t> first_{}, last_{};
+};
+
+}  // namespace
+
 class TopCells::Lister {
  public:
   Lister(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad, bool lists_boxes = false)
@@ -45,40 +115,45 @@ class TopCells::Lister {
   void list(std::size_t chunk, std::size_t bound, Listed& listed) const {
     const std::size_t end = std::min(primitives_.size(), (chunk + 1) * chunk_size);
     listed.next = std::max(listed.next, chunk * chunk_size);
-    for (; listed.next < end; ++listed.next) {
-      if (primitives_[listed.next].kind == PrimitiveKind::instance) {
-        continue;
+    listed.is_cut_off = false;
+    CellLanes lanes(size_, low_, edge_, pad_);
+    while (listed.next < end && !listed.is_cut_off) {
+      const auto some = primitives_.subspan(listed.next, std::min(CellLanes::count_max, end - listed.next));
+      for (std::size_t lane = 0; lane < some.size(); ++lane) {
+        lanes.put(lane, some[lane]);
       }
-      const std::size_t before = listed.touches.size();
-      add(static_cast<std::uint32_t>(listed.next), bound, listed.touches);
-      if (listed.touches.size() > bound) {
-        listed.touches.resize(before);
-        listed.is_cut_off = true;
-        return;
+      lanes.find();
+      for (std::size_t lane = 0; lane < some.size() && !listed.is_cut_off; ++lane) {
+        list(some[lane], lanes.range(lane), bound, listed);
       }
     }
-    listed.is_cut_off = false;
   }
 
   bool is_within_one(const Box& box) const {
-    const auto [first, last] = cells_of(box);
-    return first == last;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto cell = [&](double at) { return cell_at(at, low_[axis], edge_, size_[axis] - 1.0); };
+      if (cell(box.low[axis] - pad_) != cell(box.high[axis] + pad_)) {
+        return false;
+      }
+    }
+    return true;
   }
 
  private:
-  using Place = std::array<std::int32_t, 3>;  ///< of a top cell
+  using Place = CellPlace;
 
-  /// The first and the last that a box touches.
-  std::pair<Place, Place> cells_of(const Box& box) const {
-    Place first{}, last{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto clamped = [&](double at) {
-        return static_cast<std::int32_t>(std::clamp((at - low_[axis]) / edge_, 0.0, size_[axis] - 1.0));
-      };
-      first[axis] = clamped(box.low[axis] - pad_);
-      last[axis] = clamped(box.high[axis] + pad_);
+  /// Lists the primitive that comes next, unless there would be too many touches.
+  void list(const PrimitiveValues& primitive, const CellRange& range, std::size_t bound, Listed& listed) const {
+    const std::size_t before = listed.touches.size();
+    if (primitive.kind != PrimitiveKind::instance) {
+      add(static_cast<std::uint32_t>(listed.next), range, bound, listed.touches);
     }
-    return {first, last};
+    listed.is_cut_off = listed.touches.size() > bound;
+    if (listed.is_cut_off) {
+      listed.touches.resize(before);
+    } else {
+      ++listed.next;
+    }
   }
 
   std::uint32_t index_of(const Place& place) const {
@@ -87,8 +162,8 @@ class TopCells::Lister {
   }
 
   /// Ends as soon as there are more than `bound` touches.
-  void add(std::uint32_t id, std::size_t bound, std::vector<Touch>& touches) const {
-    const auto [first, last] = cells_of(bounds_of(primitives_[id]));
+  void add(std::uint32_t id, const CellRange& range, std::size_t bound, std::vector<Touch>& touches) const {
+    const auto& [first, last] = range;
     if (first == last) {
       touches.push_back({index_of(first), id});
     } else if (lists_boxes_) {

@@ -17,7 +17,11 @@ inline constexpr double size_least = 0x1p-40;
 inline bool leaves_nothing(const std::array<Vec3d, 3>& corner) {
   const Vec3d &a = corner[0], &b = corner[1], &c = corner[2];
   const Vec3d area = cross(b - a, c - a);
-  if (a == b || b == c || c == a || !(dot(area, area) > 0)) {
+  const double squared = dot(area, area);  // at most 9 times the fourth power of the size
+  if (squared > 16 * size_least * size_least * size_least * size_least) {
+    return false;
+  }
+  if (a == b || b == c || c == a || !(squared > 0)) {
     return true;
   }
   double size = 0;

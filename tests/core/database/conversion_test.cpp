@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "tests/support/small_scenes.h"
 
@@ -61,6 +62,21 @@ TEST_CASE("the bounds of a scene hold what is finite in it") {
   const Box box = bounds_of(scene, world_axes, Parallel(2));
   CHECK(box.low == Vec3d{0, 0, 0});
   CHECK(box.high == Vec3d{4, 2.5, 3.5});
+}
+
+TEST_CASE("a vertex of which a number is none, or too large, bounds nothing, and those beside it do") {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double odd : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 1e30, -1e30}) {
+    Scene scene;
+    SceneBuilder builder(scene);
+    builder.polygon({{0, 0, 0}, {4, 0, 0}, {0, 1, 0}});
+    builder.polygon({{odd, 9, 9}, {-9, odd, 9}, {9, -9, odd}});
+    builder.polygon({{0, 0, 0}, {0, 0, -2}, {0, 1, 0}});
+    CAPTURE(odd);
+    const Box box = bounds_of(scene, world_axes, Parallel(1));
+    CHECK(box.low == Vec3d{0, 0, -2});
+    CHECK(box.high == Vec3d{4, 1, 0});
+  }
 }
 
 }  // namespace conversion_test

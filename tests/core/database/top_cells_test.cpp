@@ -65,6 +65,34 @@ TEST_CASE("cells come in Morton order with ascending primitives, whatever the nu
   }
 }
 
+TEST_CASE("a primitive is listed in the cells that it is listed in alone, whatever stands beside it") {
+  std::vector<PrimitiveValues> primitives;
+  for (int i = 0; i < 100; ++i) {
+    const auto at = [&](int step, float edge) { return edge * static_cast<float>((i * step) % 101) / 101.0F; };
+    const float x = at(17, 4), y = at(29, 2), z = at(43, 2), size = at(57, 0.7F);
+    if (i % 3 == 0) {
+      primitives.push_back(sphere(x, y, z, size));
+    } else {
+      primitives.push_back({.kind = PrimitiveKind::triangle, .value = {x, y, z, x - size, y, z + size, x, y - size, z}});
+    }
+  }
+  const TopCells all = cells_of(primitives);
+  std::size_t listed = 0;
+  for (std::uint32_t id = 0; id < primitives.size(); ++id) {
+    const TopCells alone = cells_of({primitives[id]});
+    listed += alone.size();
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      std::size_t same = 0;
+      while (same < all.size() && all.corner(same) != alone.corner(i)) {
+        ++same;
+      }
+      REQUIRE(same < all.size());
+      CHECK(std::binary_search(all.ids(same).begin(), all.ids(same).end(), id));
+    }
+  }
+  CHECK(all.references() == listed);
+}
+
 TEST_CASE("lists that would be long are not made") {
   const std::vector<PrimitiveValues> everywhere(100, sphere(2, 1, 1, 1));
   CHECK_FALSE(TopCells::list(everywhere, frame(), 0.01, Parallel(1)).has_value());

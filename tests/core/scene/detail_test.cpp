@@ -41,6 +41,15 @@ TEST_CASE("local zero lies where detail is close together beside something large
   }
 }
 
+TEST_CASE("detail that is close together is found wherever it lies") {
+  for (int i = 0; i < 60; ++i) {  // in steps of less than detail's reach, which is 7.8 here
+    const Vec3d place{-950 + i * 5.7, 900 - i * 7.1, 3};
+    const GridFrame frame = frame_of(balls_on_square(1000, place));
+    CAPTURE(i);
+    CHECK(length(to_local(frame, place)) < 4 * frame.scale);
+  }
+}
+
 TEST_CASE("local zero is where the grid begins if detail is spread over the scene") {
   for (const std::string name : {"balls", "gears", "jacks", "lattice", "mount", "rings", "sombrero", "teapot", "tetra", "tree"}) {
     CAPTURE(name);
