@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/expect.h"
+#include "core/trace/bundle.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/packets.h"
 #include "nodes/layout.h"
@@ -16,11 +17,13 @@ namespace dmpc::dataflow {
 
 /// A bounded set of rays in order of depth, and the account of whose credits its places stand for.
 ///
+/// Rays that are taken together lie together, so that neither their places nor their bytes are found one after the other.
+///
 /// Senders whose places are shared count as one. A sender's credit is a place for one full packet. So of the packets that have
 /// come from a sender, as many stay withheld as the rays of it that are still here would fill; the others are owed to it. Thread
 /// safety: belongs to one node.
 class RayQueue {
-  struct Entry;
+  struct List;
   struct Sender;
 
  public:
@@ -35,6 +38,11 @@ class RayQueue {
 
     std::uint32_t rays() const { return packets * ray_batch; }
     std::uint32_t lists() const { return (depth_max + 1) * (are_kinds_apart ? 2 : 1); }
+    /// Those that are taken together lie side by side.
+    std::uint32_t group_rays() const { return are_kinds_apart ? static_cast<std::uint32_t>(core::bundle_rays_max) : 1; }
+    /// Of each list one may not be full.
+    std::uint32_t groups() const { return (rays() + lists() * (group_rays() - 1)) / group_rays(); }
+    std::uint32_t places() const { return groups() * group_rays(); }
   };
 
   /// Empty.
@@ -42,21 +50,19 @@ class RayQueue {
       : packets_each_(capacity.packets_each),
         ray_batch_(capacity.ray_batch),
         lists_a_depth_(capacity.are_kinds_apart ? 2 : 1),
+        group_rays_(capacity.group_rays()),
         message_bytes_(ray_message_bytes(capacity.tested_objects)) {
-    std::tie(rays_, entries_, newest_, senders_) = layout(capacity).in(memory);
-    for (std::uint32_t& newest : newest_) {
-      newest = none;
-    }
-    for (std::uint32_t i = capacity.rays(); i > 0; --i) {
-      entries_[i - 1].older = free_;
-      free_ = i - 1;
+    std::tie(rays_, from_, older_, lists_, senders_) = layout(capacity).in(memory);
+    for (std::uint32_t group = capacity.groups(); group > 0; --group) {
+      release(group - 1);
     }
   }
   /// What the constructor takes.
-  static nodes::Layout<std::byte, Entry, std::uint32_t, Sender> layout(const Capacity& capacity) {
+  static nodes::Layout<std::byte, std::uint32_t, std::uint32_t, List, Sender> layout(const Capacity& capacity) {
     using nodes::Category;
-    return {{Category::queues, capacity.rays() * ray_message_bytes(capacity.tested_objects)},
-            {Category::queues, capacity.rays()},
+    return {{Category::queues, capacity.places() * ray_message_bytes(capacity.tested_objects)},
+            {Category::queues, capacity.places()},
+            {Category::queues, capacity.groups()},
             {Category::queues, capacity.lists()},
             {Category::queues, capacity.sender_count}};
   }
@@ -74,14 +80,11 @@ class RayQueue {
   }
   /// From where it lies in a packet.
   void put(std::uint32_t sender, std::span<const std::byte> message) {
-    core::expect(free_ != none, "a received ray has its place in the backlog");
     const std::uint32_t list = list_of(depth_in(message), kind_in(message));
-    core::expect(list < newest_.size(), "a ray is no deeper than the picture's depth");
-    const std::uint32_t place = free_;
-    free_ = entries_[place].older;
+    core::expect(list < lists_.size(), "a ray is no deeper than the picture's depth");
+    const std::uint32_t place = new_place(lists_[list]);
     copy_message(&rays_[place * message_bytes_], message.data(), message_bytes_);
-    entries_[place] = {newest_[list], sender};
-    newest_[list] = place;
+    from_[place] = sender;
     last_ = std::max<std::uint32_t>(last_, list);
     ++senders_[sender].rays;
     high_water_ = std::max(high_water_, ++size_);
@@ -91,13 +94,13 @@ class RayQueue {
   /// is as deep. Requires that there is one.
   RayMessage take(std::uint32_t& sender) {
     core::expect(size_ > 0, "a ray is taken from a backlog that has one");
-    while (newest_[last_] == none) {
+    while (lists_[last_].newest == none) {
       --last_;
     }
     return take_from(last_, sender);
   }
   /// Whether there is another as deep as that ray, and of its kind.
-  bool has_alike(const core::Ray& ray) const { return newest_[list_of(ray)] != none; }
+  bool has_alike(const core::Ray& ray) const { return lists_[list_of(ray)].newest != none; }
   /// Takes out the newest of these.
   RayMessage take_alike(const core::Ray& ray, std::uint32_t& sender) {
     core::expect(has_alike(ray), "a ray is taken from a backlog that has one");
@@ -127,37 +130,58 @@ class RayQueue {
   }
   std::uint32_t list_of(const core::Ray& ray) const { return list_of(ray.depth, ray.kind); }
   RayMessage take_from(std::uint32_t list, std::uint32_t& sender) {
-    const std::uint32_t place = newest_[list];
-    Entry& entry = entries_[place];
-    newest_[list] = entry.older;
-    entry.older = free_;
-    free_ = place;
+    const std::uint32_t place = leave_newest_place(lists_[list]);
     --size_;
-    sender = entry.sender;
+    sender = from_[place];
     --senders_[sender].rays;
     RayMessage message;
     copy_message(&message, &rays_[place * message_bytes_], message_bytes_);
     return message;
   }
 
-  /// What the list needs to know of a ray, by itself: places are found without waiting for the rays' memory.
-  struct Entry {
-    std::uint32_t older = none;  ///< the next of the same depth, or of the free ones
-    std::uint32_t sender = 0;
+  /// Rays of one depth, and kind if they are apart. Only the newest group may have room.
+  struct List {
+    std::uint32_t newest = none;
+    std::uint32_t count = 0;  ///< rays in it
   };
+
+  std::uint32_t new_place(List& list) {
+    if (list.newest == none || list.count == group_rays_) {
+      core::expect(free_ != none, "a received ray has its place in the backlog");
+      const std::uint32_t group = free_;
+      free_ = older_[group];
+      older_[group] = list.newest;
+      list = {group, 0};
+    }
+    return list.newest * group_rays_ + list.count++;
+  }
+  std::uint32_t leave_newest_place(List& list) {
+    const std::uint32_t group = list.newest, place = group * group_rays_ + --list.count;
+    if (list.count == 0) {
+      list = {older_[group], group_rays_};
+      release(group);
+    }
+    return place;
+  }
+  void release(std::uint32_t group) {
+    older_[group] = free_;
+    free_ = group;
+  }
+
   struct Sender {
     std::uint32_t packets = 0;  ///< received whose credits have not been given back
     std::uint32_t rays = 0;     ///< here
   };
 
-  std::uint32_t packets_each_, ray_batch_, lists_a_depth_;
+  std::uint32_t packets_each_, ray_batch_, lists_a_depth_, group_rays_;
   std::size_t message_bytes_;
-  std::span<std::byte> rays_;
-  std::span<Entry> entries_;
-  std::span<std::uint32_t> newest_;  ///< by depth, and by kind if they are apart
+  std::span<std::byte> rays_;       ///< group by group
+  std::span<std::uint32_t> from_;   ///< who sent each
+  std::span<std::uint32_t> older_;  ///< by group: the next of the same list, or of the free ones
+  std::span<List> lists_;           ///< by depth, and by kind if they are apart
   std::span<Sender> senders_;
-  std::uint32_t free_ = none;
-  std::uint32_t last_ = 0;  ///< no list behind it has a ray
+  std::uint32_t free_ = none;  ///< a group
+  std::uint32_t last_ = 0;     ///< no list behind it has a ray
   std::uint32_t size_ = 0, high_water_ = 0;
 };
 
