@@ -19,14 +19,11 @@
 #include "apps/picture/picture_format.h"
 #include "apps/picture/texture_size.h"
 #include "core/base/expect.h"
-#include "core/base/srgb.h"
 #include "core/database/record_writer.h"
-#include "core/scene/texel.h"
 
 namespace dmpc::apps {
 namespace {
 
-constexpr int channels = 3;
 /// So many texels has the finest level at most: four bytes each, and a third of that for the other levels.
 constexpr std::size_t texels_max = core::RecordWriter::bytes_max / 16 * 3;
 
@@ -150,91 +147,50 @@ void divide_by_alpha(std::vector<T>& values, const std::vector<T>& alpha, std::s
   }
 }
 
-/// Calls take(values of three channels) for each texel, row by row; integers come as 0 to 1.
-template <class T, class Take>
-void for_each_texel(const Input& input, const EncodedPicture& picture, OIIO::TypeDesc type, const Take& take) {
-  const int count = input.spec().nchannels < channels ? 1 : channels;
-  std::vector<T> values = read_values<T>(input, picture.name, type, 0, count);
-  if (is_associated(picture, input.spec())) {
-    const std::vector<T> alpha = read_values<T>(input, picture.name, type, input.spec().alpha_channel, 1);
-    divide_by_alpha(values, alpha, static_cast<std::size_t>(count), std::is_integral_v<T> ? 255 : 1);
-  }
-  const std::size_t green = count == channels ? 1 : 0, blue = 2 * green;
-  for (std::size_t first = 0; first < values.size(); first += static_cast<std::size_t>(count)) {
-    take(values[first], values[first + green], values[first + blue]);
-  }
-}
-
-void read_bytes(const Input& input, const EncodedPicture& picture, std::vector<std::uint32_t>& texels) {
-  using Byte = std::uint8_t;
-  for_each_texel<Byte>(input, picture, OIIO::TypeDesc::UINT8, [&](Byte red, Byte green, Byte blue) {
-    texels.push_back(std::uint32_t{red} | std::uint32_t{green} << 8U | std::uint32_t{blue} << 16U);
-  });
-}
-
-void read_fine(const Input& input, const EncodedPicture& picture, std::vector<std::uint32_t>& texels) {
-  const auto light = [](float value) { return core::linear_from_srgb(double{value}); };
-  for_each_texel<float>(input, picture, OIIO::TypeDesc::FLOAT, [&](float red, float green, float blue) {
-    texels.push_back(core::encoded(core::TexelFormat::fine_srgb, {light(red), light(green), light(blue)}));
-  });
-}
-
-void read_light(const Input& input, const EncodedPicture& picture, std::vector<std::uint32_t>& texels) {
-  for_each_texel<float>(input, picture, OIIO::TypeDesc::FLOAT, [&](float red, float green, float blue) {
-    texels.push_back(core::encoded(core::TexelFormat::shared_exponent, {double{red}, double{green}, double{blue}}));
-  });
-}
-
-/// By the type of its numbers alone: what a file says besides of gamma or of a profile does not count for a surface's colour
-/// (glTF 2.0, 3.9.2), nor for others' textures, whose writers hardly mean it.
 core::TexelFormat format_for(const OIIO::ImageSpec& spec) {
   return spec.format.is_floating_point()        ? core::TexelFormat::shared_exponent
          : spec.format == OIIO::TypeDesc::UINT8 ? core::TexelFormat::srgb
                                                 : core::TexelFormat::fine_srgb;
 }
 
-/// 255 is 1; empty if all are.
-std::vector<std::uint8_t> alpha_of(const EncodedPicture& picture) {
-  const Input input = open(picture, false);
-  const int channel = input.spec().alpha_channel;
-  if (channel < 0) {
-    return {};
-  }
-  auto alpha = read_values<std::uint8_t>(input, picture.name, OIIO::TypeDesc::UINT8, channel, 1);
-  const bool is_opaque = std::all_of(alpha.begin(), alpha.end(), [](std::uint8_t value) { return value == 255; });
-  return is_opaque ? std::vector<std::uint8_t>{} : alpha;
-}
+class OpenedByLibrary final : public OpenedPicture {
+ public:
+  OpenedByLibrary(const EncodedPicture& picture, PictureUse use)
+      : picture_(picture), use_(use), input_(use == PictureUse::texture ? open_texture(picture_) : open(picture_, false)) {}
 
-/// Puts what the file says of alpha beside a texture's colours, if some of it is not 1. The colours are those that were read
-/// without it, but for EXR's, which are multiplied by it.
-void add_alpha(const EncodedPicture& picture, core::Texture& texture) {
-  const std::vector<std::uint8_t> alpha = alpha_of(picture);
-  if (alpha.empty()) {
-    return;
+  PictureForm form() const override {
+    const OIIO::ImageSpec& spec = input_.spec();
+    return {static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), spec.nchannels, format_for(spec)};
   }
-  std::vector<std::uint32_t>& texels = texture.levels.front().texels;
-  for (std::size_t i = 0; i < texels.size(); ++i) {
-    const double share = alpha[i] / 255.0, multiplied = picture.format == "openexr" && share > 0 ? share : 1;
-    const core::Vec3d color = core::Vec3d(core::decoded(texture.format, texels[i])) * (1 / multiplied);
-    texels[i] = core::encoded(core::TexelFormat::srgb_alpha, color, share);
-  }
-  texture.format = core::TexelFormat::srgb_alpha;
-}
+  std::vector<std::uint8_t> bytes(int count) const override { return colors<std::uint8_t>(OIIO::TypeDesc::UINT8, count); }
+  std::vector<float> floats(int count) const override { return colors<float>(OIIO::TypeDesc::FLOAT, count); }
 
-void make_linear(std::vector<float>& values) {
-  for (float& value : values) {
-    value = static_cast<float>(core::linear_from_srgb(static_cast<double>(value)));
+  std::vector<std::uint8_t> alpha() const override {
+    const Input input = open(picture_, false);
+    const int channel = input.spec().alpha_channel;
+    if (channel < 0) {
+      return {};
+    }
+    auto alpha = read_values<std::uint8_t>(input, picture_.name, OIIO::TypeDesc::UINT8, channel, 1);
+    const bool is_opaque = std::all_of(alpha.begin(), alpha.end(), [](std::uint8_t value) { return value == 255; });
+    return is_opaque ? std::vector<std::uint8_t>{} : alpha;
   }
-}
 
-std::vector<float> spread(const std::vector<float>& gray) {
-  std::vector<float> rgb;
-  rgb.reserve(gray.size() * channels);
-  for (const float value : gray) {
-    rgb.insert(rgb.end(), channels, value);
+ private:
+  template <class T>
+  std::vector<T> colors(OIIO::TypeDesc type, int count) const {
+    std::vector<T> values = read_values<T>(input_, picture_.name, type, 0, count);
+    if (use_ == PictureUse::texture && is_associated(picture_, input_.spec())) {
+      const std::vector<T> alpha = read_values<T>(input_, picture_.name, type, input_.spec().alpha_channel, 1);
+      divide_by_alpha(values, alpha, static_cast<std::size_t>(count), std::is_integral_v<T> ? 255 : 1);
+    }
+    return values;
   }
-  return rgb;
-}
+
+  EncodedPicture picture_;
+  PictureUse use_;
+  Input input_;
+};
 
 }  // namespace
 
@@ -250,39 +206,8 @@ void prepare_decoders() {
   static_cast<void>(OIIO::geterror());
 }
 
-core::Texture decode_texture(const EncodedPicture& picture) {
-  const Input input = open_texture(picture);
-  const OIIO::ImageSpec& spec = input.spec();
-  const core::TexelFormat format = format_for(spec);
-  core::Texture texture{.name = picture.name,
-                        .format = format,
-                        .levels = {{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}}}};
-  texture.levels.front().texels.reserve(texel_count(spec));
-  const auto read = format == core::TexelFormat::srgb        ? read_bytes
-                    : format == core::TexelFormat::fine_srgb ? read_fine
-                                                             : read_light;
-  read(input, picture, texture.levels.front().texels);
-  if (picture.alpha == TextureAlpha::kept) {
-    add_alpha(picture, texture);
-  }
-  return texture;
-}
-
-bool has_alpha(const EncodedPicture& picture) { return !alpha_of(picture).empty(); }
-
-Image decode_image(const EncodedPicture& picture) {
-  const Input input = open(picture, false);
-  const OIIO::ImageSpec& spec = input.spec();
-  const int count = spec.nchannels < channels ? 1 : channels;
-  std::vector<float> values = read_values<float>(input, picture.name, OIIO::TypeDesc::FLOAT, 0, count);
-  if (!spec.format.is_floating_point()) {
-    make_linear(values);
-  }
-  Image image;
-  image.width = spec.width;
-  image.height = spec.height;
-  image.rgb = count == 1 ? spread(values) : std::move(values);
-  return image;
+std::unique_ptr<OpenedPicture> decode(const EncodedPicture& picture, PictureUse use) {
+  return std::make_unique<OpenedByLibrary>(picture, use);
 }
 
 }  // namespace dmpc::apps

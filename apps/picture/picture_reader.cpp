@@ -79,8 +79,7 @@ PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name
 
 core::Texture PictureReader::read_texture(const PictureFile& file, const TextureEdges& edges) {
   core::Texture texture{.name = file.name, .wrap_s = edges.s, .wrap_t = edges.t, .levels = {}};
-  read(file, Saying::read_texture, edges.alpha, [&] {
-    const Head head = receive_head(file);
+  read(file, {Saying::read_texture, edges.alpha}, [&](const Head& head) {
     check_texture_size(file.name, head.width, head.height);
     take_room(head);
     texture.format = head.format;
@@ -103,8 +102,7 @@ Image PictureReader::read_sky(const PictureFile& file) {
 template <class Check>
 Image PictureReader::read_image(const PictureFile& file, const Check& check) {
   Image image;
-  read(file, Saying::read_image, TextureAlpha::ignored, [&] {
-    const Head head = receive_head(file);
+  read(file, {Saying::read_image, TextureAlpha::ignored}, [&](const Head& head) {
     check(head);
     image.width = static_cast<int>(head.width);
     image.height = static_cast<int>(head.height);
@@ -115,12 +113,11 @@ Image PictureReader::read_image(const PictureFile& file, const Check& check) {
 
 /// A process that said nonsense, or died, is no more.
 template <class Take>
-void PictureReader::read(const PictureFile& file, Saying request, TextureAlpha alpha, const Take& take) {
+void PictureReader::read(const PictureFile& file, const Request& request, const Take& take) {
   std::string format = "pictures";
   try {
     format = format_text(file);
-    ask(file, request, alpha);
-    take();
+    take(ask(file, format, request));
     Unpacker::require(receive().saying == Saying::done);
   } catch (const ReaderDeath& death) {
     process_.reset();
@@ -145,18 +142,35 @@ void PictureReader::read(const PictureFile& file, Saying request, TextureAlpha a
   }
 }
 
-void PictureReader::ask(const PictureFile& file, Saying request, TextureAlpha alpha) {
-  const std::uint64_t memory = memory_bytes_for(file.bytes);
+/// What the one program leaves to the other has been looked at once in vain, which is on the budget.
+PictureReader::Head PictureReader::ask(const PictureFile& file, const std::string& format, const Request& request) {
   budget_.add_bytes(file.is_new ? file.bytes : 0);
   check_time();
-  if (!process_ || memory > memory_bytes_) {
+  const bool is_any_there = process_ && program_ == Program::any;
+  const bool may_be_plain = format == "png" || format == "jpeg";
+  Message answer = answer_of(may_be_plain && !is_any_there ? Program::plain : Program::any, file, format, request);
+  if (program_ == Program::plain && answer.saying == Saying::left_to_another) {
+    answer = answer_of(Program::any, file, format, request);
+  }
+  return head_of(answer, file);
+}
+
+Message PictureReader::answer_of(Program program, const PictureFile& file, const std::string& format, const Request& request) {
+  start(program, file.bytes);
+  const Packer fields =
+      Packer().add_text(file.name).add_text(format).add(static_cast<std::uint64_t>(file.bytes)).add(request.alpha);
+  process_->send(request.saying, fields, &file.descriptor);
+  return receive();
+}
+
+void PictureReader::start(Program program, std::uint64_t file_bytes) {
+  const std::uint64_t memory = memory_bytes_for(file_bytes);
+  if (!process_ || program != program_ || memory > memory_bytes_) {
     process_.reset();
-    process_.emplace("dmpc_picture_reader", memory, budget_);
+    program_ = program;
+    process_.emplace(program == Program::plain ? "dmpc_plain_picture_reader" : "dmpc_picture_reader", memory, budget_);
     memory_bytes_ = memory;
   }
-  const Packer fields =
-      Packer().add_text(file.name).add_text(format_text(file)).add(static_cast<std::uint64_t>(file.bytes)).add(alpha);
-  process_->send(request, fields, &file.descriptor);
 }
 
 /// Without it no process is started.
@@ -203,8 +217,7 @@ Message PictureReader::receive() {
   return message;
 }
 
-PictureReader::Head PictureReader::receive_head(const PictureFile& file) {
-  const Message message = receive();
+PictureReader::Head PictureReader::head_of(const Message& message, const PictureFile& file) {
   Unpacker::require(message.saying == Saying::picture);
   Unpacker fields(message.bytes);
   Head head{};

@@ -28,8 +28,9 @@ PictureFile open_picture(const std::filesystem::path& path);
 /// A copy in memory of what lies there.
 PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name, const std::string& ending);
 
-/// Keeps its process from one picture to the next, as long as that lives. All pictures together have one budget of time, which
-/// their bytes alone renew, and textures one of memory, which is looked at before there is room for one. All throw
+/// Keeps its process from one picture to the next, as long as that lives: one that reads PNG and JPEG alone, until one comes that
+/// it does not read, and from then on that which reads all, and takes long to start. All pictures together have one budget of
+/// time, which their bytes alone renew, and textures one of memory, which is looked at before there is room for one. All throw
 /// core::InputError "NAME: ...", and core::RoomError, which says so, if this computer has no room for the process or for the
 /// picture.
 class PictureReader {
@@ -55,22 +56,33 @@ class PictureReader {
     bool hides_alpha;
   };
 
+  /// What is asked for of a picture.
+  struct Request {
+    Saying saying;
+    TextureAlpha alpha;
+  };
+  /// The program that reads PNG and JPEG as nearly all are, or the one of all formats.
+  enum class Program : std::uint8_t { plain, any };
+
   template <class Take>
-  void read(const PictureFile& file, Saying request, TextureAlpha alpha, const Take& take);
-  void ask(const PictureFile& file, Saying request, TextureAlpha alpha);
+  void read(const PictureFile& file, const Request& request, const Take& take);
+  Head ask(const PictureFile& file, const std::string& format, const Request& request);
+  Message answer_of(Program program, const PictureFile& file, const std::string& format, const Request& request);
+  void start(Program program, std::uint64_t file_bytes);
   void check_time() const;
   void take_room(const Head& head);
   void check_sky(const Head& head) const;
   template <class Check>
   Image read_image(const PictureFile& file, const Check& check);
   std::uint64_t memory_bytes_max() const;
-  Head receive_head(const PictureFile& file);
+  static Head head_of(const Message& message, const PictureFile& file);
   template <class T>
   std::vector<T> receive_values(std::uint64_t count);
   Message receive();
 
   ReadingBudget budget_;
   std::optional<ReaderProcess> process_;
+  Program program_ = Program::plain;  ///< of the process
   std::uint64_t hidden_alphas_ = 0;
   std::uint64_t memory_bytes_ = 0, texture_bytes_ = 0;
 };

@@ -77,7 +77,7 @@ std::optional<Message> Line::receive(bool takes_file) {
   Message message;
   message.file = takes_file ? attached(header) : Descriptor();
   Unpacker::require((header.msg_flags & MSG_TRUNC) == 0 &&
-                    static_cast<std::uint8_t>(buffer_[0]) <= static_cast<std::uint8_t>(Saying::bounds));
+                    static_cast<std::uint8_t>(buffer_[0]) <= static_cast<std::uint8_t>(Saying::left_to_another));
   message.saying = static_cast<Saying>(buffer_[0]);
   message.bytes.assign(buffer_, 1, static_cast<std::size_t>(count) - 1);
   return message;

@@ -7,7 +7,7 @@
 namespace dmpc::apps {
 
 /// The version of the messages and of what they hold; processes of different builds do not understand each other.
-inline constexpr std::uint32_t protocol = 11;
+inline constexpr std::uint32_t protocol = 12;
 
 /// A message is no longer; more is sent in pieces.
 inline constexpr std::size_t message_bytes_max = 64 * 1024;
@@ -58,6 +58,7 @@ enum class Saying : std::uint8_t {
   spheres,    ///< of a scene that has some
   sky,        ///< the last of all: a picture's path, the rows of what turns the world's directions into its own, a factor
   bounds,     ///< of a scene at an animation's moment: a centre and a radius
+  left_to_another,  ///< the picture that is asked for: this program does not read it
 };
 
 }  // namespace dmpc::apps

@@ -1,6 +1,7 @@
 // Any bytes as a picture, by the first byte in a file that ends with .tga or with nothing: no format that is known, refused with
-// core::InputError, or a texture and an image of the size that the file says. Of OpenImageIO's readers those are left out that
-// are known to fail themselves, which is what readers are processes of their own for.
+// core::InputError, or a texture and an image of the size that the file says, the same without OpenImageIO where that can be. Of
+// OpenImageIO's readers those are left out that are known to fail themselves, which is what readers are processes of their own
+// for; a JPEG is read without it alone.
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -17,6 +18,8 @@
 #include <string_view>
 
 #include "apps/foreign/picture_decoder.h"
+#include "apps/foreign/plain_decoder.h"
+#include "apps/foreign/plain_picture.h"
 #include "apps/picture/picture_format.h"
 #include "core/base/expect.h"
 #include "tests/fuzz/targets.h"
@@ -25,6 +28,7 @@ namespace dmpc::fuzz {
 
 namespace {
 
+using apps::PictureUse;
 using core::expect;
 
 constexpr std::array<std::string_view, 3> formats_held{"png", "hdr", "pnm"};
@@ -52,8 +56,41 @@ auto decoded(const apps::EncodedPicture& picture, const Decode& decode) -> std::
   }
 }
 
+core::Texture texture_of(const apps::EncodedPicture& picture) {
+  return apps::texture_of(*apps::decode(picture, PictureUse::texture), picture);
+}
+
+apps::Image image_of(const apps::EncodedPicture& picture) { return apps::image_of(*apps::decode(picture, PictureUse::image)); }
+
+/// Held against what OpenImageIO makes of it.
+void try_plainly(const apps::EncodedPicture& picture, const std::optional<core::Texture>& texture,
+                 const std::optional<apps::Image>& image) {
+  const auto plain_texture = apps::decode_plain(picture, PictureUse::texture);
+  if (plain_texture) {
+    const core::Texture plain = apps::texture_of(*plain_texture, picture);
+    expect(texture && plain.format == texture->format && plain.levels.front().texels == texture->levels.front().texels,
+           "a texture is the same without OpenImageIO");
+  }
+  covered().count("png: a texture without OpenImageIO", plain_texture != nullptr);
+  const auto plain_image = apps::decode_plain(picture, PictureUse::image);
+  if (plain_image) {
+    expect(image && apps::image_of(*plain_image).rgb == image->rgb, "an image is the same without OpenImageIO");
+  }
+  covered().count("png: an image without OpenImageIO", plain_image != nullptr);
+}
+
+void try_jpeg(std::span<const std::byte> file) {
+  const std::optional<apps::RawPicture> jpeg = apps::jpeg_picture(file, pixels_max);
+  if (jpeg) {
+    expect(jpeg->values.size() == std::size_t{jpeg->width} * jpeg->height * static_cast<std::size_t>(jpeg->channels),
+           "every value is there");
+  }
+  covered().count("jpeg decoded", jpeg.has_value());
+  covered().count("jpeg left to OpenImageIO", !jpeg);
+}
+
 void try_picture(const apps::EncodedPicture& picture) {
-  const auto texture = decoded(picture, apps::decode_texture);
+  const auto texture = decoded(picture, texture_of);
   for (const std::string_view format : formats_held) {
     covered().count(std::string(format) + " decoded", picture.format == format && texture);
     covered().count(std::string(format) + " refused", picture.format == format && !texture);
@@ -63,10 +100,12 @@ void try_picture(const apps::EncodedPicture& picture) {
     const core::TextureLevel& level = texture->levels.front();
     expect(level.texels.size() == std::uint64_t{level.width} * level.height && !level.texels.empty(), "every texel is there");
   }
-  if (const auto image = decoded(picture, apps::decode_image)) {
+  const auto image = decoded(picture, image_of);
+  if (image) {
     expect(image->rgb.size() == std::size_t{3} * static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height),
            "every pixel is there");
   }
+  try_plainly(picture, texture, image);
 }
 
 }  // namespace
@@ -83,8 +122,10 @@ void try_picture(const std::uint8_t* data, std::size_t size) {
   const auto bytes = std::as_bytes(std::span(data, size)).subspan(1);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const auto format = apps::picture_format(text, data[0] % 2 == 1 ? "TGA" : "");
-  if (format && std::find(formats_held.begin(), formats_held.end(), *format) != formats_held.end()) {
-    const apps::EncodedPicture picture{bytes, "input", *format};
+  if (format == "jpeg") {
+    try_jpeg(bytes);
+  } else if (format && std::find(formats_held.begin(), formats_held.end(), *format) != formats_held.end()) {
+    const apps::EncodedPicture picture{bytes, "input", *format, apps::TextureAlpha::kept};
     if (is_small(picture)) {
       try_picture(picture);
     }

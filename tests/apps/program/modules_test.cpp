@@ -119,16 +119,18 @@ TEST_CASE("Embree as the tracer loads Embree") {
   CHECK((contains(by_tracer, "libembree") && !contains(by_tracer, "OpenImageIO")));
 }
 
-TEST_CASE("each program that reads or writes for dmpc is linked with the one library that it needs") {
+TEST_CASE("each program that reads or writes for dmpc is linked with the libraries that it needs, and with no other reader's") {
   const auto libraries_of = [](const std::string& reader) {
     ChildProcess process({"/usr/bin/env", "LD_TRACE_LOADED_OBJECTS=1", built / reader});
     CHECK(process.status() == 0);
     return process.output();
   };
   const std::string of_meshes = libraries_of("dmpc_mesh_reader"), of_pictures = libraries_of("dmpc_picture_reader"),
-                    of_writer = libraries_of("dmpc_picture_writer");
+                    of_plain = libraries_of("dmpc_plain_picture_reader"), of_writer = libraries_of("dmpc_picture_writer");
   CHECK((contains(of_meshes, "libassimp") && !contains(of_meshes, "OpenImageIO") && !contains(of_meshes, "embree")));
   CHECK((contains(of_pictures, "libOpenImageIO") && !contains(of_pictures, "assimp") && !contains(of_pictures, "embree")));
+  CHECK((contains(of_plain, "libpng") && contains(of_plain, "libjpeg") && !contains(of_plain, "OpenImageIO") &&
+         !contains(of_plain, "assimp") && !contains(of_plain, "embree")));
   CHECK((contains(of_writer, "libOpenImageIO") && !contains(of_writer, "assimp") && !contains(of_writer, "embree")));
 }
 

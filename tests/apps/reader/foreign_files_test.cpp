@@ -294,6 +294,61 @@ TEST_CASE("a file of materials that is named again at once is asked for once") {
   CHECK(mesh_complaint(scene, {}, 2) == "");
 }
 
+/// Whether the process that was started last has that library.
+bool last_child_has(const std::string& library) {
+  return file_text("/proc/" + std::to_string(last_child()) + "/maps").find(library) != std::string::npos;
+}
+
+TEST_CASE(
+    "PNG and JPEG are read without OpenImageIO, by one process, until a picture of another format comes, and then by that "
+    "one's") {
+  const TemporaryFolder folder;
+  write_wood(folder / "a.png");
+  for (const std::string name : {"a.jpg", "a.tga"}) {  // larger files, since a reader has memory for one that is so large
+    apps::write_image(folder / name, apps::Image(30, 20));
+  }
+  apps::PictureReader reader;
+  const auto reader_of = [&](const std::string& name) {
+    reader.read_texture(apps::open_picture(folder / name), {});
+    return last_child();
+  };
+  const int plain = reader_of("a.jpg");
+  CHECK(last_child_has("libjpeg"));
+  CHECK_FALSE(last_child_has("OpenImageIO"));
+  CHECK(reader_of("a.png") == plain);
+  const int any = reader_of("a.tga");
+  CHECK(any != plain);
+  CHECK(last_child_has("OpenImageIO"));
+  CHECK(reader_of("a.png") == any);
+}
+
+TEST_CASE("a PNG that libpng complains of is left to OpenImageIO, which says why it is not read") {
+  const TemporaryFolder folder;
+  apps::write_image(folder / "a.png", apps::Image(40, 40));
+  write_text(folder / "a.png", file_text(folder / "a.png").substr(0, 60));
+  apps::PictureReader reader;
+  const std::string text = complaint_of([&] { reader.read_texture(apps::open_picture(folder / "a.png"), {}); });
+  CHECK_MESSAGE(says(text, "a.png: cannot be read"), text);
+  CHECK(last_child_has("OpenImageIO"));
+}
+
+/// One pixel of 200 50 30 that is transparent.
+const std::string clear_png(
+    "\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\001\000\000\000\001\010\006\000\000"
+    "\000\037\025\304\211\000\000\000\015\111\104\101\124\170\234\143\070\141\044\307\000\000\003\367\001\031\231\027"
+    "\027\017\000\000\000\000\111\105\116\104\256\102\140\202",
+    70);
+
+TEST_CASE("an image with alpha is multiplied by it, as OpenImageIO does") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.png", clear_png);
+  apps::PictureReader reader;
+  CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().texels.front() == 0x1e32c8);
+  CHECK_FALSE(last_child_has("OpenImageIO"));
+  CHECK(reader.read_image(apps::open_picture(folder / "a.png")).rgb == std::vector<float>{0, 0, 0});
+  CHECK(last_child_has("OpenImageIO"));
+}
+
 TEST_CASE("a crash of the reader of pictures is an error of the picture, which is named with its format") {
   const TemporaryFolder folder;
   write_wood(folder / "a.png");

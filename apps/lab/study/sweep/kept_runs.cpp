@@ -36,6 +36,7 @@ void add_file(const fs::path& path, Digest& digest) {
 void add_companions(Digest& digest) {
   for (const auto& [name, folder] : {std::pair("dmpc_mesh_reader", "../libexec/dmpc"),
                                      {"dmpc_picture_reader", "../libexec/dmpc"},
+                                     {"dmpc_plain_picture_reader", "../libexec/dmpc"},
                                      {"dmpc_embree.so", "../lib/dmpc"}}) {
     try {
       add_file(companion_path(name, folder, name), digest);

@@ -1,0 +1,51 @@
+// A picture that a library has opened, and what becomes of it, whichever library that was.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "apps/foreign/encoded_picture.h"
+#include "apps/picture/image_file.h"
+#include "core/scene/texture.h"
+
+namespace dmpc::apps {
+
+/// What a picture is opened for.
+enum class PictureUse : std::uint8_t {
+  texture,  ///< colours are as they are without alpha
+  image     ///< colours are multiplied by alpha, as OpenImageIO multiplies them
+};
+
+struct PictureForm {
+  std::uint32_t width = 0, height = 0;  ///< pixels
+  int channels = 0;
+  /// Of a texture without alpha, by the type of its numbers alone: srgb for bytes, fine_srgb for other integers, shared_exponent
+  /// for floats. What a file says besides of gamma or of a profile does not count for a surface's colour (glTF 2.0, 3.9.2), nor
+  /// for others' textures, whose writers hardly mean it.
+  core::TexelFormat format{};
+};
+
+/// The library's complaints are core::InputError "NAME: ...".
+class OpenedPicture {
+ public:
+  OpenedPicture() = default;
+  virtual ~OpenedPicture() = default;
+  OpenedPicture(const OpenedPicture&) = delete;
+  OpenedPicture& operator=(const OpenedPicture&) = delete;
+
+  virtual PictureForm form() const = 0;
+  /// The first `count` channels of each pixel, row by row: 255 is 1.
+  virtual std::vector<std::uint8_t> bytes(int count) const = 0;
+  /// The same; integers come as 0 to 1.
+  virtual std::vector<float> floats(int count) const = 0;
+  /// One a pixel, 255 is 1; empty if there is none, or if all are.
+  virtual std::vector<std::uint8_t> alpha() const = 0;
+};
+
+/// The finest level alone, as apps/picture/texture_file.h says; edges are left to others. Requires a picture that was opened for
+/// a texture.
+core::Texture texture_of(const OpenedPicture& opened, const EncodedPicture& picture);
+/// As apps/picture/image_file.h says. Requires a picture that was opened for an image.
+Image image_of(const OpenedPicture& opened);
+
+}  // namespace dmpc::apps

@@ -1,0 +1,99 @@
+#include "apps/foreign/plain_decoder.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+#include "apps/foreign/plain_picture.h"
+
+namespace dmpc::apps {
+namespace {
+
+using Byte = std::uint8_t;
+using Wide = std::uint16_t;
+
+/// As OpenImageIO makes them of each other: a float is as near to 1 as the value is to its largest.
+float float_of(Byte value) { return static_cast<float>(value) * (1 / 255.0F); }
+float float_of(Wide value) { return static_cast<float>(value) * (1 / 65535.0F); }
+Byte byte_of(Byte value) { return value; }
+Byte byte_of(Wide value) { return static_cast<Byte>(float_of(value) * 255 + 0.5F); }
+
+class OpenedPlain final : public OpenedPicture {
+ public:
+  explicit OpenedPlain(RawPicture picture) : picture_(std::move(picture)) {}
+
+  PictureForm form() const override {
+    const core::TexelFormat format = picture_.has_wide_values ? core::TexelFormat::fine_srgb : core::TexelFormat::srgb;
+    return {picture_.width, picture_.height, picture_.channels, format};
+  }
+  std::vector<Byte> bytes(int count) const override {
+    return made_of_values<Byte>(0, count, [](auto value) { return byte_of(value); });
+  }
+  std::vector<float> floats(int count) const override {
+    return made_of_values<float>(0, count, [](auto value) { return float_of(value); });
+  }
+  std::vector<Byte> alpha() const override {
+    if (picture_.channels % 2 != 0) {
+      return {};
+    }
+    auto alpha = made_of_values<Byte>(picture_.channels - 1, 1, [](auto value) { return byte_of(value); });
+    return std::all_of(alpha.begin(), alpha.end(), [](Byte value) { return value == 255; }) ? std::vector<Byte>{} : alpha;
+  }
+  /// Of its alpha as the file has it.
+  bool is_opaque() const {
+    return picture_.channels % 2 != 0 || (picture_.has_wide_values ? is_opaque_in<Wide>() : is_opaque_in<Byte>());
+  }
+
+ private:
+  std::size_t pixels() const { return std::size_t{picture_.width} * picture_.height; }
+  template <class Value>
+  Value value_at(std::size_t pixel, int channel) const {
+    Value value{};
+    const std::size_t index = pixel * static_cast<std::size_t>(picture_.channels) + static_cast<std::size_t>(channel);
+    std::memcpy(&value, picture_.values.data() + index * sizeof(Value), sizeof(Value));
+    return value;
+  }
+  template <class Made, class Value, class Make>
+  std::vector<Made> made_of(int first, int count, const Make& make) const {
+    std::vector<Made> made(pixels() * static_cast<std::size_t>(count));
+    auto next = made.begin();
+    for (std::size_t pixel = 0; pixel < pixels(); ++pixel) {
+      for (int channel = first; channel < first + count; ++channel) {
+        *next++ = make(value_at<Value>(pixel, channel));
+      }
+    }
+    return made;
+  }
+  /// Of `count` channels from `first` on.
+  template <class Made, class Make>
+  std::vector<Made> made_of_values(int first, int count, const Make& make) const {
+    return picture_.has_wide_values ? made_of<Made, Wide>(first, count, make) : made_of<Made, Byte>(first, count, make);
+  }
+  template <class Value>
+  bool is_opaque_in() const {
+    const auto alpha = made_of<Value, Value>(picture_.channels - 1, 1, [](Value value) { return value; });
+    return std::all_of(alpha.begin(), alpha.end(), [](Value value) { return value == static_cast<Value>(-1); });
+  }
+
+  RawPicture picture_;
+};
+
+std::optional<RawPicture> plain_picture(const EncodedPicture& picture) {
+  return picture.format == "png"    ? png_picture(picture.bytes)
+         : picture.format == "jpeg" ? jpeg_picture(picture.bytes)
+                                    : std::nullopt;
+}
+
+}  // namespace
+
+std::unique_ptr<OpenedPicture> decode_plain(const EncodedPicture& picture, PictureUse use) {
+  std::optional<RawPicture> plain = plain_picture(picture);
+  if (!plain) {
+    return nullptr;
+  }
+  auto opened = std::make_unique<OpenedPlain>(*std::move(plain));
+  return use == PictureUse::texture || opened->is_opaque() ? std::move(opened) : nullptr;
+}
+
+}  // namespace dmpc::apps

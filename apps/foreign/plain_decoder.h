@@ -1,0 +1,14 @@
+// PNG and JPEG without OpenImageIO, as it decodes them.
+#pragma once
+
+#include <memory>
+
+#include "apps/foreign/opened_picture.h"
+
+namespace dmpc::apps {
+
+/// What decode() of apps/foreign/picture_decoder.h opens, to the last bit; nothing for a picture that is not plain
+/// (apps/foreign/plain_picture.h), or an image with alpha that is not 1: those are left to OpenImageIO, and so are all errors.
+std::unique_ptr<OpenedPicture> decode_plain(const EncodedPicture& picture, PictureUse use);
+
+}  // namespace dmpc::apps
