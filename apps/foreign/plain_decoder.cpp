@@ -14,17 +14,25 @@ using Byte = std::uint8_t;
 using Wide = std::uint16_t;
 
 /// As OpenImageIO makes them of each other: a float is as near to 1 as the value is to its largest.
+float float_of(float value) { return value; }
 float float_of(Byte value) { return static_cast<float>(value) * (1 / 255.0F); }
 float float_of(Wide value) { return static_cast<float>(value) * (1 / 65535.0F); }
 Byte byte_of(Byte value) { return value; }
-Byte byte_of(Wide value) { return static_cast<Byte>(float_of(value) * 255 + 0.5F); }
+/// What is no number is 0.
+Byte byte_of(float value) {
+  const float scaled = value * 255 + 0.5F;
+  return scaled >= 0 ? static_cast<Byte>(std::min(scaled, 255.0F)) : Byte{0};
+}
+Byte byte_of(Wide value) { return byte_of(float_of(value)); }
 
 class OpenedPlain final : public OpenedPicture {
  public:
   explicit OpenedPlain(RawPicture picture) : picture_(std::move(picture)) {}
 
   PictureForm form() const override {
-    const core::TexelFormat format = picture_.has_wide_values ? core::TexelFormat::fine_srgb : core::TexelFormat::srgb;
+    const core::TexelFormat format = picture_.value_bytes == sizeof(float)  ? core::TexelFormat::shared_exponent
+                                     : picture_.value_bytes == sizeof(Wide) ? core::TexelFormat::fine_srgb
+                                                                            : core::TexelFormat::srgb;
     return {picture_.width, picture_.height, picture_.channels, format};
   }
   std::vector<Byte> bytes(int count) const override {
@@ -34,15 +42,16 @@ class OpenedPlain final : public OpenedPicture {
     return made_of_values<float>(0, count, [](auto value) { return float_of(value); });
   }
   std::vector<Byte> alpha() const override {
-    if (picture_.channels % 2 != 0) {
-      return {};
-    }
-    auto alpha = made_of_values<Byte>(picture_.channels - 1, 1, [](auto value) { return byte_of(value); });
+    auto alpha = has_alpha() ? alpha_made<Byte>([](auto value) { return byte_of(value); }) : std::vector<Byte>{};
     return std::all_of(alpha.begin(), alpha.end(), [](Byte value) { return value == 255; }) ? std::vector<Byte>{} : alpha;
   }
-  /// Of its alpha as the file has it.
-  bool is_opaque() const {
-    return picture_.channels % 2 != 0 || (picture_.has_wide_values ? is_opaque_in<Wide>() : is_opaque_in<Byte>());
+  /// Whether nothing of it would be multiplied by alpha: light is already, where it is to be.
+  bool is_without_alpha() const {
+    if (!has_alpha() || picture_.value_bytes == sizeof(float)) {
+      return true;
+    }
+    const auto alpha = alpha_made<float>([](auto value) { return float_of(value); });
+    return std::all_of(alpha.begin(), alpha.end(), [](float value) { return value >= 1; });
   }
 
  private:
@@ -68,21 +77,24 @@ class OpenedPlain final : public OpenedPicture {
   /// Of `count` channels from `first` on.
   template <class Made, class Make>
   std::vector<Made> made_of_values(int first, int count, const Make& make) const {
-    return picture_.has_wide_values ? made_of<Made, Wide>(first, count, make) : made_of<Made, Byte>(first, count, make);
+    return picture_.value_bytes == sizeof(float)  ? made_of<Made, float>(first, count, make)
+           : picture_.value_bytes == sizeof(Wide) ? made_of<Made, Wide>(first, count, make)
+                                                  : made_of<Made, Byte>(first, count, make);
   }
-  template <class Value>
-  bool is_opaque_in() const {
-    const auto alpha = made_of<Value, Value>(picture_.channels - 1, 1, [](Value value) { return value; });
-    return std::all_of(alpha.begin(), alpha.end(), [](Value value) { return value == static_cast<Value>(-1); });
+  template <class Made, class Make>
+  std::vector<Made> alpha_made(const Make& make) const {
+    return made_of_values<Made>(picture_.channels - 1, 1, make);
   }
+  bool has_alpha() const { return picture_.channels % 2 == 0; }
 
   RawPicture picture_;
 };
 
 std::optional<RawPicture> plain_picture(const EncodedPicture& picture) {
-  return picture.format == "png"    ? png_picture(picture.bytes)
-         : picture.format == "jpeg" ? jpeg_picture(picture.bytes)
-                                    : std::nullopt;
+  return picture.format == "png"       ? png_picture(picture.bytes)
+         : picture.format == "jpeg"    ? jpeg_picture(picture.bytes)
+         : picture.format == "openexr" ? exr_picture(picture.bytes)
+                                       : std::nullopt;
 }
 
 }  // namespace
@@ -93,7 +105,7 @@ std::unique_ptr<OpenedPicture> decode_plain(const EncodedPicture& picture, Pictu
     return nullptr;
   }
   auto opened = std::make_unique<OpenedPlain>(*std::move(plain));
-  return use == PictureUse::texture || opened->is_opaque() ? std::move(opened) : nullptr;
+  return use == PictureUse::texture || opened->is_without_alpha() ? std::move(opened) : nullptr;
 }
 
 }  // namespace dmpc::apps

@@ -1,4 +1,4 @@
-// PNG and JPEG without OpenImageIO, as it decodes them.
+// PNG, JPEG and EXR without OpenImageIO, as it decodes them.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,8 @@
 namespace dmpc::apps {
 
 /// What decode() of apps/foreign/picture_decoder.h opens, to the last bit; nothing for a picture that is not plain
-/// (apps/foreign/plain_picture.h), or an image with alpha that is not 1: those are left to OpenImageIO, and so are all errors.
+/// (apps/foreign/plain_picture.h), or one with alpha that OpenImageIO would multiply or divide by: those are left to OpenImageIO,
+/// and so are all errors.
 std::unique_ptr<OpenedPicture> decode_plain(const EncodedPicture& picture, PictureUse use);
 
 }  // namespace dmpc::apps

@@ -1,5 +1,5 @@
-// Pictures of the two formats that nearly all textures have, by the libraries of these formats alone: OpenImageIO, which decodes
-// them by the same, takes a third of a second to load.
+// Pictures of the formats that nearly all textures, and dmpc's own pictures, have, by the libraries of these formats alone:
+// OpenImageIO, which decodes them by the same, takes a third of a second to load.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace dmpc::apps {
 
-/// Integers as the file has them, the first pixel at the top left.
+/// Numbers as the file has them, the first pixel at the top left.
 struct RawPicture {
   std::uint32_t width = 0, height = 0;
-  int channels = 0;              ///< grey, with alpha or without, or red, green and blue, likewise
-  bool has_wide_values = false;  ///< of two bytes, in this machine's order, not of one
+  int channels = 0;             ///< grey, with alpha or without, or red, green and blue, likewise
+  std::size_t value_bytes = 1;  ///< 1 or 2: integers, in this machine's order; 4: floats
   std::vector<std::uint8_t> values;
 };
 
@@ -31,5 +31,9 @@ std::optional<RawPicture> png_picture(std::span<const std::byte> file, std::uint
 
 /// A JPEG in grey or colours (of three channels). Nothing if it is none, or libjpeg has any complaint.
 std::optional<RawPicture> jpeg_picture(std::span<const std::byte> file, std::uint64_t pixels_max = plain_pixels_max);
+
+/// An EXR of one part in rows, whose channels are R, G and B, with A or without, or Y, of floats or halves, which become floats.
+/// Nothing if it is none, if some of it is no number, or if OpenEXR has any complaint.
+std::optional<RawPicture> exr_picture(std::span<const std::byte> file, std::uint64_t pixels_max = plain_pixels_max);
 
 }  // namespace dmpc::apps

@@ -102,11 +102,10 @@ std::optional<RawPicture> png_picture(std::span<const std::byte> file, std::uint
   RawPicture picture{.width = ::png_get_image_width(png, info),
                      .height = ::png_get_image_height(png, info),
                      .channels = ::png_get_channels(png, info),
-                     .has_wide_values = ::png_get_bit_depth(png, info) == 16,
+                     .value_bytes = ::png_get_bit_depth(png, info) == 16 ? std::size_t{2} : 1,
                      .values = {}};
-  const std::size_t value_bytes = picture.has_wide_values ? 2 : 1,
-                    row_bytes = picture.width * static_cast<std::size_t>(picture.channels) * value_bytes;
-  if (!is_plain_size(picture.width, picture.height, value_bytes, file.size(), pixels_max) ||
+  const std::size_t row_bytes = picture.width * static_cast<std::size_t>(picture.channels) * picture.value_bytes;
+  if (!is_plain_size(picture.width, picture.height, picture.value_bytes, file.size(), pixels_max) ||
       ::png_get_rowbytes(png, info) != row_bytes) {
     return std::nullopt;
   }

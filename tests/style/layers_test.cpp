@@ -84,7 +84,7 @@ const std::vector<Foreign> foreign = {
     {"OpenImageIO/",
      {"apps/foreign/picture_writer_main.cpp", "apps/foreign/picture_decoder.cpp", "tests/apps/modules/",
       "tests/fuzz/picture.cpp"}},
-    {"OpenEXR/", {"apps/picture/exr_file.cpp"}},
+    {"OpenEXR/", {"apps/picture/exr_file.cpp", "apps/foreign/exr_picture.cpp", "tests/apps/foreign/"}},
     {"mpi.h", {"apps/modules/mpi.cpp"}},
     {"gmpxx.h", {"apps/lab/oracle/exact.cpp"}},
     {"png.h", {"apps/picture/png_file.cpp", "apps/foreign/png_picture.cpp", "tests/apps/foreign/"}},

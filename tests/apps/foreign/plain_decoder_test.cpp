@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <bit>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "apps/foreign/plain_picture.h"
 #include "apps/picture/picture_format.h"
 #include "core/base/expect.h"
+#include "tests/apps/foreign/made_exr.h"
 #include "tests/apps/foreign/made_pictures.h"
 #include "tests/support/temporary_folder.h"
 
@@ -32,16 +34,29 @@ EncodedPicture picture_of(const std::string& file, TextureAlpha alpha = TextureA
   return {bytes_of(file), "picture", *format, alpha};
 }
 
+/// What is no number is equal, too.
+std::vector<std::uint32_t> bits_of(const std::vector<float>& floats) {
+  std::vector<std::uint32_t> bits;
+  for (const float number : floats) {
+    bits.push_back(std::bit_cast<std::uint32_t>(number));
+  }
+  return bits;
+}
+
 /// All that may be asked of it.
 struct Seen {
   std::uint32_t width = 0, height = 0;
   int channels = 0;
   core::TexelFormat format{}, kept_format{};
   std::vector<std::uint8_t> bytes, alpha;
-  std::vector<float> floats, image;
+  std::vector<float> floats;
   std::vector<std::uint32_t> texels, kept_texels;
 
-  friend bool operator==(const Seen&, const Seen&) = default;
+  bool operator==(const Seen& other) const {
+    return width == other.width && height == other.height && channels == other.channels && format == other.format &&
+           kept_format == other.kept_format && bytes == other.bytes && alpha == other.alpha &&
+           bits_of(floats) == bits_of(other.floats) && texels == other.texels && kept_texels == other.kept_texels;
+  }
 };
 
 std::vector<std::uint32_t> texels_of(const OpenedPicture& opened, const EncodedPicture& picture, core::TexelFormat& format) {
@@ -58,18 +73,21 @@ std::optional<Seen> seen_as_texture(const std::string& file, const Decode& decod
   }
   const apps::PictureForm form = opened->form();
   const int count = form.channels < 3 ? 1 : 3;
-  Seen seen{
-      form.width, form.height, form.channels, form.format, {}, opened->bytes(count), opened->alpha(), opened->floats(count), {},
-      {},         {}};
+  Seen seen{.width = form.width,
+            .height = form.height,
+            .channels = form.channels,
+            .bytes = opened->bytes(count),
+            .alpha = opened->alpha(),
+            .floats = opened->floats(count)};
   seen.texels = texels_of(*opened, picture_of(file, TextureAlpha::ignored), seen.format);
   seen.kept_texels = texels_of(*opened, picture_of(file), seen.kept_format);
   return seen;
 }
 
 template <class Decode>
-std::optional<std::vector<float>> seen_as_image(const std::string& file, const Decode& decode) {
+std::optional<std::vector<std::uint32_t>> seen_as_image(const std::string& file, const Decode& decode) {
   const auto opened = decode(picture_of(file), PictureUse::image);
-  return opened ? std::optional(apps::image_of(*opened).rgb) : std::nullopt;
+  return opened ? std::optional(bits_of(apps::image_of(*opened).rgb)) : std::nullopt;
 }
 
 /// Whether the file is decoded plainly, whatever it is asked for, to what OpenImageIO makes of it.
@@ -232,10 +250,46 @@ TEST_CASE("a JPEG for printers, or of colours that are no brightness, is left to
   }
 }
 
+TEST_CASE("an EXR of light, in rows, has the bits that OpenImageIO gives, whatever numbers it has") {
+  for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT}) {
+    for (const auto compression : {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
+                                   Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION, Imf::DWAA_COMPRESSION}) {
+      for (const std::vector<std::string>& channels :
+           std::vector<std::vector<std::string>>{{"R", "G", "B"}, {"R", "G", "B", "A"}, {"Y"}}) {
+        for (const auto& [left, top] : {std::pair(0, 0), {-3, 7}}) {
+          const ExrKind kind{.left = left, .top = top, .channels = channels, .type = type, .compression = compression};
+          CAPTURE(kind.text());
+          CHECK(is_as_by_library(exr_of(kind)));
+          CHECK(is_decoded_as_image(exr_of(kind)));
+        }
+      }
+    }
+  }
+  CHECK(is_as_by_library(exr_of({.order = Imf::DECREASING_Y})));
+  CHECK(is_as_by_library(exr_of({.width = 1, .height = 1})));
+  CHECK(is_as_by_library(exr_of({.width = 256, .height = 256, .channels = {"Y"}})));
+}
+
+TEST_CASE("an EXR of other channels or in tiles, or with what is no number, is left to OpenImageIO") {
+  for (const ExrKind& kind : std::vector<ExrKind>{{.channels = {"R", "G"}},
+                                                  {.channels = {"R", "G", "B", "Z"}},
+                                                  {.channels = {"left.R", "left.G", "left.B"}},
+                                                  {.type = Imf::UINT},
+                                                  {.has_tiles = true},
+                                                  {.are_all_numbers = false}}) {
+    CAPTURE(kind.text());
+    CHECK_FALSE(is_as_by_library(exr_of(kind)));
+  }
+}
+
 TEST_CASE("what is damaged is left to OpenImageIO, or has the bits that it gives") {
-  const std::vector<std::string> files = {png_of({}), png_of({.depth = 16, .is_interlaced = true}),
+  const std::vector<std::string> files = {png_of({}),
+                                          png_of({.depth = 16, .is_interlaced = true}),
                                           png_of({.color = PNG_COLOR_TYPE_PALETTE, .depth = 4, .has_transparency = true}),
-                                          jpeg_of({}), jpeg_of({.colors = JCS_GRAYSCALE, .is_progressive = true, .restart = 2})};
+                                          jpeg_of({}),
+                                          jpeg_of({.colors = JCS_GRAYSCALE, .is_progressive = true, .restart = 2}),
+                                          exr_of({}),
+                                          exr_of({.type = Imf::FLOAT, .compression = Imf::PIZ_COMPRESSION})};
   std::size_t left = 0, decoded = 0;
   for (std::size_t which = 0; which < files.size(); ++which) {
     const std::string& file = files[which];

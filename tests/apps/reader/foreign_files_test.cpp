@@ -300,11 +300,12 @@ bool last_child_has(const std::string& library) {
 }
 
 TEST_CASE(
-    "PNG and JPEG are read without OpenImageIO, by one process, until a picture of another format comes, and then by that "
+    "PNG, JPEG and EXR are read without OpenImageIO, by one process, until a picture of another format comes, and then by that "
     "one's") {
   const TemporaryFolder folder;
   write_wood(folder / "a.png");
-  for (const std::string name : {"a.jpg", "a.tga"}) {  // larger files, since a reader has memory for one that is so large
+  for (const std::string name :
+       {"a.exr", "a.jpg", "a.tga"}) {  // larger files, since a reader has memory for one that is so large
     apps::write_image(folder / name, apps::Image(30, 20));
   }
   apps::PictureReader reader;
@@ -315,6 +316,7 @@ TEST_CASE(
   const int plain = reader_of("a.jpg");
   CHECK(last_child_has("libjpeg"));
   CHECK_FALSE(last_child_has("OpenImageIO"));
+  CHECK(reader_of("a.exr") == plain);
   CHECK(reader_of("a.png") == plain);
   const int any = reader_of("a.tga");
   CHECK(any != plain);
