@@ -73,6 +73,23 @@ Color darkest_of(const TextureLevel& level) {
   return least;
 }
 
+/// Of bytes on the curve, which rises, the largest alone is decoded.
+double brightest_of(const TextureLevel& level, TexelFormat format) {
+  if (format == TexelFormat::srgb || format == TexelFormat::srgb_alpha) {
+    std::uint32_t most = 0;
+    for (const std::uint32_t texel : level.texels) {
+      most = std::max({most, texel & 0xffU, texel >> 8U & 0xffU, texel >> 16U & 0xffU});
+    }
+    return double{decoded(format, most).x};
+  }
+  double brightest = 0;
+  for (const std::uint32_t texel : level.texels) {
+    const Color color = decoded(format, texel);
+    brightest = std::max({brightest, double{color.x}, double{color.y}, double{color.z}});
+  }
+  return brightest;
+}
+
 }  // namespace
 
 void add_levels(Texture& texture) {
@@ -80,10 +97,7 @@ void add_levels(Texture& texture) {
   const TextureLevel& finest = texture.levels.front();
   expect(finest.width > 0 && finest.height > 0 && finest.texels.size() == std::size_t{finest.width} * finest.height,
          "a texture has texels");
-  for (const std::uint32_t texel : finest.texels) {
-    const Color color = decoded(texture.format, texel);
-    texture.brightest = std::max({texture.brightest, double{color.x}, double{color.y}, double{color.z}});
-  }
+  texture.brightest = std::max(texture.brightest, brightest_of(finest, texture.format));
   texture.darkest = texture.format == TexelFormat::linear ? darkest_of(finest) : Color{};
   const std::uint32_t count = level_count(finest.width, finest.height);
   texture.levels.reserve(count);
