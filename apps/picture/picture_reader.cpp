@@ -147,7 +147,7 @@ PictureReader::Head PictureReader::ask(const PictureFile& file, const std::strin
   budget_.add_bytes(file.is_new ? file.bytes : 0);
   check_time();
   const bool is_any_there = process_ && program_ == Program::any;
-  const bool may_be_plain = format == "png" || format == "jpeg" || format == "openexr";
+  const bool may_be_plain = format == "png" || format == "jpeg" || format == "openexr" || format == "hdr";
   Message answer = answer_of(may_be_plain && !is_any_there ? Program::plain : Program::any, file, format, request);
   if (program_ == Program::plain && answer.saying == Saying::left_to_another) {
     answer = answer_of(Program::any, file, format, request);
