@@ -1,20 +1,26 @@
 #include "dataflow/film_gather.h"
 
 #include <algorithm>
+#include <cstring>
+#include <new>
 
 #include "core/base/expect.h"
 #include "dataflow/rays/pixel_order.h"
 
 namespace dmpc::dataflow {
 
-FilmGather::FilmGather(nodes::Node& node, std::uint32_t node_count, std::uint32_t credits, std::uint32_t at_once)
-    : node_(&node), host_(nodes::NodeId{node_count}), room_(layout().in(node.memory()).data()), at_once_(at_once) {
-  core::expect(at_once >= 1 && at_once <= entries_at_once_max, "what may come at once has room in a packet");
-  node.grant(host_, film_channel, credits);
+FilmGather::FilmGather(nodes::Node& node, const Capacity& capacity)
+    : node_(&node),
+      host_(nodes::NodeId{capacity.node_count}),
+      packet_(layout(capacity.packet_entries).in(node.memory())),
+      entries_(std::launder(reinterpret_cast<FilmEntry*>(packet_.data() + film_packet_bytes(0))), capacity.packet_entries),
+      at_once_(capacity.at_once) {
+  core::expect(at_once_ >= 1 && at_once_ <= capacity.packet_entries, "what may come at once has room in a packet");
+  node.grant(host_, film_channel, capacity.credits);
 }
 
 void FilmGather::add(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {
-  core::expect(count_ < film_packet_entries, "no light is gathered while a film packet waits");
+  core::expect(count_ < entries_.size(), "no light is gathered while a film packet waits");
   ++counters_.deposits;
   if (FilmEntry* const entry = find(pixel, plane)) {
     counters_.saturated += core::add(entry->light, light) ? 1 : 0;
@@ -24,7 +30,7 @@ void FilmGather::add(std::uint32_t pixel, std::uint32_t plane, const core::Fixed
 }
 
 void FilmGather::add_only(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {
-  core::expect(count_ < film_packet_entries, "no light is gathered while a film packet waits");
+  core::expect(count_ < entries_.size(), "no light is gathered while a film packet waits");
   ++counters_.deposits;
   if (FilmEntry* const before = entry_before(pixel, plane, light)) {
     ++before->more;
@@ -36,7 +42,7 @@ void FilmGather::add_only(std::uint32_t pixel, std::uint32_t plane, const core::
 /// Among the newest, one for each row of a square: the entry that ends before this pixel and has the same light, or nullptr.
 FilmEntry* FilmGather::entry_before(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {
   for (std::uint32_t i = 1; i <= std::min(count_, PixelOrder::side); ++i) {
-    FilmEntry& entry = room_->entries[count_ - i];
+    FilmEntry& entry = entries_[count_ - i];
     if (pixel == entry.pixel + entry.more + 1 && entry.plane == plane && entry.light == light &&
         entry.more + 1U < film_entry_pixels_max) {
       return &entry;
@@ -46,15 +52,15 @@ FilmEntry* FilmGather::entry_before(std::uint32_t pixel, std::uint32_t plane, co
 }
 
 void FilmGather::append(std::uint32_t pixel, std::uint32_t plane, const core::FixedColor& light) {
-  room_->entries[count_++] = {pixel, static_cast<std::uint16_t>(plane), 0, light};
+  entries_[count_++] = {pixel, static_cast<std::uint16_t>(plane), 0, light};
   if (waits()) {
     flush();
   }
 }
 
 FilmEntry* FilmGather::find(std::uint32_t pixel, std::uint32_t plane) {
-  for (std::uint32_t i = count_; i > 0; --i) {
-    FilmEntry& entry = room_->entries[i - 1];
+  for (std::uint32_t i = 1; i <= std::min(count_, newest_entries); ++i) {
+    FilmEntry& entry = entries_[count_ - i];
     if (entry.pixel == pixel && entry.plane == plane && entry.more == 0) {
       return &entry;
     }
@@ -66,9 +72,9 @@ void FilmGather::flush() {
   if (count_ == 0 || node_->credits(host_, film_channel) == 0) {
     return;
   }
-  room_->header.count = count_;
-  const auto packet = std::as_bytes(std::span(room_, 1)).first(film_packet_bytes(count_));
-  node_->send_reserved(host_, film_channel, number_of(Kind::film), packet);
+  const FilmHeader header{.count = count_};
+  std::memcpy(packet_.data(), &header, sizeof(header));
+  node_->send_reserved(host_, film_channel, number_of(Kind::film), packet_.first(film_packet_bytes(count_)));
   counters_.entries += count_;
   count_ = 0;
   ++under_way_;

@@ -43,14 +43,13 @@ class MovingUnits {
   /// A packet of rays from a node; its rays are next.
   void packet_came(nodes::NodeId sender, const RayPacketHeader& header) { movement_.take_rays_left(sender, header.rays_left); }
   void ray_came(nodes::NodeId sender, std::span<const std::byte> bytes) {
-    const RayMessage message = message_in(bytes);
-    if (is_others(message)) {
-      movement_.is_behind(sender, unit_of(message));
+    if (is_others(bytes)) {
+      movement_.is_behind(sender, unit_of(bytes));
     }
   }
   /// The unit that the ray enters has moved on, and the sender did not know.
-  bool is_others(const RayMessage& message) const {
-    return message.is_confirmed == 0 && !movement_.answers_for(unit_of(message));
+  bool is_others(std::span<const std::byte> message) const {
+    return !is_confirmed_in(message) && !movement_.answers_for(unit_of(message));
   }
   /// Such a ray goes to another node.
   void sent_on() { movement_.sent_on(); }
@@ -69,7 +68,11 @@ class MovingUnits {
   void add_charges(nodes::Charges& charges) const { movement_.add_charges(charges); }
 
  private:
-  std::uint32_t unit_of(const RayMessage& message) const { return regions_->region_index_of(message.cell); }
+  std::uint32_t unit_of(std::span<const std::byte> message) const {
+    core::Corner cell;
+    get_field(message, offsetof(RayMessage, cell), cell);
+    return regions_->region_index_of(cell);
+  }
 
   Regions* regions_;
   UnitPages pages_;

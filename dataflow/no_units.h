@@ -42,7 +42,7 @@ class NoUnits {
   void rays_came() {}
   void packet_came(nodes::NodeId /*sender*/, const RayPacketHeader& /*header*/) {}
   void ray_came(nodes::NodeId /*sender*/, std::span<const std::byte> /*message*/) {}
-  bool is_others(const RayMessage& /*message*/) const { return false; }
+  bool is_others(std::span<const std::byte> /*message*/) const { return false; }
   void sent_on() {}
   void tell_news(nodes::NodeId /*sender*/) {}
   void tell_left(Gather& /*gather*/) const {}

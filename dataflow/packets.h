@@ -114,7 +114,8 @@ inline constexpr nodes::Channel control_channel = 2;
 inline constexpr nodes::Channel unit_channel = 3;
 static_assert(unit_channel < nodes::channel_count);
 
-/// What fits so many bytes is the default length of a packet of film; of rays on threads twice as many.
+/// What fits so many bytes is the length of a packet of film where rays walk alone, and by default of one of rays on a modelled
+/// machine; on threads that is more.
 inline constexpr std::size_t packet_bytes = 1_KiB;
 /// No packet is longer.
 inline constexpr std::size_t packet_bytes_max = 64_KiB;
@@ -195,12 +196,29 @@ inline std::span<std::byte> ray_bytes_in(std::span<std::byte> packet, std::size_
 inline void put_ray(std::span<std::byte> packet, std::size_t place, std::uint32_t tested_objects, const RayMessage& message) {
   copy_message(ray_bytes_in(packet, place, tested_objects).data(), &message, ray_message_bytes(tested_objects));
 }
-/// What a list of rays goes by, from where a message lies.
+/// What lies `offset` bytes behind the beginning of a message; and the way back.
+template <class T>
+void get_field(std::span<const std::byte> message, std::size_t offset, T& field) {
+  std::memcpy(&field, message.subspan(offset, sizeof(T)).data(), sizeof(T));
+}
+template <class T>
+void put_field(std::span<std::byte> message, std::size_t offset, const T& field) {
+  std::memcpy(message.subspan(offset, sizeof(T)).data(), &field, sizeof(T));
+}
+/// What is asked of a message where it lies.
 inline core::RayKind kind_in(std::span<const std::byte> message) {
   return static_cast<core::RayKind>(message[offsetof(RayMessage, ray) + offsetof(core::Ray, kind)]);
 }
 inline std::uint8_t depth_in(std::span<const std::byte> message) {
   return static_cast<std::uint8_t>(message[offsetof(RayMessage, ray) + offsetof(core::Ray, depth)]);
+}
+inline std::uint32_t pixel_in(std::span<const std::byte> message) {
+  std::uint32_t pixel = 0;
+  get_field(message, offsetof(RayMessage, ray) + offsetof(core::Ray, pixel), pixel);
+  return pixel;
+}
+inline bool is_confirmed_in(std::span<const std::byte> message) {
+  return message[offsetof(RayMessage, is_confirmed)] != std::byte{0};
 }
 /// How many rays fit so many bytes.
 constexpr std::uint32_t rays_in(std::size_t bytes, std::uint32_t tested_objects = 0) {
@@ -254,7 +272,12 @@ struct FilmHeader {
 static_assert(sizeof(FilmHeader) == 8 && std::is_trivially_copyable_v<FilmHeader>);
 
 constexpr std::size_t film_packet_bytes(std::size_t entry_count) { return sizeof(FilmHeader) + entry_count * sizeof(FilmEntry); }
-inline constexpr std::uint32_t film_packet_entries = (packet_bytes - sizeof(FilmHeader)) / sizeof(FilmEntry);
+/// How many entries fit so many bytes.
+constexpr std::uint32_t film_entries_in(std::size_t bytes) {
+  return static_cast<std::uint32_t>((bytes - sizeof(FilmHeader)) / sizeof(FilmEntry));
+}
+/// No packet of film has room for fewer.
+inline constexpr std::uint32_t film_packet_entries = film_entries_in(packet_bytes);
 
 struct FilmAcknowledgement {
   std::uint32_t count = 0;  ///< entries received

@@ -94,7 +94,7 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
                          + plan.node_count(),  // film of one entry, which is small: each node's last packet, and no other
           .bulk_slots = plan.node_count() * plan.host_credits  // overflow: each node's credits for the host
                         + plan.node_count() * plan.film_credits,
-          .bulk_payload_bytes = std::max(plan.packet_bytes(), film_packet_bytes(film_packet_entries))};
+          .bulk_payload_bytes = std::max(plan.packet_bytes(), film_packet_bytes(plan.film_entries()))};
 }
 
 /// Fewer credits than the mailboxes have room for, and a place for packets held back.

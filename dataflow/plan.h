@@ -1,6 +1,7 @@
 // What a run needs, in bytes, slots and credits, known before anything is allocated: fits, or says what would.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/picture/refinement.h"
+#include "dataflow/film_gather.h"
 #include "dataflow/packets.h"
 #include "dataflow/ray_options.h"
 #include "dataflow/rays/gather.h"
@@ -80,6 +82,14 @@ struct Plan {
   std::uint32_t tested_objects() const { return request.rays.tested_objects; }
   /// A full packet of rays.
   std::size_t packet_bytes() const { return ray_packet_bytes(ray_batch, tested_objects()); }
+
+  /// Of a full packet of film. Where rays walk together it is as long as one of rays, since each packet parts the pixels of a
+  /// bundle, whose later light then takes entries of its own.
+  std::uint32_t film_entries() const {
+    return rays_a_task > 1 ? film_entries_in(std::max(packet_bytes(), dataflow::packet_bytes)) : film_packet_entries;
+  }
+  /// What a node gathers light in, of which so many deposits may come at once.
+  FilmGather::Capacity film(std::uint32_t at_once) const { return {node_count(), film_credits, film_entries(), at_once}; }
 
   bool is_moving() const { return request.is_moving(); }
   /// Units in all, if regions move.

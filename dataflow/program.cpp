@@ -71,7 +71,7 @@ RaysTask make_task(nodes::Node& node, const Plan& plan) {
 /// A ray that ends leaves light once; hits that glow, which are shaded side by side, do so together.
 template <class RaysTask>
 std::uint32_t deposits_at_once(const core::DatabaseHeader& header) {
-  static_assert(RaysTask::rays_max < FilmGather::entries_at_once_max);
+  static_assert(RaysTask::rays_max < film_packet_entries);
   return core::hits_glow(header) ? RaysTask::rays_max : 1;
 }
 
@@ -98,7 +98,7 @@ RayProgram<RaysTask, Units>::RayProgram(nodes::Node& node, const Plan& plan, con
       leaves_runs_(!plan.request.computer.machine && plan.request.first_samples == 1),
       task_(make_task<RaysTask>(node, plan)),
       gather_(node, plan.gather()),
-      film_(node, plan.node_count(), plan.film_credits, deposits_at_once<RaysTask>(deal.header)),
+      film_(node, plan.film(deposits_at_once<RaysTask>(deal.header))),
       tells_host_alone_(plan.shares_places()),
       backpressure_(tells_host_alone_ ? 1 : plan.node_count() - 1, plan.queue_packets, !plan.request.rays.without_backpressure),
       termination_(Termination::member(node.id(), {plan.node_count()})) {
@@ -114,7 +114,7 @@ nodes::MemoryPlan NodeProgram::layout(const Plan& plan, std::uint32_t index) {
                              (plan.is_moving() ? MovingUnits::layout(plan, index) : NoUnits::layout(plan, index)) +
                              Primaries::layout(plan.is_moving() ? 0 : share.primary_runs, plan.request.is_dealt()) +
                              RayQueue::layout(backlog_capacity(plan)) + Places::layout(places_of(plan)) +
-                             Gather::layout(plan.gather()) + FilmGather::layout();
+                             Gather::layout(plan.gather()) + FilmGather::layout(plan.film_entries());
   if (plan.rays_a_task > 1) {
     memory += BundleTask::layout(plan.request.waiting_hits_max, plan.request.has_instances);
   } else {
@@ -338,25 +338,26 @@ void RayProgram<RaysTask, Units>::send_waiting() {
 template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::take_received() {
   std::uint32_t account = 0;
-  const RayMessage first = backlog_.take(account);
-  take_up(first, account);
-  for (std::uint32_t i = 1; i < RaysTask::rays_max && !packet_waits() && backlog_.has_alike(first.ray); ++i) {
-    const RayMessage message = backlog_.take_alike(first.ray, account);
+  std::span<const std::byte> message = backlog_.take(account);
+  take_up(message, account);
+  for (std::uint32_t i = 1; i < RaysTask::rays_max && !packet_waits() && backlog_.has_alike(); ++i) {
+    message = backlog_.take_alike(account);
     take_up(message, account);
   }
   go_on();
 }
 
 template <class RaysTask, class Units>
-void RayProgram<RaysTask, Units>::take_up(const RayMessage& message, std::uint32_t account) {
+void RayProgram<RaysTask, Units>::take_up(std::span<const std::byte> message, std::uint32_t account) {
   give_back(account, false);
-  newest_.pixel = message.ray.pixel;
-  newest_.depth = message.ray.depth;
-  if (message.is_confirmed != 0) {
-    shade_at_finder(message);
+  newest_.pixel = pixel_in(message);
+  newest_.depth = depth_in(message);
+  if (is_confirmed_in(message)) {
+    shade_at_finder(message_in(message));
   } else if (units_.is_others(message)) {
     units_.sent_on();
-    dispatch(constants_->regions.owner_of(message.cell), message);
+    const RayMessage others = message_in(message);
+    dispatch(constants_->regions.owner_of(others.cell), others);
   } else {
     task_.enter(message);
   }
@@ -381,7 +382,10 @@ void RayProgram<RaysTask, Units>::start_primary() {
   if (constants_->settings.shows_background(pixel)) {
     return leave_background(pixel, sample);
   }
-  shoot(constants_->settings.camera.primary_ray(pixel, sample));
+  shoot([&](core::Ray& ray) {
+    ray = constants_->settings.camera.primary_ray(pixel, sample);
+    return true;
+  });
 }
 
 /// What a primary ray that needs not be traced comes to. With one sample a pixel nothing else falls on it. On a modelled machine
@@ -407,18 +411,20 @@ template <class RaysTask, class Units>
 void RayProgram<RaysTask, Units>::go_on() {
   if (!task_.has_rays() && !task_.has_ended()) {
     task_.next_children(
-        tracer_, constants_->settings, operations_, [this](const core::Ray& child) { shoot(child); },
+        tracer_, constants_->settings, operations_, [this](const auto& make) { shoot(make); },
         [this](const core::Ray& ray, const core::Color& light) { leave_light(ray, light); });
   }
   trace();
 }
 
-/// A fresh ray.
+/// A fresh ray, if make(ray) makes one.
 template <class RaysTask, class Units>
-void RayProgram<RaysTask, Units>::shoot(const core::Ray& ray) {
-  ++operations_.rays[static_cast<std::size_t>(ray.kind)];
-  newest_.depth = ray.depth;
-  task_.shoot(ray);
+template <class Make>
+void RayProgram<RaysTask, Units>::shoot(const Make& make) {
+  if (const core::Ray* const ray = task_.shoot_made(make)) {
+    ++operations_.rays[static_cast<std::size_t>(ray->kind)];
+    newest_.depth = ray->depth;
+  }
 }
 
 /// The ray goes on in a region of this node's, or of another's.

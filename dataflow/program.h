@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -132,7 +133,7 @@ class RayProgram final : public NodeProgram {
   void hold_told_below();
   void send_waiting();
   void take_received();
-  void take_up(const RayMessage& message, std::uint32_t account);
+  void take_up(std::span<const std::byte> message, std::uint32_t account);
   bool has_primaries() const { return !primaries_.empty() || units_.primaries_left() > 0; }
   void start_primaries();
   void start_primary();
@@ -141,7 +142,8 @@ class RayProgram final : public NodeProgram {
   void leave_light(const core::Ray& ray, const core::Color& found);
   void go_on();
   void trace();
-  void shoot(const core::Ray& ray);
+  template <class Make>
+  void shoot(const Make& make);
   void go_to_stop();
   void end_ray();
   void end_hit();

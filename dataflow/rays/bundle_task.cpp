@@ -26,21 +26,26 @@ BundleTask::layout(std::uint32_t waiting_max, bool has_instances) {
 }
 
 void BundleTask::shoot(const core::Ray& ray) {
-  core::expect(!has_ended() && count_ < rays_max, "a bundle has room for its rays");
-  bundle_->rays[count_] = ray;
-  flights_->entry[count_++].finder = self_;
+  shoot_made([&ray](core::Ray& place) {
+    place = ray;
+    return true;
+  });
 }
 
-void BundleTask::enter(const RayMessage& message) {
+/// From where it lies: what is copied from copies has to wait for them.
+void BundleTask::enter(std::span<const std::byte> message) {
   core::expect(count_ < (has_ended() ? ended_ : rays_max), "a bundle has room for its rays");
+  core::expect(message.size() == ray_message_bytes(0), "rays of bundles have no lists with them");
   entered_ |= core::RayMask{1} << count_;
-  bundle_->rays[count_] = message.ray;
-  Entry& entry = flights_->entry[count_++];
-  entry.passage.t_enter = message.t_enter;  // one by one: together they would wait until the message has been written
-  entry.passage.cell = message.cell;
-  entry.passage.entry_axis = message.entry_axis;
-  entry.passage.best = message.best;
-  entry.finder = nodes::NodeId{message.finder};
+  get_field(message, offsetof(RayMessage, ray), bundle_->rays[count_]);
+  auto& [passage, finder] = flights_->entry[count_++];
+  get_field(message, offsetof(RayMessage, t_enter), passage.t_enter);
+  get_field(message, offsetof(RayMessage, cell), passage.cell);
+  get_field(message, offsetof(RayMessage, entry_axis), passage.entry_axis);
+  get_field(message, offsetof(RayMessage, best), passage.best);
+  std::uint16_t finder_index = 0;
+  get_field(message, offsetof(RayMessage, finder), finder_index);
+  finder = nodes::NodeId{finder_index};
 }
 
 void BundleTask::resume_hit(const RayMessage& message) {
@@ -156,29 +161,22 @@ nodes::NodeId BundleTask::finder_of_candidate() const { return found_here() ? se
 
 RayMessage BundleTask::leaving() const {
   RayMessage message;
-  describe_leaving(message);
+  put_leaving(std::as_writable_bytes(std::span(&message, 1)).first(ray_message_bytes(0)));
   return message;
 }
 
-/// Rays of bundles have no names with them, so messages lie as they do in memory; only what stands before the names is touched,
-/// of which alone there is room.
+/// Each value once: what is copied from copies has to wait for them.
 void BundleTask::put_leaving(std::span<std::byte> place) const {
   core::expect(place.size() == ray_message_bytes(0), "rays of bundles have no lists with them");
-  describe_leaving(*reinterpret_cast<RayMessage*>(place.data()));
-}
-
-/// Each value once: what is copied from copies has to wait for them. Names of tested objects are left alone.
-void BundleTask::describe_leaving(RayMessage& message) const {
   const core::RayBundle& bundle = *bundle_;
-  message.ray = ray();
-  message.t_enter = bundle.t_enter[ended_];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    message.cell[axis] = bundle.arrival[axis][ended_];
-  }
-  message.entry_axis = bundle.entry_axis[ended_];
-  message.is_confirmed = 0;
-  message.finder = static_cast<std::uint16_t>(nodes::index_of(finder_of_candidate()));
-  message.best = travelling_candidate();
+  put_field(place, offsetof(RayMessage, ray), ray());
+  put_field(place, offsetof(RayMessage, t_enter), bundle.t_enter[ended_]);
+  put_field(place, offsetof(RayMessage, cell),
+            core::Corner{bundle.arrival[0][ended_], bundle.arrival[1][ended_], bundle.arrival[2][ended_]});
+  put_field(place, offsetof(RayMessage, entry_axis), bundle.entry_axis[ended_]);
+  put_field(place, offsetof(RayMessage, is_confirmed), std::uint8_t{0});
+  put_field(place, offsetof(RayMessage, finder), static_cast<std::uint16_t>(nodes::index_of(finder_of_candidate())));
+  put_field(place, offsetof(RayMessage, best), travelling_candidate());
 }
 
 RayMessage BundleTask::confirmed_hit() const {

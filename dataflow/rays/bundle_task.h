@@ -45,7 +45,10 @@ class BundleTask {
 
   // See RayTask. As many rays and hits as rays_max since trace() or next_children(), but for rays that go on in this region:
   void shoot(const core::Ray& ray);
-  void enter(const RayMessage& message);
+  template <class Make>
+  const core::Ray* shoot_made(const Make& make);
+  void enter(const RayMessage& message) { enter(std::as_bytes(std::span(&message, 1)).first(ray_message_bytes(0))); }
+  void enter(std::span<const std::byte> message);
   void resume_hit(const RayMessage& message);
 
   /// Traces rays until each ends here or leaves its region, or does not start in that: those that enter other regions of the
@@ -66,8 +69,8 @@ class BundleTask {
   RayMessage confirmed_hit() const;
   void drop_ended() { ++ended_; }
 
-  /// Shades the newest hits until they make children (true), for each of which shoot(child) is called, or no hit is left (false).
-  /// Requires that no ray is under way.
+  /// Shades the newest hits until they make children (true), for each of which shoot(make) is called, or no hit is left (false):
+  /// that may call make(ray) once, which says whether there is one. Requires that no ray is under way.
   template <class Shoot, class Shine>
   bool next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations, const Shoot& shoot,
                      const Shine& shine);
@@ -89,7 +92,6 @@ class BundleTask {
     Bundle bundle;
   };
 
-  void describe_leaving(RayMessage& message) const;
   core::Hit travelling_candidate() const;
   nodes::NodeId finder_of_candidate() const;
   void push(const core::Ray& ray, const core::Hit& hit);
@@ -113,6 +115,18 @@ class BundleTask {
   bool knows_stops_ = false;      ///< of those that have left
 };
 
+/// In the place where it is traced.
+template <class Make>
+const core::Ray* BundleTask::shoot_made(const Make& make) {
+  core::expect(!has_ended() && count_ < rays_max, "a bundle has room for its rays");
+  core::Ray& ray = bundle_->rays[count_];
+  if (!make(ray)) {
+    return nullptr;
+  }
+  flights_->entry[count_++].finder = self_;
+  return &ray;
+}
+
 template <class Shoot, class Shine>
 bool BundleTask::next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations,
                                const Shoot& shoot, const Shine& shine) {
@@ -123,12 +137,7 @@ bool BundleTask::next_children(PartTracer& tracer, const core::RenderSettings& s
     core::Address absent = core::no_address;
     core::BundleShader<PartTracer> shader(hits, tracer, settings, operations);
     const bool is_here = shader.step(
-        absent,
-        [&](std::uint32_t, const auto& make) {
-          if (core::Ray child; make(child)) {
-            shoot(child);
-          }
-        },
+        absent, [&](std::uint32_t, const auto& make) { shoot(make); },
         [&](const core::Color& light, std::uint32_t i) { shine(hits.hit[i].ray, light); });
     core::expect(is_here, "a node has every record of its region");
     if (has_rays()) {

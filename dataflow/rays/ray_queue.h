@@ -40,8 +40,11 @@ class RayQueue {
     std::uint32_t lists() const { return (depth_max + 1) * (are_kinds_apart ? 2 : 1); }
     /// Those that are taken together lie side by side.
     std::uint32_t group_rays() const { return are_kinds_apart ? static_cast<std::uint32_t>(core::bundle_rays_max) : 1; }
-    /// Of each list one may not be full.
-    std::uint32_t groups() const { return (rays() + lists() * (group_rays() - 1)) / group_rays(); }
+    /// Of each list that is used one may not be full; none has less than a ray.
+    std::uint32_t groups() const {
+      const std::uint32_t used = lists() - (are_kinds_apart ? 2 : 1);  // no ray has depth 0
+      return std::min(rays(), (rays() + used * (group_rays() - 1)) / group_rays());
+    }
     std::uint32_t places() const { return groups() * group_rays(); }
   };
 
@@ -80,7 +83,8 @@ class RayQueue {
   }
   /// From where it lies in a packet.
   void put(std::uint32_t sender, std::span<const std::byte> message) {
-    const std::uint32_t list = list_of(depth_in(message), kind_in(message));
+    const std::uint32_t list =
+        lists_a_depth_ * depth_in(message) + (lists_a_depth_ > 1 && kind_in(message) == core::RayKind::shadow ? 1 : 0);
     core::expect(list < lists_.size(), "a ray is no deeper than the picture's depth");
     const std::uint32_t place = new_place(lists_[list]);
     copy_message(&rays_[place * message_bytes_], message.data(), message_bytes_);
@@ -90,21 +94,25 @@ class RayQueue {
     high_water_ = std::max(high_water_, ++size_);
   }
 
-  /// Takes out the deepest ray, of equally deep ones the newest, and says who sent it. With kinds apart it is a shadow ray if one
-  /// is as deep. Requires that there is one.
-  RayMessage take(std::uint32_t& sender) {
+  /// Takes out the deepest ray, of equally deep ones the newest, and says who sent it; its bytes lie there until the next put().
+  /// With kinds apart it is a shadow ray if one is as deep. Requires that there is one.
+  std::span<const std::byte> take(std::uint32_t& sender) {
     core::expect(size_ > 0, "a ray is taken from a backlog that has one");
     while (lists_[last_].newest == none) {
       --last_;
     }
-    return take_from(last_, sender);
+    return take_alike(sender);
   }
-  /// Whether there is another as deep as that ray, and of its kind.
-  bool has_alike(const core::Ray& ray) const { return lists_[list_of(ray)].newest != none; }
+  /// Whether there is another as deep as the one that take() has taken out, and of its kind. Requires no put() since.
+  bool has_alike() const { return lists_[last_].newest != none; }
   /// Takes out the newest of these.
-  RayMessage take_alike(const core::Ray& ray, std::uint32_t& sender) {
-    core::expect(has_alike(ray), "a ray is taken from a backlog that has one");
-    return take_from(list_of(ray), sender);
+  std::span<const std::byte> take_alike(std::uint32_t& sender) {
+    core::expect(has_alike(), "a ray is taken from a backlog that has one");
+    const std::uint32_t place = leave_newest_place(lists_[last_]);
+    --size_;
+    sender = from_[place];
+    --senders_[sender].rays;
+    return rays_.subspan(place * message_bytes_, message_bytes_);
   }
   /// The credits that `sender` can have back: its packets that its rays still here would not fill.
   std::uint32_t owed(std::uint32_t sender) const {
@@ -124,20 +132,6 @@ class RayQueue {
 
  private:
   static constexpr std::uint32_t none = 0xffffffffU;
-
-  std::uint32_t list_of(std::uint32_t depth, core::RayKind kind) const {
-    return lists_a_depth_ * depth + (lists_a_depth_ > 1 && kind == core::RayKind::shadow ? 1 : 0);
-  }
-  std::uint32_t list_of(const core::Ray& ray) const { return list_of(ray.depth, ray.kind); }
-  RayMessage take_from(std::uint32_t list, std::uint32_t& sender) {
-    const std::uint32_t place = leave_newest_place(lists_[list]);
-    --size_;
-    sender = from_[place];
-    --senders_[sender].rays;
-    RayMessage message;
-    copy_message(&message, &rays_[place * message_bytes_], message_bytes_);
-    return message;
-  }
 
   /// Rays of one depth, and kind if they are apart. Only the newest group may have room.
   struct List {

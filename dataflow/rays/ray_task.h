@@ -46,9 +46,20 @@ class RayTask {
   // Requires that no ray is under way:
   /// Takes up a ray that starts, wherever that is.
   void shoot(const core::Ray& ray);
+  /// The same of the ray that make(ray) makes of any, which is returned, or says that there is none (nullptr).
+  template <class Make>
+  const core::Ray* shoot_made(const Make& make) {
+    core::Ray ray;
+    if (!make(ray)) {
+      return nullptr;
+    }
+    shoot(ray);
+    return &flight_->ray;
+  }
   /// Takes up a ray that enters a region of the node's. Where its candidate was found on another node the block's address is
   /// forgotten here, and kept for that node.
   void enter(const RayMessage& message);
+  void enter(std::span<const std::byte> message) { enter(message_in(message)); }
   /// Takes up a hit of this node's that another has confirmed.
   void resume_hit(const RayMessage& message);
 
@@ -82,15 +93,19 @@ class RayTask {
   /// The caller has seen to the ray: it is no longer under way.
   void drop_ended() { stage_ = Stage::none; }
 
-  /// Shades the newest hit until it makes a child (true), for which shoot(child) is called, or no hit is left (false). If that
-  /// hit glows, shine(ray, light) is called with the ray that met it, at most once. Requires that no ray is under way.
+  /// Shades the newest hit until it makes a child (true), for which shoot(make) is called, make as shoot_made() has it, or no hit
+  /// is left (false). If that hit glows, shine(ray, light) is called with the ray that met it, at most once. Requires that no ray
+  /// is under way.
   template <class Shoot, class Shine>
   bool next_children(PartTracer& tracer, const core::RenderSettings& settings, core::Operations& operations, const Shoot& shoot,
                      const Shine& shine) {
     core::Ray child;
     const bool has_child = next_child(tracer, settings, child, operations, shine);
     if (has_child) {
-      shoot(child);
+      shoot([&child](core::Ray& ray) {
+        ray = child;
+        return true;
+      });
     }
     return has_child;
   }

@@ -22,7 +22,10 @@ namespace {
 
 struct FilmSender {
   explicit FilmSender(std::uint32_t credits, std::uint32_t at_once = 1)
-      : single(FilmGather::layout() + nodes::credit_table(2), 0, 2), film(single.node, 1, credits, at_once) {}
+      : FilmSender(
+            FilmGather::Capacity{.credits = credits, .packet_entries = dataflow::film_packet_entries, .at_once = at_once}) {}
+  explicit FilmSender(const FilmGather::Capacity& capacity)
+      : single(FilmGather::layout(capacity.packet_entries) + nodes::credit_table(2), 0, 2), film(single.node, capacity) {}
 
   void fill(std::uint32_t first_pixel) {
     for (std::uint32_t i = 0; i < dataflow::film_packet_entries; ++i) {
@@ -144,6 +147,21 @@ TEST_CASE("a packet waits for as long as it has no room for what may come at onc
     sender.film.add(pixel++, 0, {{1, 2, 3}});
   }
   CHECK_THROWS_AS(sender.film.add(pixel, 0, {{1, 2, 3}}), core::InternalError);
+}
+
+TEST_CASE("in a long packet a pixel's light finds that of two bundles before it, and older light of it stays an entry apart") {
+  FilmSender sender({.packet_entries = 100});
+  for (std::uint32_t pixel = 0; pixel < 40; ++pixel) {
+    sender.film.add(pixel, 0, {{1, 2, 3}});
+  }
+  sender.film.add(8, 0, {{1, 0, 0}});  // the 32nd from the end
+  CHECK(sender.film.gathered() == 40);
+  sender.film.add(7, 0, {{1, 0, 0}});
+  CHECK(sender.film.gathered() == 41);
+  sender.film.flush();
+  const tests::Parcel parcel = sender.single.take();
+  CHECK(entry_in(parcel, 8).light == core::FixedColor{{2, 2, 3}});
+  CHECK(entry_in(parcel, 40).light == core::FixedColor{{1, 0, 0}});
 }
 
 TEST_CASE("the film is settled when all has been sent and acknowledged") {

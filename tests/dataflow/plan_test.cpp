@@ -71,6 +71,8 @@ TEST_CASE("where places are shared packets of bundles are no longer than those o
   CHECK(make_plan(request).ray_batch == 34);
   request.rays.ray_batch = 40;
   CHECK(make_plan(request).ray_batch == 40);
+  request.rays.ray_batch = 1;
+  CHECK(make_plan(request).film_entries() == dataflow::film_packet_entries);
 }
 
 TEST_CASE("bundles have packets of 4 KiB, few nodes more credits, and each node room for 16 rays and their hits") {
@@ -84,6 +86,8 @@ TEST_CASE("bundles have packets of 4 KiB, few nodes more credits, and each node 
     CHECK(plan.rays_a_task == 16);
     CHECK(plan.ray_batch == 34);
     CHECK(dataflow::ray_packet_bytes(34) <= 4_KiB);
+    CHECK(plan.film_entries() == 127);
+    CHECK(alone.film_entries() == dataflow::film_packet_entries);
     CHECK(plan.ray_credits == std::max(64 / nodes, 4U));
     CHECK(plan.queue_packets == (nodes == 1 ? 0 : 256));
     const nodes::MemoryPlan more = plan.node_memory(0), less = alone.node_memory(0);

@@ -33,9 +33,10 @@ struct BenchOf : tests::PartBench<Task> {
   void trace() { this->task.trace(this->tracer, this->part.header, this->operations); }
   std::vector<core::Ray> next_children() {
     std::vector<core::Ray> children;
-    const auto shoot = [&](const core::Ray& child) {
-      this->task.shoot(child);
-      children.push_back(child);
+    const auto shoot = [&](const auto& make) {
+      if (const core::Ray* const child = this->task.shoot_made(make)) {
+        children.push_back(*child);
+      }
     };
     this->task.next_children(this->tracer, this->settings, this->operations, shoot, tests::no_shine);
     return children;

@@ -30,7 +30,7 @@ struct Backlog {
     }
   }
   /// Pixel of the ray taken; its sender in `taken_from`.
-  std::uint32_t take() { return queue.take(taken_from).ray.pixel; }
+  std::uint32_t take() { return dataflow::pixel_in(queue.take(taken_from)); }
 
   nodes::LocalMemory memory;
   RayQueue queue;
@@ -142,16 +142,69 @@ TEST_CASE("with kinds apart the deepest comes first, then all that are as deep a
   const std::vector<std::vector<std::uint32_t>> expected{{4, 3}, {5, 1}, {2}, {0}};
   for (const std::vector<std::uint32_t>& alike : expected) {
     std::uint32_t sender = 99;
-    const core::Ray first = backlog.queue.take(sender).ray;
-    std::vector<std::uint32_t> taken{first.pixel};
-    while (backlog.queue.has_alike(first)) {
-      taken.push_back(backlog.queue.take_alike(first, sender).ray.pixel);
+    std::vector<std::uint32_t> taken{dataflow::pixel_in(backlog.queue.take(sender))};
+    while (backlog.queue.has_alike()) {
+      taken.push_back(dataflow::pixel_in(backlog.queue.take_alike(sender)));
     }
     CHECK(taken == alike);
     CHECK(sender == 0);
-    CHECK_THROWS_AS(backlog.queue.take_alike(first, sender), core::InternalError);
+    CHECK_THROWS_AS(backlog.queue.take_alike(sender), core::InternalError);
   }
   CHECK(backlog.queue.empty());
+}
+
+TEST_CASE("with kinds apart every place is there, however rays are spread over depths and kinds") {
+  std::mt19937 random(2);
+  constexpr std::uint32_t packets = 7, batch = 5, depths = 6;
+  Backlog backlog({.sender_count = 1,
+                   .packets_each = packets,
+                   .packets = packets,
+                   .ray_batch = batch,
+                   .depth_max = depths,
+                   .are_kinds_apart = true});
+  for (int round = 0; round < 500; ++round) {
+    while (backlog.queue.size() + batch <= packets * batch) {
+      backlog.queue.accept_packet(0, batch);
+      for (std::uint32_t i = 0; i < batch; ++i) {
+        RayMessage message;
+        message.ray.depth = static_cast<std::uint8_t>(1 + random() % depths);
+        message.ray.kind = random() % 2 == 0 ? core::RayKind::shadow : core::RayKind::refracted;
+        message.ray.pixel = 100 * message.ray.depth + (message.ray.kind == core::RayKind::shadow ? 1 : 0);
+        backlog.queue.put(0, message);
+      }
+    }
+    for (const auto left = static_cast<std::uint32_t>(random() % (packets * batch)); backlog.queue.size() > left;) {
+      const std::uint32_t deepest = backlog.take();
+      if (backlog.queue.has_alike() && backlog.queue.size() > left) {
+        CHECK(dataflow::pixel_in(backlog.queue.take_alike(backlog.taken_from)) == deepest);
+      }
+    }
+    backlog.queue.gave_back(0, backlog.queue.owed(0));
+  }
+}
+
+TEST_CASE("with kinds apart there is room where each list that is used has a group that is not full, and for no more") {
+  constexpr std::uint32_t packets = 7, batch = 5, depths = 6;
+  const RayQueue::Capacity capacity{.sender_count = 1,
+                                    .packets_each = packets,
+                                    .packets = packets,
+                                    .ray_batch = batch,
+                                    .depth_max = depths,
+                                    .are_kinds_apart = true};
+  Backlog backlog(capacity);
+  for (std::uint32_t i = 0; i < packets * batch; ++i) {  // one in each of twelve lists, the other 23 in the first
+    if (i % batch == 0) {
+      backlog.queue.accept_packet(0, batch);
+    }
+    RayMessage message;
+    message.ray.depth = static_cast<std::uint8_t>(i < 2 * depths ? 1 + i / 2 : 1);
+    message.ray.kind = i < 2 * depths && i % 2 == 1 ? core::RayKind::shadow : core::RayKind::refracted;
+    backlog.queue.put(0, message);
+  }
+  CHECK(capacity.groups() == 11 + 2);
+  CHECK(backlog.queue.size() == packets * batch);
+  const RayQueue::Capacity few{.packets = 1, .ray_batch = 5, .depth_max = 30, .are_kinds_apart = true};
+  CHECK(few.groups() == 5);
 }
 
 }  // namespace ray_queue_test

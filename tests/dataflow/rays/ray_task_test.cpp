@@ -38,7 +38,7 @@ struct Bench : tests::PartBench<RayTask> {
   std::optional<core::Ray> next_child() {
     std::optional<core::Ray> child;
     task.next_children(
-        tracer, settings, operations, [&](const core::Ray& ray) { child = ray; }, tests::no_shine);
+        tracer, settings, operations, [&](const auto& make) { REQUIRE(make(child.emplace())); }, tests::no_shine);
     return child;
   }
 };
