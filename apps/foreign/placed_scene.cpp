@@ -210,11 +210,8 @@ class PlacedScene {
   /// little behind.
   PolygonMesh behind(const PolygonMesh& front) const {
     PolygonMesh back{.name = front.name, .material = front.material, .normals = front.normals, .places = front.places};
-    core::Box box;
-    for (const Vec3d& vertex : front.vertices) {
-      box.include(vertex);
-    }
-    const double away = std::max(front.vertices.empty() ? 0 : length(box.half()) * 0x1p-11, bounds_.radius * 0x1p-17);
+    const double size = front.vertices.empty() ? 0 : length(core::Box::around(front.vertices).half());
+    const double away = std::max(size * 0x1p-11, bounds_.radius * 0x1p-17);
     std::size_t first = 0;
     for (const std::uint32_t end : front.faces.ends) {
       const auto corner = [&](std::size_t i) { return front.vertices[front.faces.corners[i]]; };

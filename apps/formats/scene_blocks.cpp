@@ -356,8 +356,7 @@ void SceneReceiver::check_copies() const {
   }
   std::vector<core::Box> boxes;
   for (const core::Scene& mesh : scene_.kept->meshes) {
-    core::Box& box = boxes.emplace_back();
-    std::for_each(mesh.vertices.begin(), mesh.vertices.end(), [&box](const Vec3d& vertex) { box.include(vertex); });
+    boxes.push_back(core::Box::around(mesh.vertices));
   }
   for (const core::KeptPlace& place : scene_.kept->places) {
     const core::Box& box = boxes[place.mesh];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "core/base/vec.h"
 
@@ -20,6 +21,19 @@ struct Box {
       low[axis] = std::min(low[axis], point[axis]);
       high[axis] = std::max(high[axis], point[axis]);
     }
+  }
+  /// A ball about a center.
+  void include(const Vec3d& center, double radius) {
+    const Vec3d reach{radius, radius, radius};
+    include(center - reach);
+    include(center + reach);
+  }
+  static Box around(std::span<const Vec3d> points) {
+    Box box;
+    for (const Vec3d& point : points) {
+      box.include(point);
+    }
+    return box;
   }
   /// Grows by `margin` to every side.
   Box padded(const Vec3d& margin) const { return {low - margin, high + margin}; }

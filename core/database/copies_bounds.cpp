@@ -28,12 +28,10 @@ struct MeshBoxes {
   std::size_t run = 1;    ///< so many vertices, which a file has one after the other, lie in a box
   std::vector<Box> runs;  ///< as many as a run has vertices, about
 
-  explicit MeshBoxes(const std::vector<Vec3d>& vertices) {
+  explicit MeshBoxes(const std::vector<Vec3d>& vertices) : all(Box::around(vertices)) {
     run += static_cast<std::size_t>(std::sqrt(static_cast<double>(vertices.size())));
-    runs.resize(ceil_divide(vertices.size(), run));
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      all.include(vertices[i]);
-      runs[i / run].include(vertices[i]);
+    for (std::size_t first = 0; first < vertices.size(); first += run) {
+      runs.push_back(Box::around(std::span(vertices).subspan(first, std::min(run, vertices.size() - first))));
     }
   }
 };

@@ -18,9 +18,6 @@ std::size_t triangles_a_chunk(std::size_t count) {
 
 MeshChunks::MeshChunks(const Scene& mesh, const MeshFaces& faces, std::span<const std::uint32_t> ids)
     : ids_(ids.begin(), ids.end()) {
-  for (const Vec3d& vertex : mesh.vertices) {
-    box_.include(vertex);
-  }
   const std::size_t step = triangles_a_chunk(ids_.size());
   for (std::size_t first = 0; first < ids_.size(); first += step) {
     const std::size_t end = std::min(ids_.size(), first + step);

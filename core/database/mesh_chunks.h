@@ -21,15 +21,12 @@ class MeshChunks {
   /// `ids`: all of the mesh's triangles, those that lie together one after the other (BrickTree::ids).
   MeshChunks(const Scene& mesh, const MeshFaces& faces, std::span<const std::uint32_t> ids);
 
-  /// Of all vertices, those that no triangle has, too.
-  const Box& box() const { return box_; }
   std::span<const Chunk> chunks() const { return chunks_; }
   std::span<const std::uint32_t> ids(const Chunk& chunk) const {
     return std::span(ids_).subspan(chunk.first, chunk.end - chunk.first);
   }
 
  private:
-  Box box_;
   std::vector<Chunk> chunks_;
   std::vector<std::uint32_t> ids_;
 };

@@ -29,12 +29,6 @@ bool has_normals_in_floats(const Scene& mesh) {
                      [](const TexturedCorner& corner) { return is_in_floats(corner.normal); });
 }
 
-Box box_of(const Scene& mesh) {
-  Box box;
-  std::for_each(mesh.vertices.begin(), mesh.vertices.end(), [&box](const Vec3d& vertex) { box.include(vertex); });
-  return box;
-}
-
 /// Few meshes have to be looked at corner by corner.
 bool is_within_grids(const Scene& mesh, const Box& box, const Transform& world) {
   const Box reach = reach_of(box, world);
@@ -104,7 +98,7 @@ std::vector<Obstacle> obstacles_of(const Scene& scene, std::span<const MeshFaces
   std::vector<Box> boxes(kept.meshes.size());
   parallel.for_each(kept.meshes.size(), [&](std::size_t i) {
     of_meshes[i] = obstacle_of(kept.meshes[i], scene.materials, faces[i]);
-    boxes[i] = box_of(kept.meshes[i]);
+    boxes[i] = Box::around(kept.meshes[i].vertices);
   });
   std::vector<Obstacle> obstacles(kept.places.size());
   parallel.for_each(ceil_divide(kept.places.size(), places_a_part), [&](std::size_t part) {

@@ -46,18 +46,4 @@ class PlacedBoxes {
   double pad_;
 };
 
-/// The box of a lane of a block of instances: that of the copy in this place, and the grid's pad around it.
-inline Box instance_box(const std::byte* block, std::size_t lane) {
-  const auto header = read<BlockHeader>(block);
-  const auto at = [&](std::size_t row) {
-    return double{read<float>(block + sizeof(header) + sizeof(float) * (row * header.count + lane))};
-  };
-  return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}};
-}
-/// The record of that instance.
-inline Address instance_in(const std::byte* block, std::size_t lane) {
-  const auto header = read<BlockHeader>(block);
-  return Address{read<std::uint32_t>(ids_of(header, block) + sizeof(std::uint32_t) * (header.count + lane))};
-}
-
 }  // namespace dmpc::core

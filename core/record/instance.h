@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/box.h"
 #include "core/record/hit.h"
 #include "core/record/record.h"
 
@@ -25,6 +26,20 @@ static_assert(sizeof(InstanceRecord) == 128);
 
 /// Whether what begins so is an InstanceRecord, and no block.
 constexpr bool is_instance(const BlockHeader& header) { return header.kind == PrimitiveKind::instance && header.count == 0; }
+
+/// The box of a lane of a block of instances: that of the copy in this place, and the grid's pad around it.
+inline Box instance_box(const std::byte* block, std::size_t lane) {
+  const auto header = read<BlockHeader>(block);
+  const auto at = [&](std::size_t row) {
+    return double{read<float>(block + sizeof(header) + sizeof(float) * (row * header.count + lane))};
+  };
+  return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}};
+}
+/// The record of that instance.
+inline Address instance_in(const std::byte* block, std::size_t lane) {
+  const auto header = read<BlockHeader>(block);
+  return read<Address>(ids_of(header, block) + sizeof(Address) * (header.count + lane));
+}
 
 /// Levels of bricks above blocks of instances, at most: such a block leaves up to 8 children where it was one, as a brick does.
 inline constexpr int levels_above_instances = brick_levels_max - 1;

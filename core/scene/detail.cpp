@@ -40,23 +40,17 @@ double quantile(std::vector<Weighted>& all, double share) {
   return at->value;
 }
 
-void include_ball(Box& box, const Vec3d& center, double radius) {
-  const Vec3d reach{radius, radius, radius};
-  box.include(center - reach);
-  box.include(center + reach);
-}
-
 Box box_of(const PlacedObject& placed, const GridAxes& axes) {
   const Scene& scene = placed.pools();
   const Object& object = placed.object();
   Box box;
   if (object.kind == ObjectKind::sphere) {
     const Sphere& sphere = scene.spheres[object.first];
-    include_ball(box, turned(axes, sphere.center), std::fabs(sphere.radius));
+    box.include(turned(axes, sphere.center), std::fabs(sphere.radius));
   } else if (object.kind == ObjectKind::cone) {
     const Cone& cone = scene.cones[object.first];
-    include_ball(box, turned(axes, cone.base), std::fabs(cone.base_radius));
-    include_ball(box, turned(axes, cone.apex), std::fabs(cone.apex_radius));
+    box.include(turned(axes, cone.base), std::fabs(cone.base_radius));
+    box.include(turned(axes, cone.apex), std::fabs(cone.apex_radius));
   } else {
     for (std::uint32_t i = 0; i < object.vertex_count; ++i) {
       box.include(turned(axes, placed.vertex(i)));

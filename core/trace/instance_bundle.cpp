@@ -79,7 +79,6 @@ void InstanceBundle::meet_instances(const std::byte* block, bool in_order) {
   const auto header = read<BlockHeader>(block);
   const std::size_t lanes = header.count;
   const auto* const rows = reinterpret_cast<const float*>(block + sizeof(header));
-  const auto* const addresses = reinterpret_cast<const std::uint32_t*>(ids_of(header, block)) + lanes;
   static const VectorWidth width = vector_width();
   const std::uint32_t first = waiting.count;
   for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -106,7 +105,7 @@ void InstanceBundle::meet_instances(const std::byte* block, bool in_order) {
       met |= enter[ray] <= leave[ray] ? RayMask{1} << ray : 0;
     }
     if (met != 0) {
-      waiting.record[waiting.count] = BrickChild::block(Address{addresses[lane]});
+      waiting.record[waiting.count] = BrickChild::block(instance_in(block, lane));
       waiting.rays[waiting.count] = met;
       waiting.nearest[waiting.count] = enter[static_cast<std::size_t>(std::countr_zero(met))];
       ++waiting.count;

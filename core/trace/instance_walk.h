@@ -118,7 +118,6 @@ class InstanceWalk {
     const auto header = read<BlockHeader>(record);
     const std::size_t count = header.count;
     const auto* rows = reinterpret_cast<const float*>(record + sizeof(header));
-    const auto* addresses = reinterpret_cast<const std::uint32_t*>(ids_of(header, record)) + count;
     const std::uint32_t first = cursor_.waiting.count;
     for (std::size_t lane = 0; lane < count; ++lane) {
       float enter = t_low, leave = t_high;
@@ -128,7 +127,7 @@ class InstanceWalk {
         leave = std::min(leave, plane(box.far_row[axis]));
       }
       if (enter <= leave) {
-        cursor_.waiting.add(BrickChild::block(Address{addresses[lane]}), enter, in_order ? first : cursor_.waiting.count);
+        cursor_.waiting.add(BrickChild::block(instance_in(record, lane)), enter, in_order ? first : cursor_.waiting.count);
       }
     }
     return cursor_.waiting.count > first ? cursor_.waiting.take() : BrickChild::none();

@@ -14,6 +14,7 @@
 #include "dataflow/run.h"
 #include "nodes/ranks/rank_links.h"
 #include "tests/support/kept_scenes.h"
+#include "tests/support/kinds_of_computers.h"
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/scaled.h"
 #include "tests/support/strategies.h"
@@ -26,12 +27,8 @@ using dataflow::Balance;
 using dataflow::Report;
 using dataflow::RunOptions;
 
-/// Threads, a pool, a model, and threads that chaos disturbs, by number.
 RunOptions way_of(int number, std::uint32_t nodes, std::uint64_t seed) {
-  RunOptions options{.computer = {.node_count = nodes}};
-  options.computer.pool_threads = number == 1 ? std::optional(2U) : std::nullopt;
-  options.computer.machine = number == 2 ? std::optional(nodes::Machine{}) : std::nullopt;
-  options.computer.chaos = number == 3 ? std::optional(nodes::chaos_of(seed)) : std::nullopt;
+  RunOptions options{.computer = computer_of_kind(number, nodes, seed)};
   options.rays.balance = {.balance = seed % 2 == 0 ? Balance::subsampled : Balance::equal_size, .subsample = 4};
   return options;
 }

@@ -7,6 +7,7 @@
 #include "core/trace/charge.h"
 #include "svm/run.h"
 #include "tests/support/kept_scenes.h"
+#include "tests/support/kinds_of_computers.h"
 #include "tests/support/priced_machine.h"
 #include "tests/support/scaled.h"
 #include "tests/support/strategies.h"
@@ -15,13 +16,8 @@
 namespace dmpc::tests::kept_run_test {
 namespace {
 
-/// Threads, a pool, a model, and threads that chaos disturbs, by number.
 svm::RunOptions way_of(int number, std::uint64_t seed) {
-  svm::RunOptions options{.computer = {.node_count = 3 + static_cast<std::uint32_t>(seed % 5)}};
-  options.computer.pool_threads = number == 1 ? std::optional(2U) : std::nullopt;
-  options.computer.machine = number == 2 ? std::optional(nodes::Machine{}) : std::nullopt;
-  options.computer.chaos = number == 3 ? std::optional(nodes::chaos_of(seed)) : std::nullopt;
-  return options;
+  return {.computer = computer_of_kind(number, 3 + static_cast<std::uint32_t>(seed % 5), seed)};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/picture/camera.h"
 #include "core/trace/traversal.h"
 #include "tests/support/border_scene.h"
+#include "tests/support/random_regions.h"
 #include "tests/support/small_scenes.h"
 
 namespace extract_test {
@@ -20,23 +21,6 @@ using namespace dmpc;
 using core::Corner;
 using core::DatabasePart;
 using core::Region;
-
-/// Cuts the grid into `count` random boxes that tile it, at multiples of `step` finest cells.
-std::vector<Region> random_regions(const Corner& size, std::size_t count, std::mt19937& random, std::int32_t step = 1) {
-  std::vector<Region> regions{{.high = size}};
-  while (regions.size() < count) {
-    const std::size_t victim = random() % regions.size(), axis = random() % 3;
-    Region& low = regions[victim];
-    if (low.high[axis] - low.low[axis] < 2 * step) {
-      continue;
-    }
-    Region high = low;
-    const auto room = static_cast<std::uint32_t>((low.high[axis] - low.low[axis]) / step - 1);
-    low.high[axis] = high.low[axis] = low.low[axis] + step * (1 + static_cast<std::int32_t>(random() % room));
-    regions.push_back(high);
-  }
-  return regions;
-}
 
 struct Answer {
   core::Traced traced = core::Traced::miss;
@@ -116,7 +100,7 @@ void check_same_answers(const core::Scene& scene, std::size_t region_count, std:
   CAPTURE(seed);
   std::mt19937 random(seed);
   const core::Database database = core::build_database(scene, apps::several_top_cells(scene));
-  const Parts parts(database, random_regions(core::grid_size(database.header().frame), region_count, random));
+  const Parts parts(database, tests::random_regions(core::grid_size(database.header().frame), region_count, random));
   const core::Camera camera(scene.view, database.header().frame, 40, 40, 1);
   int travellers = 0;
   for (std::uint32_t i = 0; i < 20000; ++i) {
@@ -162,7 +146,8 @@ TEST_CASE("rays in border planes, along edges and through corners find in parts 
   const core::GridFrame& frame = database.header().frame;
   std::mt19937 random(8);
   for (const std::size_t region_count : {2U, 8U, 30U}) {
-    const Parts parts(database, random_regions(core::grid_size(frame), region_count, random, tests::BorderScene::size / 16));
+    const Parts parts(database,
+                      tests::random_regions(core::grid_size(frame), region_count, random, tests::BorderScene::size / 16));
     int travellers = 0;
     for (int i = 0; i < 8000; ++i) {
       CAPTURE(i);
@@ -179,7 +164,7 @@ TEST_CASE("parts hold together at least every copy of the whole, and each only i
   std::mt19937 random(7);
   const Parts one(database, {{.high = core::grid_size(database.header().frame)}});
   CHECK(one.primitive_copies() == database.references());
-  const Parts many(database, random_regions(core::grid_size(database.header().frame), 8, random));
+  const Parts many(database, tests::random_regions(core::grid_size(database.header().frame), 8, random));
   CHECK(many.primitive_copies() >= database.references());
   CHECK(many.primitive_copies() < 3 * database.references());
 }
@@ -195,7 +180,7 @@ TEST_CASE("a part is measured as it is extracted, and nothing is copied") {
   for (const core::Scene& scene : {tests::everything(), tests::built_in("teapot-4"), core::Scene()}) {
     std::mt19937 random(3);
     const core::Database database = core::build_database(scene, apps::several_top_cells(scene));
-    for (const Region& region : random_regions(core::grid_size(database.header().frame), 12, random)) {
+    for (const Region& region : tests::random_regions(core::grid_size(database.header().frame), 12, random)) {
       const DatabasePart part = core::extract(database, region), measured = core::measure_part(database, std::span(&region, 1));
       CHECK(measured.record_bytes == part.record_bytes);
       CHECK(part.bytes.size() == part.record_bytes + core::overread_bytes);
@@ -210,7 +195,7 @@ TEST_CASE("a part of several regions answers in each of them as that region's ow
   std::mt19937 random(5);
   const core::Scene scene = tests::everything();
   const core::Database database = core::build_database(scene, apps::several_top_cells(scene));
-  const std::vector<Region> all = random_regions(core::grid_size(database.header().frame), 24, random);
+  const std::vector<Region> all = tests::random_regions(core::grid_size(database.header().frame), 24, random);
   std::vector<Region> some;
   for (std::size_t i = 0; i < all.size(); i += 3) {
     some.push_back(all[i]);

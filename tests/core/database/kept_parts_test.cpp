@@ -21,6 +21,7 @@
 #include "core/trace/bundle_walk.h"
 #include "core/trace/instance_walk.h"
 #include "tests/support/kept_scenes.h"
+#include "tests/support/random_regions.h"
 #include "tests/support/scaled.h"
 
 namespace dmpc::tests::kept_parts_test {
@@ -32,20 +33,8 @@ using core::Ray;
 using core::Region;
 using core::Vec3d;
 
-/// Boxes that tile the grid, cut at random.
 std::vector<Region> random_regions(const core::Database& database, std::size_t count, Random& random) {
-  std::vector<Region> regions{{.high = core::grid_size(database.header().frame)}};
-  while (regions.size() < count) {
-    Region& low = regions[random.below(regions.size())];
-    const std::size_t axis = random.below(3);
-    const std::int32_t cells = low.high[axis] - low.low[axis];
-    if (cells >= 2) {
-      Region high = low;
-      low.high[axis] = high.low[axis] = low.low[axis] + 1 + static_cast<std::int32_t>(random.below(cells - 1));
-      regions.push_back(high);
-    }
-  }
-  return regions;
+  return tests::random_regions(core::grid_size(database.header().frame), count, [&random] { return random.bits(); });
 }
 
 struct Answer {

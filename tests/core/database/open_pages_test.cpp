@@ -66,7 +66,7 @@ class Walker {
     }
     found_.open_blocks += is_open(address) ? 1 : 0;
     for (std::uint32_t lane = 0; lane < header.count; ++lane) {
-      const auto instance = core::read<Address>(core::ids_of(header, block) + (header.count + lane) * sizeof(Address));
+      const Address instance = core::instance_in(block, lane);
       CHECK(is_open(instance));
       CHECK(found_.instances.insert(instance).second);
       const std::byte* const record = records_.find(instance);

@@ -15,6 +15,7 @@
 #include "svm/frames.h"
 #include "svm/run.h"
 #include "tests/support/kept_scenes.h"
+#include "tests/support/kinds_of_computers.h"
 #include "tests/support/scaled.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
@@ -48,13 +49,8 @@ svm::RunOptions computer_of(std::uint32_t nodes, std::optional<std::uint32_t> in
   return {.computer = {.node_count = nodes}, .pages = {.in_flight = in_flight}};
 }
 
-/// Threads, a pool, a model, and threads that chaos disturbs, by number.
 svm::RunOptions way_of(int number, std::uint64_t seed) {
-  svm::RunOptions options = computer_of(2 + static_cast<std::uint32_t>(seed % 7));
-  options.computer.pool_threads = number == 1 ? std::optional(2U) : std::nullopt;
-  options.computer.machine = number == 2 ? std::optional(nodes::Machine{}) : std::nullopt;
-  options.computer.chaos = number == 3 ? std::optional(nodes::chaos_of(seed)) : std::nullopt;
-  return options;
+  return {.computer = computer_of_kind(number, 2 + static_cast<std::uint32_t>(seed % 7), seed)};
 }
 
 }  // namespace
