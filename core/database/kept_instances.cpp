@@ -1,5 +1,6 @@
 #include "core/database/kept_instances.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +12,7 @@
 #include "core/record/coordinate.h"
 #include "core/record/vanishing.h"
 #include "core/scene/kept_meshes.h"
+#include "core/scene/mesh_to_grid.h"
 #include "core/scene/placing.h"
 
 namespace dmpc::core {
@@ -19,19 +21,15 @@ namespace {
 /// Where the pad is so many times as large as a mesh, its place is copied: no box of it would tell rays apart.
 constexpr double pad_max = 0x1p20;
 
-/// How long the shortest way of a record's unit is in a place, grid-local, or shorter: of three stretches two make no more than
-/// half of the sum of the squares of all.
-double least_stretch(const Transform& world, const GridFrame& frame, double unit) {
-  double square = 0;
-  for (const Vec3d& row : world.rows) {
-    square += dot(row, row);
-  }
-  return std::fabs(world.determinant()) / square * frame.scale * unit;
-}
-
+/// How far along one of the mesh's axes the pad reaches that is so long along each of the grid's, in units of records.
 double pad_in_mesh(const Transform& world, const GridFrame& frame, double unit, double pad) {
-  constexpr double rounded_up = 1 + 0x1p-20;
-  return pad / least_stretch(world, frame, unit) * rounded_up;
+  constexpr double rounded_up = 1 + 0x1p-20;  // far more than doubles round off the inverse of what can_be_kept()
+  const std::array<Vec3d, 3> columns = inverse_of(rows_in_grid(world, unit, frame));
+  double most = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    most = std::max(most, std::fabs(columns[0][axis]) + std::fabs(columns[1][axis]) + std::fabs(columns[2][axis]));
+  }
+  return pad * most * rounded_up;
 }
 
 /// Makes another list of primitives.

@@ -19,7 +19,7 @@ struct InstanceRecord {
   Address root = no_address;       ///< the mesh's first brick
   std::uint32_t first = 0;         ///< the id of the mesh's triangle 0 here; the others follow
   float unit = 1;                  ///< of the mesh's records, in its coordinates: a power of two
-  float pad = 0;                   ///< the grid's insertion pad where the place shortens it most, in units of the mesh's records
+  float pad = 0;  ///< how far along an axis of the mesh the grid's insertion pad reaches, in units of its records
   std::array<std::uint32_t, 2> unused{};
 };
 static_assert(sizeof(InstanceRecord) == 128);

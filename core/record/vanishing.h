@@ -12,8 +12,8 @@ namespace dmpc::core {
 /// What is smaller than this, beside a scene of about 1, no ray in floats can tell from a point.
 inline constexpr double size_least = 0x1p-40;
 
-/// Decided on the floats that are stored: equal corners first, then area (a difference of exact products could be hidden by
-/// fusing), then size.
+/// Decided on the floats that are stored: area first, which most have, then equal corners, whose area need not come out as 0
+/// where products are fused, then size.
 inline bool leaves_nothing(const std::array<Vec3d, 3>& corner) {
   const Vec3d &a = corner[0], &b = corner[1], &c = corner[2];
   const Vec3d area = cross(b - a, c - a);

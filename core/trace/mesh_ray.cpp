@@ -18,9 +18,7 @@ constexpr double rounding_pad = 0x1p-20;
 
 MeshGate::MeshGate(const InstanceRecord& instance, const GridFrame& frame) : pad_(double{instance.pad}) {
   const MeshToGrid way(instance, frame);
-  const std::array<Vec3d, 3>& rows = way.rows;
-  const double share = 1 / dot(rows[0], cross(rows[1], rows[2]));
-  columns_ = {cross(rows[1], rows[2]) * share, cross(rows[2], rows[0]) * share, cross(rows[0], rows[1]) * share};
+  columns_ = inverse_of(way.rows);
   shift_ = way.shift;
 }
 

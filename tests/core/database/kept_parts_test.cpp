@@ -12,6 +12,7 @@
 #include "apps/lab/bench/stability/random.h"
 #include "apps/lab/bench/stability/rays.h"
 #include "core/database/extract.h"
+#include "core/database/kept_instances.h"
 #include "core/database/outline.h"
 #include "core/database/placed_boxes.h"
 #include "core/database/region_records.h"
@@ -254,6 +255,61 @@ TEST_CASE("of a hit that travelled as a candidate the part that has its record k
     kept += core::is_in_instance(whole.hit) ? 1 : 0;
   }
   CHECK(kept > 50);
+}
+
+using Wide = std::array<long double, 3>;
+
+long double determinant_of(const Wide& a, const Wide& b, const Wide& c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// How far along an axis of the mesh a step of `pad` along each of the grid's axes, forth or back, goes at most, in units of
+/// `unit`: by Cramer's rule.
+long double furthest_in_mesh(const core::Transform& world, const core::GridFrame& frame, double unit, double pad) {
+  std::array<Wide, 3> columns{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        columns[axis][row] += static_cast<long double>(frame.axes[row][k]) * world.rows[k][axis] * unit * frame.scale;
+      }
+    }
+  }
+  long double furthest = 0;
+  for (unsigned signs = 0; signs < 8; ++signs) {
+    Wide step{};
+    for (std::size_t row = 0; row < 3; ++row) {
+      step[row] = (signs >> row & 1U) != 0 ? pad : -pad;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::array<Wide, 3> replaced = columns;
+      replaced[axis] = step;
+      furthest = std::max(furthest, std::fabs(determinant_of(replaced[0], replaced[1], replaced[2]) /
+                                              determinant_of(columns[0], columns[1], columns[2])));
+    }
+  }
+  return furthest;
+}
+
+TEST_CASE(
+    "a place's pad is how far the grid's reaches along the mesh's axes, however the place turns, mirrors, shears, flattens") {
+  const core::GridFrame frame =
+      core::build_database(balls_in_places(0.5, Arrangement::apart, 3), with_instances()).header().frame;
+  core::KeptInstances kept;
+  kept.meshes.resize(1);
+  kept.meshes.front().unit = 4;
+  Random random(21);
+  for (int i = 0; i < 1000; ++i) {
+    core::KeptInstance place;
+    for (Vec3d& row : place.world.rows) {
+      row = random.in_box(-1, 1);
+    }
+    place.world.rows[0] = place.world.rows[0] * (i % 5 == 0 ? 0x1p-20 : 1);
+    constexpr double pad = 0x1p-18;
+    const double has = double{kept.record_of(place, frame, pad).pad};
+    const auto furthest = static_cast<double>(furthest_in_mesh(place.world, frame, 4, pad));
+    CHECK(has >= furthest);
+    CHECK(has <= 1.001 * furthest);
+  }
 }
 
 TEST_CASE("a box in a place holds its corners as rounding leaves them, and the grid's pad around them") {
