@@ -159,7 +159,7 @@ std::uint64_t DatabaseFigures::bytes_otherwise(double stored_share) const {
     const auto is_among = [&](const auto& names) { return std::find(names.begin(), names.end(), record.kind) != names.end(); };
     geometry += is_among(block_names) || is_among(geometry_names) ? record.bytes : 0;
   }
-  const double share = instances > 0 ? ratio(copies - kept_triangles + placed_triangles, copies) : stored_share;
+  const double share = instances > 0 ? ratio(copies - kept_triangles + triangles_in_places, copies) : stored_share;
   return bytes - geometry + static_cast<std::uint64_t>(static_cast<double>(geometry) * share);
 }
 
@@ -180,7 +180,7 @@ DatabaseFigures figures_of(const core::Database& database, const SceneFigures& s
                           .references = database.records().voxel_references,
                           .instances = database.records().instances,
                           .kept_triangles = database.records().kept_triangles,
-                          .placed_triangles = database.records().placed_triangles,
+                          .triangles_in_places = database.records().triangles_in_places,
                           .records = records_of(database, scene, trees)};
   figures.unused_bytes = figures.bytes;
   for (const RecordFigures& record : figures.records) {

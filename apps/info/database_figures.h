@@ -25,11 +25,11 @@ struct DatabaseFigures {
   std::uint64_t copies = 0;      ///< of primitives in blocks, one at least of each
   std::array<std::int32_t, 3> cells{}, top_cells{};
   std::uint64_t occupied_top_cells = 0;
-  std::uint64_t levels_max = 0;                            ///< bricks from a top cell to a block, at most
-  bool has_voxels = false;                                 ///< which are the top cells then
-  std::uint64_t references = 0;                            ///< of voxels
-  std::uint64_t instances = 0;                             ///< places of meshes that are kept once
-  std::uint64_t kept_triangles = 0, placed_triangles = 0;  ///< of these meshes; of these places
+  std::uint64_t levels_max = 0;                               ///< bricks from a top cell to a block, at most
+  bool has_voxels = false;                                    ///< which are the top cells then
+  std::uint64_t references = 0;                               ///< of voxels
+  std::uint64_t instances = 0;                                ///< places of meshes that are kept once
+  std::uint64_t kept_triangles = 0, triangles_in_places = 0;  ///< of these meshes; of these places
   std::vector<RecordFigures> records;
   std::uint64_t unused_bytes = 0;  ///< between records, so that they begin at 8 bytes and cross no page border
 

@@ -85,7 +85,7 @@ Json meshes_json(const InfoRecord& record) {
   return {{"count", meshes.count},
           {"places", meshes.places},
           {"triangles", meshes.triangles},
-          {"placed_triangles", meshes.placed_triangles},
+          {"placed_triangles", meshes.triangles_in_places},
           {"kept_places", record.database.instances},
           {"kept_bytes", are_kept ? here : otherwise},
           {"expanded_bytes", are_kept ? otherwise : here}};

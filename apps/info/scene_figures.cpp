@@ -58,7 +58,7 @@ MeshFigures count_meshes(const core::Scene& scene) {
     figures.count = triangles.size();
     figures.triangles = std::accumulate(triangles.begin(), triangles.end(), std::uint64_t{0});
     for (const core::KeptPlace& place : scene.kept->places) {
-      figures.placed_triangles += triangles[place.mesh];
+      figures.triangles_in_places += triangles[place.mesh];
     }
     figures.stored_share = static_cast<double>(share.stored) / static_cast<double>(share.seen);
   }

@@ -86,7 +86,7 @@ std::string meshes_line(const InfoRecord& record) {
   }
   const bool are_kept = record.database.instances > 0;
   return "\nmeshes     " + grouped(meshes.count) + " in " + counted(meshes.places, "place") + ": " +
-         counted(meshes.triangles, "triangle") + " for " + grouped(meshes.placed_triangles) +
+         counted(meshes.triangles, "triangle") + " for " + grouped(meshes.triangles_in_places) +
          (are_kept ? "; kept once in " + counted(record.database.instances, "place") + ", with a copy in each place about "
           : meshes.stored_share >= 1 ? "; a copy in each place, kept once no less than "
                                      : "; a copy in each place, kept once (--instances=keep) about ") +

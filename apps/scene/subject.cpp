@@ -89,30 +89,29 @@ std::vector<std::string> notes_of(const Subject& subject) {
           subject.kept};
 }
 
-std::string kept_text(const core::RecordCounts& records, std::uint64_t places) {
-  const std::uint64_t others = places - std::min(places, records.instances);
-  const std::string why =
-      " shine, have more than " + grouped(core::kept_triangles_max) +
-      " triangles or none with an area, are too small beside the scene, reach too far out, or have coordinates that no "
-      "float holds";
-  if (records.instances == 0) {
-    return others > 0 ? "no mesh is kept once: those in " + counted(others, "place") + why
-                      : "no mesh is kept once: none of more than " + grouped(core::copied_triangles_max) +
-                            " triangles stands in several places as the file has it";
+std::string kept_text(const core::RecordCounts& records) {
+  std::string copied;
+  for (const auto& [obstacle, places] : records.copied) {
+    copied += (copied.empty() ? "copied is what " : ", and what ") + std::string(text_of(obstacle)) + ", in " +
+              counted(places, "place");
   }
-  const std::string copied = others > 0 ? "; copied are those in " + counted(others, "place") + ", which" + why : "";
+  if (records.instances == 0) {
+    return "no mesh is kept once: " + (copied.empty() ? "none of more than " + grouped(core::copied_triangles_max) +
+                                                            " triangles stands in several places as the file has it"
+                                                      : copied);
+  }
   return "kept " + grouped(records.kept_meshes) + (records.kept_meshes == 1 ? " mesh" : " meshes") + " in " +
          counted(records.instances, "place") + ": " + counted(records.kept_triangles, "triangle") + " for " +
-         grouped(records.placed_triangles) + copied;
+         grouped(records.triangles_in_places) + (copied.empty() ? "" : "; " + copied);
 }
 
 std::string instances_text(const DatabaseOptions& options, bool keeps, const core::RecordCounts& records,
                            const core::KeptShare& share) {
-  if (keeps || (options.instances != InstancesChoice::expand && share.places == 0)) {
-    return kept_text(records, share.places);
-  }
-  if (options.instances == InstancesChoice::expand) {
+  if (!keeps && options.instances == InstancesChoice::expand) {
     return "";
+  }
+  if (keeps || share.places == 0) {
+    return kept_text(records);
   }
   const std::string copied = "meshes have a copy in each of " + counted(share.places, "place") + ": ";
   if (!options.why_copied.empty()) {

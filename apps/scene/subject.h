@@ -39,9 +39,8 @@ Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, 
 /// What build_subject() says: sentences, some of which may be empty.
 std::vector<std::string> notes_of(const Subject& subject);
 
-/// What is said of a database whose instances were to be kept, of a scene with so many places of meshes (core::KeptMeshes): how
-/// many are.
-std::string kept_text(const core::RecordCounts& records, std::uint64_t places);
+/// What is said of a database whose instances were to be kept: how many are, and what keeps the others from it.
+std::string kept_text(const core::RecordCounts& records);
 
 /// What is said of how often meshes are there; empty where nobody asked or none stands in several places. `keeps`: whether they
 /// are kept.

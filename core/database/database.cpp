@@ -137,6 +137,9 @@ class DatabaseBuilder {
     return std::move(result_);
   }
 
+  /// Says of which places copies were put into the scene before.
+  void set_copied(const ObstacleCounts& copied) { result_.records_.copied = copied; }
+
   /// By place of Scene::kept, once build() has made nothing.
   std::span<const Obstacle> obstacles() const { return obstacles_; }
 
@@ -152,6 +155,7 @@ class DatabaseBuilder {
   bool keep() {
     if (!left_out_) {
       kept_ = keep_instances(scene_, meshes_, header().frame, result_.pad_, conversion_, parallel_);
+      result_.records_.copied = kept_.copied;
       return true;
     }
     obstacles_ = left_out_->obstacles(header().frame, result_.pad_);
@@ -379,7 +383,7 @@ class DatabaseBuilder {
       record.root = mesh.tree.address;
       writer_.write(instances, i * sizeof(InstanceRecord), record);
       const std::uint64_t triangles = mesh.conversion.primitives.size();
-      counts.placed_triangles += triangles;
+      counts.triangles_in_places += triangles;
       if (!is_used[place.mesh]) {
         is_used[place.mesh] = true;
         ++counts.kept_meshes;
@@ -663,7 +667,9 @@ void put_copies_in(Scene& scene, const std::vector<bool>& places, const CopyLimi
 
 constexpr const char* fewer_places = "give the scene fewer places, or coarser meshes";
 
-void put_obstacles_in(Scene& scene, std::span<const Obstacle> obstacles, const CopyLimits& limits) {
+/// Counts them in `copied`.
+void put_obstacles_in(Scene& scene, std::span<const Obstacle> obstacles, const CopyLimits& limits, ObstacleCounts& copied) {
+  add(obstacles, copied);
   if (any_of(obstacles)) {
     std::vector<bool> places;
     for (const Obstacle obstacle : obstacles) {
@@ -722,13 +728,15 @@ Database build_database(Scene&& scene, const BuildOptions& options, const CopyLi
   const Parallel parallel(options.threads);
   const std::vector<MeshFaces> meshes = faces_of_meshes(scene, options.cells_per_primitive, parallel);
   if (options.keeps_instances && copied_corners(scene) > limits.corners_max) {
-    put_obstacles_in(scene, obstacles_of(scene, meshes, parallel), limits);
+    ObstacleCounts copied;
+    put_obstacles_in(scene, obstacles_of(scene, meshes, parallel), limits, copied);
     while (copied_corners(scene) > limits.corners_max) {
       DatabaseBuilder builder(scene, options, meshes, {}, &scene);
+      builder.set_copied(copied);
       if (auto database = builder.build()) {
         return std::move(*database);
       }
-      put_obstacles_in(scene, builder.obstacles(), limits);
+      put_obstacles_in(scene, builder.obstacles(), limits, copied);
     }
   }
   put_all_in(scene, limits);

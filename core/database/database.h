@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/forget.h"
+#include "core/database/obstacle.h"
 #include "core/database/record_order.h"
 #include "core/database/structure.h"
 #include "core/database/voxel_rule.h"
@@ -102,8 +103,9 @@ struct RecordCounts {
   std::uint64_t materials = 0;         ///< without the finishes that stand behind them
   std::uint64_t emitters_met = 0;      ///< primitives that shine by themselves and are not among the header's emitters
   std::uint64_t instance_blocks = 0, instances = 0;
-  std::uint64_t kept_meshes = 0;                           ///< that instances are of
-  std::uint64_t kept_triangles = 0, placed_triangles = 0;  ///< of these meshes; of all instances
+  std::uint64_t kept_meshes = 0;                              ///< that instances are of
+  std::uint64_t kept_triangles = 0, triangles_in_places = 0;  ///< of these meshes; of all instances
+  ObstacleCounts copied;                                      ///< places that have copies though meshes were to be kept
 };
 
 class Database {

@@ -62,14 +62,19 @@ class Keeper {
   static constexpr std::uint32_t nowhere = 0xffffffffU;
 
   void choose(const Parallel& parallel) {
-    for (const Obstacle obstacle : obstacles_of(scene_, faces_, parallel)) {
+    std::vector<Obstacle> obstacles = obstacles_of(scene_, faces_, parallel);
+    for (const Obstacle obstacle : obstacles) {
       is_kept_.push_back(obstacle == Obstacle::none);
     }
     meshes_ = records_of(scene_, faces_, is_kept_, parallel);
     for (std::size_t i = 0; i < is_kept_.size(); ++i) {
       const KeptPlace& place = scene_.kept->places[i];
-      is_kept_[i] = is_kept_[i] && can_have_boxes(place.world, frame_, meshes_.records[meshes_.index[place.mesh]].unit, pad_);
+      if (is_kept_[i] && !can_have_boxes(place.world, frame_, meshes_.records[meshes_.index[place.mesh]].unit, pad_)) {
+        is_kept_[i] = false;
+        obstacles[i] = Obstacle::smallness;
+      }
     }
+    add(obstacles, result_.copied);
   }
 
   void copy(std::size_t i) {

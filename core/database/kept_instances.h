@@ -10,6 +10,7 @@
 #include "core/database/conversion.h"
 #include "core/database/mesh_faces.h"
 #include "core/database/mesh_records.h"
+#include "core/database/obstacle.h"
 #include "core/database/parallel.h"
 #include "core/record/instance.h"
 #include "core/scene/scene.h"
@@ -32,6 +33,7 @@ struct KeptInstances {
   /// Of primitives by these indices what their ids are, where copies have none of their own there; else empty.
   std::vector<std::uint32_t> told;
   std::uint64_t triangles = 0;  ///< of all places
+  ObstacleCounts copied;        ///< all other places
 
   bool empty() const { return places.empty(); }
   /// A place's record, but for the mesh's address. `pad`: the grid's.

@@ -7,6 +7,8 @@
 
 #include "core/base/box.h"
 #include "core/base/units.h"
+#include "core/database/mesh_faces.h"
+#include "core/database/parallel.h"
 #include "core/database/usable_place.h"
 #include "core/scene/kept_meshes.h"
 #include "core/scene/place_reach.h"
@@ -19,6 +21,7 @@ constexpr int exponent_max = 100;
 /// Places that one thread takes at a time.
 constexpr std::size_t places_a_part = 64;
 constexpr std::size_t meshes_named = 3;
+static_assert(kept_triangles_max == 2'097'152, "text_of() says it");
 
 bool is_in_float(double value) { return double{static_cast<float>(value)} == value; }
 bool is_in_floats(const Vec3d& v) { return is_in_float(v.x) && is_in_float(v.y) && is_in_float(v.z); }
@@ -39,14 +42,22 @@ bool is_within_grids(const Scene& mesh, const Box& box, const Transform& world) 
 
 }  // namespace
 
+void add(std::span<const Obstacle> obstacles, ObstacleCounts& counts) {
+  for (const Obstacle obstacle : obstacles) {
+    if (obstacle != Obstacle::none) {
+      ++counts[obstacle];
+    }
+  }
+}
+
 const char* text_of(Obstacle obstacle) {
   switch (obstacle) {
     case Obstacle::none:
       break;
     case Obstacle::no_triangle:
-      return "has no triangle";
+      return "has no triangle with an area";
     case Obstacle::too_many_triangles:
-      return "has too many triangles";
+      return "has more than 2,097,152 triangles";
     case Obstacle::shining:
       return "shines";
     case Obstacle::numbers:

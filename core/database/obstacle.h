@@ -2,15 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/database/mesh_faces.h"
-#include "core/database/parallel.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::core {
+
+struct MeshFaces;
+class Parallel;
 
 enum class Obstacle : std::uint8_t {
   none,
@@ -21,6 +23,11 @@ enum class Obstacle : std::uint8_t {
   far_away,            ///< of the place: a corner where no grid has any
   smallness            ///< of the place: beside the pad boxes of it tell no rays apart
 };
+
+/// Places, by what is in their way; those that nothing is are not counted.
+using ObstacleCounts = std::map<Obstacle, std::uint64_t>;
+/// Counts these, too.
+void add(std::span<const Obstacle> obstacles, ObstacleCounts& counts);
 
 /// What it says of a mesh, behind "which": "shines".
 const char* text_of(Obstacle obstacle);

@@ -307,7 +307,7 @@ Json database_json(const core::Database& database) {
            {{"meshes", records.kept_meshes},
             {"instances", records.instances},
             {"triangles", records.kept_triangles},
-            {"placed_triangles", records.placed_triangles}}}};
+            {"placed_triangles", records.triangles_in_places}}}};
 }
 
 }  // namespace

@@ -95,11 +95,11 @@ TEST_CASE(
   const InfoRecord kept = found("--instances=keep"), copies = found("--instances=expand");
   const MeshFigures& meshes = kept.scene.meshes;
   CHECK(meshes.places == copies.scene.meshes.places);
-  CHECK(meshes.placed_triangles == copies.scene.meshes.placed_triangles);
-  CHECK(meshes.triangles < meshes.placed_triangles / 4);
+  CHECK(meshes.triangles_in_places == copies.scene.meshes.triangles_in_places);
+  CHECK(meshes.triangles < meshes.triangles_in_places / 4);
   CHECK(kept.database.instances == meshes.places);
   CHECK(copies.database.instances == 0);
-  CHECK(kept.database.primitives > meshes.placed_triangles);
+  CHECK(kept.database.primitives > meshes.triangles_in_places);
   CHECK(kept.forecast.computers.at(0).svm.least_bytes < copies.forecast.computers.at(0).svm.least_bytes);
   CHECK(kept.forecast.computers.at(0).dataflow.has_value());
   CHECK(kept.forecast.computers.at(0).forest.has_value());

@@ -33,27 +33,26 @@ TEST_CASE("a subject's page size, order of records and axes are those asked for"
   CHECK(world.settings.camera.primary_ray(0, 0).direction != screen.settings.camera.primary_ray(0, 0).direction);
 }
 
-TEST_CASE("how much is kept once is told where that was asked for") {
-  CHECK(kept_text({.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789}, 67) ==
-        "kept 29 meshes in 67 places: 1,234 triangles for 56,789");
-  CHECK(
-      kept_text({.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789}, 70) ==
-      "kept 29 meshes in 67 places: 1,234 triangles for 56,789; copied are those in 3 places, which shine, have more than "
-      "2,097,152 triangles or none with an area, are too small beside the scene, reach too far out, or have coordinates that no "
-      "float holds");
-  CHECK(kept_text({.instances = 1, .kept_meshes = 1, .kept_triangles = 70, .placed_triangles = 70}, 1) ==
+TEST_CASE("how much is kept once is told where that was asked for, and what keeps the rest from it") {
+  core::RecordCounts records{.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .triangles_in_places = 56789};
+  CHECK(kept_text(records) == "kept 29 meshes in 67 places: 1,234 triangles for 56,789");
+  records.copied = {{core::Obstacle::shining, 1200}, {core::Obstacle::far_away, 1}};
+  CHECK(kept_text(records) ==
+        "kept 29 meshes in 67 places: 1,234 triangles for 56,789; copied is what shines, in 1,200 places, and what reaches too "
+        "far out, in 1 place");
+  CHECK(kept_text({.instances = 1, .kept_meshes = 1, .kept_triangles = 70, .triangles_in_places = 70}) ==
         "kept 1 mesh in 1 place: 70 triangles for 70");
-  CHECK(kept_text({}, 0) == "no mesh is kept once: none of more than 64 triangles stands in several places as the file has it");
-  CHECK(kept_text({}, 5).find("no mesh is kept once: those in 5 places shine, ") == 0);
+  CHECK(kept_text({}) == "no mesh is kept once: none of more than 64 triangles stands in several places as the file has it");
+  CHECK(kept_text({.copied = {{core::Obstacle::shining, 5}}}) == "no mesh is kept once: copied is what shines, in 5 places");
 }
 
 TEST_CASE("what is kept without having been asked for is told, and why copies are there where something else was open") {
-  const core::RecordCounts records{.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .placed_triangles = 56789};
+  const core::RecordCounts records{.instances = 67, .kept_meshes = 29, .kept_triangles = 1234, .triangles_in_places = 56789};
   const core::KeptShare share{.seen = 3 * 56789, .stored = 3 * 1368, .places = 67};
   const DatabaseOptions open{.instances = InstancesChoice::automatic};
   CHECK(instances_text({}, false, {}, share).empty());
-  CHECK(instances_text(open, false, {}, {.seen = 30, .stored = 30}) == kept_text({}, 0));
-  CHECK(instances_text(open, true, records, share) == kept_text(records, 67));
+  CHECK(instances_text(open, false, {}, {.seen = 30, .stored = 30}) == kept_text({}));
+  CHECK(instances_text(open, true, records, share) == kept_text(records));
   CHECK(
       instances_text(open, false, {}, {.seen = 600, .stored = 450, .places = 2}) ==
       "meshes have a copy in each of 2 places: with each once the scene would still take about 150 triangles of 200, a place for "

@@ -107,7 +107,7 @@ void check_alike(const Database& light, const Database& whole) {
   CHECK(emitters_of(light) == emitters_of(whole));
   CHECK(light.header().directory_size == whole.header().directory_size);
   CHECK(light.records().instances == whole.records().instances);
-  CHECK(light.records().placed_triangles == whole.records().placed_triangles);
+  CHECK(light.records().triangles_in_places == whole.records().triangles_in_places);
   CHECK(light.records().normals == whole.records().normals);
   CHECK(light.duplicates() == whole.duplicates());
   CHECK(light.shared_planes() == whole.shared_planes());
@@ -161,7 +161,7 @@ TEST_CASE("only what is no copy is among the primitives of what was built withou
   const Scene left = furnished(0.3, Arrangement::apart, 1, Copies::left_out);
   const Database light = built(left, with_instances(), none);
   CHECK(light.primitives().size() == light.sources().size());
-  CHECK(light.primitives().size() + light.records().placed_triangles == light.header().primitive_count);
+  CHECK(light.primitives().size() + light.records().triangles_in_places == light.header().primitive_count);
   for (const core::PrimitiveSource& source : light.sources()) {
     REQUIRE(source.object < left.objects.size());
   }
@@ -253,6 +253,11 @@ TEST_CASE("what has to have copies has them, and all else is kept, with the ids,
     const Database light = built(left, options, none), whole = built(left, options, all);
     CHECK(light.records().instances == 12);
     CHECK(light.records().kept_meshes == 1);
+    CHECK(light.records().copied == core::ObstacleCounts{{core::Obstacle::shining, 4},
+                                                         {core::Obstacle::numbers, 4},
+                                                         {core::Obstacle::far_away, 1},
+                                                         {core::Obstacle::smallness, 1}});
+    CHECK(light.records().copied == whole.records().copied);
     CHECK(light.header().emitter_count == (for_paths ? 4 * 72 : 0));
     CHECK(light.primitives().size() < whole.primitives().size());
     check_alike(light, whole);
@@ -298,7 +303,7 @@ TEST_CASE("where each primitive lies is known, also of what is kept") {
   REQUIRE(places.size() == light.header().primitive_count);
   const auto known =
       std::count_if(places.begin(), places.end(), [](const Database::Place& place) { return place.block != core::no_address; });
-  CHECK(static_cast<std::size_t>(known) == light.primitives().size() + light.records().placed_triangles);
+  CHECK(static_cast<std::size_t>(known) == light.primitives().size() + light.records().triangles_in_places);
 }
 
 TEST_CASE("few copies are put in, so that all is said of them, and so are all that are to be expanded") {

@@ -238,7 +238,7 @@ TEST_CASE("a database tells of every triangle of a kept mesh where it lies, and 
       }
       others += is_same ? 0 : 1;
     }
-    CHECK(of_instances == kept.records().placed_triangles);
+    CHECK(of_instances == kept.records().triangles_in_places);
     CHECK(others == 0);
   }
 }
