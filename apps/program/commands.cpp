@@ -11,6 +11,7 @@
 #include "apps/edge/line/words.h"
 #include "apps/edge/machine/machines.h"
 #include "apps/edge/system/output_file.h"
+#include "apps/formats/landscape/files.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/help/choices.h"
 #include "core/base/expect.h"
@@ -113,7 +114,7 @@ void Commands::declare_values() {
     families.words.push_back(scene.family);
   }
   scenes.words.insert(scenes.words.end(), {"landscape-10", "grove-5"});
-  families.words.insert(families.words.end(), {"landscape", "grove"});
+  families.words.insert(families.words.end(), landscape_families.begin(), landscape_families.end());
   for (const std::string& ending : words_between(known_mesh_formats(), ',')) {
     scenes.endings.push_back(ending.substr(ending.find_first_not_of(' ')));
   }

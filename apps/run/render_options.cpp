@@ -184,6 +184,9 @@ void check(const OptionSet& options, const RenderOptions& render) {
   if (!render.serve_port.empty() && !number_in<std::uint16_t>(render.serve_port)) {
     throw UsageError("--serve=" + render.serve_port + ": expected a port from 0 (any that is free) to 65,535, such as 8080");
   }
+  if (!render.serve_port.empty() && render.pages.bundles_on_machines) {
+    throw UsageError("--bundles does not go with --serve, which looks on pixel by pixel: there rays walk alone");
+  }
   if (render.checkpoint.resumes && !render.heat_maps.empty()) {
     throw UsageError("--resume does not go with --heatmap: what was done before would be missing on it");
   }

@@ -11,6 +11,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
 #include "apps/formats/hither.h"
+#include "apps/formats/landscape/files.h"
 #include "apps/formats/landscape/scene.h"
 #include "apps/formats/mesh_file.h"
 #include "apps/formats/nff_reader.h"
@@ -139,7 +140,7 @@ core::Scene read_any(const std::string& scene, const MeshOptions& mesh, std::int
       Progress progress(std::cerr, notes == LoadNotes::said && stderr_is_terminal(), "Making " + scene + ":", "rows");
       return landscape_scene(scene, mesh.copies, [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
     }
-    return core::built_in_scene(core::parse_scene_name(scene));  // throws, listing what there is
+    return core::built_in_scene(core::parse_scene_name(scene, landscape_families));  // throws, listing what there is
   }
   return is_mesh_path(scene) ? load_mesh(scene, mesh, notes, opened, around)
                              : load_nff(scene, mesh.is_seen_otherwise, pixels_max, notes, opened);

@@ -86,7 +86,7 @@ int scene_command(const SceneOptions& options, Interrupt& interrupt, std::ostrea
     write_files(write_grove, *size, options, interrupt);
     return 0;
   }
-  const core::SceneName name = core::parse_scene_name(options.name);
+  const core::SceneName name = core::parse_scene_name(options.name, landscape_families);
   if (options.output) {
     write_file(name, *options.output, interrupt);
   } else {

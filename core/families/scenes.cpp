@@ -103,31 +103,32 @@ int size_max(const Family& family) {
   return last_fitting(any_size, [&](int size) { return total(family, size, 0) <= primitives_max; });
 }
 
-std::string family_list() {
-  std::string list;
-  for (const Family& family : families) {
-    list += list.empty() ? "" : " ";
-    list += family.name;
-  }
-  return list;
-}
-
-/// " Did you mean teapot-12?" for teapt-12: the family that is near, with the rest as it stands.
-std::string family_meant(std::string_view text) {
+std::vector<std::string> family_names(std::span<const std::string> others) {
   std::vector<std::string> names;
   for (const Family& family : families) {
     names.emplace_back(family.name);
   }
+  names.insert(names.end(), others.begin(), others.end());
+  return names;
+}
+
+/// " Did you mean teapot-12?" for teapt-12: the family that is near, with the rest as it stands.
+std::string family_meant(std::string_view text, const std::vector<std::string>& names) {
   const std::size_t end = std::min(text.find_first_of("-0123456789"), text.size());
   const std::optional<std::string> name = nearest_word(text.substr(0, end), names);
   const std::string hyphen = end < text.size() && text[end] != '-' ? "-" : "";
   return name ? " Did you mean " + *name + hyphen + std::string(text.substr(end)) + "?" : "";
 }
 
-[[noreturn]] void fail_on_family(std::string_view text) {
-  const std::string meant = family_meant(text);
+[[noreturn]] void fail_on_family(std::string_view text, std::span<const std::string> others = {}) {
+  const std::vector<std::string> names = family_names(others);
+  std::string list;
+  for (const std::string& name : names) {
+    list += " " + name;
+  }
+  const std::string meant = family_meant(text, names);
   throw InputError("there is no built-in scene '" + std::string(text) +
-                   "'; expected FAMILY-SIZE[-tTESSELLATION], for example rings-4-t1; " + "the families are " + family_list() +
+                   "'; expected FAMILY-SIZE[-tTESSELLATION], for example rings-4-t1; the families are" + list +
                    (meant.empty() ? "" : ".") + meant);
 }
 
@@ -218,11 +219,11 @@ std::optional<SceneName> find_scene_name(std::string_view text) {
   return name;
 }
 
-SceneName parse_scene_name(std::string_view text) {
+SceneName parse_scene_name(std::string_view text, std::span<const std::string> others) {
   if (const std::optional<SceneName> name = find_scene_name(text)) {
     return *name;
   }
-  fail_on_family(text);
+  fail_on_family(text, others);
 }
 
 std::vector<SceneName> default_scenes() {

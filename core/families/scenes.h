@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,8 +28,9 @@ struct SceneName {
 /// Throws InputError with what is allowed if the rest makes no sense or the scene is too large (more than 16,777,216 primitives).
 std::optional<SceneName> find_scene_name(std::string_view text);
 
-/// Parses a text that must be a built-in name: throws InputError, listing the families, if it is none.
-SceneName parse_scene_name(std::string_view text);
+/// Parses a text that must be a built-in name: throws InputError, listing the families, if it is none. `others`: names of
+/// families that the caller has besides, which are listed, too.
+SceneName parse_scene_name(std::string_view text, std::span<const std::string> others = {});
 
 /// Throws InputError unless the family exists, and size and tessellation lie in its ranges.
 void check_scene_name(const SceneName& name);

@@ -220,7 +220,7 @@ class Script {
     for (std::size_t place = 0; place < places_.size(); ++place) {
       names += (place == 0 ? "" : ", ") + gnuplot_text(places_[place]);
       if (place % step == 0) {
-        tics += (place == 0 ? "" : ", ") + gnuplot_text(places_[place]) + " " + std::to_string(place + 1);
+        tics += (place == 0 ? "" : ", ") + gnuplot_tic(places_[place], std::to_string(place + 1));
       }
       longest = std::max(longest, places_[place].size());
     }

@@ -51,6 +51,13 @@ std::string gnuplot_text(const std::string& text) {
   return safe + "'";
 }
 
+std::string gnuplot_tic(std::string text, const std::string& position) {
+  for (std::size_t at = text.find('%'); at != std::string::npos; at = text.find('%', at + 2)) {
+    text.insert(at, 1, '%');
+  }
+  return gnuplot_text(text) + " " + position;
+}
+
 void PlotExtent::add(double value) {
   least = std::min(least, value);
   largest = std::max(largest, value);
@@ -75,7 +82,7 @@ std::string axis_lines(const std::string& name, PlotAxis axis, const PlotExtent&
   std::string tics;
   for (const Tick& tick :
        amount_ticks(axis.least.value_or(shown.least), axis.most.value_or(shown.largest), is_logarithmic, unit)) {
-    tics += (tics.empty() ? "" : ", ") + gnuplot_text(tick.text) + " " + shortest(tick.position);
+    tics += (tics.empty() ? "" : ", ") + gnuplot_tic(tick.text, shortest(tick.position));
   }
   return axis_lines(name, axis) + "set " + name + "tics (" + tics + ")\n";
 }

@@ -12,6 +12,8 @@ namespace dmpc::apps {
 std::string gnuplot_number(double number);
 /// A text as gnuplot reads it, on one line.
 std::string gnuplot_text(const std::string& text);
+/// A tic's text at a position along its axis. gnuplot puts the position where such a text has a format, so '%' is said twice.
+std::string gnuplot_tic(std::string text, const std::string& position);
 
 /// The least and the largest of what is drawn.
 struct PlotExtent {

@@ -1,6 +1,7 @@
 // The landscape as files: a large textured scene that anybody can make, with or without trees.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,6 +12,9 @@
 namespace dmpc::apps {
 
 inline constexpr int landscape_size_max = 11, landscape_size_default = 10;
+/// Names of scenes begin so.
+inline const std::array<std::string, 2> landscape_families{"landscape", "grove"};
+
 inline constexpr int grove_size_max = 10, grove_size_default = 5;
 
 /// The size that "landscape-10" or "landscape" names; nothing for names that do not begin so. Throws core::InputError for one

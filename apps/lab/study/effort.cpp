@@ -10,13 +10,21 @@
 namespace dmpc::apps {
 namespace {
 
+/// A strategy that this structure of the scene is not for runs on another, and is taken to ask for as much as svm does.
 std::size_t bytes_of(const PlannedRun& run, const Subject& subject) {
   const Forecast one = forecast(subject.database, subject.settings, {run.node_count}, {.balance = dataflow::Balance::equal_size});
   const ComputerForecast& computer = one.computers.front();
-  return run.strategy == Strategy::dataflow     ? computer.dataflow->all_bytes
-         : run.strategy == Strategy::replicated ? computer.replicated.all_bytes
-         : run.strategy == Strategy::forest     ? computer.forest->all_bytes
-                                                : computer.svm.all_bytes;
+  switch (run.strategy) {
+    case Strategy::dataflow:
+      return computer.dataflow.value_or(computer.svm).all_bytes;
+    case Strategy::forest:
+      return computer.forest.value_or(computer.svm).all_bytes;
+    case Strategy::replicated:
+      return computer.replicated.all_bytes;
+    case Strategy::svm:
+      break;
+  }
+  return computer.svm.all_bytes;
 }
 
 /// The bytes of the largest computers, as many as there are at a time.

@@ -78,4 +78,9 @@ TEST_CASE("more nodes take longer and more memory") {
   CHECK(both.bytes >= many.bytes);
 }
 
+TEST_CASE("a run that brings a structure of its own is taken to ask for as much memory as svm") {
+  const Subject grid = tests::small_subject("tetra-3", {32, 32});
+  CHECK(effort_of({{Strategy::forest, 8, true}}, grid).bytes == effort_of({{Strategy::svm, 8, true}}, grid).bytes);
+}
+
 }  // namespace dmpc::apps::effort_test

@@ -218,6 +218,7 @@ TEST_CASE("info prints to the standard output, and fails as render does") {
   };
   CHECK(contains(run({"tetra-2", "--nodes=2", "--balance=subsampled", "--resolution=32x32"}), "0 scene      tetra-2: "));
   CHECK(contains(run({"nonsense"}), "1 dmpc: there is no built-in scene 'nonsense'"));
+  CHECK(contains(run({"landskape-3"}), "teapot tetra tree landscape grove. Did you mean landscape-3?"));
   CHECK(contains(run({"tetra-2", "--up=z"}),
                  "2 dmpc: --scale, --up, --smooth, --missing=plain and --files=anywhere go with mesh files"));
 }

@@ -170,6 +170,10 @@ TEST_CASE("a port that is none, or has somebody, and the viewer that was before,
     CHECK_MESSAGE(contains(wrong.errors, "--serve=" + port + ": expected a port from 0 (any that is free) to 65,535"),
                   wrong.errors);
   }
+  const Said bundles =
+      run({DMPC_PROGRAM, "render", "tetra-1", "--runner=virtual", "--bundles", "--serve=0", "-o", folder / "a.png"});
+  CHECK(bundles.status == 2);
+  CHECK_MESSAGE(bundles.errors.starts_with("dmpc: --bundles does not go with --serve"), bundles.errors);
   const Served served(endless);
   const Said taken = said("--serve=" + std::to_string(served.page.port));
   CHECK(taken.status == 1);

@@ -171,6 +171,15 @@ TEST_CASE("a small plot of many bars names every so many") {
   CHECK(contains(script(plot, table), "'26' 27, '28' 29)"));
 }
 
+TEST_CASE("a place of bars may have percents in its name") {
+  Table table("Caches", {{"cache"}, {"time", "s", 1}});
+  table.add_row({"5 %", 1.0});
+  const Plot plot =
+      apps::curves("caches", "Caches", "cache", {}, {}, {{.title = "time", .column = "time", .mark = PlotMark::bars}});
+  CHECK(contains(script(plot, table), "array names[1] = ['5 %']"));
+  CHECK(contains(script(plot, table), "('5 %%' 1)"));
+}
+
 TEST_CASE("a small plot of few short names has them upright, at round numbers") {
   Table table("Many", {{"node"}, {"time", "s", 1}});
   for (std::uint64_t node = 0; node < 64; ++node) {
