@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <ranges>
 #include <span>
 #include <utility>
 
@@ -246,11 +247,26 @@ bool SceneReceiver::append_vertices(std::uint64_t bytes, const Fill& fill) {
       return false;
     }
     Unpacker::require(*std::max_element(piece.begin(), piece.end()) < points_.size());
-    for (const std::uint32_t index : piece) {
-      vertices.push_back(points_[index]);
-    }
+    const auto placed = piece | std::views::transform([&](std::uint32_t index) -> const Vec3d& { return points_[index]; });
+    vertices.insert(vertices.end(), placed.begin(), placed.end());
   }
   return true;
+}
+
+/// Of triangles of one colour, as most objects are, a few comparisons tell what check_object() would.
+void SceneReceiver::check_objects() const {
+  const bool is_textured = std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                                       [](const core::Material& material) { return material.microfacets.have_texture(); });
+  const std::uint64_t materials = scene_.materials.size(), vertices = scene_.vertices.size();
+  const auto is_plain = [&](const core::Object& object) {
+    return object.kind == core::ObjectKind::polygon && object.vertex_count == 3 && object.material < materials &&
+           std::uint64_t{object.first} + 3 <= vertices;
+  };
+  for (const core::Object& object : scene_.objects) {
+    if (is_textured || !is_plain(object)) {
+      check_object(object);
+    }
+  }
 }
 
 void SceneReceiver::check_object(const core::Object& object) const {
@@ -380,9 +396,7 @@ core::Scene SceneReceiver::finish() {
   }
   check_facet_textures();
   core::settle_facet_textures(scene_);
-  for (const core::Object& object : scene_.objects) {
-    check_object(object);
-  }
+  check_objects();
   Unpacker::require(std::all_of(points_.begin(), points_.end(), is_point));
   core::forget(points_);
   settle_instances();

@@ -67,6 +67,7 @@ class SceneReceiver {
   template <class T>
   static bool append(std::vector<T>& pool, std::uint64_t announced, std::uint64_t bytes, const Fill& fill);
   bool append_vertices(std::uint64_t bytes, const Fill& fill);
+  void check_objects() const;
   void check_object(const core::Object& object) const;
   void check_material(const core::Material& material) const;
   void check_facet_textures() const;
