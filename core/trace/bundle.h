@@ -32,7 +32,7 @@ constexpr std::uint32_t count_of(RayMask rays) {
 template <class T>
 using Row = std::array<T, bundle_rays_max>;
 
-/// Up to so many rays of a brick or block are tested one by one, each against all its children or triangles at once.
+/// Up to so many rays of a brick are tested one by one, each against all its children at once.
 inline constexpr std::size_t apart_max = 3;
 
 /// Met children that have not been visited, the nearest last, each with the rays that have met it. Not initialised.

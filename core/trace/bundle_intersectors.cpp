@@ -242,26 +242,41 @@ std::uint64_t count_wanted(const RayBundle& bundle, RayMask rays) {
 
 // --- Triangles ---
 
-/// Rays that are sheared alike, one in each lane, or one in all of them.
+/// How a ray is sheared.
+struct Shear {
+  std::size_t axis;
+  bool is_down;
+};
+
+HWY_INLINE Shear shear_of(const RayBundle& bundle, std::size_t ray) {
+  const auto& along = bundle.sheared_along;
+  const auto is = [ray](RayMask rays) { return rays >> ray & 1U; };
+  return {is(along[1][0] | along[1][1]) + 2 * is(along[2][0] | along[2][1]), is(along[0][1] | along[1][1] | along[2][1]) != 0};
+}
+
+/// Rays that are sheared alike, one in each lane, or one in all of them, and the triangles of a block as they take them.
 template <class Tag>
 struct ShearedRays {
-  std::size_t x, y, z;  ///< which coordinate plays which
-  hn::Vec<Tag> origin_x, origin_y, origin_z, shear_x, shear_y;
+  const float *x, *y, *z;     ///< the rows that play which, of the first corner
+  std::size_t corner_stride;  ///< to those of the next
+  hn::Vec<Tag> origin_x, origin_y, origin_z, minus_shear_x, minus_shear_y;
 };
 
 /// values(row): those of a bundle's row that the rays have.
 template <class Tag, class Values>
-HWY_INLINE ShearedRays<Tag> sheared_rays(Tag, const RayBundle& bundle, std::size_t axis, bool is_down, const Values& values) {
-  const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
-  const std::size_t x = is_down ? last : next, y = is_down ? next : last;
-  return {x,
-          y,
-          axis,
+HWY_INLINE ShearedRays<Tag> sheared_rays(Tag, const RayBundle& bundle, const TriangleRows& triangles, const Shear& shear,
+                                         const Values& values) {
+  const std::size_t next = (shear.axis + 1) % 3, last = (shear.axis + 2) % 3;
+  const std::size_t x = shear.is_down ? last : next, y = shear.is_down ? next : last;
+  return {triangles.rows + x * triangles.count,
+          triangles.rows + y * triangles.count,
+          triangles.rows + shear.axis * triangles.count,
+          3 * triangles.count,
           values(bundle.origin[x]),
           values(bundle.origin[y]),
-          values(bundle.origin[axis]),
-          values(bundle.shear_x),
-          values(bundle.shear_y)};
+          values(bundle.origin[shear.axis]),
+          hn::Neg(values(bundle.shear_x)),
+          hn::Neg(values(bundle.shear_y))};
 }
 
 /// A vertex as those rays see it.
@@ -270,12 +285,13 @@ struct SeenVertices {
   hn::Vec<Tag> x, y, z;
 };
 
-/// coordinate(row): of one triangle for all rays, or of some for one ray.
-template <class Tag, class Coordinate>
-HWY_INLINE SeenVertices<Tag> shear(const ShearedRays<Tag>& rays, std::size_t corner, const Coordinate& coordinate) {
-  const auto z = hn::Sub(coordinate(3 * corner + rays.z), rays.origin_z);
-  return {fused(hn::Neg(rays.shear_x), z, hn::Sub(coordinate(3 * corner + rays.x), rays.origin_x)),
-          fused(hn::Neg(rays.shear_y), z, hn::Sub(coordinate(3 * corner + rays.y), rays.origin_y)), z};
+/// load(row): of one triangle for all rays, or of some for one ray.
+template <class Tag, class Load>
+HWY_INLINE SeenVertices<Tag> shear(const ShearedRays<Tag>& rays, std::size_t corner, const Load& load) {
+  const std::size_t skipped = corner * rays.corner_stride;
+  const auto z = hn::Sub(load(rays.z + skipped), rays.origin_z);
+  return {fused(rays.minus_shear_x, z, hn::Sub(load(rays.x + skipped), rays.origin_x)),
+          fused(rays.minus_shear_y, z, hn::Sub(load(rays.y + skipped), rays.origin_y)), z};
 }
 
 template <class Tag>
@@ -330,10 +346,8 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays<Floats>& rays,
                              const TriangleRows& triangles, Address block, std::size_t lane) {
   const Floats tag;
   const Unsigned ids;
-  const float* const values = triangles.rows + lane;
-  const std::size_t stride = triangles.count;
-  const auto coordinate = [=](std::size_t row) { return hn::Set(Floats(), values[row * stride]); };
-  const auto a = shear(rays, 0, coordinate), b = shear(rays, 1, coordinate), c = shear(rays, 2, coordinate);
+  const auto load = [lane](const float* row) { return hn::Set(Floats(), row[lane]); };
+  const auto a = shear(rays, 0, load), b = shear(rays, 1, load), c = shear(rays, 2, load);
   const Vector u = edge(c, b), v = edge(a, c), w = edge(b, a), zero = hn::Zero(tag);
   const Vector least = hn::Min(hn::Min(u, v), w), greatest = hn::Max(hn::Max(u, v), w);
   const RayMask outside = bits_of(tag, hn::And(hn::Lt(least, zero), hn::Gt(greatest, zero)));
@@ -370,25 +384,21 @@ HWY_INLINE void hit_triangle(RayBundle& bundle, const ShearedRays<Floats>& rays,
   }
 }
 
-void hit_together(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t down = 0; down < 2; ++down) {
-      const RayMask alike = rays & bundle.sheared_along[axis][down];
-      for (std::size_t first = 0; first < bundle_rays_max; first += step) {
-        RayMask active = alike >> first & first_bits(step);
-        if (active == 0) {
-          continue;
-        }
-        const auto values = [first](const Row<float>& row) { return hn::Load(Floats(), row.data() + first); };
-        const auto sheared = sheared_rays(Floats(), bundle, axis, down == 1, values);
-        for (std::size_t lane = 0; lane < triangles.count && active != 0; ++lane) {
-          if ((triangles.left_out >> lane & 1U) != 0) {
-            continue;
-          }
-          hit_triangle(bundle, sheared, first, active, triangles, block, lane);
-          active &= ~(bundle.any ? bundle.found >> first : 0U);
-        }
+/// Rays that are sheared alike, and all triangles, one after the other.
+HWY_INLINE void hit_together(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays, const Shear& shear) {
+  for (std::size_t first = 0; first < bundle_rays_max; first += step) {
+    RayMask active = rays >> first & first_bits(step);
+    if (active == 0) {
+      continue;
+    }
+    const auto values = [first](const Row<float>& row) { return hn::Load(Floats(), row.data() + first); };
+    const auto sheared = sheared_rays(Floats(), bundle, triangles, shear, values);
+    for (std::size_t lane = 0; lane < triangles.count && active != 0; ++lane) {
+      if ((triangles.left_out >> lane & 1U) != 0) {
+        continue;
       }
+      hit_triangle(bundle, sheared, first, active, triangles, block, lane);
+      active &= ~(bundle.any ? bundle.found >> first : 0U);
     }
   }
 }
@@ -400,10 +410,8 @@ HWY_INLINE void hit_lanes(RayBundle& bundle, const ShearedRays<BlockFloats>& ray
                           RayMask active, const TriangleRows& triangles, Address block) {
   const BlockFloats tag;
   const hn::Rebind<std::uint32_t, BlockFloats> ids;
-  const float* const values = triangles.rows + first;
-  const std::size_t stride = triangles.count;
-  const auto coordinate = [=](std::size_t row) { return hn::LoadU(BlockFloats(), values + row * stride); };
-  const auto a = shear(rays, 0, coordinate), b = shear(rays, 1, coordinate), c = shear(rays, 2, coordinate);
+  const auto load = [first](const float* row) { return hn::LoadU(BlockFloats(), row + first); };
+  const auto a = shear(rays, 0, load), b = shear(rays, 1, load), c = shear(rays, 2, load);
   const auto u = edge(c, b), v = edge(a, c), w = edge(b, a), zero = hn::Zero(tag);
   const auto least = hn::Min(hn::Min(u, v), w), greatest = hn::Max(hn::Max(u, v), w);
   const RayMask outside = bits_of(tag, hn::And(hn::Lt(least, zero), hn::Gt(greatest, zero)));
@@ -435,15 +443,14 @@ HWY_INLINE void hit_lanes(RayBundle& bundle, const ShearedRays<BlockFloats>& ray
   }
 }
 
-/// Each of the rays and all triangles.
-void hit_one_by_one(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays) {
+/// Each of those rays and all triangles.
+HWY_INLINE void hit_one_by_one(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays,
+                               const Shear& shear) {
   const RayMask tested = first_bits(triangles.count) & ~triangles.left_out;
   for (; rays != 0; rays &= rays - 1) {
     const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
-    const auto is = [&](std::size_t axis, std::size_t down) { return (bundle.sheared_along[axis][down] >> ray & 1U) != 0; };
-    const std::size_t axis = is(0, 0) || is(0, 1) ? 0 : is(1, 0) || is(1, 1) ? 1 : 2;
     const auto values = [ray](const Row<float>& row) { return hn::Set(BlockFloats(), row[ray]); };
-    const auto sheared = sheared_rays(BlockFloats(), bundle, axis, is(axis, 1), values);
+    const auto sheared = sheared_rays(BlockFloats(), bundle, triangles, shear, values);
     for (std::size_t first = 0; first < triangles.count; first += lanes_of<BlockFloats>()) {
       const RayMask active = tested >> first & first_bits(lanes_of<BlockFloats>());
       hit_lanes(bundle, sheared, ray, first, active, triangles, block);
@@ -451,8 +458,18 @@ void hit_one_by_one(RayBundle& bundle, const TriangleRows& triangles, Address bl
   }
 }
 
+/// A ray and all triangles cost about what a triangle and all rays do, so the fewer of the two go one by one.
 void hit_triangles(RayBundle& bundle, const TriangleRows& triangles, Address block, RayMask rays) {
-  count_of(rays) > apart_max ? hit_together(bundle, triangles, block, rays) : hit_one_by_one(bundle, triangles, block, rays);
+  while (rays != 0) {
+    const Shear shear = shear_of(bundle, static_cast<std::size_t>(std::countr_zero(rays)));
+    const RayMask alike = rays & bundle.sheared_along[shear.axis][shear.is_down ? 1 : 0];
+    if (count_of(alike) > triangles.count) {
+      hit_together(bundle, triangles, block, alike, shear);
+    } else {
+      hit_one_by_one(bundle, triangles, block, alike, shear);
+    }
+    rays &= ~alike;
+  }
 }
 
 const BundleIntersectors* intersectors() {

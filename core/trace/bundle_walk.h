@@ -96,12 +96,12 @@ class BundleWalk {
   }
 
   /// The record that so many rays want, looked up once.
-  const std::byte* find(Address address, RayMask rays) {
+  const std::byte* find(Address address, std::uint32_t wanted) {
     const std::byte* const record = records_.find(address);
     if (record == nullptr) {
       bundle_.absent = address;
     } else {
-      operations_.skipped.bundles += count_of(rays) - 1;
+      operations_.skipped.bundles += wanted - 1;
     }
     return record;
   }
@@ -119,7 +119,7 @@ class BundleWalk {
   /// Reads the directory entry of the bundle's cell.
   bool enter_cell() {
     const std::uint64_t index = directory_index(header_, bundle_.cell);
-    const std::byte* const record = find(directory_address(header_, index), bundle_.group);
+    const std::byte* const record = find(directory_address(header_, index), count_of(bundle_.group));
     if (record == nullptr) {
       return false;
     }
@@ -152,17 +152,18 @@ class BundleWalk {
   bool visit_children() {
     while (bundle_.next.found()) {
       const Address address = bundle_.next.address();
-      const std::byte* const record = find(address, bundle_.next_rays);
+      const std::uint32_t wanted = count_of(bundle_.next_rays);
+      const std::byte* const record = find(address, wanted);
       if (record == nullptr) {
         return false;
       }
       if constexpr (may_go_inside) {
-        visit(record, address);
+        visit(record, address, wanted);
       } else {
         if (bundle_.next.is_block()) {
-          test_block(record, address);
+          test_block(record, address, wanted);
         } else {
-          operations_.brick_reads += count_of(bundle_.next_rays);
+          operations_.brick_reads += wanted;
           intersectors_.meet_children(bundle_, *reinterpret_cast<const Brick*>(record), bundle_.next_rays, !bundle_.any);
         }
         intersectors_.take_child(bundle_);
@@ -173,22 +174,22 @@ class BundleWalk {
   }
 
   /// As InstanceWalk has it: takes what a child is, and comes to the next.
-  void visit(const std::byte* record, Address address) {
+  void visit(const std::byte* record, Address address, std::uint32_t wanted) {
     const bool is_block = bundle_.next.is_block();
     const bool is_of_instances = is_block && !bundle_.is_inside && read<BlockHeader>(record).kind == PrimitiveKind::instance;
     if (is_of_instances && read<BlockHeader>(record).count == 0) {
-      operations_.instance_entries += count_of(bundle_.next_rays);
+      operations_.instance_entries += wanted;
       bundle_.enter(read<InstanceRecord>(record), address, header_.frame);
       place_.reset();
       return;
     }
-    operations_.brick_reads += is_block && !is_of_instances ? 0 : count_of(bundle_.next_rays);
+    operations_.brick_reads += is_block && !is_of_instances ? 0 : wanted;
     if (is_of_instances) {
       bundle_.meet_instances(record, !bundle_.any);
     } else if (!is_block) {
       meet_bricks(*reinterpret_cast<const Brick*>(record));
     } else {
-      bundle_.is_inside ? test_placed(record, address) : test_block(record, address);
+      bundle_.is_inside ? test_placed(record, address, wanted) : test_block(record, address, wanted);
     }
     intersectors_.take_child(bundle_);
     if (bundle_.is_inside && !bundle_.next.found()) {
@@ -207,7 +208,7 @@ class BundleWalk {
     }
   }
 
-  void test_placed(const std::byte* record, Address block) {
+  void test_placed(const std::byte* record, Address block, std::uint32_t wanted) {
     if (!place_) {
       place_.emplace(bundle_.instance, header_.frame);
     }
@@ -215,12 +216,12 @@ class BundleWalk {
     operations_.placed_triangles += placed.place(record, *place_);
     const BundleHits before = bundle_.best;
     const RayMask found = bundle_.found;
-    test_block(placed.record(), block);
+    test_block(placed.record(), block, wanted);
     if (meets_vanished(placed, before)) {
       placed.take_vanished_away();
       bundle_.best = before;
       bundle_.found = found;
-      test_block(placed.record(), block);
+      test_block(placed.record(), block, wanted);
     }
     for_each_new(before, [&](std::size_t ray) {
       bundle_.best.lane[ray] = lane_in_instance(bundle_.best.lane[ray], bundle_.instance_address);
@@ -258,8 +259,9 @@ class BundleWalk {
         set_first(bundle_.next_rays,
                   bundle_.waiting.t_enter[bundle_.waiting.count]);  // where the child that was taken last waited
       } else {
-        operations_.brick_reads += count_of(bundle_.next_rays);
-        const std::byte* const record = find(bundle_.next.address(), bundle_.next_rays);
+        const std::uint32_t wanted = count_of(bundle_.next_rays);
+        operations_.brick_reads += wanted;
+        const std::byte* const record = find(bundle_.next.address(), wanted);
         intersectors_.meet_children(bundle_, *reinterpret_cast<const Brick*>(record), bundle_.next_rays, true);
       }
       intersectors_.take_child(bundle_);
@@ -281,13 +283,14 @@ class BundleWalk {
     while (bundle_.next.found()) {
       const bool is_block = bundle_.next.is_block();
       const Address address = is_block ? bundle_.next.address() : reference_address(header_, bundle_.next.bits);
-      const std::byte* const record = find(address, bundle_.next_rays);
+      const std::uint32_t wanted = count_of(bundle_.next_rays);
+      const std::byte* const record = find(address, wanted);
       if (record == nullptr) {
         return false;
       }
       if (is_block) {
         const RayMask found = bundle_.found;
-        test_block(record, address);
+        test_block(record, address, wanted);
         if (bundle_.any) {
           operations_.skipped.any_hit += behind.found() ? count_of(bundle_.found & ~found) : 0;
           bundle_.next_rays &= ~bundle_.found;
@@ -317,12 +320,13 @@ class BundleWalk {
     next_cell();
   }
 
-  void test_block(const std::byte* record, Address block) {
+  /// The primitives of a block, which so many rays want.
+  void test_block(const std::byte* record, Address block, std::uint32_t wanted) {
     const auto header = read<BlockHeader>(record);
     const RayMask rays = bundle_.next_rays, found = bundle_.found;
     const auto* rows = reinterpret_cast<const float*>(record + sizeof(BlockHeader));
     if (header.kind == PrimitiveKind::triangle && !header.has_plane()) {
-      operations_.primitive_tests[0] += std::uint64_t{count_of(rays)} * header.count;
+      operations_.primitive_tests[0] += std::uint64_t{wanted} * header.count;
       intersectors_.hit_triangles(bundle_, {rows, header.count, header.shared_lanes}, block, rays);
       if (header.shared_lanes != 0) {
         test_shared(record, block, rays);

@@ -7,10 +7,12 @@
 #endif
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "core/trace/bundle.h"
 
@@ -33,12 +35,14 @@ constexpr std::size_t lanes_of() {
 
 constexpr RayMask first_bits(std::size_t count) { return (RayMask{1} << count) - 1; }
 
-/// A bit for each lane.
+/// A bit for each lane: by a word that they fill, since to put bytes together takes four instructions more.
 template <class Tag>
 HWY_INLINE RayMask bits_of(Tag tag, hn::Mask<Tag> mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(tag, mask, bytes);
-  return bytes[0] | static_cast<RayMask>(bytes[1]) << 8U;
+  using Word = std::conditional_t<lanes_of<Tag>() <= 8, std::uint8_t, std::uint16_t>;
+  static_assert(sizeof(Word) == 1 || std::endian::native == std::endian::little);
+  Word words[8 / sizeof(Word)] = {};
+  hn::StoreMaskBits(tag, mask, reinterpret_cast<std::uint8_t*>(words));
+  return words[0];
 }
 
 /// The lanes whose bits are set; those above are ignored.
