@@ -12,7 +12,11 @@ namespace {
 [[noreturn]] void leave(j_common_ptr state) noexcept { std::longjmp(*static_cast<std::jmp_buf*>(state->client_data), 1); }
 
 /// Levels of 0 and more are no warnings.
-void count_warning(j_common_ptr state, int level) noexcept { state->err->num_warnings += level < 0 ? 1 : 0; }
+void leave_if_warned(j_common_ptr state, int level) noexcept {
+  if (level < 0) {
+    leave(state);
+  }
+}
 
 /// libjpeg's own memory.
 class JpegReading {
@@ -20,7 +24,7 @@ class JpegReading {
   explicit JpegReading(std::span<const std::byte> file) : file_(file) {
     state_.err = ::jpeg_std_error(&manager_);
     manager_.error_exit = leave;
-    manager_.emit_message = count_warning;
+    manager_.emit_message = leave_if_warned;
     state_.client_data = &out_;
   }
   ~JpegReading() { ::jpeg_destroy_decompress(&state_); }
@@ -50,7 +54,6 @@ class JpegReading {
     return true;
   }
   const jpeg_decompress_struct& state() const { return state_; }
-  bool has_complaint() const { return manager_.num_warnings > 0; }
 
  private:
   std::span<const std::byte> file_;
@@ -73,7 +76,7 @@ std::optional<RawPicture> jpeg_picture(std::span<const std::byte> file, std::uin
   }
   RawPicture picture{.width = state.image_width, .height = state.image_height, .channels = state.num_components, .values = {}};
   picture.values.resize(std::size_t{picture.width} * picture.height * static_cast<std::size_t>(picture.channels));
-  return reading.read_rows(picture.values.data()) && !reading.has_complaint() ? std::optional(std::move(picture)) : std::nullopt;
+  return reading.read_rows(picture.values.data()) ? std::optional(std::move(picture)) : std::nullopt;
 }
 
 }  // namespace dmpc::apps

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <new>
 #include <utility>
 
 #include "apps/foreign/plain_picture.h"
@@ -101,12 +102,16 @@ std::optional<RawPicture> plain_picture(const EncodedPicture& picture) {
 }  // namespace
 
 std::unique_ptr<OpenedPicture> decode_plain(const EncodedPicture& picture, PictureUse use) {
-  std::optional<RawPicture> plain = plain_picture(picture);
-  if (!plain) {
+  try {
+    std::optional<RawPicture> plain = plain_picture(picture);
+    if (!plain) {
+      return nullptr;
+    }
+    auto opened = std::make_unique<OpenedPlain>(*std::move(plain));
+    return use == PictureUse::texture || opened->is_without_alpha() ? std::move(opened) : nullptr;
+  } catch (const std::bad_alloc&) {  // OpenImageIO takes less, or says that there is no room
     return nullptr;
   }
-  auto opened = std::make_unique<OpenedPlain>(*std::move(plain));
-  return use == PictureUse::texture || opened->is_without_alpha() ? std::move(opened) : nullptr;
 }
 
 }  // namespace dmpc::apps

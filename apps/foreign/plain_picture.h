@@ -18,8 +18,9 @@ struct RawPicture {
   std::vector<std::uint8_t> values;
 };
 
-/// Pixels of the largest that is read: beside what those take the start of OpenImageIO is nothing.
-inline constexpr std::uint64_t plain_pixels_max = std::uint64_t{1} << 26U;
+/// Pixels of the largest that is read: beside what those take the start of OpenImageIO is little, and it takes half of the
+/// memory.
+inline constexpr std::uint64_t plain_pixels_max = std::uint64_t{1} << 24U;
 
 /// Whether that many pixels, of values of so many bytes, are there and not too many, for a file of so many bytes, either.
 bool is_plain_size(std::uint64_t width, std::uint64_t height, std::uint64_t value_bytes, std::uint64_t file_bytes,
@@ -37,7 +38,7 @@ std::optional<RawPicture> jpeg_picture(std::span<const std::byte> file, std::uin
 std::optional<RawPicture> exr_picture(std::span<const std::byte> file, std::uint64_t pixels_max = plain_pixels_max);
 
 /// A picture of Radiance's (.hdr), from the top left, in rows that say their width. Nothing if it is none, does not hold
-/// together, or has light of 2^64 and more or of 2^-64 and less.
+/// together, or has light of 2^64 and more or, but for black, of less than 2^-65.
 std::optional<RawPicture> hdr_picture(std::span<const std::byte> file, std::uint64_t pixels_max = plain_pixels_max);
 
 }  // namespace dmpc::apps

@@ -13,15 +13,10 @@ namespace {
 /// A file on its way to libpng.
 struct PngBytes {
   std::span<const std::byte> rest;
-  bool has_complaint = false;
 };
 
-/// libpng asks that this does not return.
+/// Of errors, from which libpng asks for no return, and of warnings.
 [[noreturn]] void leave(png_structp png, png_const_charp) noexcept { png_longjmp(png, 1); }
-
-void note_complaint(png_structp png, png_const_charp) noexcept {
-  static_cast<PngBytes*>(::png_get_error_ptr(png))->has_complaint = true;
-}
 
 void take(png_structp png, png_bytep room, std::size_t count) noexcept {
   std::span<const std::byte>& rest = static_cast<PngBytes*>(::png_get_io_ptr(png))->rest;
@@ -35,7 +30,7 @@ void take(png_structp png, png_bytep room, std::size_t count) noexcept {
 /// libpng's own memory.
 class PngReading {
  public:
-  explicit PngReading(PngBytes& file) : png_(::png_create_read_struct(PNG_LIBPNG_VER_STRING, &file, leave, note_complaint)) {
+  explicit PngReading(PngBytes& file) : png_(::png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave, leave)) {
     info_ = png_ == nullptr ? nullptr : ::png_create_info_struct(png_);
     if (info_ == nullptr) {
       ::png_destroy_read_struct(&png_, nullptr, nullptr);
@@ -111,7 +106,7 @@ std::optional<RawPicture> png_picture(std::span<const std::byte> file, std::uint
   }
   picture.values.resize(row_bytes * picture.height);
   const bool is_read = read_rows(png, info, passes, picture.values.data(), row_bytes, picture.height);
-  return is_read && !bytes.has_complaint ? std::optional(std::move(picture)) : std::nullopt;
+  return is_read ? std::optional(std::move(picture)) : std::nullopt;
 }
 
 }  // namespace dmpc::apps

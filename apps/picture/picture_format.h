@@ -13,6 +13,8 @@ namespace dmpc::apps {
 /// OpenImageIO's name ("png", "jpeg", "openexr", "tiff", "bmp", "hdr", "webp", "gif", "pnm", "dds") by the first bytes of a file;
 /// "targa", which begins anyhow, if `ending` (of a name, "tga") says so; else nothing.
 std::optional<std::string> picture_format(std::string_view beginning, std::string_view ending);
+/// Whether pictures of that format may be plain (apps/foreign/plain_picture.h).
+bool may_be_plain(std::string_view format);
 /// The format of an open file.
 std::optional<std::string> picture_format(const Descriptor& file, std::string_view ending);
 

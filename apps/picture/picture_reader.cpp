@@ -147,8 +147,7 @@ PictureReader::Head PictureReader::ask(const PictureFile& file, const std::strin
   budget_.add_bytes(file.is_new ? file.bytes : 0);
   check_time();
   const bool is_any_there = process_ && program_ == Program::any;
-  const bool may_be_plain = format == "png" || format == "jpeg" || format == "openexr" || format == "hdr";
-  Message answer = answer_of(may_be_plain && !is_any_there ? Program::plain : Program::any, file, format, request);
+  Message answer = answer_of(may_be_plain(format) && !is_any_there ? Program::plain : Program::any, file, format, request);
   if (program_ == Program::plain && answer.saying == Saying::left_to_another) {
     answer = answer_of(Program::any, file, format, request);
   }
@@ -173,7 +172,7 @@ void PictureReader::start(Program program, std::uint64_t file_bytes) {
   }
 }
 
-/// Without it no process is started.
+/// Without it no first process is started.
 void PictureReader::check_time() const {
   if (!process_ && budget_.left() <= ReadingBudget::Time{}) {
     throw core::InputError("is not read: pictures before it have taken the " + counted(budget_.seconds(), "second") +

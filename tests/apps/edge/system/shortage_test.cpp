@@ -66,8 +66,8 @@ TEST_CASE("with too few open files a texture is not missing, and the status is 4
 
 TEST_CASE("readers that may start no process or no thread are this computer's shortage") {
   const TemporaryFolder folder;
-  const std::string scene = write_textured_triangle(folder, "t.png");
-  apps::write_image(folder / "t.png", apps::Image(2, 2));
+  const std::string scene = write_textured_triangle(folder, "t.tga");
+  apps::write_image(folder / "t.tga", apps::Image(2, 2));  // which OpenImageIO reads, by threads
   const std::string nobody = "setpriv --reuid=65534 --clear-groups bash -c ";
   std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
   if (::geteuid() != 0 || end_of(nobody + "'exec " DMPC_PROGRAM " list'").status != 0) {

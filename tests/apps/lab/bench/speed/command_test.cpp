@@ -67,7 +67,7 @@ TEST_CASE("bench speed measures all its parts and holds them against what is to 
                            "| memory ",
                            "| packets on 2 threads ",
                            "| forest on 8 nodes, pool ",
-                           "svm on 64 nodes, pool, beside 8 busy, whole command over plain, processor time (geometric mean of 1)",
+                           "| svm on 64 nodes, pool, beside 8 busy ",
                            "Writing the file, share of the command's processor time",
                            "Loading a PLY or GLB file over Assimp's reading it, wall clock (worst of 2)",
                            "| Embree robust ",
