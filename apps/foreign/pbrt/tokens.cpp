@@ -39,8 +39,7 @@ SourceText::SourceText(const std::string& path, SceneFiles& files) : file_(files
   }
 }
 
-Tokens::Tokens(const std::string& path, SceneFiles& files)
-    : path_(path), folder_(std::filesystem::path(path).parent_path()), files_(files) {
+Tokens::Tokens(const std::string& path, SceneFiles& files) : folder_(std::filesystem::path(path).parent_path()), files_(files) {
   open(path, {}, true);
 }
 
@@ -58,8 +57,7 @@ void Tokens::fail(const Place& place, const std::string& what) const {
 }
 
 void Tokens::check_includes(const std::string& path, const Place& from) const {
-  const auto is_it = [&](const Source& source) { return std::filesystem::path(source.path).lexically_normal() == path; };
-  if (std::any_of(open_.begin(), open_.end(), is_it)) {
+  if (std::any_of(open_.begin(), open_.end(), [&](const Source& source) { return source.normal_path == path; })) {
     fail(from, "includes " + path + " within itself, which has no end");
   }
   if (open_.size() >= include_levels_max) {
@@ -86,7 +84,10 @@ void Tokens::open(const std::string& path, const Place& from, bool is_first) {
   count_bytes(*bytes, path, is_first ? Place{} : from);
   std::string_view text = bytes->text();
   text.remove_prefix(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
-  open_.push_back({std::move(bytes), text, {.file = static_cast<std::uint32_t>(opened_.size() - 1)}, path});
+  open_.push_back({.bytes = std::move(bytes),
+                   .rest = text,
+                   .place = {.file = static_cast<std::uint32_t>(opened_.size() - 1)},
+                   .normal_path = std::filesystem::path(path).lexically_normal().string()});
 }
 
 void Tokens::include(const std::string& name, const Place& from) {

@@ -84,7 +84,7 @@ class Tokens {
     std::unique_ptr<SourceText> bytes;
     std::string_view rest;
     Place place;  ///< of the first of `rest`
-    std::string path;
+    std::string normal_path;
   };
 
   void open(const std::string& path, const Place& from, bool is_first);
@@ -96,7 +96,6 @@ class Tokens {
   static void advance(Source& source, std::size_t bytes);
   static bool skip_blanks(Source& source);
 
-  std::string path_;
   std::filesystem::path folder_;
   SceneFiles& files_;
   std::vector<Opened> opened_;
