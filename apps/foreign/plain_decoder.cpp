@@ -95,7 +95,6 @@ std::optional<RawPicture> plain_picture(const EncodedPicture& picture) {
   return picture.format == "png"       ? png_picture(picture.bytes)
          : picture.format == "jpeg"    ? jpeg_picture(picture.bytes)
          : picture.format == "openexr" ? exr_picture(picture.bytes)
-         : picture.format == "hdr"     ? hdr_picture(picture.bytes)
                                        : std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-// PNG, JPEG, EXR and HDR without OpenImageIO, as it decodes them.
+// PNG, JPEG and EXR without OpenImageIO, as it decodes them.
 #pragma once
 
 #include <memory>

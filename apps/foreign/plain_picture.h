@@ -37,8 +37,4 @@ std::optional<RawPicture> jpeg_picture(std::span<const std::byte> file, std::uin
 /// Nothing if it is none, if some of it is no number, or if OpenEXR has any complaint.
 std::optional<RawPicture> exr_picture(std::span<const std::byte> file, std::uint64_t pixels_max = plain_pixels_max);
 
-/// A picture of Radiance's (.hdr), from the top left, in rows that say their width. Nothing if it is none, does not hold
-/// together, or has light of 2^64 and more or, but for black, of less than 2^-65.
-std::optional<RawPicture> hdr_picture(std::span<const std::byte> file, std::uint64_t pixels_max = plain_pixels_max);
-
 }  // namespace dmpc::apps

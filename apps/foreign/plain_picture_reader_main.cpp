@@ -1,4 +1,4 @@
-// The program dmpc_plain_picture_reader: decodes PNG, JPEG, EXR and HDR for dmpc, which starts it.
+// The program dmpc_plain_picture_reader: decodes PNG, JPEG and EXR for dmpc, which starts it.
 
 #include "apps/foreign/picture_service.h"
 #include "apps/foreign/plain_decoder.h"

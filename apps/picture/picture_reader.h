@@ -28,7 +28,7 @@ PictureFile open_picture(const std::filesystem::path& path);
 /// A copy in memory of what lies there.
 PictureFile picture_of(std::span<const std::byte> bytes, const std::string& name, const std::string& ending);
 
-/// Keeps its process from one picture to the next, as long as that lives: one that reads PNG, JPEG, EXR and HDR alone, until one
+/// Keeps its process from one picture to the next, as long as that lives: one that reads PNG, JPEG and EXR alone, until one
 /// comes that it does not read, and from then on that which reads all, and takes long to start. All pictures together have one
 /// budget of time, which their bytes alone renew, and textures one of memory, which is looked at before there is room for one.
 /// All throw core::InputError "NAME: ...", and core::RoomError, which says so, if this computer has no room for the process or
@@ -61,7 +61,7 @@ class PictureReader {
     Saying saying;
     TextureAlpha alpha;
   };
-  /// The program that reads PNG, JPEG, EXR and HDR as nearly all are, or the one of all formats.
+  /// The program that reads PNG, JPEG and EXR as nearly all are, or the one of all formats.
   enum class Program : std::uint8_t { plain, any };
 
   template <class Take>

@@ -14,7 +14,6 @@
 #include "apps/picture/picture_format.h"
 #include "core/base/expect.h"
 #include "tests/apps/foreign/made_exr.h"
-#include "tests/apps/foreign/made_hdr.h"
 #include "tests/apps/foreign/made_pictures.h"
 #include "tests/support/temporary_folder.h"
 
@@ -292,38 +291,6 @@ TEST_CASE("an EXR of other channels or in tiles, or with what is no number, is l
   }
 }
 
-TEST_CASE("a picture of Radiance's has the bits that OpenImageIO gives, but for light beyond all measure") {
-  CHECK(is_as_by_library(hdr_of_all(0, 0)));
-  CHECK(is_as_by_library(hdr_of_all(64, 192)));
-  for (const unsigned exponent : {1U, 40U, 63U, 193U, 223U, 226U, 255U}) {
-    CAPTURE(exponent);
-    CHECK_FALSE(is_as_by_library(hdr_of_all(exponent, exponent)));
-  }
-  for (const int width : {8, 9, 200, 1000}) {
-    for (const bool has_runs : {false, true}) {
-      CAPTURE(width);
-      CHECK(is_as_by_library(hdr_of({.width = width, .has_runs = has_runs})));
-      CHECK(is_decoded_as_image(hdr_of({.width = width, .has_runs = has_runs})));
-    }
-  }
-  CHECK(is_as_by_library(hdr_of({.head = "#?RGBE\n# a remark\nGAMMA=2.2\nEXPOSURE=3\nFORMAT=32-bit_rle_rgbe\nVIEW= -vtv\n\n"})));
-}
-
-TEST_CASE("one that is turned, narrow, of another format, or of rows of the older kind is left to OpenImageIO") {
-  for (const HdrKind& kind :
-       std::vector<HdrKind>{{.width = 7},
-                            {.head = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n"},
-                            {.head = "#?RADIANCE\n\n"},
-                            {.head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n# " + std::string(200, 'a') + "\n\n"},
-                            {.rows = "+Y "},
-                            {.columns = " -X "}}) {
-    CHECK_FALSE(is_as_by_library(hdr_of(kind)));
-  }
-  std::string older = hdr_of({.width = 16});
-  older[hdr_of({.width = 16, .height = 0}).size()] = 3;
-  CHECK_FALSE(is_as_by_library(older));
-}
-
 TEST_CASE("what is damaged is left to OpenImageIO, or has the bits that it gives") {
   const std::vector<std::string> files = {png_of({}),
                                           png_of({.depth = 16, .is_interlaced = true}),
@@ -331,9 +298,7 @@ TEST_CASE("what is damaged is left to OpenImageIO, or has the bits that it gives
                                           jpeg_of({}),
                                           jpeg_of({.colors = JCS_GRAYSCALE, .is_progressive = true, .restart = 2}),
                                           exr_of({}),
-                                          exr_of({.type = Imf::FLOAT, .compression = Imf::PIZ_COMPRESSION}),
-                                          hdr_of({}),
-                                          hdr_of({.has_runs = true})};
+                                          exr_of({.type = Imf::FLOAT, .compression = Imf::PIZ_COMPRESSION})};
   std::size_t left = 0, decoded = 0;
   for (std::size_t which = 0; which < files.size(); ++which) {
     const std::string& file = files[which];
