@@ -1,12 +1,15 @@
 #include "apps/foreign/plain_decoder.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
+#include <iterator>
 #include <new>
 #include <utility>
 
 #include "apps/foreign/plain_picture.h"
+#include "apps/picture/picture_format.h"
 
 namespace dmpc::apps {
 namespace {
@@ -91,11 +94,13 @@ class OpenedPlain final : public OpenedPicture {
   RawPicture picture_;
 };
 
+/// By plain_formats.
+constexpr std::array<decltype(&png_picture), plain_formats.size()> readers = {png_picture, jpeg_picture, exr_picture};
+static_assert(readers.back() != nullptr, "each plain format has a reader");
+
 std::optional<RawPicture> plain_picture(const EncodedPicture& picture) {
-  return picture.format == "png"       ? png_picture(picture.bytes)
-         : picture.format == "jpeg"    ? jpeg_picture(picture.bytes)
-         : picture.format == "openexr" ? exr_picture(picture.bytes)
-                                       : std::nullopt;
+  const auto format = std::ranges::find(plain_formats, picture.format) - plain_formats.begin();
+  return format < std::ssize(readers) ? readers[static_cast<std::size_t>(format)](picture.bytes, plain_pixels_max) : std::nullopt;
 }
 
 }  // namespace

@@ -10,16 +10,11 @@
 namespace dmpc::apps {
 namespace {
 
-/// A file on its way to libpng.
-struct PngBytes {
-  std::span<const std::byte> rest;
-};
-
 /// Of errors, from which libpng asks for no return, and of warnings.
 [[noreturn]] void leave(png_structp png, png_const_charp) noexcept { png_longjmp(png, 1); }
 
 void take(png_structp png, png_bytep room, std::size_t count) noexcept {
-  std::span<const std::byte>& rest = static_cast<PngBytes*>(::png_get_io_ptr(png))->rest;
+  auto& rest = *static_cast<std::span<const std::byte>*>(::png_get_io_ptr(png));
   if (count > rest.size()) {
     leave(png, "the file ends early");
   }
@@ -27,10 +22,11 @@ void take(png_structp png, png_bytep room, std::size_t count) noexcept {
   rest = rest.subspan(count);
 }
 
-/// libpng's own memory.
+/// libpng's own memory. It takes what it reads from the front of `file`.
 class PngReading {
  public:
-  explicit PngReading(PngBytes& file) : png_(::png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave, leave)) {
+  explicit PngReading(std::span<const std::byte>& file)
+      : png_(::png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave, leave)) {
     info_ = png_ == nullptr ? nullptr : ::png_create_info_struct(png_);
     if (info_ == nullptr) {
       ::png_destroy_read_struct(&png_, nullptr, nullptr);
@@ -86,8 +82,8 @@ bool read_rows(png_structp png, png_infop info, int passes, std::uint8_t* first,
 }  // namespace
 
 std::optional<RawPicture> png_picture(std::span<const std::byte> file, std::uint64_t pixels_max) {
-  PngBytes bytes{file};
-  const PngReading reading(bytes);
+  std::span<const std::byte> rest = file;
+  const PngReading reading(rest);
   const auto png = reading.png();
   const auto info = reading.info();
   int passes = 0;

@@ -60,8 +60,6 @@ std::optional<std::string> picture_format(std::string_view beginning, std::strin
   return lower(ending) == "tga" ? std::optional<std::string>("targa") : std::nullopt;
 }
 
-bool may_be_plain(std::string_view format) { return format == "png" || format == "jpeg" || format == "openexr"; }
-
 std::optional<std::string> picture_format(const Descriptor& file, std::string_view ending) {
   std::array<char, 16> bytes{};
   const ssize_t count = ::pread(file.number(), bytes.data(), bytes.size(), 0);

@@ -1,6 +1,7 @@
 // Which pictures are read, told by what they begin with.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,8 +14,8 @@ namespace dmpc::apps {
 /// OpenImageIO's name ("png", "jpeg", "openexr", "tiff", "bmp", "hdr", "webp", "gif", "pnm", "dds") by the first bytes of a file;
 /// "targa", which begins anyhow, if `ending` (of a name, "tga") says so; else nothing.
 std::optional<std::string> picture_format(std::string_view beginning, std::string_view ending);
-/// Whether pictures of that format may be plain (apps/foreign/plain_picture.h).
-bool may_be_plain(std::string_view format);
+/// Of which pictures may be plain (apps/foreign/plain_picture.h).
+inline constexpr std::array<std::string_view, 3> plain_formats = {"png", "jpeg", "openexr"};
 /// The format of an open file.
 std::optional<std::string> picture_format(const Descriptor& file, std::string_view ending);
 

@@ -146,8 +146,9 @@ void PictureReader::read(const PictureFile& file, const Request& request, const 
 PictureReader::Head PictureReader::ask(const PictureFile& file, const std::string& format, const Request& request) {
   budget_.add_bytes(file.is_new ? file.bytes : 0);
   check_time();
-  const bool is_any_there = process_ && program_ == Program::any;
-  Message answer = answer_of(may_be_plain(format) && !is_any_there ? Program::plain : Program::any, file, format, request);
+  const bool is_any_there = process_ && program_ == Program::any,
+             may_be_plain = std::ranges::find(plain_formats, format) != plain_formats.end();
+  Message answer = answer_of(may_be_plain && !is_any_there ? Program::plain : Program::any, file, format, request);
   if (program_ == Program::plain && answer.saying == Saying::left_to_another) {
     answer = answer_of(Program::any, file, format, request);
   }
