@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <vector>
@@ -129,7 +130,7 @@ void PictureReader::read(const PictureFile& file, const Request& request, const 
   } catch (const core::RoomError& error) {
     process_.reset();
     const std::string text = file.name + ": the reader of " + format + " " + error.what();
-    if (memory_bytes_ < reader_memory_bytes_max()) {
+    if (memory_bytes_for(file.bytes) < reader_memory_bytes_max()) {
       throw core::InputError(text + " for a file of " + std::to_string(file.bytes) + " bytes: it is damaged");
     }
     throw core::RoomError(text + ": make the picture smaller");
@@ -163,8 +164,9 @@ Message PictureReader::answer_of(Program program, const PictureFile& file, const
   return receive();
 }
 
+/// For a picture that may take more than those before it one is started anew: by powers of two, that is seldom.
 void PictureReader::start(Program program, std::uint64_t file_bytes) {
-  const std::uint64_t memory = memory_bytes_for(file_bytes);
+  const std::uint64_t memory = std::min(std::bit_ceil(memory_bytes_for(file_bytes)), reader_memory_bytes_max());
   if (!process_ || program != program_ || memory > memory_bytes_) {
     process_.reset();
     program_ = program;

@@ -15,6 +15,7 @@
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -349,6 +350,18 @@ TEST_CASE("an image with alpha is multiplied by it, as OpenImageIO does") {
   CHECK_FALSE(last_child_has("OpenImageIO"));
   CHECK(reader.read_image(apps::open_picture(folder / "a.png")).rgb == std::vector<float>{0, 0, 0});
   CHECK(last_child_has("OpenImageIO"));
+}
+
+TEST_CASE("pictures each of which is larger than the one before are read by one process") {
+  const TemporaryFolder folder;
+  apps::PictureReader reader;
+  std::set<int> processes;
+  for (const int width : {8, 64, 512}) {
+    apps::write_image(folder / "a.png", apps::Image(width, width));
+    reader.read_image(apps::open_picture(folder / "a.png"));
+    processes.insert(last_child());
+  }
+  CHECK(processes.size() == 1);
 }
 
 TEST_CASE("a crash of the reader of pictures is an error of the picture, which is named with its format") {
