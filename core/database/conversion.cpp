@@ -312,7 +312,7 @@ class Converter {
 /// What is converted one by one: objects, and in place of the copies of a mesh its triangles, or one thing where it has none.
 class Steps {
  public:
-  Steps(const Scene& scene, std::span<const MeshFaces> meshes) : scene_(scene), meshes_(meshes) {
+  Steps(const Scene& scene, std::span<const MeshFaces> meshes) : meshes_(meshes) {
     if (scene.kept != nullptr) {
       expect(meshes.size() == scene.kept->meshes.size(), "each kept mesh has been judged");
       for (const KeptPlace& place : scene.kept->places) {
@@ -415,7 +415,6 @@ class Steps {
                        triangle.plane == 0 ? 0 : run.planes[triangle.plane - 1]);
   }
 
-  const Scene& scene_;
   std::span<const MeshFaces> meshes_;
   std::vector<Run> runs_;
   std::size_t count_ = 0;

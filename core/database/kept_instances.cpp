@@ -43,7 +43,7 @@ class Keeper {
     std::vector<std::uint32_t> to(old_.primitives.size(), nowhere);
     for (std::size_t i = 0; i < old_.primitives.size();) {
       const KeptPlace* const place = place_of(scene_, old_.sources[i].object);
-      if (place != nullptr && is_kept_[place - scene_.kept->places.data()]) {
+      if (place != nullptr && is_kept_[static_cast<std::size_t>(place - scene_.kept->places.data())]) {
         i = add_place(*place, i);
       } else {
         to[i] = static_cast<std::uint32_t>(primitives_.size());
