@@ -41,6 +41,7 @@ struct RenderRecord {
   const std::vector<svm::ReferenceLog>* references = nullptr;  ///< what options.references asks for
   std::uint64_t samples_found_done = 0;                        ///< of all pixels, in the checkpoint that the run went on from
   std::optional<std::uint64_t> scene_digest = {};              ///< what options.report asks for
+  std::uint64_t film_hash = account_of(report).film.hash();
 };
 
 /// The computer that rendered, in words: "svm, 8 nodes of ipsc2".

@@ -174,15 +174,16 @@ StrategyLines lines_of(const RenderOptions& options, const dataflow::Report& rep
 }
 
 /// Lines of a run in virtual time, with their ends; without it none.
-std::string virtual_lines(const Account& account, const std::optional<nodes::Machine>& machine) {
+std::string virtual_lines(const RenderRecord& record, const Account& account) {
+  const std::optional<nodes::Machine>& machine = record.options.computer.machine;
   if (!account.virtual_time || !machine) {
     return "";
   }
   const nodes::VirtualReport& report = *account.virtual_time;
   const std::string time = fixed(static_cast<double>(report.total_ns) / 1e9, 6) + " s on " + name_with_links(*machine);
   return "virtual  " + time + ", " + counted(report.events, "event") + "; run_hash " +
-         hash_text(report.run_hash(account.film.hash())) + ", machine_digest " + hash_text(report.machine_digest) +
-         "\nlosses   " + parts_text(parts_of(sum_of_nodes(report), account.waits), account.waits) + "\n";
+         hash_text(report.run_hash(record.film_hash)) + ", machine_digest " + hash_text(report.machine_digest) + "\nlosses   " +
+         parts_text(parts_of(sum_of_nodes(report), account.waits), account.waits) + "\n";
 }
 
 std::string time_text(const Seconds& seconds) {
@@ -203,10 +204,10 @@ void print_summary(std::ostream& output, const RenderRecord& record) {
          << "\ncomputer " << counted(account.nodes.size(), "node") << ", " << name_of(record.options.strategy) << ", "
          << special.computer << "\nmemory   " << memory_text(account) << '\n'
          << ranks_line(account) << "rays     " << rays_text(account.operations, walks, record.seconds.render) << '\n'
-         << sampling_line(record.options, account) << special.figures << virtual_lines(account, record.options.computer.machine)
-         << "time     " << time_text(record.seconds) << "\npicture  " << shown(record.options.image.string()) << ", "
-         << account.film.width() << "x" << account.film.height() << ", film " << hash_text(account.film.hash())
-         << picture_text(record.options.picture) << '\n';
+         << sampling_line(record.options, account) << special.figures << virtual_lines(record, account) << "time     "
+         << time_text(record.seconds) << "\npicture  " << shown(record.options.image.string()) << ", " << account.film.width()
+         << "x" << account.film.height() << ", film " << hash_text(record.film_hash) << picture_text(record.options.picture)
+         << '\n';
 }
 
 }  // namespace dmpc::apps

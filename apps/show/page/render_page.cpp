@@ -38,10 +38,10 @@ namespace {
 constexpr int moment_side = 128;
 
 /// By which another run is known to be the same.
-Facts results_of(const Account& account) {
-  Facts results = {{"film", hash_text(account.film.hash())}};
+Facts results_of(const RenderRecord& record, const Account& account) {
+  Facts results = {{"film", hash_text(record.film_hash)}};
   if (account.virtual_time) {
-    results.emplace_back("run", hash_text(account.virtual_time->run_hash(account.film.hash())));
+    results.emplace_back("run", hash_text(account.virtual_time->run_hash(record.film_hash)));
   }
   return results;
 }
@@ -229,7 +229,7 @@ std::string render_page(const RenderRecord& record, const Origin& origin, std::o
   add_nodes(page, record);
   add_traffic(page, account);
   add_memory(page, account, record.database.page_count() * record.database.page_size());
-  page.add_origin(origin, results_of(account));
+  page.add_origin(origin, results_of(record, account));
   if (record.view != nullptr && !record.view->steps.nodes.front().empty()) {
     add_player(page, play_data(record, origin));
   }

@@ -59,7 +59,7 @@ Json links_json(const nodes::VirtualReport& report) {
 
 }  // namespace
 
-VirtualStats virtual_stats(const Account& account) {
+VirtualStats virtual_stats(const Account& account, std::uint64_t film_hash) {
   VirtualStats stats;
   if (!account.virtual_time) {
     stats.nodes.assign(account.nodes.size(), Json::object());
@@ -70,7 +70,7 @@ VirtualStats virtual_stats(const Account& account) {
     return {{"virtual_seconds", times_json(report.total_ns, times, account.kind_names)},
             {"time_percent", percent_json(parts_of(times, account.waits))}};
   };
-  stats.all = {{"run_hash", hash_text(report.run_hash(account.film.hash()))},
+  stats.all = {{"run_hash", hash_text(report.run_hash(film_hash))},
                {"machine_digest", hash_text(report.machine_digest)},
                {"events", report.events},
                {"links", links_json(report)}};

@@ -1,6 +1,9 @@
 // What a run in virtual time adds to the counters: for stats.cpp alone; stats.schema.json says what every key means.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "apps/run/report.h"
 #include "apps/show/stats/strategy.h"
 
@@ -12,6 +15,6 @@ struct VirtualStats {
   std::vector<Json> nodes;  ///< by number
 };
 
-VirtualStats virtual_stats(const Account& account);
+VirtualStats virtual_stats(const Account& account, std::uint64_t film_hash);
 
 }  // namespace dmpc::apps
