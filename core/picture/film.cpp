@@ -81,9 +81,9 @@ Film::Film(int width, int height, FilmScale scale, std::uint32_t planes)
     : width_(width),
       height_(height),
       scale_(scale),
-      samples_(pixel_count_of(width, height)),
-      first_(samples_.size()),
-      second_(planes == 2 ? samples_.size() : 0) {
+      own_samples_(pixel_count_of(width, height)),
+      first_(own_samples_.size()),
+      second_(planes == 2 ? own_samples_.size() : 0) {
   expect(planes == 1 || planes == 2, "a film has one plane or two");
   expect(std::abs(scale.exponent) <= FilmScale::exponent_max, "a film's scale is one that doubles hold");
 }
@@ -100,14 +100,15 @@ bool Film::deposit(std::uint32_t pixel, const PixelSums& sums) {
 }
 
 std::uint64_t Film::samples() const {
-  const std::span<const std::uint32_t> all = samples_.span();
-  return std::accumulate(all.begin(), all.end(), std::uint64_t{0});
+  const std::uint64_t of_all = std::uint64_t{samples_of_all_} * pixel_count();
+  const std::span<const std::uint32_t> own = has_own_samples_ ? own_samples_.span() : std::span<const std::uint32_t>();
+  return std::accumulate(own.begin(), own.end(), of_all);
 }
 
 Vec3d Film::scaled_mean(std::uint32_t pixel) const {
-  expect(samples_[pixel] > 0, "a picture has samples");
+  expect(samples(pixel) > 0, "a picture has samples");
   const Vec3d first = sum_of(first_[pixel]);
-  return (has_second() ? first + sum_of(second_[pixel]) : first) * (film_resolution / samples_[pixel]);
+  return (has_second() ? first + sum_of(second_[pixel]) : first) * (film_resolution / samples(pixel));
 }
 
 Vec3d Film::scaled_sum(std::uint32_t pixel, std::uint32_t plane) const {
@@ -115,9 +116,9 @@ Vec3d Film::scaled_sum(std::uint32_t pixel, std::uint32_t plane) const {
 }
 
 bool Film::gather_planes(std::uint32_t pixel) {
-  expect(samples_[pixel] > 0, "a picture has samples");
+  expect(samples(pixel) > 0, "a picture has samples");
   expect(has_second(), "planes that are gathered are two");
-  const bool is_last_second = plane_of(samples_[pixel] - 1) == 1;
+  const bool is_last_second = plane_of(samples(pixel) - 1) == 1;
   FixedColor& last = is_last_second ? second_[pixel] : first_[pixel];
   FixedColor& other = is_last_second ? first_[pixel] : second_[pixel];
   const bool is_saturated = add(last, other);

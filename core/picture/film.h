@@ -75,7 +75,7 @@ class Film {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  std::size_t pixel_count() const { return samples_.size(); }
+  std::size_t pixel_count() const { return first_.size(); }
   /// Of all deposits.
   FilmScale scale() const { return scale_; }
   /// The least radiance that a deposit can have.
@@ -86,8 +86,13 @@ class Film {
   /// What was deposited of a pixel: nothing on a plane that there is not. Requires pixel < pixel_count().
   PixelSums sums(std::uint32_t pixel) const { return {{first_[pixel], has_second() ? second_[pixel] : FixedColor{}}}; }
   /// Says that a pixel's deposits are those of so many more samples.
-  void add_samples(std::uint32_t pixel, std::uint32_t count) { samples_[pixel] += count; }
-  std::uint32_t samples(std::uint32_t pixel) const { return samples_[pixel]; }
+  void add_samples(std::uint32_t pixel, std::uint32_t count) {
+    own_samples_[pixel] += count;
+    has_own_samples_ = true;
+  }
+  /// The same of every pixel.
+  void add_samples_to_all(std::uint32_t count) { samples_of_all_ += count; }
+  std::uint32_t samples(std::uint32_t pixel) const { return samples_of_all_ + (has_own_samples_ ? own_samples_[pixel] : 0); }
   /// The samples of all pixels.
   std::uint64_t samples() const;
   /// Mean linear radiance of a pixel; requires samples(pixel) > 0.
@@ -107,7 +112,9 @@ class Film {
 
   int width_, height_;
   FilmScale scale_;
-  ZeroedArray<std::uint32_t> samples_;
+  std::uint32_t samples_of_all_ = 0;
+  bool has_own_samples_ = false;
+  ZeroedArray<std::uint32_t> own_samples_;  ///< beyond those of all: nobody touches it where pixels have no more
   ZeroedArray<FixedColor> first_, second_;  ///< planes; the second may not be there
 };
 

@@ -91,10 +91,18 @@ void Refinement::resume(const PartialPicture& start) {
 
 std::span<const PixelPast> Refinement::past() const { return estimate_ ? estimate_->past() : std::span<const PixelPast>(); }
 
-bool Refinement::next_pass(Film& film) {
+/// All wait for the host while it does this, most often of a picture's only pass, which leaves a count a pixel untouched.
+void Refinement::add_samples(Film& film) const {
+  if (pass_.is_first()) {
+    return film.add_samples_to_all(pass_.first_samples());
+  }
   for (std::uint32_t pixel = 0; pixel < pass_.steps().size(); ++pixel) {
     film.add_samples(pixel, pass_.samples(pixel).count);
   }
+}
+
+bool Refinement::next_pass(Film& film) {
+  add_samples(film);
   if (!estimate_) {
     return false;
   }

@@ -83,6 +83,7 @@ class Refinement {
  private:
   class Promises;
 
+  void add_samples(Film& film) const;
   bool begins_by_doubling() const { return kind_ == ErrorKind::noise && result_.passes == 1; }
   void double_all(Film& film);
   double doubling(std::uint32_t pixel) const;

@@ -26,6 +26,10 @@ std::uint32_t Pass::pixel_count() const {
       std::count_if(steps_.begin(), steps_.end(), [](const SampleStep& step) { return !step.is_none(); }));
 }
 
+bool Pass::is_first() const {
+  return std::all_of(steps_.begin(), steps_.end(), [](const SampleStep& step) { return step == SampleStep::first(); });
+}
+
 std::uint32_t Pass::samples_end() const {
   std::uint32_t level = 0;
   for (const SampleStep& step : steps_) {

@@ -70,6 +70,8 @@ class Pass {
       : steps_(pixel_count, SampleStep::first()), first_samples_(first_samples) {}
 
   bool has(std::uint32_t pixel) const { return !steps_[pixel].is_none(); }
+  /// Every pixel gets first_samples(), and had none.
+  bool is_first() const;
   SampleRange samples(std::uint32_t pixel) const { return steps_[pixel].samples(first_samples_); }
   /// How many each pixel has in the first pass.
   std::uint32_t first_samples() const { return first_samples_; }

@@ -79,6 +79,18 @@ TEST_CASE("a pixel's radiance is the mean of both planes over the samples") {
   CHECK(film.samples() == 5);
 }
 
+TEST_CASE("samples of all pixels and a pixel's own add up") {
+  Film film(2, 2);
+  film.add_samples_to_all(2);
+  CHECK(film.samples(0) == 2);
+  CHECK(film.samples() == 8);
+  film.add_samples(3, 4);
+  film.add_samples_to_all(1);
+  CHECK(film.samples(0) == 3);
+  CHECK(film.samples(3) == 7);
+  CHECK(film.samples() == 16);
+}
+
 TEST_CASE("blocks of samples that double those before fall on the planes by turns") {
   for (const auto& [sample, plane] : {std::pair(0U, 0U), {1U, 1U}, {2U, 0U}, {3U, 0U}, {4U, 1U}, {7U, 1U}, {8U, 0U}}) {
     CHECK(plane_of(sample) == plane);

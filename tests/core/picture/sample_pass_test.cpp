@@ -38,11 +38,13 @@ TEST_CASE("the first pass has all pixels, a later one those whose steps bring sa
   Pass pass(5, 2);
   CHECK(pass.pixel_count() == 5);
   CHECK(pass.samples_end() == 2);
+  CHECK(pass.is_first());
   CHECK(pass.pixels() == PixelMask(5, true));
   for (SampleStep& step : pass.steps()) {
     step = {1, 1};
   }
   CHECK(pass.samples_end() == 0);
+  CHECK_FALSE(pass.is_first());
   pass.steps()[3] = {1, 3};
   CHECK(pass.pixel_count() == 1);
   CHECK(pass.samples(3) == SampleRange{2, 6});
