@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/expect.h"
+#include "core/base/filling.h"
 #include "nodes/byte_source.h"
 #include "nodes/layout.h"
 #include "nodes/local_memory.h"
@@ -37,6 +38,8 @@ class LastingPieces {
     return plan;
   }
 
+  /// All pieces are about to be put there.
+  void begin_filling() { core::begin_filling(room_); }
   /// `piece` is now at `index`, in place of what was there.
   void put(std::size_t index, std::span<const std::byte> piece) {
     core::expect(piece.size() == piece_bytes_, "pieces are of one size");
@@ -67,6 +70,7 @@ class LastingPieces {
 inline std::span<const std::byte> kept(LocalMemory& memory, Category category, const ByteSource& source, std::size_t bytes,
                                        std::size_t overread_bytes = 0) {
   LastingPieces room(memory, category, bytes + overread_bytes, bytes);
+  room.begin_filling();
   room.put(0, source, 0);
   return {room.at(0), bytes};
 }

@@ -21,6 +21,7 @@ HomePages::HomePages(nodes::Node& node, const PageCapacity& capacity, const node
       count_(capacity.pages_at(self_)),
       pages_(node.memory(), core::MemoryUse::home_pages, room_bytes(capacity, self_), capacity.page_size_bytes()) {
   core::expect(database.size_bytes() == capacity.database_bytes(), "the plan is the database's");
+  pages_.begin_filling();
   std::size_t slot = 0;
   for_each_page(capacity, self_, [&](std::size_t offset_bytes) { pages_.put(slot++, database, offset_bytes); });
 }
