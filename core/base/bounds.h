@@ -34,6 +34,9 @@ struct alignas(16) Bounds {
     }
     return bounds;
   }
+  Box box() const {
+    return {{double{low[0]}, double{low[1]}, double{low[2]}}, {double{high[0]}, double{high[1]}, double{high[2]}}};
+  }
   void include(const Bounds& other) {
     for (std::size_t i = 0; i < 4; ++i) {
       low[i] = std::min(low[i], other.low[i]);

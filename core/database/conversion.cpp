@@ -133,11 +133,7 @@ void include_cube(Box& box, const Vec3d& center, double half) {
 class Converter {
  public:
   Converter(const Scene& scene, const GridFrame& frame, bool keeps_corners, Conversion& result)
-      : scene_(scene),
-        frame_(frame),
-        is_turned_(frame.axes != world_axes || frame.origin.x == 0 || frame.origin.y == 0 || frame.origin.z == 0),
-        keeps_corners_(keeps_corners),
-        result_(result) {}
+      : scene_(scene), frame_(frame), turn_(frame.axes), keeps_corners_(keeps_corners), result_(result) {}
 
   void add_object(std::uint32_t index) {
     const Object& object = scene_.objects[index];
@@ -176,9 +172,7 @@ class Converter {
   }
 
  private:
-  /// As to_local() has it. What turning by the world's axes changes is the sign of a zero, which is lost where the origin has
-  /// none.
-  Vec3d local(const Vec3d& point) const { return is_turned_ ? to_local(frame_, point) : (point - frame_.origin) * frame_.scale; }
+  [[gnu::always_inline]] Vec3d local(const Vec3d& point) const { return turned_to_local(frame_, turn_(point)); }
 
   /// `size`: what it has across before it is rounded, `at` where; asked if it is degenerate.
   template <class Size>
@@ -304,7 +298,7 @@ class Converter {
 
   const Scene& scene_;
   const GridFrame& frame_;
-  bool is_turned_;
+  Turn turn_;
   bool keeps_corners_;
   Conversion& result_;
 };
@@ -421,51 +415,21 @@ class Steps {
   std::uint32_t next_ = 0;  ///< of Scene::objects
 };
 
-/// Numbers along one axis.
-struct Range {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-
-  void include(double at) {
-    low = std::min(low, at);
-    high = std::max(high, at);
-  }
-};
-
-/// The bounds of points if all of them are usable, as nearly always; in registers, by name: left to itself, GCC has what is
-/// gathered in a loop in memory.
-std::optional<Box> bounds_of_usable(std::span<const Vec3d> points) {
-  Range x, y, z;
-  double nothing = 0;
-  for (const Vec3d& point : points) {
-    x.include(point.x);
-    y.include(point.y);
-    z.include(point.z);
-    nothing += (point.x + point.y + point.z) * 0.0;  // unless one is no number, or infinite
-  }
-  const Box box{{x.low, y.low, z.low}, {x.high, y.high, z.high}};
-  return nothing == 0 && usable(box.low) && usable(box.high) ? std::optional(box) : std::nullopt;
-}
-
-Box bounds_of_points(std::span<const Vec3d> points, const GridAxes& axes) {
-  if (axes == world_axes) {
-    if (const auto bounds = bounds_of_usable(points)) {
-      return *bounds;
-    }
-  }
+Box bounds_of_points(std::span<const Vec3d> points, const Turn& turn) {
   Box box;
   for (const Vec3d& point : points) {
     if (usable(point)) {
-      box.include(turned(axes, point));
+      box.include(turn(point));
     }
   }
   return box;
 }
 
-Box bounds_of_vertices(const std::vector<Vec3d>& vertices, const GridAxes& axes, const Parallel& parallel) {
+Box bounds_of_vertices(const std::vector<Vec3d>& vertices, const Turn& turn, const Parallel& parallel) {
   std::vector<Box> boxes(ceil_divide(vertices.size(), chunk_size));
   parallel.for_each(boxes.size(), [&](std::size_t chunk) {
     const std::size_t first = chunk * chunk_size;
-    boxes[chunk] = bounds_of_points(std::span(vertices).subspan(first, std::min(chunk_size, vertices.size() - first)), axes);
+    boxes[chunk] = bounds_of_points(std::span(vertices).subspan(first, std::min(chunk_size, vertices.size() - first)), turn);
   });
   Box all;
   for (const Box& box : boxes) {
@@ -520,19 +484,20 @@ void clear(Conversion& conversion) {
 }  // namespace
 
 Box bounds_of(const Scene& scene, const GridAxes& axes, const Parallel& parallel) {
-  Box box = bounds_of_vertices(scene.vertices, axes, parallel);
+  const Turn turn(axes);
+  Box box = bounds_of_vertices(scene.vertices, turn, parallel);
   include_copies(box, scene, axes, coordinate_max, parallel);
   for (const Sphere& sphere : scene.spheres) {
     const double r = std::fabs(sphere.radius);
     if (usable(sphere.center) && r < coordinate_max) {
-      include_cube(box, turned(axes, sphere.center), r);
+      include_cube(box, turn(sphere.center), r);
     }
   }
   for (const Cone& cone : scene.cones) {
     const double r = std::max(std::fabs(cone.base_radius), std::fabs(cone.apex_radius));
     for (const Vec3d& end : {cone.base, cone.apex}) {
       if (usable(end) && r < coordinate_max) {
-        include_cube(box, turned(axes, end), r);
+        include_cube(box, turn(end), r);
       }
     }
   }

@@ -41,17 +41,12 @@ double segment_distance(double x, double y, double px, double py, double qx, dou
 
 }  // namespace
 
-Box bounds_of(const PrimitiveValues& primitive) {
+Box other_bounds_of(const PrimitiveValues& primitive) {
   Box box;
   switch (primitive.kind) {
-    case PrimitiveKind::triangle: {
-      const Bounds bounds = rounded_bounds_of(primitive);  // of which nothing had to be rounded
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.low[axis] = double{bounds.low[axis]};
-        box.high[axis] = double{bounds.high[axis]};
-      }
+    case PrimitiveKind::triangle:
+      expect(false, "a triangle's bounds are its coordinates'");
       break;
-    }
     case PrimitiveKind::sphere: {
       const double radius = std::fabs(double{primitive.value[3]});
       box.include(primitive.vector(0));
@@ -73,16 +68,7 @@ Box bounds_of(const PrimitiveValues& primitive) {
 }
 
 Bounds rounded_bounds_of(const PrimitiveValues& primitive) {
-  if (primitive.kind != PrimitiveKind::triangle) {
-    return Bounds::around(bounds_of(primitive));
-  }
-  Bounds bounds;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float a = primitive.value[axis], b = primitive.value[3 + axis], c = primitive.value[6 + axis];
-    bounds.low[axis] = std::min({a, b, c});
-    bounds.high[axis] = std::max({a, b, c});
-  }
-  return bounds;
+  return primitive.kind == PrimitiveKind::triangle ? triangle_bounds_of(primitive) : Bounds::around(other_bounds_of(primitive));
 }
 
 Overlap::Overlap(const PrimitiveValues& primitive)

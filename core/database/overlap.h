@@ -1,14 +1,32 @@
 // Conservative tests whether a primitive's surface touches a box: never a false no.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include "core/base/bounds.h"
 #include "core/base/box.h"
 #include "core/database/database.h"
 
 namespace dmpc::core {
 
+/// Of a triangle: nothing has to be rounded.
+inline Bounds triangle_bounds_of(const PrimitiveValues& triangle) {
+  Bounds bounds;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float a = triangle.value[axis], b = triangle.value[3 + axis], c = triangle.value[6 + axis];
+    bounds.low[axis] = std::min(std::min(a, b), c);
+    bounds.high[axis] = std::max(std::max(a, b), c);
+  }
+  return bounds;
+}
+/// Of another primitive.
+Box other_bounds_of(const PrimitiveValues& primitive);
+
 /// The primitive's bounding box, not padded.
-Box bounds_of(const PrimitiveValues& primitive);
+inline Box bounds_of(const PrimitiveValues& primitive) {
+  return primitive.kind == PrimitiveKind::triangle ? triangle_bounds_of(primitive).box() : other_bounds_of(primitive);
+}
 /// These bounds in single precision, rounded outwards.
 Bounds rounded_bounds_of(const PrimitiveValues& primitive);
 

@@ -60,16 +60,6 @@ class CellLanes {
       highs_[axis][lane] = box.high[axis];
     }
   }
-  void put(std::size_t lane, const PrimitiveValues& primitive) {
-    if (primitive.kind != PrimitiveKind::triangle) {
-      return put(lane, bounds_of(primitive));
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float a = primitive.value[axis], b = primitive.value[3 + axis], c = primitive.value[6 + axis];
-      lows_[axis][lane] = double{std::min(std::min(a, b), c)};
-      highs_[axis][lane] = double{std::max(std::max(a, b), c)};
-    }
-  }
   void find() {
     run_by(width_, [this] {
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -120,7 +110,7 @@ class TopCells::Lister {
     while (listed.next < end && !listed.is_cut_off) {
       const auto some = primitives_.subspan(listed.next, std::min(CellLanes::count_max, end - listed.next));
       for (std::size_t lane = 0; lane < some.size(); ++lane) {
-        lanes.put(lane, some[lane]);
+        lanes.put(lane, bounds_of(some[lane]));
       }
       lanes.find();
       for (std::size_t lane = 0; lane < some.size() && !listed.is_cut_off; ++lane) {
@@ -140,8 +130,6 @@ class TopCells::Lister {
   }
 
  private:
-  using Place = CellPlace;
-
   /// Lists the primitive that comes next, unless there would be too many touches.
   void list(const PrimitiveValues& primitive, const CellRange& range, std::size_t bound, Listed& listed) const {
     const std::size_t before = listed.touches.size();
@@ -156,7 +144,7 @@ class TopCells::Lister {
     }
   }
 
-  std::uint32_t index_of(const Place& place) const {
+  std::uint32_t index_of(const CellPlace& place) const {
     return static_cast<std::uint32_t>(
         directory_index(size_, {place[0] * finest_per_top, place[1] * finest_per_top, place[2] * finest_per_top}));
   }
@@ -173,7 +161,8 @@ class TopCells::Lister {
     }
   }
 
-  void add_all(std::uint32_t id, const Place& first, const Place& last, std::size_t bound, std::vector<Touch>& touches) const {
+  void add_all(std::uint32_t id, const CellPlace& first, const CellPlace& last, std::size_t bound,
+               std::vector<Touch>& touches) const {
     for (std::int32_t z = first[2]; z <= last[2]; ++z) {
       for (std::int32_t y = first[1]; y <= last[1]; ++y) {
         for (std::int32_t x = first[0]; x <= last[0] && touches.size() <= bound; ++x) {
@@ -185,7 +174,7 @@ class TopCells::Lister {
 
   /// Where many cells are between `first` and `last`, halves that it does not touch are left out at once: a long primitive lies
   /// in few of them.
-  void add_touched(std::uint32_t id, const Overlap& overlap, const Place& first, const Place& last, std::size_t bound,
+  void add_touched(std::uint32_t id, const Overlap& overlap, const CellPlace& first, const CellPlace& last, std::size_t bound,
                    std::vector<Touch>& touches) const {
     std::size_t longest = 0;
     std::int64_t count = 1;
@@ -196,7 +185,7 @@ class TopCells::Lister {
     if (count <= cells_one_by_one) {
       return add_touched_of_few(id, overlap, first, last, bound, touches);
     }
-    Place end = last, begin = first;
+    CellPlace end = last, begin = first;
     end[longest] = first[longest] + (last[longest] - first[longest]) / 2;
     begin[longest] = end[longest] + 1;
     for (const auto& [low, high] : {std::pair(first, end), std::pair(begin, last)}) {
@@ -206,8 +195,8 @@ class TopCells::Lister {
     }
   }
 
-  void add_touched_of_few(std::uint32_t id, const Overlap& overlap, const Place& first, const Place& last, std::size_t bound,
-                          std::vector<Touch>& touches) const {
+  void add_touched_of_few(std::uint32_t id, const Overlap& overlap, const CellPlace& first, const CellPlace& last,
+                          std::size_t bound, std::vector<Touch>& touches) const {
     const Vec3d half{edge_ / 2 + pad_, edge_ / 2 + pad_, edge_ / 2 + pad_};
     for (std::int32_t z = first[2]; z <= last[2]; ++z) {
       for (std::int32_t y = first[1]; y <= last[1]; ++y) {
@@ -221,7 +210,7 @@ class TopCells::Lister {
   }
 
   /// Whether it may touch one of the cells: never a false no, so a little larger than they are.
-  bool may_touch(const Overlap& overlap, const Place& first, const Place& last) const {
+  bool may_touch(const Overlap& overlap, const CellPlace& first, const CellPlace& last) const {
     Vec3d middle, half;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       middle[axis] = low_[axis] + (first[axis] + last[axis] + 1) * 0.5 * edge_;
@@ -231,7 +220,7 @@ class TopCells::Lister {
   }
 
   std::span<const PrimitiveValues> primitives_;
-  Place size_;
+  CellPlace size_;
   Vec3d low_;  ///< where the grid begins
   double edge_;
   double pad_;

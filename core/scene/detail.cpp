@@ -40,20 +40,20 @@ double quantile(std::vector<Weighted>& all, double share) {
   return at->value;
 }
 
-Box box_of(const PlacedObject& placed, const GridAxes& axes) {
+Box box_of(const PlacedObject& placed, const Turn& turn) {
   const Scene& scene = placed.pools();
   const Object& object = placed.object();
   Box box;
   if (object.kind == ObjectKind::sphere) {
     const Sphere& sphere = scene.spheres[object.first];
-    box.include(turned(axes, sphere.center), std::fabs(sphere.radius));
+    box.include(turn(sphere.center), std::fabs(sphere.radius));
   } else if (object.kind == ObjectKind::cone) {
     const Cone& cone = scene.cones[object.first];
-    box.include(turned(axes, cone.base), std::fabs(cone.base_radius));
-    box.include(turned(axes, cone.apex), std::fabs(cone.apex_radius));
+    box.include(turn(cone.base), std::fabs(cone.base_radius));
+    box.include(turn(cone.apex), std::fabs(cone.apex_radius));
   } else {
     for (std::uint32_t i = 0; i < object.vertex_count; ++i) {
-      box.include(turned(axes, placed.vertex(i)));
+      box.include(turn(placed.vertex(i)));
     }
   }
   return box;
@@ -68,9 +68,10 @@ struct Detail {
 std::vector<Detail> details_of(const Scene& scene, const GridAxes& axes, const Box& bounds, double extent) {
   std::vector<Detail> details;
   const PlacedObjects objects(scene);
+  const Turn turn(axes);
   objects.for_each(
       [&](const PlacedObject& object) {
-        const Box box = box_of(object, axes);
+        const Box box = box_of(object, turn);
         const double size = largest_component(box.high - box.low);
         if (size > 0 && size <= 2 * extent && bounds.holds(box.center())) {
           const double share = std::max(size / extent, least_share);

@@ -37,12 +37,23 @@ double insertion_pad(const GridFrame& frame, double distance, std::int32_t layer
 /// The screen's axes: right, up, and from the scene towards the eye.
 GridAxes screen_axes(const View& view);
 
-/// A direction of the world in the grid's axes. World axes keep its bits.
+/// A direction of the world in the grid's axes. World axes keep its bits, but for the sign of a zero.
 inline Vec3d turned(const GridAxes& axes, const Vec3d& v) { return {dot(axes[0], v), dot(axes[1], v), dot(axes[2], v)}; }
 
-/// A world point in grid-local coordinates, not rounded.
-inline Vec3d to_local(const GridFrame& frame, const Vec3d& point) {
-  return (turned(frame.axes, point) - frame.origin) * frame.scale;
-}
+/// turned() of many, for nothing where axes are the world's.
+class Turn {
+ public:
+  explicit Turn(const GridAxes& axes) : axes_(axes), is_none_(axes == world_axes) {}
+  [[gnu::always_inline]] Vec3d operator()(const Vec3d& v) const { return is_none_ ? v : turned(axes_, v); }
+
+ private:
+  const GridAxes& axes_;
+  bool is_none_;
+};
+
+/// A point that has been turned in grid-local coordinates, not rounded.
+inline Vec3d turned_to_local(const GridFrame& frame, const Vec3d& turned) { return (turned - frame.origin) * frame.scale; }
+/// A world point.
+inline Vec3d to_local(const GridFrame& frame, const Vec3d& point) { return turned_to_local(frame, turned(frame.axes, point)); }
 
 }  // namespace dmpc::core
