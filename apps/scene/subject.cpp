@@ -27,7 +27,8 @@ core::CopyLimits copy_limits(const PictureOptions& picture, bool chose_copies) {
   if (picture.is_refined) {
     limits.corners_max = std::numeric_limits<std::uint64_t>::max();
     limits.reason = "among which --samples=auto looks for fine detail";
-    limits.advice = "give a number of samples, such as --samples=4";
+    limits.advice = chose_copies ? "give --instances=keep and a number of samples, such as --samples=4"
+                                 : "give a number of samples, such as --samples=4";
   }
   return limits;
 }
