@@ -1,7 +1,7 @@
 // Any bytes as a picture, by the first byte in a file that ends with .tga or with nothing: no format that is known, refused with
 // core::InputError, or a texture and an image of the size that the file says, the same without OpenImageIO where that can be. Of
 // OpenImageIO's readers those are left out that are known to fail themselves, which is what readers are processes of their own
-// for; a JPEG is read without it alone.
+// for; a JPEG is read without it alone, and an EXR first.
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -81,14 +81,16 @@ void try_plainly(const apps::EncodedPicture& picture, const std::optional<core::
   }
 }
 
-void try_jpeg(std::span<const std::byte> file) {
-  const std::optional<apps::RawPicture> jpeg = apps::jpeg_picture(file, pixels_max);
-  if (jpeg) {
-    expect(jpeg->values.size() == std::size_t{jpeg->width} * jpeg->height * static_cast<std::size_t>(jpeg->channels),
+/// What is read without OpenImageIO alone; whether it can be.
+bool try_alone(const std::string& format, const std::optional<apps::RawPicture>& picture) {
+  if (picture) {
+    const std::size_t pixels = std::size_t{picture->width} * picture->height;
+    expect(picture->values.size() == pixels * static_cast<std::size_t>(picture->channels) * picture->value_bytes,
            "every value is there");
   }
-  covered().count("jpeg decoded", jpeg.has_value());
-  covered().count("jpeg left to OpenImageIO", !jpeg);
+  covered().count(format + " decoded", picture.has_value());
+  covered().count(format + " left to OpenImageIO", !picture);
+  return picture.has_value();
 }
 
 void try_picture(const apps::EncodedPicture& picture) {
@@ -124,13 +126,15 @@ void try_picture(const std::uint8_t* data, std::size_t size) {
   const auto bytes = std::as_bytes(std::span(data, size)).subspan(1);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const auto format = apps::picture_format(text, data[0] % 2 == 1 ? "TGA" : "");
-  if (format == "jpeg") {
-    try_jpeg(bytes);
-  } else if (format && std::find(formats_held.begin(), formats_held.end(), *format) != formats_held.end()) {
-    const apps::EncodedPicture picture{bytes, "input", *format, apps::TextureAlpha::kept};
-    if (is_small(picture)) {
-      try_picture(picture);
-    }
+  if (!format) {
+    return;
+  }
+  const apps::EncodedPicture picture{bytes, "input", *format, apps::TextureAlpha::kept};
+  const bool is_held = std::find(formats_held.begin(), formats_held.end(), *format) != formats_held.end();
+  if (*format == "jpeg") {
+    try_alone(*format, apps::jpeg_picture(bytes, pixels_max));
+  } else if (*format == "openexr" ? try_alone(*format, apps::exr_picture(bytes, pixels_max)) : is_held && is_small(picture)) {
+    try_picture(picture);
   }
 }
 
