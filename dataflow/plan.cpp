@@ -46,6 +46,8 @@ constexpr std::uint32_t default_queue_packets = 512;
 constexpr std::uint32_t default_bundle_queue_packets = 256;
 /// Where places are shared memory is what counts, and packets are few: among 1,024 nodes they are seldom full.
 constexpr std::uint32_t default_shared_queue_packets = 128;
+/// A node's share of the pixels would fill so many packets of film: light comes while the picture is made.
+constexpr std::uint64_t film_packets_a_node = 16;
 constexpr std::size_t host_stack_bytes = std::size_t{1} << 20U;
 
 /// Small packets of units that may be in a node's mailbox.
@@ -282,6 +284,16 @@ Gather::Capacity Plan::gather() const {
           .host_credits = host_credits,
           .queue_packets = queue_packets,
           .tested_objects = tested_objects()};
+}
+
+std::uint32_t Plan::film_entries() const {
+  if (rays_a_task == 1) {
+    return film_packet_entries;
+  }
+  const std::uint64_t pixels = std::uint64_t{request.width} * request.height;
+  const std::uint64_t share = pixels / (film_packets_a_node * node_count());
+  const std::uint32_t most = std::max(film_entries_in(packet_bytes()), film_packet_entries);
+  return share < most ? std::max(static_cast<std::uint32_t>(share), film_packet_entries) : most;
 }
 
 std::uint32_t Plan::dealing_credits() const { return request.is_dealt() ? dealt_packets : 0; }

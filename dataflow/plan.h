@@ -84,10 +84,8 @@ struct Plan {
   std::size_t packet_bytes() const { return ray_packet_bytes(ray_batch, tested_objects()); }
 
   /// Of a full packet of film. Where rays walk together it is as long as one of rays, since each packet parts the pixels of a
-  /// bundle, whose later light then takes entries of its own.
-  std::uint32_t film_entries() const {
-    return rays_a_task > 1 ? film_entries_in(std::max(packet_bytes(), dataflow::packet_bytes)) : film_packet_entries;
-  }
+  /// bundle, whose later light then takes entries of its own; but a node sends some before the end, also of a small picture.
+  std::uint32_t film_entries() const;
   /// What a node gathers light in, of which so many deposits may come at once.
   FilmGather::Capacity film(std::uint32_t at_once) const { return {node_count(), film_credits, film_entries(), at_once}; }
 

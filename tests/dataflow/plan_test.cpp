@@ -75,6 +75,20 @@ TEST_CASE("where places are shared packets of bundles are no longer than those o
   CHECK(make_plan(request).film_entries() == dataflow::film_packet_entries);
 }
 
+TEST_CASE("a small picture's packets of film are short where rays walk in bundles, so that many nodes send some before the end") {
+  const auto entries = [](std::uint32_t nodes, std::uint32_t side) {
+    PlanRequest request = request_with(nodes, 100_KiB);
+    request.bundles = true;
+    request.width = request.height = side;
+    return make_plan(request).film_entries();
+  };
+  CHECK(entries(64, 512) == 127);
+  CHECK(entries(64, 256) == 64);
+  CHECK(entries(64, 64) == dataflow::film_packet_entries);
+  CHECK(entries(2, 64) == 127);
+  CHECK(entries(64, 65536) == 127);
+}
+
 TEST_CASE("bundles have packets of 4 KiB, few nodes more credits, and each node room for 16 rays and their hits") {
   for (const std::uint32_t nodes : {1U, 2U, 8U, 16U, 64U}) {
     CAPTURE(nodes);
@@ -86,7 +100,7 @@ TEST_CASE("bundles have packets of 4 KiB, few nodes more credits, and each node 
     CHECK(plan.rays_a_task == 16);
     CHECK(plan.ray_batch == 34);
     CHECK(dataflow::ray_packet_bytes(34) <= 4_KiB);
-    CHECK(plan.film_entries() == 127);
+    CHECK(plan.film_entries() == std::clamp(256 / nodes, dataflow::film_packet_entries, 127U));
     CHECK(alone.film_entries() == dataflow::film_packet_entries);
     CHECK(plan.ray_credits == std::max(64 / nodes, 4U));
     CHECK(plan.queue_packets == (nodes == 1 ? 0 : 256));

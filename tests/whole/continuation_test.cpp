@@ -47,7 +47,6 @@ struct Run {
 Part run(const Subject& subject, const Run& run, const std::stop_token& stop = {}) {
   if (run.strategy == Strategy::dataflow) {
     const dataflow::RunOptions options{.computer = {.node_count = run.nodes, .chaos = run.chaos},
-                                       .rays = {.ray_batch = 8},  // short packets, of film, too: light comes often
                                        .continuation = run.continuation};
     return part_of(dataflow::run_dataflow(subject.database(), subject.settings(), options, stop));
   }
