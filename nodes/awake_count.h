@@ -11,7 +11,8 @@
 //     the count above zero.
 // (3) Hence zero is reached once at most, and for ever: nobody is left to raise it. Unless there is one thread more, which
 //     brings packets from other processes and is no node: it raises the count for itself before it puts them into mailboxes,
-//     and leaves it after. Then zero lasts until that thread ends it, and it alone can know.
+//     and leaves it after. Then zero lasts until that thread ends it, and it alone can know. (A node that brings some is
+//     counted.)
 #pragma once
 
 #include <cstdint>

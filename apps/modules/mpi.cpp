@@ -1,5 +1,5 @@
-// The module dmpc_mpi.so: frames, and the few steps that ranks take together, by MPI. Two-sided messages alone, and all calls on
-// one thread: what every MPI does well.
+// The module dmpc_mpi.so: frames, and the few steps that ranks take together, by MPI. Two-sided messages alone, and one call at
+// a time: what every MPI does well.
 
 #define OMPI_SKIP_MPICXX 1   // the C++ bindings, which MPI has given up
 #define MPICH_SKIP_MPICXX 1  // the same
@@ -178,11 +178,11 @@ std::string version() {
 
 void start() {
   int given = MPI_THREAD_SINGLE;
-  check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given), "start");
+  check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given), "start");
   core::use_usual_arithmetic();  // it has loaded what it is made of
   check(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "report errors");
-  if (given < MPI_THREAD_FUNNELED) {
-    throw nodes::LostRank(version() + " allows no threads beside the one that calls it: use one that was built with threads");
+  if (given < MPI_THREAD_SERIALIZED) {
+    throw nodes::LostRank(version() + " allows calls of one thread alone: use one that was built for several");
   }
 }
 

@@ -14,7 +14,7 @@
 
 namespace dmpc::nodes {
 
-/// Items: clock_asked, clock_told, clocks_read, start. Thread safety: belongs to the communicating thread.
+/// Items: clock_asked, clock_told, clocks_read, start. Thread safety: belongs to one thread at a time.
 class ClockTalk {
  public:
   /// `links` outlive this. On rank 0 `compares` says whether clocks are to be compared; the others hear of it.

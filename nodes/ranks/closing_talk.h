@@ -17,7 +17,7 @@
 
 namespace dmpc::nodes {
 
-/// Items: text, closing. Thread safety: belongs to the communicating thread.
+/// Items: text, closing. Thread safety: belongs to one thread at a time.
 class ClosingTalk {
  public:
   /// `links` and `nodes` outlive this.

@@ -39,7 +39,8 @@ bool CountingTalk::send_packets() {
   return traffic_.packets_sent > before;
 }
 
-/// The order matters: nodes that sleep have put into the outbox what they had, and only what this thread brings wakes them.
+/// The order matters: nodes that sleep have put into the outbox what they had, and while all do only what this thread brings
+/// wakes them.
 void CountingTalk::count_if_quiet() {
   if (is_to_count() && outbox_->is_drained()) {
     const Counts counts{traffic_.packets_sent, traffic_.packets_received, nodes_->unfinished_count()};

@@ -14,7 +14,7 @@
 
 namespace dmpc::nodes {
 
-/// Items: packet, counts. Thread safety: belongs to the communicating thread.
+/// Items: packet, counts. Thread safety: belongs to one thread at a time.
 class CountingTalk {
  public:
   /// All of it outlives this. `outbox` has what nodes here send to nodes elsewhere, of `node_count` in all and the host.

@@ -46,6 +46,8 @@ class Exchange {
       turn(receive);
     }
   }
+  /// Others, who moved what there was, do so no more: soon something comes.
+  void end_nap() { nap_.end(); }
 
  private:
   /// So many turns does a thread that always has something to do take from one look at who is silent to the next.

@@ -28,7 +28,7 @@ struct Arrival {
 
 /// One rank's end of it. Frames from one rank to another arrive whole and in the order in which they were sent; of more it need
 /// not know anything. Two to each rank may be under way. What it can no longer do is a LostRank. Thread safety: belongs to one
-/// thread, the communicating thread.
+/// thread at a time.
 class Fabric {
  public:
   virtual ~Fabric() = default;

@@ -15,7 +15,7 @@
 namespace dmpc::nodes {
 
 /// Items: report, reported, rank_traffic, rank_report, rank_reported. A rank may say of itself while rank 0 still gathers from
-/// others what their nodes say: hence words of other kinds. Thread safety: belongs to the communicating thread.
+/// others what their nodes say: hence words of other kinds. Thread safety: belongs to one thread at a time.
 class GatheringTalk {
  public:
   /// `links` outlive this.

@@ -29,7 +29,7 @@ struct LoopbackTrouble {
   std::optional<std::uint32_t> dead_rank = std::nullopt;  ///< all that it sends is lost
 };
 
-/// Outlives the threads on which its ranks run. Thread safety: each rank's end belongs to its thread.
+/// Outlives the threads on which its ranks run. Thread safety: each rank's end belongs to one thread at a time.
 class Loopback {
  public:
   explicit Loopback(std::uint32_t rank_count, const LoopbackTrouble& trouble = {}, std::size_t frame_bytes = frame_bytes_min);

@@ -12,9 +12,9 @@ enum class Idle : std::uint8_t {
   spin    ///< where it has one of its own: no frame waits for it to wake
 };
 
-/// Its own nodes' packets wake it at once; it is frames of other ranks for which it has to look. It does not yield before it
-/// sleeps: where others compute, a yield takes milliseconds, and who wakes goes before them. So every nap's end takes a core from
-/// one that computes, and naps of a few us would be no more than a poll with two switches of threads.
+/// Its own nodes call it when it is to act for them; it is frames of other ranks for which it has to look. It does not yield
+/// before it sleeps: where others compute, a yield takes milliseconds, and who wakes goes before them. So every nap's end takes a
+/// core from one that computes, and naps of a few us would be no more than a poll with two switches of threads.
 class Nap {
  public:
   static constexpr std::chrono::nanoseconds shortest{30'000}, longest{100'000};

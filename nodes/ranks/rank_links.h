@@ -25,7 +25,7 @@ struct RankSilence {
   std::chrono::milliseconds look_max() const { return longest / 8; }
 };
 
-/// Thread safety: belongs to the communicating thread.
+/// Thread safety: belongs to one thread at a time.
 class RankLinks {
  public:
   /// `fabric` outlives this. Others have this one's `longest` to begin.

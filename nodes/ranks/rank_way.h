@@ -12,7 +12,7 @@
 
 namespace dmpc::nodes {
 
-/// Thread safety: belongs to the communicating thread.
+/// Thread safety: belongs to one thread at a time.
 class RankWay {
  public:
   /// `fabric` outlives this.

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/base/expect.h"
+#include "core/base/usual_arithmetic.h"
 #include "nodes/processors.h"
 #include "nodes/ranks/clock_talk.h"
 #include "nodes/ranks/closing_talk.h"
@@ -50,6 +52,10 @@ MemoryPlan plan_of(const MailboxCapacity& outbox) {
   return plan;
 }
 
+/// While nodes carry, the communicating thread's naps are so many times as long: it looks where all that are awake are stopped,
+/// or in long quanta.
+constexpr int leisure = 16;
+
 std::size_t payload_bytes_max(std::span<const NodeSpecification> specifications) {
   std::size_t most = small_payload_bytes;
   for (const NodeSpecification& specification : specifications) {
@@ -61,8 +67,8 @@ std::size_t payload_bytes_max(std::span<const NodeSpecification> specifications)
 }  // namespace
 
 /// Each kind of item is one talk's. Thread safety: the nodes' threads touch `nodes` and, through it, the outbox; all else belongs
-/// to the communicating thread.
-struct RanksRunner::Implementation {
+/// to whoever has `carrying`, while nodes run: the communicating thread but where it sleeps, or a node's in carry().
+struct RanksRunner::Implementation final : Carrier {
   Implementation(std::span<const NodeSpecification> specifications, RankLinks& to, const std::optional<Chaos>& chaos,
                  Observer* observer, const std::optional<std::uint32_t>& pool_threads)
       : links(to),
@@ -71,7 +77,9 @@ struct RanksRunner::Implementation {
         outbox_capacity(outbox_of(specifications, is_here)),
         outbox_memory(plan_of(outbox_capacity)),
         outbox(outbox_capacity, outbox_memory),
-        outlet{is_here, outbox},
+        call_memory(plan_of({})),
+        call({}, call_memory),
+        outlet{is_here, outbox, call, *this},
         nodes(specifications, chaos, observer, &outlet, pool_threads),
         exchange(to),
         compares_clocks(observer != nullptr && to.rank() == 0),
@@ -151,9 +159,13 @@ struct RanksRunner::Implementation {
   }
 
   void communicate_until(const std::function<bool()>& is_done) {
+    std::unique_lock lock(carrying);
     while (!is_done()) {
+      if (carry_failure) {
+        std::rethrow_exception(std::exchange(carry_failure, nullptr));
+      }
       exchange.turn([this](auto&&... item) { receive(item...); }, [this] { return serve_nodes(); },
-                    [this](std::chrono::nanoseconds time) { sleep(time); });
+                    [&](std::chrono::nanoseconds time) { sleep(time, lock); });
     }
   }
   Wait communicating() {
@@ -174,6 +186,29 @@ struct RanksRunner::Implementation {
     }
   }
 
+  /// As the communicating thread does, which is called if there is more to do than to carry packets.
+  void carry() override {
+    const std::unique_lock lock(carrying, std::try_to_lock);
+    if (!lock || carry_failure || nodes.ending() != Ending::none) {
+      return;
+    }
+    bool is_word = false;
+    try {
+      links.take([&](std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
+        is_word = is_word || header.item != Item::packet;
+        receive(rank, header, bytes);
+      });
+      counting.send_packets();
+      links.flush();
+      core::use_usual_arithmetic();  // what is loaded at the first contact with a rank may have changed this thread's
+    } catch (...) {
+      carry_failure = std::current_exception();
+    }
+    if (is_word || carry_failure) {
+      call.rouse();
+    }
+  }
+
   /// Says whether there was anything to send.
   bool serve_nodes() {
     if (nodes.ending() == Ending::none) {
@@ -188,13 +223,18 @@ struct RanksRunner::Implementation {
     return false;
   }
 
-  void sleep(std::chrono::nanoseconds time) {
-    if (closing.is_closing() || !outbox.is_drained()) {  // what is in it waits for a frame to leave
-      std::this_thread::sleep_for(time);
-    } else if (outbox.fall_asleep()) {
-      // Whoever has roused this thread before it slept has left something to be seen.
-      const bool is_something_new = nodes.ending() != Ending::none || counting.is_to_count();
-      outbox.wait(is_something_new ? time.zero() : time);
+  /// The order matters: ASLEEP first, so that the last node to sleep, which would have carried, either finds it or is seen.
+  void sleep(std::chrono::nanoseconds time, std::unique_lock<std::mutex>& lock) {
+    core::expect(call.fall_asleep(), "nothing is put before a communicating thread");
+    // Whoever has roused this thread before it slept has left something to be seen.
+    const bool is_something_new =
+        !closing.is_closing() && (nodes.ending() != Ending::none || (counting.is_to_count() && outbox.is_drained()));
+    const bool do_nodes_carry = !closing.is_closing() && !nodes.all_sleep();
+    lock.unlock();
+    call.wait(is_something_new ? time.zero() : do_nodes_carry ? leisure * time : time);
+    lock.lock();
+    if (do_nodes_carry && nodes.all_sleep()) {
+      exchange.end_nap();
     }
   }
 
@@ -212,6 +252,10 @@ struct RanksRunner::Implementation {
   MailboxCapacity outbox_capacity;
   LocalMemory outbox_memory;
   Mailbox outbox;
+  LocalMemory call_memory;
+  Mailbox call;  ///< before which the communicating thread sleeps: nothing is ever put in
+  std::mutex carrying;
+  std::exception_ptr carry_failure;  ///< of a node's thread in carry()
   Outlet outlet;
   NodeThreads nodes;
   Exchange exchange;

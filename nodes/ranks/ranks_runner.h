@@ -1,5 +1,5 @@
 // Runs the node programs on several ranks, each a process with a share of the nodes, on one thread a node or on a pool, and a
-// thread that communicates.
+// thread that communicates where they do not do so themselves.
 #pragma once
 
 #include <cstddef>

@@ -27,6 +27,11 @@ bool packet_comes_soon(ThreadProcessor& self) {
   return !self.mailbox.is_empty();
 }
 
+/// Quanta, some tens of microseconds, from one look of a node's thread at what other processes send to its next.
+constexpr std::uint64_t quanta_per_look = 16;
+/// Stack for that, of which no node's plan knows what the carrier takes: reserved, and hardly ever written.
+constexpr std::size_t carrier_stack_bytes = std::size_t{256} << 10U;
+
 bool is_here(const Outlet* outlet, std::size_t index) { return outlet == nullptr || outlet->is_here[index]; }
 
 std::size_t count_here(const Outlet* outlet, std::size_t peer_count) {
@@ -153,17 +158,18 @@ void NodeThreads::begin_again() {
 }
 
 void NodeThreads::start_threads() {
+  const std::size_t more_bytes = outlet_ != nullptr ? carrier_stack_bytes : 0;
   starts_.reserve(processors_.size());
   for (const auto& driver : drivers_) {
     starts_.push_back({this, nullptr, driver.get()});
-    driver->thread.start(driver->stack_bytes(), enter, &starts_.back());
+    driver->thread.start(driver->stack_bytes() + more_bytes, enter, &starts_.back());
   }
   if (!drivers_.empty()) {
     return;
   }
   for (const auto& processor : processors_) {
     starts_.push_back({this, processor.get(), nullptr});
-    processor->thread.start(processor->memory.plan()[Category::reserve], enter, &starts_.back());
+    processor->thread.start(processor->memory.plan()[Category::reserve] + more_bytes, enter, &starts_.back());
   }
 }
 
@@ -198,6 +204,9 @@ void NodeThreads::run_node(ThreadProcessor& self) {
   try {
     while (ending() == Ending::none) {
       const Next next = step(self);
+      if (next == Next::rest || counters.quanta % quanta_per_look == 0 || has_to_send()) {
+        carry();
+      }
       if (next == Next::pass) {
         self.pass_idly();
       } else if (next == Next::rest) {
@@ -233,6 +242,9 @@ void NodeThreads::take_turn(Driver& driver, std::uint32_t number) {
   Next next = Next::go_on;
   for (int quantum = 0; next == Next::go_on && quantum < quanta_per_turn && ending() == Ending::none; ++quantum) {
     next = step(self);
+    if (has_to_send()) {
+      carry();
+    }
   }
   if (next == Next::pass) {
     self.pass_idly();
@@ -240,7 +252,14 @@ void NodeThreads::take_turn(Driver& driver, std::uint32_t number) {
   if (next != Next::rest || !falls_asleep(self)) {
     driver.awake_nodes.stay(number);
   }
+  carry();
   driver.end_turn(self);
+}
+
+void NodeThreads::carry() const {
+  if (outlet_ != nullptr) {
+    outlet_->carrier.carry();
+  }
 }
 
 /// Of a driver's node with nothing to do: it need not look for packets that come soon, as others have their turn before it.
@@ -372,7 +391,7 @@ bool NodeThreads::go_to_sleep(Mailbox& inbox) {
     return true;
   }
   if (outlet_ != nullptr) {
-    outlet_->outbox.rouse();
+    outlet_->call.rouse();
     return true;
   }
   end(unfinished_count() == 0 ? Ending::finished : Ending::stalled);  // every node sleeps: the programs stand still
@@ -401,7 +420,7 @@ void NodeThreads::end(Ending ending) {
     }
   }
   if (outlet_ != nullptr) {
-    outlet_->outbox.rouse();
+    outlet_->call.rouse();
   }
 }
 

@@ -25,19 +25,31 @@ namespace dmpc::nodes {
 /// How a run ends, the gravest last. The first to say so decides in a process.
 enum class Ending : std::uint8_t { none, finished, interrupted, stalled, failed };
 
+/// What carries packets from and to other processes.
+class Carrier {
+ public:
+  /// Carries what there is, unless another thread is about it; called by awake nodes' threads between quanta. Never blocks.
+  virtual void carry() = 0;
+
+ protected:
+  ~Carrier() = default;
+};
+
 /// Where a computer has nodes in other processes, too.
 struct Outlet {
   std::vector<bool> is_here;  ///< by node, the host last
-  /// Where packets for the others go, each behind its target's index (4 bytes). Its receiver is roused when all nodes here sleep.
+  /// Where packets for the others go, each behind its target's index (4 bytes).
   Mailbox& outbox;
+  Mailbox& call;  ///< its receiver is roused when all nodes here sleep, and at the end
+  Carrier& carrier;
 };
 
 /// What is said of a stall, before a line for each program.
 std::string stall_text(const std::optional<Chaos>& chaos);
 
 /// Thread safety: deliver() and what threads run belongs to the nodes' threads; end(), fail() and ending() may be called from
-/// any. What is said to be the bringer's is called by one thread that is no node's, the only one that brings packets from
-/// elsewhere; everything else by the thread that makes this, while no node's thread exists.
+/// any. What is said to be the bringer's is called by one thread at a time, a node's or one that is none;
+/// everything else by the thread that makes this, while no node's thread exists.
 class NodeThreads final : public Network {
  public:
   /// Makes the programs of the nodes that are here; without an outlet those of all. `observer`, if there is one, is told on the
@@ -77,8 +89,8 @@ class NodeThreads final : public Network {
    private:
     NodeThreads* nodes_;
   };
-  /// The bringer's: whether all nodes here sleep, and will until a packet is brought. If so, what their programs say of
-  /// themselves may be asked.
+  /// The bringer's, if it is no node: whether all nodes here sleep, and will until a packet is brought. If so, what their
+  /// programs say of themselves may be asked.
   bool all_sleep() const { return awake_.is_zero(); }
   std::uint32_t unfinished_count() const;
   /// A line for each program that is here.
@@ -129,6 +141,8 @@ class NodeThreads final : public Network {
   void rest(ThreadProcessor& self);
   void sleep(Driver& driver);
   bool go_to_sleep(Mailbox& inbox);
+  bool has_to_send() const { return outlet_ != nullptr && !outlet_->outbox.is_empty(); }
+  void carry() const;
 
   std::optional<Chaos> chaos_;
   Observer* observer_;

@@ -9,8 +9,8 @@ namespace dmpc::nodes {
 /// What the calling thread, and those that it starts meanwhile, ask the scheduler for while this lives: to be woken on time (the
 /// kernel may else be 50 us late), and to run for 0.1 ms at a time where others want the core, in return for running before them
 /// (Linux 6.12 on; earlier ones leave it at their own). Their share of the processors stays what it is. For ranks, between whose
-/// nodes an answer takes six threads' turns, each of which would wait for the milliseconds of whoever computes. Thread safety:
-/// belongs to the thread that made it.
+/// nodes an answer takes up to six threads' turns, each of which would wait for the milliseconds of whoever computes. Thread
+/// safety: belongs to the thread that made it.
 class Promptness {
  public:
   Promptness();

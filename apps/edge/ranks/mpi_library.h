@@ -12,8 +12,8 @@
 
 namespace dmpc::apps {
 
-/// The module's interface. All of it belongs to the thread that called start(), but for version(). Where MPI reports an error,
-/// nodes::LostRank is thrown.
+/// The module's interface. But for version() all of it belongs to the thread that called start(), and the fabric to one at a
+/// time. Where MPI reports an error, nodes::LostRank is thrown.
 struct MpiLibrary {
   /// Which MPI it is: "Open MPI v4.1.4".
   std::string (*version)();

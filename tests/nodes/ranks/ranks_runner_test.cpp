@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <stop_token>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -50,6 +53,44 @@ std::vector<RankResult<RankRun>> run_on(std::uint32_t ranks, const std::vector<N
 }
 
 constexpr auto no_look = [](RanksRunner& /*runner*/) {};
+
+/// Says whether any thread but its maker's takes frames.
+class WatchedFabric final : public Fabric {
+ public:
+  WatchedFabric(Fabric& fabric, std::atomic<bool>& others_take) : fabric_(&fabric), others_take_(&others_take) {}
+
+  std::uint32_t rank() const override { return fabric_->rank(); }
+  std::uint32_t rank_count() const override { return fabric_->rank_count(); }
+  std::string name_of(std::uint32_t rank) const override { return fabric_->name_of(rank); }
+  std::size_t frame_bytes() const override { return fabric_->frame_bytes(); }
+  std::size_t arrival_bytes() const override { return fabric_->arrival_bytes(); }
+  std::span<std::byte> room(std::uint32_t rank) override { return fabric_->room(rank); }
+  void send(std::uint32_t rank, std::size_t bytes) override { fabric_->send(rank, bytes); }
+  std::optional<Arrival> take() override {
+    if (std::this_thread::get_id() != maker_) {
+      others_take_->store(true);
+    }
+    return fabric_->take();
+  }
+
+ private:
+  Fabric* fabric_;
+  std::atomic<bool>* others_take_;
+  std::thread::id maker_ = std::this_thread::get_id();
+};
+
+/// Works until that is so, or for a minute.
+class WorkerUntil : public ToyProgram {
+ public:
+  WorkerUntil(Node& node, const std::atomic<bool>* is_so) : ToyProgram(node), is_so_(is_so) {}
+  bool work() override { return !(is_over_ = is_so_->load() || std::chrono::steady_clock::now() > end_); }
+  bool finished() const override { return is_over_; }
+
+ private:
+  const std::atomic<bool>* is_so_;
+  std::chrono::steady_clock::time_point end_ = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  bool is_over_ = false;
+};
 
 /// Expects that all ranks have ended regularly, and that nothing is lost between them; returns the packets between them.
 std::uint64_t check_ended(const std::vector<RankResult<RankRun>>& results) {
@@ -95,6 +136,22 @@ TEST_CASE("blocks of nodes are on each rank, the host on rank 0") {
 TEST_CASE("programs that are finished from the start end the run on every rank") {
   for (const std::uint32_t ranks : {1U, 2U, 3U, 5U}) {
     CHECK(check_ended(run_on(ranks, equal_nodes(8, {}, making<ToyProgram>()), no_look)) == 0);
+  }
+}
+
+TEST_CASE("nodes that are awake take frames themselves, on threads and in a pool") {
+  for (const std::optional<std::uint32_t> pool_threads : {std::optional<std::uint32_t>(), std::optional(1U)}) {
+    std::atomic<bool> others_take = false;
+    const std::atomic<bool>* const is_so = &others_take;
+    const auto specifications = equal_nodes(5, {}, making<WorkerUntil>(is_so));
+    const auto results = on_ranks(2, {}, [&](Fabric& fabric) {
+      WatchedFabric watched(fabric, others_take);
+      RankLinks links(watched);
+      RanksRunner runner(specifications, links, std::nullopt, nullptr, pool_threads);
+      return runner.run({});
+    });
+    CHECK(others_take);
+    CHECK((results[0].value == RunEnd::finished && results[1].value == RunEnd::finished));
   }
 }
 
