@@ -168,6 +168,11 @@ TEST_CASE("frames that are killed again and again are those of one run, whole or
     process.send(SIGKILL);
     status = process.status();
   }
+  if (status != 0) {  // on a busy machine none came to its end
+    status = render(folder, {"--frames=5", "--turntable=7", "--samples=16", "--checkpoint=@c", "--resume", "-o", "@part.#.exr"})
+                 .status;
+  }
+  CHECK(status == 0);
   for (int frame = 1; frame <= 5; ++frame) {
     const std::string ending = std::to_string(frame) + ".exr";
     CHECK(file_text(folder / ("part." + ending)) == file_text(folder / ("whole." + ending)));
