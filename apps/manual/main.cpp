@@ -1,4 +1,4 @@
-// Writes the manual page, the completion scripts, the schema of --stats and the calls of the module for Python, when the program
+// Writes the manual page, the completion script, the schema of --stats and the calls of the module for Python, when the program
 // is built: dmpc_manual FOLDER.
 
 #include <exception>
@@ -31,8 +31,6 @@ void write_manual(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   write(folder / "dmpc.1", man_page(program, "dmpc " DMPC_VERSION));
   write(folder / "dmpc.bash", bash_completion(program));
-  write(folder / "_dmpc", zsh_completion(program));
-  write(folder / "dmpc.fish", fish_completion(program));
   write(folder / "stats.schema.json", stats_schema());
   write(folder / "calls.py", python_calls(program));
   write(folder / "study.py", python_studies(program));

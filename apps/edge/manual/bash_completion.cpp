@@ -1,5 +1,4 @@
 #include "apps/edge/manual/completion.h"
-#include "apps/edge/manual/shell_words.h"
 
 namespace dmpc::apps {
 
@@ -104,6 +103,28 @@ _dmpc() {
 complete -F _dmpc dmpc
 )";
 
+/// All of them, with blanks between.
+std::string with_blanks(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : " ") + word;
+  }
+  return text;
+}
+
+/// Whatever one of them may be.
+Suggestion suggestion_of(const std::vector<OptionDescription>& arguments) {
+  Suggestion all;
+  for (const OptionDescription& argument : arguments) {
+    const Suggestion& one = argument.suggestion;
+    all.words.insert(all.words.end(), one.words.begin(), one.words.end());
+    all.files = all.files || one.files;
+    all.folders = all.folders || one.folders;
+    all.endings.insert(all.endings.end(), one.endings.begin(), one.endings.end());
+  }
+  return all;
+}
+
 std::string assignment(const std::string& name, const std::string& value) {
   return value.empty() ? "" : " " + name + "=\"" + value + "\"";
 }
@@ -143,7 +164,11 @@ std::string declaration_cases(const CommandDescription& command, const std::stri
       }
     }
   }
-  std::string text = "    \"" + path + "\")" + assignment("commands", with_blanks(names_of(command.commands))) +
+  std::vector<std::string> commands;
+  for (const CommandDescription& inner : command.commands) {
+    commands.push_back(inner.name);
+  }
+  std::string text = "    \"" + path + "\")" + assignment("commands", with_blanks(commands)) +
                      assignment("options", with_blanks(options)) + assignment("valued", with_blanks(valued)) + " ;;\n";
   for (const CommandDescription& inner : command.commands) {
     text += declaration_cases(inner, inner_path(path, inner.name));

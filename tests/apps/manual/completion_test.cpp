@@ -36,20 +36,6 @@ class Desk {
                          ") && COMP_CWORD=$((${#COMP_WORDS[@]} - 1)) && _dmpc && echo \"${COMPREPLY[*]}\""}));
   }
 
-  /// What fish offers for a line, with blanks between, without its descriptions.
-  std::string by_fish(const std::string& line) const {
-    return said(run({"env", "HOME=" + folder_.path().string(), "fish", "--no-config", "-c",
-                     "cd '" + folder_.path().string() + "'; and source ./script; and string join -- ' ' (complete -C '" + line +
-                         "' | string replace -r '\\t.*' '')"}));
-  }
-
-  /// What zsh's _arguments is asked for by the function of a command.
-  std::string by_zsh(const std::string& function) const {
-    return said(run({"zsh", "-f", "-c",
-                     "_arguments() { specifications=$(print -rl -- \"$@\") }; _describe() { }; cd '" + folder_.path().string() +
-                         "' && source ./script; " + function + "; print -r -- $specifications"}));
-  }
-
  private:
   static std::string said(const Said& all) {
     CHECK(all.errors.empty());
@@ -76,14 +62,6 @@ std::string in_order(const std::string& offered) {
     text += (text.empty() ? "" : " ") + word;
   }
   return text;
-}
-
-bool can(const char* shell) {
-  if (tests::is_installed(shell)) {
-    return true;
-  }
-  MESSAGE(shell, " is not installed: its completion is not tested");
-  return false;
 }
 
 }  // namespace
@@ -138,40 +116,6 @@ TEST_CASE("bash completes a word, and behind its colon a file") {
   CHECK(in_order(desk.by_bash("dmpc paint --frame = oak : ho")) == "hoard.nff hoard.png");
   CHECK(in_order(desk.by_bash("dmpc paint --frame = oak :")) == "hoard.nff hoard.png script stable");
   CHECK(desk.by_bash("dmpc paint --frame = ash : ho").empty());
-}
-
-TEST_CASE("fish completes commands, options and values of the command given") {
-  if (!can("fish")) {
-    return;
-  }
-  const Desk desk(fish_completion(program()));
-  CHECK(desk.by_fish("dmpc m") == "mix");
-  CHECK(desk.by_fish("dmpc mix ") == "oil water");
-  CHECK(desk.by_fish("dmpc paint --we") == "--wet");
-  CHECK(desk.by_fish("dmpc mix water --we").empty());
-  CHECK(desk.by_fish("dmpc paint --colour=g") == "--colour=green");
-  CHECK(desk.by_fish("dmpc paint --colour g") == "green");
-  CHECK(desk.by_fish("dmpc paint --spare=door,s") == "--spare=door,sill");
-  CHECK(desk.by_fish("dmpc paint hou") == "house");
-  CHECK(desk.by_fish("dmpc paint hoa") == "hoard.nff");
-  CHECK(desk.by_fish("dmpc paint st") == "stable/");
-  CHECK(desk.by_fish("dmpc paint --frame=o") == "--frame=oak:");
-}
-
-TEST_CASE("zsh is told the options and arguments of every command") {
-  if (!can("zsh")) {
-    return;
-  }
-  const Desk desk(zsh_completion(program()));
-  const std::string paint = desk.by_zsh("_dmpc_paint");
-  for (const char* const line :
-       {"--colour=[Which]:value:(red green dusk)",
-        "(-c --coats)-c+[How many]:1..5: ", "--spare=[What to leave]:value:{_sequence compadd - door sill}",
-        "--wet[On wet ground]", "--frame=[Which and where from]:value:{compset -P '*:' && _files || compadd -S '' - oak: elm:}",
-        ":PICTURE:{_alternative \"words:word:(house horse)\" \"files:file:_files -g \\\"*.(#i)(nff|obj)\\\"\"}"}) {
-    CHECK_MESSAGE(("\n" + paint + "\n").find("\n" + std::string(line) + "\n") != std::string::npos, line << " in\n" << paint);
-  }
-  CHECK(desk.by_zsh("_dmpc_mix_water").find("-o+[Where it goes]:FILE.pot:_files") != std::string::npos);
 }
 
 TEST_CASE("bash completes a value that has a sign") {

@@ -37,14 +37,13 @@ void check_labs(const fs::path& folder) {
   CHECK(bytes < 1'000'000);
 }
 
-/// Everything that is to be installed is below `root`, with zsh's completion in a folder of this name.
-void check_installed(const fs::path& root, const std::string& zsh_folder) {
+/// Everything that is to be installed is below `root`.
+void check_installed(const fs::path& root) {
   const fs::path share = root / "share";
   for (const fs::path& file : {share / "doc/dmpc/README.md", share / "doc/dmpc/ARCHITECTURE.md", share / "doc/dmpc/WORDS.md",
                                share / "doc/dmpc/copyright", share / "doc/dmpc/apps/teapot.png", share / "dmpc/stats.schema.json",
                                share / "doc/dmpc/apps/teapot-heat.png", share / "doc/dmpc/core/README.md",
-                               share / "doc/dmpc/apps/lab/study/paper/RESULTS.md", share / "fish/vendor_completions.d/dmpc.fish",
-                               share / "zsh" / zsh_folder / "_dmpc", share / "doc/dmpc/apps/scenes.png",
+                               share / "doc/dmpc/apps/lab/study/paper/RESULTS.md", share / "doc/dmpc/apps/scenes.png",
                                share / "doc/dmpc/apps/labs/notebooks/latency.ipynb"}) {
     CHECK_MESSAGE(fs::file_size(file) > 0, file);
   }
@@ -169,7 +168,7 @@ TEST_CASE("what cmake installs below a folder is complete and works there") {
   const TemporaryFolder folder;
   const fs::path prefix = folder / "a prefix";
   REQUIRE(run({"cmake", "--install", DMPC_BUILD_DIR, "--prefix", prefix}).status == 0);
-  check_installed(prefix, "site-functions");
+  check_installed(prefix);
   CHECK(fs::exists(prefix / "share/doc/dmpc/LICENSE"));
   check_program(prefix / "bin/dmpc", folder.path());
 }
@@ -189,7 +188,7 @@ TEST_CASE("the Debian packages say what they need, MPI and a compiler for one of
     CHECK_MESSAGE(contains(all, line), line);
   }
   CHECK_FALSE(contains(all, "openmpi"));
-  check_installed(folder / "all/usr", "vendor-completions");
+  check_installed(folder / "all/usr");
   check_program(folder / "all/usr/bin/dmpc", folder.path());
   check_python_package(folder);
   const std::string development = unpacked_text(folder, "libdmpc-dev_*.deb", "development");
