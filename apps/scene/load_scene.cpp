@@ -10,7 +10,6 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
-#include "apps/formats/hither.h"
 #include "apps/formats/landscape/files.h"
 #include "apps/formats/landscape/scene.h"
 #include "apps/formats/mesh_file.h"
@@ -107,25 +106,15 @@ std::string advice_on(const std::string& path, const std::string& ending) {
                           : "";
 }
 
-/// `is_seen_otherwise`: by a camera that is not the file's.
-core::Scene load_nff(const std::string& path, bool is_seen_otherwise, std::int64_t pixels_max, LoadNotes notes,
-                     OpenedFiles& opened) {
+core::Scene load_nff(const std::string& path, std::int64_t pixels_max, LoadNotes notes, OpenedFiles& opened) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (!ending.empty() && ending != ".nff" && ending != ".NFF") {
     throw core::InputError(path + ": files that end in " + ending + " are not read" + advice_on(path, ending) +
                            "; expected .nff or one of " + known_mesh_formats());
   }
-  core::Scene scene;
-  {
-    Progress progress(std::cerr, notes == LoadNotes::said && stderr_is_terminal(), "Reading " + path + ":", "bytes");
-    opened.add(path);
-    scene = read_nff_file(path, pixels_max, [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
-  }
-  const std::string note = hither_note(scene);
-  if (notes == LoadNotes::said && !is_seen_otherwise && !note.empty()) {
-    say_once({note});
-  }
-  return scene;
+  Progress progress(std::cerr, notes == LoadNotes::said && stderr_is_terminal(), "Reading " + path + ":", "bytes");
+  opened.add(path);
+  return read_nff_file(path, pixels_max, [&](std::uint64_t done, std::uint64_t total) { progress.update(done, total); });
 }
 
 core::Scene read_any(const std::string& scene, const MeshOptions& mesh, std::int64_t pixels_max, LoadNotes notes,
@@ -142,8 +131,7 @@ core::Scene read_any(const std::string& scene, const MeshOptions& mesh, std::int
     }
     return core::built_in_scene(core::parse_scene_name(scene, landscape_families));  // throws, listing what there is
   }
-  return is_mesh_path(scene) ? load_mesh(scene, mesh, notes, opened, around)
-                             : load_nff(scene, mesh.is_seen_otherwise, pixels_max, notes, opened);
+  return is_mesh_path(scene) ? load_mesh(scene, mesh, notes, opened, around) : load_nff(scene, pixels_max, notes, opened);
 }
 
 /// The sky stays where it is, whatever view is put in place of the scene's own.
