@@ -6,6 +6,8 @@
 #include <sstream>
 #include <vector>
 
+#include "apps/edge/line/lines.h"
+#include "apps/edge/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -39,23 +41,9 @@ std::string keyword_of(const OptionDescription& option) {
   return name;
 }
 
-std::string joined(const Words& words, const std::string& between) {
-  std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : between) + word;
-  }
-  return text;
-}
-
 /// The words of "svm|dataflow [svm]"; none if a value may be anything else.
 Words choices_in(const std::string& shown) {
-  Words words;
-  const std::string values = shown.substr(0, shown.find(' '));
-  for (std::size_t at = 0; at <= values.size();) {
-    const std::size_t end = std::min(values.find('|', at), values.size());
-    words.push_back(values.substr(at, end - at));
-    at = end + 1;
-  }
+  Words words = words_between(shown.substr(0, shown.find(' ')), '|');
   const bool are_words = words.size() > 1 && std::all_of(words.begin(), words.end(), [](const std::string& word) {
                            return !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
                              return std::islower(c) || std::isdigit(c) || c == '-';

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/edge/line/help_text.h"
+#include "apps/edge/line/lines.h"
 #include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/typed_line.h"
 #include "apps/edge/line/words.h"
@@ -54,14 +55,6 @@ struct DeclaredCommand {
 namespace {
 
 using core::UsageError;
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : "|") + word;
-  }
-  return text;
-}
 
 /// "--nodes", of "-n,--nodes".
 std::string long_name(const std::string& names) { return names.substr(names.find(',') + 1); }
@@ -208,7 +201,7 @@ void OptionSet::add_words(const std::string& name, const std::vector<std::string
       take(word);
     }
   };
-  add_texts(name, joined(words), take_list, description);
+  add_texts(name, joined(words, "|"), take_list, description);
 }
 
 void OptionSet::add_words_as(const std::string& name, const std::vector<std::string>& words, const std::string& shown_default,
@@ -219,7 +212,7 @@ void OptionSet::add_words_as(const std::string& name, const std::vector<std::str
     }
     take(word);
   };
-  add_text(name, joined(words) + " [" + shown_default + "]", take_word, description);
+  add_text(name, joined(words, "|") + " [" + shown_default + "]", take_word, description);
 }
 
 void OptionSet::add_number_as(const std::string& name, std::int64_t least, std::int64_t most, const std::string& shown_default,

@@ -1,5 +1,7 @@
 #include "apps/edge/manual/completion.h"
 
+#include "apps/edge/line/lines.h"
+
 namespace dmpc::apps {
 
 namespace {
@@ -103,15 +105,6 @@ _dmpc() {
 complete -F _dmpc dmpc
 )";
 
-/// All of them, with blanks between.
-std::string with_blanks(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : " ") + word;
-  }
-  return text;
-}
-
 /// Whatever one of them may be.
 Suggestion suggestion_of(const std::vector<OptionDescription>& arguments) {
   Suggestion all;
@@ -130,8 +123,8 @@ std::string assignment(const std::string& name, const std::string& value) {
 }
 
 std::string value_case(const std::string& pattern, const Suggestion& suggestion, bool is_list) {
-  const std::string all = assignment("words", with_blanks(suggestion.words)) + assignment("files", suggestion.files ? "1" : "") +
-                          assignment("endings", with_blanks(suggestion.endings)) +
+  const std::string all = assignment("words", joined(suggestion.words, " ")) + assignment("files", suggestion.files ? "1" : "") +
+                          assignment("endings", joined(suggestion.endings, " ")) +
                           assignment("folders", suggestion.folders ? "1" : "");
   return all.empty() ? "" : "    " + pattern + ")" + all + assignment("is_list", is_list ? "1" : "") + " ;;\n";
 }
@@ -168,8 +161,8 @@ std::string declaration_cases(const CommandDescription& command, const std::stri
   for (const CommandDescription& inner : command.commands) {
     commands.push_back(inner.name);
   }
-  std::string text = "    \"" + path + "\")" + assignment("commands", with_blanks(commands)) +
-                     assignment("options", with_blanks(options)) + assignment("valued", with_blanks(valued)) + " ;;\n";
+  std::string text = "    \"" + path + "\")" + assignment("commands", joined(commands, " ")) +
+                     assignment("options", joined(options, " ")) + assignment("valued", joined(valued, " ")) + " ;;\n";
   for (const CommandDescription& inner : command.commands) {
     text += declaration_cases(inner, inner_path(path, inner.name));
   }

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "apps/edge/line/exit_status.h"
+#include "apps/edge/line/lines.h"
 #include "apps/edge/line/typed_line.h"
 #include "apps/edge/manual/leaves.h"
-#include "apps/edge/manual/lines.h"
 #include "apps/edge/manual/roff.h"
 
 namespace dmpc::apps {
@@ -38,14 +38,6 @@ constexpr EnvironmentVariable variables[] = {
 constexpr EnvironmentVariable files[] = {
     {"~/.cache/dmpc", "References of bench error (--references). May be deleted: they are made again when needed."},
 };
-
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : between) + word;
-  }
-  return text;
-}
 
 bool is_help(const OptionDescription& option) { return option.names.back() == "--help"; }
 

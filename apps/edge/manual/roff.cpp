@@ -4,7 +4,7 @@
 #include <sstream>
 #include <vector>
 
-#include "apps/edge/manual/lines.h"
+#include "apps/edge/line/lines.h"
 
 namespace dmpc::apps {
 

@@ -7,20 +7,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "apps/edge/line/lines.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 
 namespace {
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    lines.push_back(line);
-  }
-  return lines;
-}
 
 /// The first line of `text` that stands elsewhere or not at all in `other`; "nothing" if `text` ends there.
 std::string first_difference(const std::string& text, const std::string& other) {

@@ -1,4 +1,4 @@
-// A text line by line.
+// A text as its lines, and words as a text.
 #pragma once
 
 #include <sstream>
@@ -16,6 +16,15 @@ inline std::vector<std::string> lines_of(std::string_view text) {
     lines.push_back(line);
   }
   return lines;
+}
+
+/// All of the words, with `between` between them.
+inline std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : between) + word;
+  }
+  return text;
 }
 
 }  // namespace dmpc::apps
