@@ -8,7 +8,7 @@
 #include "apps/edge/machine/machine_file.h"
 #include "apps/edge/machine/machines.h"
 #include "apps/edge/run/option_words.h"
-#include "apps/edge/show/trace/format.h"
+#include "apps/edge/show/trace/perfetto.h"
 #include "apps/edge/table/table_options.h"
 #include "core/base/expect.h"
 #include "core/trace/charge.h"
@@ -84,9 +84,8 @@ void check_runner(const OptionSet& options, const ProgramOptions& program) {
   if (program.runner != RunnerKind::mpi) {
     refuse("--idle", "only ranks have a thread that sends and receives for others");
   }
-  if (program.trace && trace_file_of(*program.trace).value_or(TraceFile{.is_packed = true}).is_packed) {  // zlib is not there
-    throw UsageError("--trace=" + program.trace->string() +
-                     ": expected a file with the ending .pftrace (Perfetto), .json (Perfetto, Chrome) or .paje; gzip packs it");
+  if (program.trace) {
+    check_trace_path(*program.trace);
   }
 }
 
@@ -129,10 +128,8 @@ void add_computer_options(OptionSet options, ProgramOptions& program, const std:
 void add_closer_look(OptionSet options, ProgramOptions& program) {
   options.begin_group("Looking closer");
   options.add_path("--stats", "FILE.json", program.stats, "Write all counters");
-  options.add_path(
-      "--trace", "FILE", program.trace,
-      "Write what each node did when, and its messages: FILE.pftrace for Perfetto, FILE.json for it or Chrome, FILE.paje "
-      "for readers of Paje");
+  options.add_path("--trace", "FILE.pftrace", program.trace,
+                   "Write what each node did when, and its messages, for ui.perfetto.dev");
   add_report_option(options, program.report, "with counters, losses, traffic and what each node was busy with over time");
   options.add_flag("--quiet", program.quiet, "No closing lines");
   options.check_in_the_end([options, &program] {

@@ -28,7 +28,7 @@ struct ProgramOptions {
   std::optional<nodes::TopologyKind> topology;  ///< in place of the machine's
   std::optional<std::uint64_t> chaos_seed;
   std::optional<std::filesystem::path> stats;   ///< where the counters go, as JSON
-  std::optional<std::filesystem::path> trace;   ///< .pftrace, .json or .paje
+  std::optional<std::filesystem::path> trace;   ///< .pftrace
   std::optional<std::filesystem::path> report;  ///< .html
   bool quiet = false;                           ///< no closing lines
   // A program of tasks has these, too:

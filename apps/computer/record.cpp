@@ -5,7 +5,7 @@
 #include "apps/edge/line/amount.h"
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/run/time_parts.h"
-#include "apps/edge/show/trace/format.h"
+#include "apps/edge/show/trace/perfetto.h"
 #include "apps/edge/show/trace/view.h"
 #include "core/base/counts.h"
 #include "core/base/expect.h"
@@ -164,7 +164,7 @@ void write_program_trace(const ProgramRecord& record, std::ostream& output) {
                                       {"lost", is_whole ? "nothing" : lost_text(*record.trace)}},
                           .activity_names = vocabulary.has_pages() ? task_activity_names : activity_names,
                           .operation_names = operation_names};
-  write_trace(view, trace_file_of(*record.options.trace).value().format, output);
+  write_perfetto(view, output);
 }
 
 }  // namespace dmpc::apps

@@ -518,7 +518,7 @@ class Rendering {
   Sights take_sights() {
     Sights sights = onlookers_->take();
     if (sights.trace) {
-      say({loss_note(*sights.trace, options_.trace), empty_note(*sights.trace)});
+      say({loss_note(*sights.trace), empty_note(*sights.trace)});
     }
     return sights;
   }

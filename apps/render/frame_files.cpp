@@ -38,9 +38,6 @@ void check_frame_names(const RenderOptions& asked) {
   if (asked.stats) {
     check_name(asked, "--stats", *asked.stats);
   }
-  if (asked.strip) {
-    check_name(asked, "--strip", *asked.strip);
-  }
   for (const HeatRequest& request : asked.heat_maps) {
     check_name(asked, "--heatmap", request.path);
   }
@@ -51,9 +48,6 @@ RenderOptions options_of(const RenderOptions& asked, std::uint64_t frame) {
   options.image = of_frame(asked.image, frame);
   if (asked.stats) {
     options.stats = of_frame(*asked.stats, frame);
-  }
-  if (asked.strip) {
-    options.strip = of_frame(*asked.strip, frame);
   }
   for (HeatRequest& request : options.heat_maps) {
     request.path = of_frame(request.path, frame);

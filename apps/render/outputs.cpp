@@ -12,15 +12,12 @@
 #include "apps/show/heat/files.h"
 #include "apps/show/page/render_page.h"
 #include "apps/show/stats/stats.h"
-#include "apps/show/strip.h"
 #include "apps/show/trace/file.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 
 namespace {
-
-constexpr int strip_side_max = 256;
 
 std::vector<NamedFile> inputs_of(const RenderOptions& options) {
   std::vector<NamedFile> inputs;
@@ -62,11 +59,6 @@ OutputSet<RenderRecord> outputs_of(const RenderOptions& options) {
   for (const HeatRequest& request : options.heat_maps) {
     outputs.add("--heatmap", request.path, check_image_path,
                 [request](Record record, std::ostream& stream) { stream << heat_file(request, record); });
-  }
-  if (options.strip) {
-    outputs.add("--strip", *options.strip, check_image_path, [](Record record, std::ostream& stream) {
-      stream << encoded_picture("strip.png", strip_picture(record, strip_side_max));
-    });
   }
   if (options.checkpoint.file) {
     outputs.add("--checkpoint", *options.checkpoint.file, check_output_path, nullptr);

@@ -37,9 +37,6 @@ std::uint32_t pair_kinds(Strategy strategy) {
 std::vector<core::HeatKind> heat_kinds_of(const RenderOptions& options) {
   using core::HeatKind;
   std::vector<HeatKind> kinds = kinds_of(options.heat_maps);
-  if (options.strip) {
-    kinds.push_back(HeatKind::done);
-  }
   if (options.report) {
     kinds.insert(kinds.end(), {HeatKind::done, HeatKind::node, HeatKind::rays});
     if (options.strategy == Strategy::svm) {
@@ -73,7 +70,7 @@ WatchOrder watch_order(const RenderOptions& options, std::uint32_t page_count, s
                       .number_count = options.strategy == Strategy::svm ? page_count : 0};
   }
   if (options.trace.path) {
-    order.trace = trace_choice(options.trace, node_count);
+    order.trace = trace_choice(options.trace);
     order.trace->events_max = std::max<std::uint64_t>(1, order.trace->events_max / rank_count_of(options));
   }
   if (options.report && options.strategy == Strategy::svm) {
@@ -99,10 +96,7 @@ std::string bytes_of(const WatchOrder& order) {
   if (order.trace) {
     flat.put(order.trace->from_ns);
     flat.put(order.trace->to_ns);
-    flat.put_all(order.trace->nodes);
-    flat.put(order.trace->every);
     flat.put(order.trace->events_max);
-    flat.put(order.trace->keep);
   }
   flat.put(order.has_profile);
   flat.put(order.wait_of);
@@ -123,10 +117,7 @@ WatchOrder watch_order_from(std::string_view bytes) {
     nodes::TraceChoice& trace = order.trace.emplace();
     trace.from_ns = flat.take<std::uint64_t>();
     trace.to_ns = flat.take<std::uint64_t>();
-    trace.nodes = flat.take_all<bool>();
-    trace.every = flat.take<std::uint32_t>();
     trace.events_max = flat.take<std::uint64_t>();
-    trace.keep = flat.take<nodes::TraceKeep>();
   }
   order.has_profile = flat.take<bool>();
   order.wait_of = flat.take<nodes::WaitOf>();

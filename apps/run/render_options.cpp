@@ -60,9 +60,6 @@ void add_study_options(OptionSet& options, RenderOptions& render) {
   options.add_path("--stats", "FILE.json", render.stats, "Write all counters; stats.schema.json says what each means");
   add_report_option(options, render.report, "with the picture, heat maps asked for, counters, losses, traffic and memory");
   add_heat_option(options, render.heat_maps);
-  options.add_path("--strip", "FILE.png", render.strip,
-                   "Write six moments of the picture as it came, side by side, each pixel from its last ray on; by the clock of "
-                   "the run");
   add_options(options, render.trace);
   options.add_path(
       "--references", "FILE.csv", render.references,
@@ -118,15 +115,6 @@ void check_tracer_and_runner(const RenderOptions& render) {
   }
 }
 
-void check_strip(const RenderOptions& render) {
-  if (render.strip && render.strip->extension() != ".png") {
-    throw UsageError("--strip=" + render.strip->string() + ": expected a file with the ending .png");
-  }
-  if (render.strip && render.checkpoint.resumes) {
-    throw UsageError("--resume does not go with --strip: when that came which was done before would be missing on it");
-  }
-}
-
 /// Pages are referenced by svm's pagers alone, and by those that note references, not those that count pages.
 void check_references(const RenderOptions& render) {
   if (!render.references) {
@@ -174,8 +162,7 @@ void check(const OptionSet& options, const RenderOptions& render) {
   check_runner(options, render.runner.kind);
   check_tracer_and_runner(render);
   check_heat(render.heat_maps, render.strategy);
-  check_strip(render);
-  check_trace(options, render.trace, render.computer.node_count);
+  check_trace(render.trace);
   check_references(render);
   check_frames(options, render);
   if (render.pages.count_pages && !render.stats) {
@@ -242,8 +229,8 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render tetra-10 --nodes=64 --node-memory=4MiB -o tetra.exr\n"
       "  dmpc render rings-4-t1 --cache-pages=16 --count-pages --stats=rings.json -o rings.png\n"
       "  dmpc render rings-4-t1 --heatmap=faults:faults.png --heatmap=faults:faults.exr -o rings.png\n"
-      "  dmpc render rings-4-t1 --runner=virtual --machine=hdr --strip=moments.png -o rings.png\n"
-      "  dmpc render rings-4-t1 --nodes=4 --cache-pages=64 --trace=rings.json --trace-window=10,12 -o rings.png\n"
+      "  dmpc render rings-4-t1 --runner=virtual --machine=hdr --heatmap=done:when.png -o rings.png\n"
+      "  dmpc render rings-4-t1 --nodes=4 --cache-pages=64 --trace=rings.pftrace --trace-window=10,12 -o rings.png\n"
       "  dmpc render rings-4-t1 --cache-pages=64 --heatmap=faults:faults.png --report=rings.html -o rings.png\n"
       "  dmpc render rings-4-t1 --work-item=0 --in-flight=1 --references=rings.csv -o rings.png\n"
       "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"

@@ -28,7 +28,6 @@ struct RenderOptions : StrategyOptions {
   std::optional<std::filesystem::path> stats;       ///< where the counters go, as JSON
   std::optional<std::filesystem::path> report;      ///< where the page goes that shows all of it
   std::vector<HeatRequest> heat_maps;               ///< what else is to be shown of each pixel
-  std::optional<std::filesystem::path> strip;       ///< where six moments of the picture go
   TraceOptions trace;                               ///< what is recorded of the run
   std::optional<std::filesystem::path> references;  ///< where the nodes' page references go, as CSV
   CheckpointOptions checkpoint;                     ///< what is kept on the way

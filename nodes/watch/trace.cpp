@@ -7,11 +7,9 @@
 #include <limits>
 #include <tuple>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "core/base/expect.h"
-#include "core/base/sampling.h"
 #include "nodes/atomics.h"
 #include "nodes/flat_bytes.h"
 #include "nodes/program.h"
@@ -39,46 +37,6 @@ bool is_before(const TraceSpan& a, const TraceSpan& b) {
   return std::tuple(a.begin_ns, a.call, a.activity) < std::tuple(b.begin_ns, b.call, b.activity);
 }
 
-/// The numbers of some of its program's calls, by node.
-using Calls = std::vector<std::unordered_set<std::uint64_t>>;
-
-/// Calls for an item that was not chosen are not among the spans, nor are their messages' ends kept.
-void split_calls(const std::vector<TraceNode>& nodes, Calls& chosen, Calls& undecided) {
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (const TraceSpan& span : nodes[i].spans) {
-      if (span.activity != Activity::send) {
-        (span.is_chosen ? chosen : undecided)[i].insert(span.call);
-      }
-    }
-  }
-}
-
-/// A call that receives a message of a chosen one is chosen, too; returns whether any was.
-bool spread(const std::vector<TraceMessage>& messages, Calls& chosen, Calls& undecided) {
-  bool has_spread = false;
-  for (const TraceMessage& message : messages) {
-    const std::size_t target = index_of(message.target);
-    if (chosen[index_of(message.source)].contains(message.sent_call) && undecided[target].erase(message.received_call) > 0) {
-      chosen[target].insert(message.received_call);
-      has_spread = true;
-    }
-  }
-  return has_spread;
-}
-
-/// Leaves in the trace only the chosen calls, what follows from their messages, and these messages.
-void keep_chosen(Trace& trace) {
-  Calls chosen(trace.nodes.size()), undecided(trace.nodes.size());
-  split_calls(trace.nodes, chosen, undecided);
-  while (spread(trace.messages, chosen, undecided)) {
-  }
-  for (std::size_t i = 0; i < trace.nodes.size(); ++i) {
-    std::erase_if(trace.nodes[i].spans, [&](const TraceSpan& span) { return !chosen[i].contains(span.call); });
-  }
-  std::erase_if(trace.messages,
-                [&](const TraceMessage& message) { return !chosen[index_of(message.source)].contains(message.sent_call); });
-}
-
 }  // namespace
 
 /// One end of a message.
@@ -97,7 +55,6 @@ struct TraceRecorder::End {
 /// Those that one node has told, either of what it sent or of what it received.
 struct TraceRecorder::Ends {
   std::vector<End> kept;
-  std::vector<End> undecided;  ///< of calls under way, whose items are not known yet
   Ordinals count;
 };
 
@@ -106,11 +63,9 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
   TraceNode node;
   Ends sent, received;
   std::array<std::uint64_t, Levels::count_max> levels{};
-  TraceSpan current;                ///< of the call under way: what it has worked on
-  bool is_last_call_wanted = true;  ///< but for interrupts
-  std::uint64_t room = 0;           ///< events that may be kept
-  std::uint64_t lost = 0;           ///< events
-  std::uint64_t lost_from_ns = std::numeric_limits<std::uint64_t>::max();
+  TraceSpan current;                   ///< of the call under way: what it has worked on
+  std::uint64_t room = 0;              ///< events that may be kept
+  std::uint64_t lost = 0;              ///< events
   std::optional<RecordedTimes> times;  ///< if something was forgotten
 
   std::uint64_t count() const { return node.spans.size() + node.levels.size() + sent.kept.size() + received.kept.size(); }
@@ -177,7 +132,6 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
     flat.put_all(sent.kept);
     flat.put_all(received.kept);
     flat.put(lost);
-    flat.put(lost_from_ns);
     flat.put(times);
   }
   void take(FlatReader& flat) {
@@ -189,7 +143,6 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
     sent.kept = flat.take_all<End>();
     received.kept = flat.take_all<End>();
     lost = flat.take<std::uint64_t>();
-    lost_from_ns = flat.take<std::uint64_t>();
     times = flat.take<std::optional<RecordedTimes>>();
   }
   /// From the clock of the node's rank to that of rank 0.
@@ -221,9 +174,7 @@ bool is_own_call(Activity activity) { return activity == Activity::work || activ
 }  // namespace
 
 TraceRecorder::TraceRecorder(std::uint32_t peer_count, const TraceChoice& choice) : choice_(choice) {
-  core::expect(choice.nodes.empty() || choice.nodes.size() == peer_count, "a choice of nodes has all of them and the host");
-  core::expect(choice.every > 0, "one of at least one item is recorded");
-  const std::uint64_t own_room = choice.keep == TraceKeep::first ? 0 : choice.events_max / 2 / peer_count;
+  const std::uint64_t own_room = choice.events_max / 2 / peer_count;
   shared_room_ = choice.events_max - own_room * peer_count;
   for (std::uint32_t i = 0; i < peer_count; ++i) {
     logs_.push_back(std::make_unique<Log>());
@@ -232,8 +183,6 @@ TraceRecorder::TraceRecorder(std::uint32_t peer_count, const TraceChoice& choice
 }
 
 TraceRecorder::~TraceRecorder() = default;
-
-bool TraceRecorder::is_chosen_item(std::uint32_t item) const { return core::mix(item) % choice_.every == 0; }
 
 bool TraceRecorder::gets_more_room() { return taken_.fetch_add(1, std::memory_order_relaxed) < shared_room_; }
 
@@ -251,22 +200,16 @@ bool TraceRecorder::admit(Log& log, std::uint64_t time_ns) {
     return true;
   }
   ++log.lost;
-  log.lost_from_ns = std::min(log.lost_from_ns, time_ns);
   return false;
 }
 
 void TraceRecorder::make_room(Log& log, std::uint64_t now_ns) {
-  if (choice_.keep == TraceKeep::first) {
-    return;
-  }
   if (log.room == 0) {
     log.times = RecordedTimes{.whole_from_ns = now_ns + 1};
     return;
   }
-  if (choice_.keep == TraceKeep::spread) {
-    thin(log, now_ns);
-  }
-  if (log.count() >= log.room - log.room / 8) {  // of a spread trace only where nearly all happens at one time
+  thin(log, now_ns);
+  if (log.count() >= log.room - log.room / 8) {  // where nearly all happens at one time
     log.times = RecordedTimes{.whole_from_ns = std::max(log.time_of(log.count() / 2), log.time_of(0) + 1)};
     log.leave(*log.times);
   }
@@ -291,25 +234,19 @@ void TraceRecorder::thin(Log& log, std::uint64_t now_ns) {
 
 void TraceRecorder::worked(const Worked& worked) {
   Log& log = *logs_[index_of(worked.node)];
-  const bool is_chosen = is_chosen_item(worked.item);
-  if (log.current.item == TraceSpan::no_item || (is_chosen && !log.current.is_chosen)) {
+  if (log.current.item == TraceSpan::no_item) {
     log.current.item = worked.item;
     log.current.depth = worked.depth;
-    log.current.is_chosen = is_chosen;
   }
 }
 
 void TraceRecorder::ended(const Span& span, const Program& program) {
   Log& log = *logs_[index_of(span.node)];
-  if (!is_chosen_node(span.node)) {
-    return;
-  }
   const TraceSpan made = cut(log, span);
-  const bool is_wanted = decide(log, made);
-  if (is_own_call(span.activity) && made.is_chosen) {
+  if (is_own_call(span.activity)) {
     note_levels(log, program, span.end_ns);
   }
-  if (is_wanted && overlaps_window(span) && admit(log, made.begin_ns)) {
+  if (overlaps_window(span) && admit(log, made.begin_ns)) {
     log.node.spans.push_back(made);
   }
 }
@@ -328,38 +265,7 @@ TraceSpan TraceRecorder::cut(Log& log, const Span& span) const {
   made.activity = span.activity;
   made.charged = span.charged();
   made.packet = span.packet;
-  made.is_chosen = made.is_chosen || choice_.every == 1;
   return made;
-}
-
-/// Whether a span is chosen, or may be for a message that its call has received.
-bool TraceRecorder::decide(Log& log, const TraceSpan& span) {
-  if (span.activity == Activity::send || span.activity == Activity::take_over) {
-    return span.activity == Activity::send ? log.is_last_call_wanted : span.is_chosen;
-  }
-  const bool is_wanted = span.is_chosen || (span.activity != Activity::work && span.item == TraceSpan::no_item);
-  if (is_own_call(span.activity)) {
-    log.is_last_call_wanted = is_wanted;
-  }
-  settle(log, log.sent, span.call, is_wanted);
-  settle(log, log.received, span.call, is_wanted);
-  return is_wanted;
-}
-
-/// A call's messages stand and fall with it.
-void TraceRecorder::settle(Log& log, Ends& ends, std::uint64_t call, bool is_wanted) {
-  std::erase_if(ends.undecided, [&](const End& end) {
-    if (end.call == call && is_wanted) {
-      keep(log, ends, end);
-    }
-    return end.call == call;
-  });
-}
-
-void TraceRecorder::keep(Log& log, Ends& ends, const End& end) {
-  if (admit(log, end.time_ns)) {
-    ends.kept.push_back(end);
-  }
 }
 
 bool TraceRecorder::overlaps_window(const Span& span) const {
@@ -385,20 +291,14 @@ void TraceRecorder::note_levels(Log& log, const Program& program, std::uint64_t 
 
 void TraceRecorder::note_end(Log& log, Ends& ends, const Passing& packet, std::uint64_t time_ns) {
   const std::uint32_t ordinal = ends.count.next(packet.peer, packet.kind);
-  if (!is_chosen_node(packet.node) || !is_chosen_node(packet.peer) || !is_in_window(time_ns)) {
-    return;
-  }
-  const End end{.time_ns = time_ns,
-                .peer = index_of(packet.peer),
-                .ordinal = ordinal,
-                .call = packet.call,
-                .bytes = static_cast<std::uint32_t>(packet.payload_bytes()),
-                .first_word = first_word_of(packet.payload),
-                .kind = packet.kind};
-  if (choice_.every == 1) {
-    keep(log, ends, end);
-  } else {
-    ends.undecided.push_back(end);
+  if (is_in_window(time_ns) && admit(log, time_ns)) {
+    ends.kept.push_back({.time_ns = time_ns,
+                         .peer = index_of(packet.peer),
+                         .ordinal = ordinal,
+                         .call = packet.call,
+                         .bytes = static_cast<std::uint32_t>(packet.payload_bytes()),
+                         .first_word = first_word_of(packet.payload),
+                         .kind = packet.kind});
   }
 }
 
@@ -475,7 +375,7 @@ std::uint64_t TraceRecorder::events_lost() const {
   return lost;
 }
 
-/// What all have in common; nothing if nobody has forgotten anything. In a spread trace all nodes then have the same times.
+/// What all have in common, and all nodes have then; nothing if nobody has forgotten anything.
 std::optional<RecordedTimes> TraceRecorder::settle_times() {
   std::optional<RecordedTimes> times;
   for (const auto& log : logs_) {
@@ -485,8 +385,8 @@ std::optional<RecordedTimes> TraceRecorder::settle_times() {
       times = log->times;
     }
   }
-  if (times && choice_.keep == TraceKeep::spread) {
-    for (const auto& log : logs_) {
+  for (const auto& log : logs_) {
+    if (times) {
       log->leave(*times);
     }
   }
@@ -515,13 +415,8 @@ Trace TraceRecorder::take() {
   std::stable_sort(trace.messages.begin(), trace.messages.end(),
                    [](const TraceMessage& a, const TraceMessage& b) { return a.sent_ns < b.sent_ns; });
   trace.events_lost = events_lost();
-  trace.lost_from_ns = choice_.to_ns;
   for (const auto& log : logs_) {
-    trace.lost_from_ns = std::min(trace.lost_from_ns, log->lost_from_ns);
     trace.nodes.push_back(std::move(log->node));
-  }
-  if (choice_.every > 1) {
-    keep_chosen(trace);
   }
   for (TraceNode& node : trace.nodes) {
     std::sort(node.spans.begin(), node.spans.end(), is_before);

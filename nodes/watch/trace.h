@@ -18,23 +18,12 @@
 
 namespace dmpc::nodes {
 
-/// What a trace keeps that has no room for all.
-enum class TraceKeep : std::uint8_t {
-  spread,  ///< how the run begins and ends, and in between the same part of each period, at all nodes
-  last,    ///< of each node what it did last
-  first    ///< what comes first
-};
-
-/// What of a run is recorded.
+/// What of a run is recorded: a window of time, what begins or ends in it, and of more events than there is room for how the
+/// window begins and ends, and in between the same part of each period, at all nodes.
 struct TraceChoice {
-  std::uint64_t from_ns = 0;                                        ///< a window of time: what begins or ends in it
+  std::uint64_t from_ns = 0;
   std::uint64_t to_ns = std::numeric_limits<std::uint64_t>::max();  ///< not included
-  std::vector<bool> nodes;                                          ///< by number, the host last; empty: all
-  /// One of so many items, chosen by a hash of its number: the calls that work on it, and what follows from the messages that
-  /// these send; levels only after such calls. 1: everything.
-  std::uint32_t every = 1;
-  std::uint64_t events_max = 1'000'000;  ///< spans, ends of messages and levels that are kept
-  TraceKeep keep = TraceKeep::spread;    ///< of more than these
+  std::uint64_t events_max = 1'000'000;                             ///< spans, ends of messages and levels, of 110 bytes or so
 };
 
 /// A Span, cut where the window ends.
@@ -44,13 +33,12 @@ struct TraceSpan {
   std::uint64_t begin_ns = 0, end_ns = 0;
   std::uint64_t own_ns = 0;  ///< as a Span's, of the whole
   std::uint64_t call = 0;
-  std::uint32_t item = no_item;  ///< that was worked on, of several the first chosen
+  std::uint32_t item = no_item;  ///< that was worked on, of several the first
   std::uint32_t depth = 0;       ///< of a Worked
   Activity activity = Activity::work;
   PacketKind packet = 0;
   ChargeBits charged = 0;
-  bool is_cut = false;     ///< it began before the window, or ends after it
-  bool is_chosen = false;  ///< for its item, or because all are
+  bool is_cut = false;  ///< it began before the window, or ends after it
 };
 
 /// A packet from node to node, both of whose ends were recorded.
@@ -80,17 +68,15 @@ struct TraceNode {
 struct Trace {
   std::vector<TraceNode> nodes;  ///< by number, the host last
   std::vector<TraceMessage> messages;
-  std::uint64_t events_lost = 0;   ///< beyond TraceChoice::events_max
-  std::uint64_t lost_from_ns = 0;  ///< since when, if there are any, and the first were kept
-  /// Else, if there are any: when nothing was lost. Of the last that were kept some nodes may have earlier ones.
-  std::optional<RecordedTimes> times;
+  std::uint64_t events_lost = 0;       ///< beyond TraceChoice::events_max
+  std::optional<RecordedTimes> times;  ///< when nothing was lost, if something was
   /// On ranks, whose clocks are not quite alike: messages that seemed to be received before they were sent, and by how much at
   /// most. They are received when they are sent.
   std::uint64_t messages_moved = 0, moved_ns_max = 0;
 };
 
-/// Records. Half of the room for events is shared out evenly among the nodes, the other half is theirs who need it first; with
-/// TraceKeep::first all of it. A node whose room is full forgets some of what it has itself, so nobody waits for anybody.
+/// Records. Half of the room for events is shared out evenly among the nodes, the other half is theirs who need it first. A node
+/// whose room is full forgets some of what it has itself, so nobody waits for anybody.
 /// Thread safety: as an Observer; take() when the run is over.
 class TraceRecorder final : public Observer {
  public:
@@ -116,11 +102,6 @@ class TraceRecorder final : public Observer {
   struct End;
   struct Ends;
 
-  bool is_chosen_node(NodeId node) const { return choice_.nodes.empty() || choice_.nodes[index_of(node)]; }
-  bool is_chosen_item(std::uint32_t item) const;
-  bool decide(Log& log, const TraceSpan& span);
-  void settle(Log& log, Ends& ends, std::uint64_t call, bool is_wanted);
-  void keep(Log& log, Ends& ends, const End& end);
   bool overlaps_window(const Span& span) const;
   TraceSpan cut(Log& log, const Span& span) const;
   bool is_in_window(std::uint64_t time_ns) const { return choice_.from_ns <= time_ns && time_ns < choice_.to_ns; }

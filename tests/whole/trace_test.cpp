@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "nodes/watch/trace.h"
@@ -140,17 +139,6 @@ bool is_nested(const nodes::TraceNode& node) {
   return true;
 }
 
-/// Quanta that work on one of these pixels.
-std::uint64_t count_of(const Trace& trace, const std::set<std::uint32_t>& pixels) {
-  std::uint64_t count = 0;
-  for (const nodes::TraceNode& node : trace.nodes) {
-    for (const TraceSpan& span : node.spans) {
-      count += span.activity == Activity::work && pixels.contains(span.item) ? 1 : 0;
-    }
-  }
-  return count;
-}
-
 std::uint64_t end_of(const Trace& trace) {
   std::uint64_t end_ns = 0;
   for (const nodes::TraceNode& node : trace.nodes) {
@@ -227,27 +215,6 @@ TEST_CASE("looking on does not change a run in virtual time") {
   const Subject small = traced();
   for (const Way way : all_ways) {
     CHECK(run(small, way, priced_machine(), nullptr).hash == traced(small, way, priced_machine()).counted.hash);
-  }
-}
-
-TEST_CASE("a trace of one pixel in so many has the quanta that work on these pixels and no others") {
-  const Subject small = traced();
-  for (const Way way : {Way::pages, Way::rays}) {
-    const Trace all = traced(small, way, priced_machine()).trace;
-    const Trace some = traced(small, way, priced_machine(), {.every = 4}).trace;
-    std::set<std::uint32_t> pixels;
-    for (const nodes::TraceNode& node : some.nodes) {
-      for (const TraceSpan& span : node.spans) {
-        CHECK((span.activity != Activity::work || span.item != TraceSpan::no_item));
-        pixels.insert(span.item);
-      }
-    }
-    pixels.erase(TraceSpan::no_item);
-    CHECK(pixels.size() > 4);
-    CHECK(pixels.size() < 32);
-    CHECK(count_of(all, pixels) == count_of(some, pixels));
-    CHECK(!some.messages.empty());
-    CHECK(some.messages.size() < all.messages.size());
   }
 }
 

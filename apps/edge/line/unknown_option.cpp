@@ -31,8 +31,9 @@ struct Gone {
 };
 
 constexpr Gone gone[] = {
+    {"--pictures", "apps/scenes.png, among the documents, shows the built-in scenes, and dmpc render any of them"},
     {"--preview", "--serve shows the picture in a browser as it comes"},
-    {"--strip", "--serve shows the picture in a browser as it comes, and --report plays on its page when each pixel was done"},
+    {"--strip", "--heatmap=done:FILE.png shows when each pixel was done, and the page of --report plays it"},
     {"--trace-every", "--trace-window=FROM,TO records all pixels, of a part of the run"},
     {"--trace-events", "a million events are kept, spread over the run; --trace-window=FROM,TO records all of a part of it"},
     {"--trace-keep",

@@ -26,16 +26,12 @@
 #include "apps/show/page/play_data.h"
 #include "apps/show/page/player.h"
 #include "apps/show/page/render_tables.h"
-#include "apps/show/strip.h"
 #include "core/picture/heat_kind.h"
 #include "nodes/size_text.h"
 
 namespace dmpc::apps::html {
 
 namespace {
-
-/// Of a moment's picture, in pixels: for who prints the page, or lets no script run.
-constexpr int moment_side = 128;
 
 /// By which another run is known to be the same.
 Facts results_of(const RenderRecord& record, const Account& account) {
@@ -69,10 +65,6 @@ void add_pictures(Page& page, const RenderRecord& record, const Account& account
   page.begin_section("Picture");
   const std::string size = std::to_string(account.film.width()) + "x" + std::to_string(account.film.height()) + " pixels";
   add_picture(page, image_of(account.film), "The picture of " + record.options.picture.scene, size + ".");
-  if (record.view != nullptr) {
-    add_picture(page, strip_picture(record, moment_side), "Six moments of the picture",
-                "Six moments of the picture as it came, each pixel from its last ray on.");
-  }
   const std::vector<core::HeatKind> wanted = kinds_of(record.options.heat_maps);
   if (wanted.empty()) {
     return;

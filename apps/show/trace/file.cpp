@@ -5,9 +5,8 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
-#include "apps/edge/show/trace/format.h"
+#include "apps/edge/show/trace/perfetto.h"
 #include "apps/edge/show/trace/view.h"
-#include "apps/show/trace/gzip_stream.h"
 #include "core/base/expect.h"
 #include "nodes/watch/trace.h"
 
@@ -24,14 +23,6 @@ std::string line_of(std::string text) {
 
 std::string window_text(const std::optional<TraceWindow>& window) {
   return window ? milliseconds(window->from_ns) + " to " + (window->to_ns ? milliseconds(*window->to_ns) : "the end") : "all";
-}
-
-std::string nodes_text(const std::optional<TraceNodes>& nodes) {
-  std::string text;
-  for (const auto& [first, last] : nodes.value_or(TraceNodes{}).rows) {
-    text += (text.empty() ? "" : ", ") + std::to_string(first) + (first == last ? "" : " to " + std::to_string(last));
-  }
-  return !nodes ? "all" : !nodes->has_host ? text : text.empty() ? "host" : text + ", host";
 }
 
 /// How far times of different ranks may be compared.
@@ -72,11 +63,8 @@ TraceView view_of(const RenderRecord& record) {
     view.remarks.push_back({"clocks", clocks_text(account.ranks, *record.trace)});
   }
   view.remarks.push_back({"window_ms", window_text(options.trace.window)});
-  view.remarks.push_back({"recorded_nodes", nodes_text(options.trace.nodes)});
-  if (options.trace.every > 1) {
-    view.remarks.push_back({"recorded", "one pixel of " + std::to_string(options.trace.every)});
-  }
-  view.remarks.push_back({"lost", record.trace->events_lost == 0 ? "nothing" : loss_note(*record.trace, options.trace)});
+  view.remarks.push_back({"recorded_nodes", "all"});
+  view.remarks.push_back({"lost", record.trace->events_lost == 0 ? "nothing" : loss_note(*record.trace)});
   for (auto& [name, text] : view.remarks) {
     text = line_of(std::move(text));
   }
@@ -87,23 +75,13 @@ TraceView view_of(const RenderRecord& record) {
 
 void write_trace(const RenderRecord& record, std::ostream& stream) {
   core::expect(record.trace != nullptr, "a trace that is written was recorded");
-  const TraceView view = view_of(record);
-  const TraceFile file = trace_file_of(*record.options.trace.path).value();
-  if (!file.is_packed) {
-    return write_trace(view, file.format, stream);
-  }
-  GzipStream packing(stream);
-  write_trace(view, file.format, packing);
-  packing.finish();
+  write_perfetto(view_of(record), stream);
 }
 
-std::string loss_note(const nodes::Trace& trace, const TraceOptions& options) {
-  if (trace.events_lost == 0) {
-    return "";
-  }
-  return "the trace is full: " + lost_text(trace) + "; " +
-         (options.every > 1 ? "--trace-window or --trace-nodes leave" : "--trace-window, --trace-nodes or --trace-every leave") +
-         " room, --trace-events makes some";
+std::string loss_note(const nodes::Trace& trace) {
+  return trace.events_lost == 0
+             ? ""
+             : "the trace is full: " + lost_text(trace) + "; --trace-window=FROM,TO records a part of the run, and all of that";
 }
 
 std::string empty_note(const nodes::Trace& trace) {

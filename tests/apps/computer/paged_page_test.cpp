@@ -69,10 +69,10 @@ TEST_CASE("a report changes nothing of the runs, and goes with references and a 
   const Lines words = {"--nodes=3", "--runner=virtual", "--cache-pages=2", "--in-flight=1"};
   Lines watched = words;
   watched.insert(watched.end(), {"--report=" + (folder / "page.html").string(), "--heat=" + (folder / "heat.csv").string(),
-                                 "--references=" + (folder / "r.csv").string(), "--trace=" + (folder / "t.json").string()});
+                                 "--references=" + (folder / "r.csv").string(), "--trace=" + (folder / "t.pftrace").string()});
   CHECK(adding_stats(adding(2), watched)["run_hash"] == adding_stats(adding(2), words)["run_hash"]);
   CHECK(file_text(folder / "r.csv").size() > 100);
-  CHECK(contains(file_text(folder / "t.json"), "addition"));
+  CHECK(contains(file_text(folder / "t.pftrace"), "addition"));
 }
 
 }  // namespace dmpc::tests::paged_page_test

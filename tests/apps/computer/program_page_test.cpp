@@ -108,10 +108,10 @@ TEST_CASE("a report changes nothing of the run, and goes with a trace") {
     REQUIRE(run_with(asker(10), words).status == 0);
     return nlohmann::json::parse(file_text(folder / "stats.json"))["run_hash"].get<std::string>();
   };
-  const std::string page = "--report=" + (folder / "page.html").string(), trace = "--trace=" + (folder / "t.json").string();
+  const std::string page = "--report=" + (folder / "page.html").string(), trace = "--trace=" + (folder / "t.pftrace").string();
   CHECK(hash({page}) == hash({}));
   CHECK(hash({page, trace}) == hash({}));
-  CHECK(contains(file_text(folder / "t.json"), "multiplication"));
+  CHECK(contains(file_text(folder / "t.pftrace"), "multiplication"));
   check_has(file_text(folder / "page.html"), {"Over time</h2>", "Who sent packets to whom"});
 }
 

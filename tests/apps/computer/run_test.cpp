@@ -133,15 +133,13 @@ TEST_CASE("counters add up: by packet, by node and by piece of memory") {
 
 TEST_CASE("a trace calls packets and operations as the program does, and what has none computing") {
   const TemporaryFolder folder;
-  for (const std::string name : {"trace.json", "trace.paje", "trace.pftrace"}) {
-    const std::string file = folder / name;
-    REQUIRE(run_with(asker(10), {"--nodes=2", "--runner=virtual", "--trace=" + file}).status == 0);
-    const std::string text = file_text(file);
-    CHECK(text.find("question") != std::string::npos);
-    CHECK(count(text, "multiplication") >= (name == "trace.json" ? 20 : 1));
-    CHECK(text.find("compute") != std::string::npos);
-    CHECK(text.find("shade") == std::string::npos);
+  const std::string file = folder / "trace.pftrace";
+  REQUIRE(run_with(asker(10), {"--nodes=2", "--runner=virtual", "--trace=" + file}).status == 0);
+  const std::string text = file_text(file);
+  for (const char* const name : {"question", "multiplication", "compute"}) {
+    CHECK_MESSAGE(count(text, name) >= 1, name);
   }
+  CHECK(text.find("shade") == std::string::npos);
 }
 
 TEST_CASE("options that do not go together, or are none, are refused with a hint at the program's own help") {
@@ -157,7 +155,7 @@ TEST_CASE("options that do not go together, or are none, are refused with a hint
         std::string::npos);
   CHECK(complaint({"--chaos=1", "--runner=virtual"}).find("chaos disturbs threads only") != std::string::npos);
   CHECK(complaint({"--trace=a.txt"}).find("--trace=a.txt: expected a file with the ending .pftrace") != std::string::npos);
-  CHECK(complaint({"--trace=a.json.gz"}).find("gzip packs it") != std::string::npos);
+  CHECK(complaint({"--trace=a.json"}).find("traceconv json a.pftrace a.json") != std::string::npos);
   CHECK(complaint({"--node=3"}).find("Try: asker --help") != std::string::npos);
   CHECK(complaint({"word"}).find("expected asker") != std::string::npos);
   CHECK(run_with(asker(1), {"--runner=virtual", "--machine=none"}).status == 1);

@@ -38,11 +38,11 @@ bool waits_for(const fs::path& path) {
 
 TEST_CASE("a trace that cannot be written to its end takes nothing with it, and is said") {
   const TemporaryFolder folder;
-  const std::string pipe = folder / "trace.json";
+  const std::string pipe = folder / "trace.pftrace";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   ChildProcess process = in_bash(
-      "exec $dmpc render balls-1 --resolution=64x64 --nodes=4 --trace=$folder/trace.json --stats=$folder/s.json "
+      "exec $dmpc render balls-1 --resolution=64x64 --nodes=4 --trace=$folder/trace.pftrace --stats=$folder/s.json "
       "--heatmap=rays:$folder/rays.png -o $folder/a.exr",
       folder);
   CHECK(waits_for(folder / "s.json"));

@@ -54,8 +54,8 @@ class RenderTest(unittest.TestCase):
         self.assertEqual(program.words({"node_memory": "4MiB", "count_pages": True, "quiet": False, "chaos": None, "nodes": 8}),
                          ["--node-memory=4MiB", "--count-pages", "--nodes=8"])
         self.assertEqual(program.words({"light": ["1,2,3", "4,5,6"]}), ["--light=1,2,3", "--light=4,5,6"])
-        self.assertEqual(program.words({"cache_pages": [1, 4], "trace_nodes": (0, "3-5"), "nodes": []}),
-                         ["--cache-pages=1,4", "--trace-nodes=0,3-5"])
+        self.assertEqual(program.words({"cache_pages": [1, 4], "trace_window": (0, "2.5"), "nodes": []}),
+                         ["--cache-pages=1,4", "--trace-window=0,2.5"])
 
     def test_scalars_of_numpy_are_what_they_hold(self):
         options = {"scene": numpy.str_("balls-1"), "count_pages": numpy.True_, "resume": numpy.False_, "nodes": numpy.int64(8),
@@ -281,6 +281,11 @@ class LookingTest(unittest.TestCase):
         self.assertTrue({"node 0", "node 1", "node 2", "host"} <= set(frame["track"]))
         spans = frame[frame["ph"] == "X"]
         self.assertTrue((spans["dur"] >= 0).all())
+        self.assertTrue({"trace", "shade", "install page"} <= set(spans["name"]))
+        messages = frame.groupby("ph")["id"].apply(set)
+        self.assertEqual(messages["s"], messages["f"])
+        self.assertTrue(frame[frame["ph"] == "W"]["name"].str.startswith("page ").all())
+        self.assertEqual(frame[frame["ph"] == "C"]["args.value"].min(), 0)
         self.assertEqual(frame.attrs["about"]["scene"], "balls-1")
 
     def test_counters_of_a_run_repeated_on_a_modelled_machine_do_not_differ(self):

@@ -53,15 +53,16 @@ TEST_CASE("frames leave a picture each, and each is, byte by byte, the picture o
   CHECK(file_text(folder / "a.0001.png") != file_text(folder / "a.0002.png"));
 }
 
-TEST_CASE("each frame has a strip of its own, the same on a modelled machine as of that frame alone") {
+TEST_CASE("each frame has a heat map of its own, the same on a modelled machine as of that frame alone") {
   const TemporaryFolder folder;
-  const Said all = render(folder, {"--frames=2", "--turntable=9", "--runner=virtual", "--strip=@s#.png", "-o", "@a#.png"});
+  const Said all = render(folder, {"--frames=2", "--turntable=9", "--runner=virtual", "--heatmap=done:@s#.png", "-o", "@a#.png"});
   REQUIRE_MESSAGE(all.status == 0, all.errors);
   CHECK(file_text(folder / "s1.png") != file_text(folder / "s2.png"));
-  const Said one = render(folder, {"--frames=1..1", "--turntable=9", "--runner=virtual", "--strip=@s.png", "-o", "@a.png"});
+  const Said one =
+      render(folder, {"--frames=1..1", "--turntable=9", "--runner=virtual", "--heatmap=done:@s.png", "-o", "@a.png"});
   REQUIRE_MESSAGE(one.status == 0, one.errors);
   CHECK(file_text(folder / "s.png") == file_text(folder / "s1.png"));
-  CHECK(contains(render(folder, {"--frames=2", "--turntable=9", "--strip=@s.png", "-o", "@b#.png"}).errors, "--strip="));
+  CHECK(contains(render(folder, {"--frames=2", "--turntable=9", "--heatmap=done:@s.png", "-o", "@b#.png"}).errors, "--heatmap="));
 }
 
 TEST_CASE("a keyframe's picture is that of --camera") {
@@ -130,7 +131,7 @@ TEST_CASE("what frames cannot do is refused, and says what can be done") {
       {{"--frames=3", "--turntable=1", "--camera-path=@p", "-o", "@a.#.png"}, "the camera moves in one way"},
       {with("--stats=@a.json"), "--stats="},
       {with("--report=@a.html"), "--report does not go with several frames"},
-      {with("--trace=@a.json"), "--trace does not go with several frames"},
+      {with("--trace=@a.pftrace"), "--trace does not go with several frames"},
       {with("--grid-axes=screen"), "--frames does not go with --grid-axes=screen"},
       {{"--frames=3", "--turntable=361", "-o", "@a.#.png"}, "expected degrees"}};
   for (const Refusal& refusal : refusals) {

@@ -41,7 +41,7 @@ TEST_CASE("nobody looks on unless somebody wants to know") {
 
 TEST_CASE("a trace and a page can be asked for at a time") {
   RenderOptions options = small();
-  options.trace.path = "trace.json";
+  options.trace.path = "trace.pftrace";
   CHECK_FALSE(Onlookers(watch_order(options, 10, 20)).take().view);
   options.report = "page.html";
   const Sights both = Onlookers(watch_order(options, 10, 20)).take();

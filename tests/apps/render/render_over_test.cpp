@@ -19,6 +19,7 @@
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
+#include "tests/support/trace_events.h"
 
 namespace render_over_test {
 
@@ -170,17 +171,17 @@ TEST_CASE("heat maps, a trace and a page are written by the first rank, and the 
     CAPTURE(strategy);
     const tests::TemporaryFolder folder;
     auto line = small_with({strategy});
-    line.insert(line.end(),
-                {"--heatmap=rays:" + (folder.path() / "heat.exr").string(), "--trace=" + (folder.path() / "trace.json").string(),
-                 "--report=" + (folder.path() / "page.html").string(), "--stats=" + (folder.path() / "stats.json").string()});
+    line.insert(
+        line.end(),
+        {"--heatmap=rays:" + (folder.path() / "heat.exr").string(), "--trace=" + (folder.path() / "trace.pftrace").string(),
+         "--report=" + (folder.path() / "page.html").string(), "--stats=" + (folder.path() / "stats.json").string()});
     CHECK((picture_over(3, line, {.seed = 1, .late_looks_max = 5}) == picture));
     CHECK(folder.entry_count() == 4);
     const auto stats = nlohmann::json::parse(tests::file_text(folder / "stats.json"));
     CHECK(stats["heat_maps"][0]["sum"] == stats["rays"]["total"]);
     CHECK(stats["ranks"][0]["clock_error"] == 0);
     CHECK(stats["ranks"][2]["clock_error"] > 0);
-    const auto trace = nlohmann::json::parse(tests::file_text(folder / "trace.json"));
-    CHECK(trace["traceEvents"].size() > 100);
+    CHECK(tests::trace_events(tests::file_text(folder / "trace.pftrace")).size() > 100);
     CHECK(tests::contains(tests::file_text(folder / "page.html"), "</html>"));
   }
 }

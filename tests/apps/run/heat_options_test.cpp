@@ -55,11 +55,6 @@ TEST_CASE("a heat map needs a kind, a colon and a file of one of two formats") {
       contains(render_usage_complaint({"--heatmap=colour:a.png"}), "faults|references|pages|rays|time|node|depth|samples|done"));
 }
 
-TEST_CASE("a strip of moments is a PNG file") {
-  CHECK(render({"--strip=a.png"}).strip == "a.png");
-  CHECK(contains(render_usage_complaint({"--strip=a.exr"}), "--strip=a.exr: expected a file with the ending .png"));
-}
-
 TEST_CASE("there may be 32 heat maps and no more") {
   std::vector<std::string> arguments;
   for (std::size_t i = 0; i < heat_requests_max; ++i) {

@@ -20,14 +20,14 @@ using tests::render_usage_complaint;
 namespace {
 
 RenderOptions traced_render(const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"render", "teapot-12", "--nodes=6", "-o", "a.png"};
+  std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return parse_command_line(arguments).options<RenderOptions>();
 }
 
 nodes::TraceChoice choice(std::vector<std::string> more) {
-  more.push_back("--trace=a.json");
-  return trace_choice(traced_render(more).trace, 6);
+  more.push_back("--trace=a.pftrace");
+  return trace_choice(traced_render(more).trace);
 }
 
 }  // namespace
@@ -37,8 +37,6 @@ TEST_CASE("without its option nothing is recorded, with it everything") {
   const nodes::TraceChoice all = choice({});
   CHECK(all.from_ns == 0);
   CHECK(all.to_ns == nodes::TraceChoice().to_ns);
-  CHECK(all.nodes.empty());
-  CHECK(all.every == 1);
   CHECK(all.events_max == 1'000'000);
 }
 
@@ -50,41 +48,20 @@ TEST_CASE("a trace's window is given in milliseconds, and either end may be left
   CHECK(choice({"--trace-window=,3"}).from_ns == 0);
   CHECK(choice({"--trace-window=,3"}).to_ns == 3'000'000);
   for (const std::string wrong : {"", ",", "1", "2,1", "1,1", "-1,2", "1,2,3", "1;2", "a,b", "0,nan", "0,1e30"}) {
-    CHECK_MESSAGE(contains(render_usage_complaint({"--trace=a.json", "--trace-window=" + wrong}), "--trace-window"), wrong);
+    CHECK_MESSAGE(contains(render_usage_complaint({"--trace=a.pftrace", "--trace-window=" + wrong}), "--trace-window"), wrong);
   }
 }
 
-TEST_CASE("a trace's nodes are numbers, rows of them and the host") {
-  CHECK(choice({"--trace-nodes=0,2-3"}).nodes == std::vector<bool>{true, false, true, true, false, false, false});
-  CHECK(choice({"--trace-nodes=host"}).nodes == std::vector<bool>{false, false, false, false, false, false, true});
-  CHECK(choice({"--trace-nodes=5-5,host"}).nodes == std::vector<bool>{false, false, false, false, false, true, true});
-  for (const std::string wrong : {"", "0,", "3-2", "-1", "1-", "6", "0-6", "a", "1.5", "hosts"}) {
-    CHECK_MESSAGE(contains(render_usage_complaint({"--trace=a.json", "--trace-nodes=" + wrong}), "--trace-nodes"), wrong);
+TEST_CASE("a trace is Perfetto's, and who asks for another's is told what converts it") {
+  CHECK(render_usage_complaint({"--trace=a.b.pftrace"}).empty());
+  for (const std::string wrong : {"pftrace", "a.png", "a.pftrace.gz", "a.b.json", "a.b.paje", "a.b.json.gz"}) {
+    CHECK_MESSAGE(contains(render_usage_complaint({"--trace=" + wrong}), "expected a file with the ending .pftrace"), wrong);
   }
-}
-
-TEST_CASE("one pixel in so many and the most events are whole numbers above 0") {
-  CHECK(choice({"--trace-every=100"}).every == 100);
-  CHECK(choice({"--trace-events=5"}).events_max == 5);
-  CHECK(choice({}).keep == nodes::TraceKeep::spread);
-  CHECK(choice({"--trace-keep=first"}).keep == nodes::TraceKeep::first);
-  CHECK_FALSE(render_usage_complaint({"--trace=a.json", "--trace-every=0"}).empty());
-  CHECK_FALSE(render_usage_complaint({"--trace=a.json", "--trace-events=0"}).empty());
-}
-
-TEST_CASE("a trace has one of three formats, packed or not, and what chooses from it needs one") {
-  CHECK(render_usage_complaint({"--trace=a.json"}).empty());
-  CHECK(render_usage_complaint({"--trace=a.paje"}).empty());
-  CHECK(render_usage_complaint({"--trace=a.pftrace"}).empty());
-  CHECK(render_usage_complaint({"--trace=a.b.pftrace.gz"}).empty());
-  CHECK(contains(render_usage_complaint({"--trace=a.gz"}), ".pftrace"));
-  CHECK(contains(render_usage_complaint({"--trace=a.png.gz"}), ".pftrace"));
-  CHECK(contains(render_usage_complaint({"--trace=a.png"}), ".paje"));
-  CHECK(contains(render_usage_complaint({"--trace=json"}), ".paje"));
-  for (const std::string option :
-       {"--trace-window=0,1", "--trace-nodes=0", "--trace-every=2", "--trace-events=9", "--trace-keep=last"}) {
-    CHECK_MESSAGE(contains(render_usage_complaint({option}), "give --trace=FILE"), option);
+  for (const std::string wrong : {"a.b.json", "a.b.paje", "a.b.json.gz"}) {
+    CHECK_MESSAGE(contains(render_usage_complaint({"--trace=in/" + wrong}), ": traceconv json a.b.pftrace a.b.json"), wrong);
   }
+  CHECK(contains(render_usage_complaint({"--trace=a.pftrace.gz"}), "gzip packs it"));
+  CHECK(contains(render_usage_complaint({"--trace-window=0,1"}), "give --trace=FILE"));
 }
 
 }  // namespace dmpc::apps::trace_options_test

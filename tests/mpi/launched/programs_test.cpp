@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "tests/mpi/launched/mpirun.h"
-#include "tests/mpi/launched/trace_messages.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
+#include "tests/support/trace_events.h"
 
 namespace dmpc::tests::programs_test {
 
@@ -116,14 +116,14 @@ TEST_CASE("pages, references and results of tasks on ranks are those of one proc
 TEST_CASE("a trace of ranks has the spans and messages of all nodes") {
   const TemporaryFolder folder;
   for (const auto& [name, once] : {std::pair<std::string, std::string>{"asker", "--questions=10"}, {"tasks", "--rounds=1"}}) {
-    const std::string file = folder / (name + ".json"), stats = folder / (name + "-stats.json");
+    const std::string file = folder / (name + ".pftrace"), stats = folder / (name + "-stats.json");
     const Ended ended = on_ranks(3, name, {"--nodes=6", once, "--trace=" + file, "--stats=" + stats});
     REQUIRE_MESSAGE(ended.status == 0, ended.errors);
-    const nlohmann::json trace = json_in(file);
-    std::set<int> nodes;
-    for (const nlohmann::json& event : trace["traceEvents"]) {
-      if (event["ph"] == "X") {
-        nodes.insert(event["pid"].get<int>());
+    const std::vector<TraceEvent> trace = trace_events(file_text(file));
+    std::set<std::uint64_t> nodes;
+    for (const TraceEvent& event : trace) {
+      if (event.type == TraceEvent::Type::slice_begin && event.track <= 6) {
+        nodes.insert(event.track);
       }
     }
     CHECK_MESSAGE(nodes.size() == 6, name);

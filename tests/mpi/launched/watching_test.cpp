@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "tests/mpi/launched/mpirun.h"
-#include "tests/mpi/launched/trace_messages.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
+#include "tests/support/trace_events.h"
 
 namespace dmpc::tests::watching_test {
 
@@ -23,7 +23,7 @@ const std::vector<std::string> render = {"render",           "balls-2", "--resol
 std::vector<std::string> with_outputs(const TemporaryFolder& folder) {
   std::vector<std::string> line = render;
   line.insert(line.end(),
-              {"--runner=mpi", "--trace=" + (folder / "trace.json").string(),
+              {"--runner=mpi", "--trace=" + (folder / "trace.pftrace").string(),
                "--heatmap=references:" + (folder / "heat.exr").string(), "--report=" + (folder / "page.html").string(),
                "--stats=" + (folder / "stats.json").string(), "-o", (folder / "a.exr").string()});
   return line;
@@ -31,19 +31,21 @@ std::vector<std::string> with_outputs(const TemporaryFolder& folder) {
 
 Json json_in(const std::filesystem::path& file) { return Json::parse(file_text(file)); }
 
-double last_us(const Json& trace) {
-  double last = 0;
-  for (const Json& event : trace["traceEvents"]) {
-    last = std::max(last, event.value("ts", 0.0));
+std::vector<TraceEvent> events_in(const TemporaryFolder& folder) { return trace_events(file_text(folder / "trace.pftrace")); }
+
+std::uint64_t last_ns(const std::vector<TraceEvent>& events) {
+  std::uint64_t last = 0;
+  for (const TraceEvent& event : events) {
+    last = std::max(last, event.time_ns);
   }
   return last;
 }
 
 void check_watched(const TemporaryFolder& folder, std::size_t rank_count) {
-  const Json stats = json_in(folder / "stats.json"), trace = json_in(folder / "trace.json");
+  const Json stats = json_in(folder / "stats.json");
   REQUIRE(stats["ranks"].size() == rank_count);
   CHECK(stats["heat_maps"][0]["sum"] == stats["pages"]["references"]);
-  CHECK(messages_in_order(trace) == stats["packets"]["sent"].get<std::size_t>());
+  CHECK(messages_in_order(events_in(folder)) == stats["packets"]["sent"].get<std::size_t>());
   CHECK(contains(file_text(folder / "page.html"), "</html>"));
 }
 
@@ -75,7 +77,7 @@ TEST_CASE("a process whose clock shows another time tells its times by that of r
   const Ended ended = end_of(command);
   REQUIRE_MESSAGE(ended.status == 0, ended.errors);
   check_watched(folder, 2);
-  CHECK(last_us(json_in(folder / "trace.json")) < 2'000e6);
+  CHECK(last_ns(events_in(folder)) < 2'000'000'000'000);
 }
 
 }  // namespace dmpc::tests::watching_test

@@ -13,6 +13,7 @@
 #include "apps/edge/line/utf8.h"
 #include "apps/edge/show/trace/causal_order.h"
 #include "apps/edge/show/trace/wire.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 
@@ -302,12 +303,19 @@ class PerfettoWriter {
   std::vector<TraceItem> items() const {
     std::vector<std::vector<TraceItem>> ends(view_.trace.nodes.size());
     std::vector<TraceItem> others;
-    for (const TraceItem& item : items_of(view_.trace, waits_)) {
-      if (item.moment == TraceMoment::sent || item.moment == TraceMoment::received) {
-        ends[item.node].push_back(item);
-      } else if (item.moment != TraceMoment::span_begin && item.moment != TraceMoment::span_end) {
-        others.push_back(item);  // a wait's beginning before its end
+    for (std::uint32_t node = 0; node < ends.size(); ++node) {
+      for (std::uint32_t i = 0; const nodes::TraceLevel& level : view_.trace.nodes[node].levels) {
+        others.push_back({level.time_ns, node, 0, TraceMoment::level, i++});
       }
+    }
+    for (std::uint32_t i = 0; const nodes::TraceMessage& message : view_.trace.messages) {
+      const std::uint32_t source = index_of(message.source), target = index_of(message.target);
+      ends[source].push_back({message.sent_ns, source, message.sent_call, TraceMoment::sent, i});
+      ends[target].push_back({message.received_ns, target, message.received_call, TraceMoment::received, i++});
+    }
+    for (std::uint32_t i = 0; const PageWait& wait : waits_) {
+      others.push_back({wait.begin_ns, wait.node, 0, TraceMoment::wait_begin, i});
+      others.push_back({wait.end_ns, wait.node, 0, TraceMoment::wait_end, i++});
     }
     std::vector<TraceItem> all;
     for (std::uint32_t node = 0; node < ends.size(); ++node) {
@@ -415,6 +423,21 @@ class PerfettoWriter {
 };
 
 }  // namespace
+
+void check_trace_path(const std::filesystem::path& path) {
+  if (path.extension() == ".pftrace") {
+    return;
+  }
+  const bool is_packed = path.extension() == ".gz";
+  const std::filesystem::path other = is_packed ? path.stem() : path.filename();
+  std::string name = other.stem().string();
+  std::string message = "--trace=" + path.string() + ": expected a file with the ending .pftrace, such as " + name +
+                        ".pftrace, which ui.perfetto.dev shows";
+  if (other.extension() == ".json" || other.extension() == ".paje") {
+    message += "; Perfetto's own converter makes JSON of it: traceconv json " + name + ".pftrace " + name + ".json";
+  }
+  throw core::UsageError(message + (is_packed ? "; gzip packs it" : ""));
+}
 
 void write_perfetto(const TraceView& view, std::ostream& output) { PerfettoWriter(view, output).write(); }
 

@@ -1,12 +1,16 @@
 // Writes a trace in Perfetto's own format (https://perfetto.dev, protos/perfetto/trace), which ui.perfetto.dev and its
-// trace_processor read: a third of the bytes of Chrome's events, times in whole nanoseconds.
+// trace_processor read, with times in whole nanoseconds.
 #pragma once
 
+#include <filesystem>
 #include <iosfwd>
 
 #include "apps/edge/show/trace/view.h"
 
 namespace dmpc::apps {
+
+/// Throws core::UsageError for a file whose ending is another than .pftrace; where it is another format's it says what converts.
+void check_trace_path(const std::filesystem::path& path);
 
 /// Each node is a process with a thread, whose slices are what it does and whose instants, joined by flows, are both ends of
 /// messages, with a track for each level and as many for waits as lie over each other; the process "run" has what there is to say

@@ -87,34 +87,6 @@ std::vector<PageWait> page_waits(const TraceView& view) {
   return waits;
 }
 
-std::vector<TraceItem> items_of(const nodes::Trace& trace, std::span<const PageWait> waits) {
-  std::vector<TraceItem> items;
-  const auto add = [&items](std::uint64_t time_ns, std::uint32_t node, std::uint64_t call, TraceMoment moment,
-                            std::size_t index) {
-    items.push_back({time_ns, node, call, moment, static_cast<std::uint32_t>(index)});
-  };
-  for (std::uint32_t node = 0; node < trace.nodes.size(); ++node) {
-    const nodes::TraceNode& of = trace.nodes[node];
-    for (std::size_t i = 0; i < of.spans.size(); ++i) {
-      add(of.spans[i].begin_ns, node, of.spans[i].call, TraceMoment::span_begin, i);
-      add(of.spans[i].end_ns, node, of.spans[i].call, TraceMoment::span_end, i);
-    }
-    for (std::size_t i = 0; i < of.levels.size(); ++i) {
-      add(of.levels[i].time_ns, node, 0, TraceMoment::level, i);
-    }
-  }
-  for (std::size_t i = 0; i < trace.messages.size(); ++i) {
-    const nodes::TraceMessage& message = trace.messages[i];
-    add(message.sent_ns, index_of(message.source), message.sent_call, TraceMoment::sent, i);
-    add(message.received_ns, index_of(message.target), message.received_call, TraceMoment::received, i);
-  }
-  for (std::size_t i = 0; i < waits.size(); ++i) {
-    add(waits[i].begin_ns, waits[i].node, 0, TraceMoment::wait_begin, i);
-    add(waits[i].end_ns, waits[i].node, 0, TraceMoment::wait_end, i);
-  }
-  return items;
-}
-
 std::uint64_t end_ns(const nodes::Trace& trace) {
   std::uint64_t end = 0;
   for (const nodes::TraceNode& node : trace.nodes) {
@@ -152,10 +124,7 @@ std::string milliseconds(std::uint64_t time_ns) { return thousandths(time_ns / 1
 
 std::string lost_text(const nodes::Trace& trace) {
   const std::string events = counted(trace.events_lost, "event");
-  if (!trace.times) {
-    return events + " from " + milliseconds(trace.lost_from_ns) + " ms on were not recorded";
-  }
-  const nodes::RecordedTimes& times = *trace.times;
+  const nodes::RecordedTimes& times = trace.times.value();
   if (!times.has_parts) {
     return "all is there from " + milliseconds(times.whole_from_ns) + " ms on, and " + events + " before were forgotten";
   }

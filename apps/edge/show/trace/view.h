@@ -1,4 +1,4 @@
-// A trace in words: what its writers have in common.
+// A trace in words.
 #pragma once
 
 #include <array>
@@ -66,18 +66,5 @@ std::string thousandths(std::uint64_t value);
 std::string milliseconds(std::uint64_t time_ns);
 /// What was lost of a trace, and so what is there. Requires that something was.
 std::string lost_text(const nodes::Trace& trace);
-
-/// What a writer says at a time; in the order in which it goes at one time in one call of one node.
-enum class TraceMoment : std::uint8_t { span_end, received, span_begin, sent, wait_begin, wait_end, level };
-
-struct TraceItem {
-  std::uint64_t time_ns = 0;
-  std::uint32_t node = 0;
-  std::uint64_t call = 0;
-  TraceMoment moment = TraceMoment::span_begin;
-  std::uint32_t index = 0;  ///< of the node's span or level, the message or the wait
-};
-/// All moments of the trace and of `waits`, in no order.
-std::vector<TraceItem> items_of(const nodes::Trace& trace, std::span<const PageWait> waits);
 
 }  // namespace dmpc::apps

@@ -25,11 +25,7 @@ constexpr const char* unsweepable[] = {"--help",
                                        "--heatmap",
                                        "--trace",
                                        "--trace-window",
-                                       "--trace-nodes",
                                        "--serve",
-                                       "--trace-every",
-                                       "--trace-events",
-                                       "--trace-keep",
                                        "--quiet",
                                        "--references",
                                        "--checkpoint",
@@ -40,8 +36,7 @@ constexpr const char* unsweepable[] = {"--help",
                                        "--turntable",
                                        "--camera-path",
                                        "--animation",
-                                       "--fps",
-                                       "--strip"};
+                                       "--fps"};
 
 /// `render` alone, for one line.
 class RenderLine {

@@ -41,12 +41,10 @@ const wordsOf = (choice) => {
 
 /// A run's own command, with what writes this view down.
 const commandText = (run) => {
-  const own = run.words.filter((word) => !/^'?--(trace|trace-window|trace-nodes)=/.test(word));
+  const own = run.words.filter((word) => !/^'?--(trace|trace-window)=/.test(word));
   const added = state.heat && !own.some((word) => word.startsWith(`--heatmap=${state.heat}:`)) ? [`--heatmap=${state.heat}:${state.heat}.png`] : [];
   if (state.to > state.from) {
-    added.push("--trace=part.json", `--trace-window=${state.from.toFixed(6)},${state.to.toFixed(6)}`);
-    const nodes = summed(run, state);
-    if (nodes.length < run.nodes) added.push("--trace-nodes=" + nodes.join(","));
+    added.push("--trace=part.pftrace", `--trace-window=${state.from.toFixed(6)},${state.to.toFixed(6)}`);
   }
   return [...own, ...added].join(" ");
 };

@@ -144,6 +144,12 @@ constexpr Slip slips[] = {
     {"render a.obj -preview -o a.png", "-preview is no option of dmpc render any more: --serve shows the picture"},
     {"info a.obj --preview", "--preview is no option of dmpc info any more: --serve shows the picture"},
     {"study sweep rings-3 --vary=preview:on,off", "--vary=preview:on,off: preview is no option of dmpc render any more: --serve"},
+    {"list --pictures=a", "--pictures is no option of dmpc list any more: apps/scenes.png, among the documents, shows"},
+    {"render a.obj --strip=a.png -o a.png", "any more: --heatmap=done:FILE.png shows when each pixel was done"},
+    {"render a.obj --trace-every=4 -o a.png", "any more: --trace-window=FROM,TO records all pixels"},
+    {"render a.obj --trace-events=9 -o a.png", "any more: a million events are kept, spread over the run"},
+    {"render a.obj --trace-keep=last -o a.png", "any more: a trace too long is kept in parts from all times"},
+    {"render a.obj --trace-nodes=host -o a.png", "any more: --trace records all nodes"},
     // arguments
     {"render", "SCENE is missing: expected dmpc render SCENE -o IMAGE\nTry: dmpc render --help"},
     {"render -o a.png", "SCENE is missing: expected dmpc render SCENE -o IMAGE"},

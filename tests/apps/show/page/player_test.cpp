@@ -76,9 +76,9 @@ TEST_CASE("the chain of causes leads back to the start, from a wait by key and f
                  "The wait ended when it did"));
 }
 
-TEST_CASE("the view's command has its heat map, window and node") {
+TEST_CASE("the view's command has its heat map and window") {
   CHECK(told(page_of(), "", "id('command').textContent", "#heat=faults&from=1&to=2&node=1") ==
-        "dmpc render balls-2 --heatmap=faults:faults.png --trace=part.json --trace-window=1.000000,2.000000 --trace-nodes=1");
+        "dmpc render balls-2 --heatmap=faults:faults.png --trace=part.pftrace --trace-window=1.000000,2.000000");
 }
 
 TEST_CASE("of a script in which a byte is changed nothing runs") {

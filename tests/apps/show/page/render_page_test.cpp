@@ -69,9 +69,9 @@ TEST_CASE("heat maps are shown if they are asked for") {
 TEST_CASE("what onlookers have seen is shown") {
   std::ostringstream complaints;
   const std::string text = render_page(Watched(starved(modelled())).record(), origin(), complaints);
-  for (const char* const part : {"Over time", "Six moments of the picture", "Who fetched pages from whom",
-                                 "How busy each node was over time", "The hottest pages", "What fetching a page takes",
-                                 "Misses by the size of the caches", "Plot: What the nodes were busy with over time"}) {
+  for (const char* const part :
+       {"Over time", "Who fetched pages from whom", "How busy each node was over time", "The hottest pages",
+        "What fetching a page takes", "Misses by the size of the caches", "Plot: What the nodes were busy with over time"}) {
     CHECK_MESSAGE(contains(text, part), part);
   }
   CHECK(complaints.str().empty());

@@ -38,9 +38,8 @@ inline RenderOptions to_trace(Strategy strategy, RunnerKind runner) {
 struct Traced {
   explicit Traced(RenderOptions given) : options(std::move(given)), report(render()) {}
 
-  /// What is written to a file with this ending.
-  std::string text(const std::string& ending) {
-    options.trace.path = "trace" + ending;
+  /// What is written to a file.
+  std::string text() const {
     std::ostringstream stream;
     write_trace({options, database, report, {}, nullptr, &trace}, stream);
     return stream.str();
@@ -56,7 +55,7 @@ struct Traced {
     Subject subject = build_subject(load_scene(options.picture), options.picture, options.database);
     database = std::move(subject.database);
     const std::uint32_t node_count = options.computer.node_count;
-    nodes::TraceRecorder recorder(node_count + 1, trace_choice(options.trace, node_count));
+    nodes::TraceRecorder recorder(node_count + 1, trace_choice(options.trace));
     Report made = make_ready(options, database, subject.settings, {}, {.observer = &recorder}).start({}, {});
     trace = recorder.take();
     return made;

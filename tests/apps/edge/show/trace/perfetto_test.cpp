@@ -139,7 +139,7 @@ TEST_CASE("Protocol Buffers read a Perfetto trace, and find in it all nodes, sli
   for (const Strategy strategy : {Strategy::svm, Strategy::dataflow, Strategy::replicated}) {
     for (const RunnerKind runner : {RunnerKind::threads, RunnerKind::virtual_time}) {
       Traced traced(to_trace(strategy, runner));
-      const std::string text = decoded(traced.text(".pftrace"));
+      const std::string text = decoded(traced.text());
       const std::vector<std::string> all = packets(text);
       const std::uint64_t sent = nodes::total(account_of(traced.report).sent).packets;
       const std::uint64_t faults = strategy == Strategy::svm ? std::get<svm::Report>(traced.report).pages().faults : 0;
@@ -162,7 +162,7 @@ TEST_CASE("Protocol Buffers read a Perfetto trace, and find in it all nodes, sli
 TEST_CASE("slices of a Perfetto trace in virtual time last as long as the activities did, to the nanosecond") {
   for (const Strategy strategy : {Strategy::svm, Strategy::dataflow}) {
     Traced traced(to_trace(strategy, RunnerKind::virtual_time));
-    std::map<std::string, std::uint64_t> sums = durations(packets(decoded(traced.text(".pftrace"))));
+    std::map<std::string, std::uint64_t> sums = durations(packets(decoded(traced.text())));
     for (std::size_t i = 0; i < span_names.size(); ++i) {
       CHECK(sums[std::to_string(i + 1)] == duration_ns(traced.trace, static_cast<SpanName>(i)));
     }
@@ -174,7 +174,7 @@ TEST_CASE("a Perfetto trace is in order of time, and each flow begins before it 
   std::uint64_t last_ns = 0;
   bool is_in_run = true, ascends = true;
   std::set<std::string> begun;
-  for (const std::string& packet : packets(decoded(traced.text(".pftrace")))) {
+  for (const std::string& packet : packets(decoded(traced.text()))) {
     const std::string time = value(packet, "timestamp");
     is_in_run = is_in_run && value(packet, "track_uuid") != "1";
     if (!time.empty() && !is_in_run) {
@@ -264,7 +264,7 @@ TEST_CASE("a Perfetto trace that was thinned shows when it was recorded") {
 
 TEST_CASE("waits for pages that lie over each other have tracks of their own, and a track is used again") {
   Traced traced(to_trace(Strategy::svm, RunnerKind::virtual_time));
-  const std::string text = decoded(traced.text(".pftrace"));
+  const std::string text = decoded(traced.text());
   std::size_t tracks = 0;
   for (const std::string& name : values(text, "name")) {
     tracks += name == "\"waits for pages\"" ? 1 : 0;

@@ -80,15 +80,4 @@ TEST_CASE("a thousandth keeps all digits") {
   CHECK(thousandths(18'446'744'073'709'551'615U) == "18446744073709551.615");
 }
 
-TEST_CASE("every span has two moments, and every message") {
-  nodes::Trace trace{.nodes = std::vector<nodes::TraceNode>(2)};
-  trace.nodes[1].spans.push_back({.begin_ns = 5, .end_ns = 8, .call = 3});
-  trace.nodes[1].levels.push_back({.time_ns = 8});
-  trace.messages = {message(svm::Kind::done, 0, 1, 0, 100)};
-  const PageWait wait{.node = 1, .page = 2, .begin_ns = 1, .end_ns = 9};
-  CHECK(items_of(trace, {}).size() == 5);
-  CHECK(items_of(trace, {&wait, 1}).size() == 7);
-  CHECK(items_of({}, {}).empty());
-}
-
 }  // namespace dmpc::apps::view_test
