@@ -18,8 +18,7 @@ namespace {
 
 std::string list_of(const ListOptions& options) {
   std::ostringstream output;
-  Interrupt interrupt;
-  CHECK(list_command(options, interrupt, output) == 0);
+  CHECK(list_command(options, output) == 0);
   return output.str();
 }
 
