@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "apps/edge/line/foreign_option.h"
+#include "apps/edge/line/unknown_option.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 
@@ -207,6 +207,9 @@ class Reader {
     const std::string full = is_long(name) ? name : "-" + name;
     if (find_option(*here_, full) != nullptr) {
       fail(said + ". Did you mean " + full + "?");
+    }
+    if (const std::string instead = said_instead_of(full); !instead.empty()) {
+      fail(said + " any more: " + instead);
     }
     fail_if_foreign(name, said);
     const bool has_command = here_->commands.empty();

@@ -5,6 +5,7 @@
 
 #include "apps/edge/line/command_line.h"
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/unknown_option.h"
 #include "apps/edge/line/words.h"
 #include "apps/lab/study/engine/render_process.h"
 #include "apps/scene/load_scene.h"
@@ -73,6 +74,9 @@ const OptionDescription& find_option(const std::string& name, const std::string&
       return option;
     }
     names.push_back(long_name_of(option).substr(2));
+  }
+  if (const std::string instead = said_instead_of("--" + name); !instead.empty()) {
+    throw core::UsageError("--vary=" + text + ": " + name + " is no option of dmpc render any more: " + instead);
   }
   throw core::UsageError("--vary=" + text + ": " + (name.empty() ? "an option's name is missing" : name) +
                          (name.empty() ? "" : " is no option of dmpc render that says how it renders") +

@@ -139,6 +139,11 @@ constexpr Slip slips[] = {
     {"render a.obj -o a.png --threads=4", "each of which is a thread"},
     {"render a.obj --outfile a.png", "expected -o IMAGE or --output=IMAGE, the picture"},
     {"list machines --width=640", "--width is no option of dmpc list"},
+    // as dmpc had it
+    {"render a.obj --preview -o a.png", "--preview is no option of dmpc render any more: --serve shows the picture"},
+    {"render a.obj -preview -o a.png", "-preview is no option of dmpc render any more: --serve shows the picture"},
+    {"info a.obj --preview", "--preview is no option of dmpc info any more: --serve shows the picture"},
+    {"study sweep rings-3 --vary=preview:on,off", "--vary=preview:on,off: preview is no option of dmpc render any more: --serve"},
     // arguments
     {"render", "SCENE is missing: expected dmpc render SCENE -o IMAGE\nTry: dmpc render --help"},
     {"render -o a.png", "SCENE is missing: expected dmpc render SCENE -o IMAGE"},

@@ -1,4 +1,4 @@
-// What options of other renderers are called here.
+// What is said of options that dmpc has not, and that somebody knows: from other renderers, or from a dmpc that had them.
 #pragma once
 
 #include <optional>
@@ -15,5 +15,9 @@ struct ForeignOption {
 /// Of `name`, as somebody used to pbrt, Mitsuba, Blender, POV-Ray or YafaRay types it: "--fov", "-fov", "-j8", "+W640". Nothing
 /// if it is none of those known.
 std::optional<ForeignOption> foreign_option(const std::string& name);
+
+/// What to say in place of an option that commands had, "--preview", and what that does: a sentence without its dot. Empty if it
+/// is none of those.
+std::string said_instead_of(const std::string& name);
 
 }  // namespace dmpc::apps

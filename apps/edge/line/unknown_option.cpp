@@ -1,0 +1,71 @@
+#include "apps/edge/line/unknown_option.h"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+
+#include "apps/edge/line/words.h"
+
+namespace dmpc::apps {
+namespace {
+
+struct Row {
+  const char* names;  ///< without dashes
+  ForeignOption option;
+};
+
+constexpr Row foreign[] = {
+    {"fov angle vfov hfov", {"--camera", "which ends with the angle"}},
+    {"eye from origin at lookat look-at target", {"--camera", "which has all of it"}},
+    {"width height w size res xres yres +w +h", {"--resolution", "the pixels of both sides"}},
+    {"spp s pixelsamples samples-per-pixel", {"--samples", "the rays through each pixel"}},
+    {"n np j jobs t threads nthreads cores", {"--nodes", "each of which is a thread"}},
+    {"maxdepth max-depth bounces", {"--depth", "the longest chain of reflections and refractions"}},
+    {"out outfile", {"--output", "the picture"}},
+    {"quick", {"--quality", "of which draft is the quick one"}},
+};
+
+struct Gone {
+  const char* name;
+  const char* instead;
+};
+
+constexpr Gone gone[] = {
+    {"--preview", "--serve shows the picture in a browser as it comes"},
+    {"--strip", "--serve shows the picture in a browser as it comes, and --report plays on its page when each pixel was done"},
+    {"--trace-every", "--trace-window=FROM,TO records all pixels, of a part of the run"},
+    {"--trace-events", "a million events are kept, spread over the run; --trace-window=FROM,TO records all of a part of it"},
+    {"--trace-keep",
+     "a trace too long is kept in parts from all times of the run; --trace-window=FROM,TO records all of one time"},
+    {"--trace-nodes", "--trace records all nodes; Perfetto shows those that are pinned on top"},
+};
+
+/// "w", of "--w", "-w" and "-W640"; "+w", of "+W640"; names of several letters keep their digits.
+std::string bare(const std::string& name) {
+  const std::size_t begin = std::min(name.find_first_not_of('-'), name.size());
+  std::string word;
+  std::transform(name.begin() + static_cast<std::ptrdiff_t>(begin), name.end(), std::back_inserter(word),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  const std::size_t letters = word.starts_with('+') ? 2 : 1;
+  return word.find_first_not_of("0123456789", letters) == std::string::npos ? word.substr(0, letters) : word;
+}
+
+}  // namespace
+
+std::optional<ForeignOption> foreign_option(const std::string& name) {
+  const std::string word = bare(name);
+  for (const Row& row : foreign) {
+    const std::vector<std::string> names = words_between(row.names, ' ');
+    if (std::find(names.begin(), names.end(), word) != names.end()) {
+      return row.option;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string said_instead_of(const std::string& name) {
+  const auto* const found = std::find_if(std::begin(gone), std::end(gone), [&](const Gone& each) { return name == each.name; });
+  return found == std::end(gone) ? "" : found->instead;
+}
+
+}  // namespace dmpc::apps
