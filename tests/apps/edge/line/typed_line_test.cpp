@@ -144,6 +144,11 @@ constexpr Slip slips[] = {
     {"render a.obj -preview -o a.png", "-preview is no option of dmpc render any more: --serve shows the picture"},
     {"info a.obj --preview", "--preview is no option of dmpc info any more: --serve shows the picture"},
     {"study sweep rings-3 --vary=preview:on,off", "--vary=preview:on,off: preview is no option of dmpc render any more: --serve"},
+    {"render a.obj --tree-arity=4 -o a.png", "--tree-arity is no option of dmpc render any more: --homes=tree has three"},
+    {"render a.obj --topology=mesh -o a.png", "dmpc study balance --topology=KIND compares"},
+    {"info a.obj --subsample=4", "dmpc study balance --subsample=N shows what others do"},
+    {"study speedup rings-3 --memory-port", "--machine=FILE.json names a machine whose has_memory_port is true"},
+    {"study balance rings-3 --balance-grid=8", "loads are counted in 256x256 columns"},
     // arguments
     {"render", "SCENE is missing: expected dmpc render SCENE -o IMAGE\nTry: dmpc render --help"},
     {"render -o a.png", "SCENE is missing: expected dmpc render SCENE -o IMAGE"},
