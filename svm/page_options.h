@@ -14,9 +14,6 @@ namespace dmpc::svm {
 
 class ReferenceLog;
 
-/// A transputer has four links: one up, three down.
-inline constexpr std::uint32_t default_tree_arity = 3;
-
 /// Pixels whose rays walk in bundles.
 inline constexpr std::uint32_t bundle_pixels = core::bundle_rays_max;
 
@@ -34,7 +31,6 @@ struct PageOptions {
   std::optional<std::uint32_t> cache_pages = std::nullopt;
   /// Where pages are at home; svm only. At the host: all that a node keeps of the scene is its cache.
   PageHomes homes = PageHomes::spread;
-  std::uint32_t tree_arity = default_tree_arity;  ///< children of the host, and of each node, with homes = tree
   /// How many percent of the frames have pages that every node keeps for good, those that a small picture uses most
   /// (svm/resident.h); svm only. At least one frame is left for others.
   std::uint32_t resident_percent = 0;

@@ -156,9 +156,8 @@ constexpr FieldOfSvm of_svm() {
 }
 
 constexpr FieldOfSvm fields_of_svm[] = {
-    of_svm<&PageOptions::cache_pages>(),        of_svm<&PageOptions::replacement>(), of_svm<&PageOptions::homes>(),
-    of_svm<&PageOptions::tree_arity>(),         of_svm<&PageOptions::count_pages>(), of_svm<&PageOptions::resident_percent>(),
-    of_svm<&PageOptions::bundles_on_machines>()};
+    of_svm<&PageOptions::cache_pages>(), of_svm<&PageOptions::replacement>(),      of_svm<&PageOptions::homes>(),
+    of_svm<&PageOptions::count_pages>(), of_svm<&PageOptions::resident_percent>(), of_svm<&PageOptions::bundles_on_machines>()};
 
 void check_fields_of_svm(const PlanRequest& request) {
   for (const FieldOfSvm& of_svm : fields_of_svm) {
@@ -201,7 +200,6 @@ void check(const PlanRequest& request) {
   nodes::check_ranks(request.computer);
   check_work(request);
   check_fields_of_svm(request);
-  check_use(request.pages.tree_arity >= 1, field_of<&PageOptions::tree_arity>(), "=0: a parent has a child or more");
   check_use(request.pages.resident_percent <= 100, field_of<&PageOptions::resident_percent>(), "=",
             request.pages.resident_percent, ": from 0 to 100");
   check_use(!request.pages.count_pages || !request.refinement.is_wanted(),
@@ -321,7 +319,6 @@ PageCapacity Plan::pages() const {
   return {.page_count = request.page_count,
           .node_count = request.computer.node_count,
           .where = request.pages.homes,
-          .tree_arity = request.pages.tree_arity,
           .resident_count = resident_count,
           .resident = resident,
           .cache = {frames, request.page_size_bytes, request.pages.replacement},

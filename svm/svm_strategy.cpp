@@ -24,7 +24,7 @@ bool do_pages_travel(const PlanRequest& request) { return request.computer.node_
 
 /// Nodes from which page requests come to one node, at most: to the first of a tree.
 std::uint32_t askers_of(const PlanRequest& request) {
-  const auto tree = request_tree_of(request.pages.homes, request.computer.node_count, request.pages.tree_arity);
+  const auto tree = request_tree_of(request.pages.homes, request.computer.node_count);
   return tree ? tree->count_below(0) : request.computer.node_count - 1;
 }
 

@@ -39,9 +39,6 @@ void choose_nodes(ProgramOptions& options, const RankGroup& group) {
     options.computer.node_count = std::min(group.default_node_count(), program_nodes_max);
   }
   with_options_named(computer_words, [&] { nodes::check_nodes_for(options.computer.node_count, group.rank_count()); });
-  if (!options.idle) {
-    options.idle = group.default_idle(options.computer);
-  }
 }
 
 /// A program's own error of usage as one of ours, which rank 0 tells the others.
@@ -64,7 +61,7 @@ int run_on_ranks(ProgramOptions& options, const ProgramCall& call, const std::fu
       std::cerr << call.name + ": --runner=mpi: this is the only process, so that all nodes are in it\n";
     }
     const RankNeeds own = needs();
-    nodes::RankLinks links(group.connect(own.payload_bytes_max, own.alike), {}, *options.idle);
+    nodes::RankLinks links(group.connect(own.payload_bytes_max, own.alike), {}, group.default_idle(options.computer));
     options.computer.ranks = &links;
     RankRounds rounds(links);
     return rounds.is_first() ? lead(links, [&] { return with_usage_told([&] { return act(rounds); }); })

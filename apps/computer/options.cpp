@@ -18,16 +18,6 @@ namespace {
 
 using core::UsageError;
 
-OptionSet::Choices<nodes::TopologyKind> topologies() {
-  using nodes::TopologyKind;
-  OptionSet::Choices<TopologyKind> choices;
-  for (const TopologyKind kind :
-       {TopologyKind::hypercube, TopologyKind::mesh, TopologyKind::torus, TopologyKind::fat_tree, TopologyKind::crossbar}) {
-    choices.emplace_back(name_of(kind), kind);
-  }
-  return choices;
-}
-
 void add_computer_group(OptionSet& options, ProgramOptions& program) {
   options.begin_group("The computer");
   options.add_number(nodes_word.option, program.computer.node_count, 1, program_nodes_max, "8; of ranks as their processors",
@@ -51,13 +41,8 @@ void add_computer_group(OptionSet& options, ProgramOptions& program) {
   options.add_text(
       "--machine", "MACHINE|FILE.json [ipsc2]", [&program](const std::string& name) { program.machine_name = name; },
       "The machine that is modelled (virtual): " + machine_preset_names() + " or a file such as dmpc machine prints");
-  options.add_choice<nodes::TopologyKind>("--topology", program.topology, topologies(), "the machine's",
+  options.add_choice<nodes::TopologyKind>("--topology", program.topology, topology_choices(), "the machine's",
                                           "How its nodes are wired, in place of its own wiring (virtual)");
-  options.add_choice<std::optional<nodes::Idle>>(
-      "--idle", program.idle, {{"auto", std::nullopt}, {"spin", nodes::Idle::spin}, {"sleep", nodes::Idle::sleep}},
-      "What the thread of each process that sends and receives does while nothing comes (mpi): keep its processor, leave it to "
-      "the "
-      "nodes, or keep it where there are more processors than nodes");
   options.add_text(
       "--chaos", "SEED [calm]", [&program](const std::string& text) { program.chaos_seed = parse_seed(text, "--chaos"); },
       "Disturb the computer by this seed (threads): packets late and out of order, slow nodes and links, few credits");
@@ -80,9 +65,6 @@ void check_runner(const OptionSet& options, const ProgramOptions& program) {
     refuse("--pool-threads", "each node has a thread of its own");
   } else if (program.is_modelled()) {
     refuse("--pool-threads", "a model has no threads");
-  }
-  if (program.runner != RunnerKind::mpi) {
-    refuse("--idle", "only ranks have a thread that sends and receives for others");
   }
   if (program.trace) {
     check_trace_path(*program.trace);

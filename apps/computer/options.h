@@ -12,7 +12,6 @@
 #include "apps/edge/line/command_line.h"
 #include "apps/edge/run/runner_kind.h"
 #include "nodes/computer_request.h"
-#include "nodes/ranks/nap.h"
 #include "svm/pages/task_plan.h"
 
 namespace dmpc::apps {
@@ -23,8 +22,7 @@ struct ProgramOptions {
   nodes::ComputerRequest computer;  ///< with the machine, once it is read
   bool is_node_count_given = false;
   RunnerKind runner = RunnerKind::threads;
-  std::optional<nodes::Idle> idle;     ///< what ranks' communicating threads do meanwhile; else it follows from their processors
-  std::string machine_name = "ipsc2";  ///< to be modelled: a preset's name or a machine file
+  std::string machine_name = "ipsc2";           ///< to be modelled: a preset's name or a machine file
   std::optional<nodes::TopologyKind> topology;  ///< in place of the machine's
   std::optional<std::uint64_t> chaos_seed;
   std::optional<std::filesystem::path> stats;   ///< where the counters go, as JSON

@@ -64,7 +64,6 @@ void add_options(OptionSet options, InfoOptions& info) {
       "Nodes of the computers whose memory is forecast");
   add_system_option(options, info.system);
   add_option(options, core::field_of<&svm::PageOptions::homes>(), info.pages);
-  add_option(options, core::field_of<&svm::PageOptions::tree_arity>(), info.pages);
   add_balance_options(options, info.balance);
   options.add_choice<InfoFormat>("--format", info.format, {{"text", InfoFormat::text}, {"json", InfoFormat::json}},
                                  "Lines and tables to read, or an object with stable keys");
@@ -76,7 +75,6 @@ void add_options(OptionSet options, InfoOptions& info) {
     }
     settle_instances(options, {info.system}, info.database, info.picture.staging.mesh);
     check_voxels(options, info.database.build);
-    check_homes(options, info.pages.homes);
     check_regions(options, info.balance);
   });
   options.set_examples(

@@ -33,7 +33,7 @@ class Checkpoints {
   std::uint64_t samples_found_done() const { return start_ ? start_->samples_done() : 0; }
   /// There is a checkpoint to go on from: one was read, or one has been written. Not while the run's host may be writing.
   bool has_one() const { return has_one_; }
-  /// The picture is written: removes the file, unless it is to stay.
+  /// The picture is written: removes the file.
   void finish() const;
 
  private:

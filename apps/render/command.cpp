@@ -594,9 +594,7 @@ int render_by_mpi(RenderOptions options, RankGroup& group, Interrupt& interrupt,
   if (!options.is_node_count_given) {
     options.computer.node_count = group.default_node_count();
   }
-  if (!options.runner.idle) {
-    options.runner.idle = group.default_idle(options.computer);
-  }
+  options.runner.idle = group.default_idle(options.computer);
   return render_over(group.connect(payload_bytes_max(options)), options, interrupt, output, files);
 }
 

@@ -62,7 +62,7 @@ void check_nodes_on_ranks(const RenderOptions& options, std::uint32_t rank_count
 
 int render_as_rank(nodes::Fabric& fabric, const RenderOptions& options, const RenderOnRanks& render,
                    const std::stop_token& stop) {
-  nodes::RankLinks links(fabric, {}, options.runner.idle.value_or(nodes::Idle::sleep));
+  nodes::RankLinks links(fabric, {}, options.runner.idle);
   return links.rank() == 0 ? lead(links, [&] { return render(links); })
                            : follow(links, [&] { take_part(links, options.strategy, stop); });
 }

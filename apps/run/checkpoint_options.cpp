@@ -37,9 +37,8 @@ void add_options(OptionSet options, CheckpointOptions& checkpoint) {
   options.add_flag("--resume", checkpoint.resumes,
                    "Go on from what --checkpoint=FILE has, whatever computer and strategy made it; from the start if there is "
                    "no such file yet. Of --frames those are left out whose picture is there");
-  options.add_flag("--keep-checkpoint", checkpoint.stays, "Do not remove the checkpoint when the picture is there");
   options.check_in_the_end([options, &checkpoint] {
-    for (const char* option : {"--checkpoint-every", "--resume", "--keep-checkpoint"}) {
+    for (const char* option : {"--checkpoint-every", "--resume"}) {
       const bool is_of_frames = options.is_given("--frames") && std::string_view(option) == "--resume";
       if (!checkpoint.file && options.is_given(option) && !is_of_frames) {
         throw UsageError(std::string(option) + " goes with --checkpoint=FILE");

@@ -12,7 +12,6 @@ struct CheckpointOptions {
   std::optional<std::filesystem::path> file;  ///< where what is done is kept; without it nothing is
   double every_seconds = 120;                 ///< of wall clock; above 0
   bool resumes = false;                       ///< goes on from what the file has
-  bool stays = false;                         ///< the file is there when the picture is, too
 };
 
 /// Declares them.

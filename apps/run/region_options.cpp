@@ -18,12 +18,6 @@ const char* name_of(dataflow::CutOrder order) { return order == dataflow::CutOrd
 
 void check_regions(const OptionSet& options, const dataflow::BalanceOptions& balance) {
   using dataflow::Balance;
-  for (const char* const option : {"--subsample", "--balance-grid"}) {
-    if (options.is_given(option) && !balance.is_by_load()) {
-      throw core::UsageError(std::string(option) +
-                             " goes with --balance=subsampled or moving: regions of equal size ask for no load");
-    }
-  }
   if (options.is_given("--regions") && !balance.has_several_regions()) {
     throw core::UsageError("--regions goes with --balance=scattered or moving: else a node has one region");
   }

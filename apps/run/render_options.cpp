@@ -7,7 +7,6 @@
 #include "apps/edge/line/parsed_number.h"
 #include "apps/edge/table/table_options.h"
 #include "apps/run/instance_options.h"
-#include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
 
@@ -20,7 +19,7 @@ using core::UsageError;
 void add_computer_options(OptionSet& options, RenderOptions& render) {
   nodes::ComputerRequest& computer = render.computer;
   options.begin_group("The computer");
-  nodes_row().add_to(options, computer.node_count, "8; with --runner=mpi the processors of all ranks, less one each");
+  add_nodes_option(options, computer.node_count, "8; with --runner=mpi the processors of all ranks, less one each");
   add_strategy_option(options, render.strategy);
   add_system_option(options, render.system);
   add_memory_option(options, computer.node_memory_bytes);
@@ -41,11 +40,7 @@ void add_runner_options(OptionSet& options, RenderOptions& render) {
       "all the processes that mpirun or srun has started; the first of them reads, prints and writes");
   options.add_number("--pool-threads", render.computer.pool_threads, 1, nodes::node_count_max, "as many as processors; mpi none",
                      "Threads that drive all nodes of a process in turn (pool; mpi, in place of a thread for each node)");
-  add_machine_options(options, render.runner, " (virtual)");
-  options.add_choice<std::optional<nodes::Idle>>(
-      "--idle", render.runner.idle, {{"auto", std::nullopt}, {"spin", nodes::Idle::spin}, {"sleep", nodes::Idle::sleep}},
-      "What the thread of each process that sends and receives does while nothing comes (mpi). spin: keep its processor, so that "
-      "nothing waits. sleep: leave it to the nodes. auto: spin where there are more processors than nodes");
+  add_machine_option(options, render.runner.machine_name, " (virtual)");
   options.add_text(
       "--chaos", "SEED [calm]",
       [&render](const std::string& text) { render.computer.chaos = nodes::chaos_of(parse_seed(text, "--chaos")); },
@@ -87,22 +82,12 @@ struct Conflict {
 
 constexpr Conflict conflicts[] = {
     {"--machine", RunnerKind::threads, "threads model no machine"},
-    {"--no-contention", RunnerKind::threads, "threads model no links"},
-    {"--memory-port", RunnerKind::threads, "threads model no ports"},
     {"--pool-threads", RunnerKind::threads, "each node has a thread of its own"},
     {"--machine", RunnerKind::pool, "threads model no machine"},
-    {"--no-contention", RunnerKind::pool, "threads model no links"},
-    {"--memory-port", RunnerKind::pool, "threads model no ports"},
     {"--chaos", RunnerKind::virtual_time, "chaos disturbs threads only"},
     {"--checkpoint", RunnerKind::virtual_time, "the time of two halves of a run is not the time of a whole one"},
     {"--machine", RunnerKind::mpi, "what ranks run on is no model"},
-    {"--no-contention", RunnerKind::mpi, "what ranks run on is no model"},
-    {"--memory-port", RunnerKind::mpi, "what ranks run on is no model"},
-    {"--idle", RunnerKind::threads, "the nodes of one process wake each other"},
-    {"--idle", RunnerKind::pool, "the nodes of one process wake each other"},
     {"--pool-threads", RunnerKind::virtual_time, "a model has no threads"},
-    {"--idle", RunnerKind::virtual_time, "nobody waits in virtual time"},
-    {"--topology", RunnerKind::virtual_time, "the machine has a topology of its own, onto which regions are mapped"},
 };
 
 void check_tracer_and_runner(const RenderOptions& render) {
@@ -136,17 +121,11 @@ void check_references(const RenderOptions& render) {
 
 /// What sees one run, or keeps it from being gone on with.
 void check_frames(const OptionSet& options, const RenderOptions& render) {
-  if (!render.frames.range) {
-    return;
-  }
-  if (render.database.axes == AxesChoice::screen) {
-    throw UsageError("--frames does not go with --grid-axes=screen: the screen turns from frame to frame, and the grid stays");
-  }
   if (!render.frames.are_several()) {
     return;
   }
   const std::string alone = ": give it with one of the frames, such as --frames=3..3, which is the same picture";
-  for (const char* option : {"--trace", "--report", "--references", "--keep-checkpoint"}) {
+  for (const char* option : {"--trace", "--report", "--references"}) {
     if (options.is_given(option)) {
       throw UsageError(std::string(option) + " does not go with several frames" + alone);
     }
@@ -207,7 +186,6 @@ void add_options(OptionSet options, RenderOptions& render) {
   add_page_options(options, render.pages);
   add_option(options, core::field_of<&svm::PageOptions::count_pages>(), render.pages);
   add_ray_options(options, render.rays);
-  add_topology_option(options, *render.rays.topology);
   add_study_options(options, render);
   add_options(options, render.frames);
   add_options(options, render.checkpoint);
@@ -233,7 +211,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render rings-4-t1 --nodes=4 --cache-pages=64 --trace=rings.pftrace --trace-window=10,12 -o rings.png\n"
       "  dmpc render rings-4-t1 --cache-pages=64 --heatmap=faults:faults.png --report=rings.html -o rings.png\n"
       "  dmpc render rings-4-t1 --work-item=0 --in-flight=1 --references=rings.csv -o rings.png\n"
-      "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 --grid-axes=screen -o rings.png\n"
+      "  dmpc render rings-3-t1 --strategy=dataflow --nodes=16 -o rings.png\n"
       "  dmpc render teapot-12 --nodes=64 --runner=pool -o teapot.png\n"
       "  dmpc render balls-4 --transport=paths --sky=0.4/0.1,0.2,0.8 --samples=auto -o balls.png\n"
       "  dmpc render teapot-12 --transport=paths --light-radius=0.5 --samples=64 -o teapot.png\n"
@@ -243,8 +221,7 @@ void add_options(OptionSet options, RenderOptions& render) {
       "  dmpc render walk.gltf --frames=48 --animation=walk -o walk.####.png\n"
       "  dmpc render balls-6 --samples=256 --checkpoint=balls.checkpoint --resume -o balls.exr\n"
       "  dmpc render my.nff --strategy=replicated --tracer=embree --resolution=1024x768 -o my.tif\n"
-      "The picture does not depend on the computer's options, to the last bit: the film_hash of --stats says so. Only\n"
-      "--grid-axes=screen, another grid, rounds otherwise than --grid-axes=world.");
+      "The picture does not depend on the computer's options, to the last bit: the film_hash of --stats says so.");
 }
 
 }  // namespace dmpc::apps

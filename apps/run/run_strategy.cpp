@@ -136,15 +136,7 @@ void choose_machine(StrategyOptions& options) {
   if (options.runner.kind != RunnerKind::virtual_time) {
     return;
   }
-  nodes::Machine machine = load_machine(options.runner.machine_name).machine;
-  const RunnerOptions& runner = options.runner;
-  if (runner.memory_port && !machine.has_contention) {
-    throw core::UsageError("--memory-port does not go with --machine=" + runner.machine_name +
-                           ", whose has_contention is false: without contention no message waits for a port");
-  }
-  machine.has_contention = machine.has_contention && !runner.no_contention;
-  machine.has_memory_port = machine.has_contention && (machine.has_memory_port || runner.memory_port);
-  choose_machine(options, machine);
+  choose_machine(options, load_machine(options.runner.machine_name).machine);
 }
 
 ReadyRun make_ready(const StrategyOptions& options, const core::Database& database, const core::RenderSettings& settings,

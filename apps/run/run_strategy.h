@@ -27,9 +27,8 @@ struct ReadyRun {
   std::function<Report(const core::RenderSettings& settings, std::stop_token)> go_on;
 };
 
-/// Reads the machine that is to be modelled, if one is: with its links and ports as asked for, and its topology as that onto
-/// which regions are mapped; without contention there are no ports. Throws core::InputError as load_machine() does, and
-/// core::UsageError for memory ports that are asked for on a machine whose file has no contention.
+/// Reads the machine that is to be modelled, if one is, with its topology as that onto which regions are mapped. Throws
+/// core::InputError as load_machine() does.
 void choose_machine(StrategyOptions& options);
 /// Chooses this machine as it is.
 void choose_machine(StrategyOptions& options, const nodes::Machine& machine);

@@ -4,7 +4,9 @@
 #include <iterator>
 #include <vector>
 
+#include "apps/edge/line/option_values.h"
 #include "apps/edge/machine/machines.h"
+#include "apps/edge/run/option_words.h"
 #include "apps/run/region_options.h"
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
@@ -60,57 +62,41 @@ std::string joined_by_or(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Names, of several that do not go with the strategy, the first one that fewest strategies have; and what rays remember rather
-/// than where they wait.
-void check_strategy(const OptionSet& options, const StrategyOptions& run) {
-  constexpr core::Field waiting = core::field_of<&dataflow::RayOptions::queue_packets>(),
-                        remembered = core::field_of<&dataflow::RayOptions::tested_objects>();
-  std::size_t fewest = std::size(strategy_kinds);
-  core::Field named("");
-  std::string sentence;
-  for_each_row([&](const auto& row) {
-    if (row.why == nullptr || has(run.strategy, row) || !options.is_given(row.name)) {
-      return;
-    }
-    const std::vector<std::string> strategies = strategies_with(row);
-    if (strategies.size() < fewest || (named == waiting && row.takes.field == remembered)) {
-      fewest = strategies.size();
-      named = row.takes.field;
-      sentence = std::string(row.name) + " goes with " + joined_by_or(strategies) + ": " + row.why;
-    }
-  });
-  if (!sentence.empty()) {
-    throw UsageError(sentence);
-  }
-  check_homes(options, run.pages.homes);
-  check_regions(options, run.rays.balance);
-}
-
 }  // namespace
 
 const char* name_of(Strategy strategy) { return kind_of(strategy).name; }
 
 const svm::Strategy* page_strategy(Strategy strategy) { return kind_of(strategy).with_pages(); }
 
-void add_strategy_option(OptionSet options, Strategy& strategy) { strategy_row().add_to(options, strategy); }
+void add_nodes_option(OptionSet options, std::uint32_t& count, const std::string& standard) {
+  options.add_number(nodes_word.option, count, 1, nodes::node_count_max, standard, "Nodes, each with a memory of its own");
+}
+
+void add_strategy_option(OptionSet options, Strategy& strategy) {
+  OptionSet::Choices<Strategy> choices;
+  for (const StrategyKind& kind : strategy_kinds) {
+    choices.emplace_back(kind.name, kind.strategy);
+  }
+  options.add_choice("--strategy", strategy, choices,
+                     "svm: the scene is spread over the nodes and its pages travel. replicated: every node holds it all. "
+                     "dataflow: every node holds a region of space and rays travel. forest: every node holds the top of the tree "
+                     "of boxes, and subtrees about which others ask (--structure=extents)");
+}
 
 void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memory_bytes) {
-  memory_row().add_to(options, node_memory_bytes);
-}
-
-void add_machine_options(OptionSet options, RunnerOptions& runner, const std::string& when) {
+  const std::string name = node_memory_word.option;
   options.add_text(
-      "--machine", "MACHINE|FILE.json [ipsc2]", [&runner](const std::string& name) { runner.machine_name = name; },
-      "The machine that is modelled" + when + ": " + machine_preset_names() + " or a file such as dmpc machine prints");
-  options.add_flag("--no-contention", runner.no_contention, "A link carries any number of messages at once" + when);
-  options.add_flag("--memory-port", runner.memory_port,
-                   "A node sends one message at a time and receives one at a time, over whatever links" + when);
+      name, "SIZE|auto [auto]",
+      [&node_memory_bytes, name](const std::string& text) {
+        node_memory_bytes = text == "auto" ? std::nullopt : std::optional(parse_size_bytes(text, name));
+      },
+      "Bound of each node's memory, such as 4MiB");
 }
 
-void check_homes(const OptionSet& options, svm::PageHomes homes) {
-  if (options.is_given("--tree-arity") && homes != svm::PageHomes::tree) {
-    throw UsageError("--tree-arity goes with --homes=tree: other homes are asked directly");
-  }
+void add_machine_option(OptionSet options, std::string& machine_name, const std::string& when) {
+  options.add_text(
+      "--machine", "MACHINE|FILE.json [ipsc2]", [&machine_name](const std::string& name) { machine_name = name; },
+      "The machine that is modelled" + when + ": " + machine_preset_names() + " or a file such as dmpc machine prints");
 }
 
 void add_page_options(OptionSet options, svm::PageOptions& pages, const std::string& in_flight_default) {
@@ -142,17 +128,13 @@ void add_option(OptionSet options, const core::Field& field, svm::PageOptions& p
   row_of(page_rows(), field).add_to(options, pages);
 }
 
-void add_option(OptionSet options, const core::Field& field, dataflow::BalanceOptions& balance) {
-  row_of(balance_rows(), field).add_to(options, balance);
-}
-
-void add_topology_option(OptionSet options, nodes::TopologyKind& topology) { topology_row().add_to(options, topology); }
-
 void check_together(const OptionSet& options, const StrategyOptions& run) {
-  check_strategy(options, run);
-  if (run.runner.no_contention && run.runner.memory_port) {
-    throw UsageError("--memory-port does not go with --no-contention: without contention no message waits for a port");
-  }
+  for_each_row([&](const auto& row) {
+    if (row.why != nullptr && !has(run.strategy, row) && options.is_given(row.name)) {
+      throw UsageError(std::string(row.name) + " goes with " + joined_by_or(strategies_with(row)) + ": " + row.why);
+    }
+  });
+  check_regions(options, run.rays.balance);
 }
 
 DatabaseOptions usual_database(Strategy strategy) {

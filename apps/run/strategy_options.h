@@ -29,10 +29,8 @@ enum class TracerChoice : std::uint8_t { grid, embree };
 /// What calls the nodes' programs, and which machine is modelled if one is.
 struct RunnerOptions {
   RunnerKind kind = RunnerKind::threads;
-  std::string machine_name = "ipsc2";  ///< to be modelled: a preset's name or a machine file
-  bool no_contention = false;          ///< on the modelled machine
-  bool memory_port = false;            ///< on the modelled machine, even if its file says that it has none
-  std::optional<nodes::Idle> idle;     ///< what ranks' communicating threads do meanwhile; else it follows from their processors
+  std::string machine_name = "ipsc2";     ///< to be modelled: a preset's name or a machine file
+  nodes::Idle idle = nodes::Idle::sleep;  ///< what ranks' communicating threads do meanwhile, as their processors have it
 };
 
 /// A strategy, and all that it asks of the computer.
@@ -46,29 +44,26 @@ struct StrategyOptions {
   bool has_several_frames = false;  ///< pictures of the scene follow each other on the same nodes
 };
 
+/// Declares --nodes; `standard` is what help says of how many there are else.
+void add_nodes_option(OptionSet options, std::uint32_t& count, const std::string& standard);
 /// Declares --strategy.
 void add_strategy_option(OptionSet options, Strategy& strategy);
 /// Declares --node-memory.
 void add_memory_option(OptionSet options, std::optional<std::size_t>& node_memory_bytes);
-/// Declares --machine, --no-contention and --memory-port; `when` is what their help says of when they go, such as " (virtual)".
-void add_machine_options(OptionSet options, RunnerOptions& runner, const std::string& when);
-/// For OptionSet::check_in_the_end(): throws core::UsageError for --tree-arity without a tree.
-void check_homes(const OptionSet& options, svm::PageHomes homes);
+/// Declares --machine; `when` is what its help says of when it goes, such as " (virtual)".
+void add_machine_option(OptionSet options, std::string& machine_name, const std::string& when);
 /// Declares the options of svm, replicated and forest but --count-pages, in a group of their own. `in_flight_default`: what help
 /// says of the default of --in-flight in place of what covers every runner.
 void add_page_options(OptionSet options, svm::PageOptions& pages, const std::string& in_flight_default = "");
-/// Declares the options of dataflow but --topology in a group of their own.
+/// Declares the options of dataflow in a group of their own.
 void add_ray_options(OptionSet options, dataflow::RayOptions& rays);
 /// Those of them that say how regions are cut.
 void add_balance_options(OptionSet options, dataflow::BalanceOptions& balance);
 /// The option of a field alone.
 void add_option(OptionSet options, const core::Field& field, svm::PageOptions& pages);
-void add_option(OptionSet options, const core::Field& field, dataflow::BalanceOptions& balance);
-/// Declares --topology.
-void add_topology_option(OptionSet options, nodes::TopologyKind& topology);
 
-/// For OptionSet::check_in_the_end(): throws core::UsageError for options, of those declared above or --topology or
-/// --count-pages, that do not go with the strategy, the machine or each other.
+/// For OptionSet::check_in_the_end(): throws core::UsageError for options, of those declared above or --count-pages, that do not
+/// go with the strategy or each other.
 void check_together(const OptionSet& options, const StrategyOptions& strategy);
 /// The database that a strategy has unless another one is asked for: forest's is one tree, whose subtrees take up to 4 KiB.
 DatabaseOptions usual_database(Strategy strategy);

@@ -19,13 +19,7 @@ namespace {
 
 using dataflow::BalanceOptions;
 using dataflow::RayOptions;
-using nodes::TopologyKind;
 using svm::PageOptions;
-
-/// Columns of loads in 128 MiB.
-constexpr std::int64_t columns_per_side_max = 4096;
-/// No picture has a longer side.
-constexpr std::int64_t subsample_max = 65536;
 
 constexpr const char* fetches_none = "a node of the others fetches no page";
 constexpr const char* works_on_region = "a node of dataflow works on what comes to its region";
@@ -56,9 +50,6 @@ OptionValue cuts_told(const dataflow::Plan& plan) {
   const BalanceOptions& balance = balance_of(plan);
   return balance.balance == dataflow::Balance::scattered ? OptionValue() : name_of(balance.bsp.order);
 }
-OptionValue if_by_load(const dataflow::Plan& plan, int number) {
-  return balance_of(plan).is_by_load() ? OptionValue(static_cast<std::uint64_t>(number)) : OptionValue();
-}
 
 template <class Row>
 std::vector<Row> joined(std::vector<Row> rows, const std::vector<Row>& more) {
@@ -85,14 +76,6 @@ std::vector<PageRow> rows_of_pages() {
        .why = fetches_none,
        .key = "homes",
        .told = [](const svm::Plan& plan) -> OptionValue { return svm::name_of(pages_of(plan).homes); }},
-      {.name = "--tree-arity",
-       .takes = number<&PageOptions::tree_arity>(1, nodes::node_count_max, std::to_string(svm::default_tree_arity)),
-       .help = "Children of the host, and of each node, with --homes=tree",
-       .why = fetches_none,
-       .key = "tree_arity",
-       .told = [](const svm::Plan& plan) -> OptionValue {
-         return pages_of(plan).homes == PageHomes::tree ? OptionValue(pages_of(plan).tree_arity) : OptionValue();
-       }},
       {.name = "--resident",
        .takes = number<&PageOptions::resident_percent>(0, 100, "0"),
        .help = "Percent of those that every node keeps for good: what a small picture uses most (svm)",
@@ -197,18 +180,6 @@ std::vector<BalanceRow> make_balance_rows() {
        .told = [](const dataflow::Plan& plan) -> OptionValue {
          return balance_of(plan).has_several_regions() ? balance_of(plan).regions_a_node : 1;
        }},
-      {.name = "--subsample",
-       .takes = number<&BalanceOptions::subsample>(1, subsample_max, "8"),
-       .help = "The subsampled picture has one pixel of every NxN",
-       .why = share_out_pixels,
-       .key = "subsample",
-       .told = [](const dataflow::Plan& plan) { return if_by_load(plan, balance_of(plan).subsample); }},
-      {.name = "--balance-grid",
-       .takes = number<&BalanceOptions::columns_per_side>(1, columns_per_side_max, "256"),
-       .help = "Columns a side in which the load is counted",
-       .why = share_out_pixels,
-       .key = "balance_grid",
-       .told = [](const dataflow::Plan& plan) { return if_by_load(plan, balance_of(plan).columns_per_side); }},
   };
 }
 
@@ -268,54 +239,6 @@ std::vector<RayRow> rows_of_rays() {
   };
 }
 
-TopologyRow make_topology_row() {
-  return {.name = "--topology",
-          .takes = {core::field_of<&RayOptions::topology>(),
-                    [](OptionSet set, const char* name, const char* help, TopologyKind& kind, const std::string&) {
-                      using enum TopologyKind;
-                      set.add_choice(name, kind, by_name({hypercube, mesh, torus, fat_tree, crossbar}), help);
-                    }},
-          .help = "The wiring onto which neighbouring regions are mapped",
-          .why = "the others map no regions onto nodes",
-          .key = "topology",
-          .told = [](const dataflow::Plan& plan) -> OptionValue { return name_of(*plan.request.rays.topology); }};
-}
-
-NodesRow make_nodes_row() {
-  return {.name = nodes_word.option,
-          .takes = {nodes_word.field,
-                    [](OptionSet set, const char* name, const char* help, std::uint32_t& count, const std::string& standard) {
-                      set.add_number(name, count, 1, nodes::node_count_max, standard, help);
-                    },
-                    OptionKind::number},
-          .help = "Nodes, each with a memory of its own"};
-}
-
-StrategyRow make_strategy_row() {
-  return {.name = "--strategy",
-          .takes = {core::field_of<&svm::PlanRequest::strategy>(),
-                    [](OptionSet set, const char* name, const char* help, Strategy& strategy, const std::string&) {
-                      using enum Strategy;
-                      set.add_choice(name, strategy, by_name({svm, replicated, dataflow, forest}), help);
-                    }},
-          .help =
-              "svm: the scene is spread over the nodes and its pages travel. replicated: every node holds it all. dataflow: "
-              "every node holds a region of space and rays travel. forest: every node holds the top of the tree of boxes, and "
-              "subtrees about which others ask (--structure=extents)"};
-}
-
-MemoryRow make_memory_row() {
-  return {.name = node_memory_word.option,
-          .takes = {node_memory_word.field,
-                    [](OptionSet set, const char* name, const char* help, std::optional<std::size_t>& bytes, const std::string&) {
-                      const auto take = [&bytes, name](const std::string& text) {
-                        bytes = text == "auto" ? std::nullopt : std::optional(parse_size_bytes(text, name));
-                      };
-                      set.add_text(name, "SIZE|auto [auto]", take, help);
-                    }},
-          .help = "Bound of each node's memory, such as 4MiB"};
-}
-
 /// What a plan tells of a row; a flag that its strategy has not is off.
 template <class Options, class Plan, class OtherPlan>
 OptionValue told_of(const OptionRow<Options, Plan>& row, Strategy strategy, const OtherPlan& plan) {
@@ -326,6 +249,12 @@ OptionValue told_of(const OptionRow<Options, Plan>& row, Strategy strategy, cons
     return {};
   }
 }
+
+/// No option has it: the wiring is the machine's.
+constexpr std::string_view topology_key = "topology";
+
+OptionValue topology_of(const svm::Plan&) { return {}; }
+OptionValue topology_of(const dataflow::Plan& plan) { return name_of(*plan.request.rays.topology); }
 
 /// The keys are an interface, and their order has always been this.
 template <class Told>
@@ -339,15 +268,13 @@ template <class Plan>
 std::vector<ToldOption> told_by(Strategy strategy, const Plan& plan) {
   std::vector<ToldOption> told;
   for_each_row([&](const auto& row) { told.push_back({row.key, told_of(row, strategy, plan)}); });
+  told.push_back({topology_key, topology_of(plan)});
   return in_order(std::move(told));
 }
 
 std::vector<OptionWord> make_strategy_words() {
-  std::vector<OptionWord> words;
+  std::vector<OptionWord> words = {nodes_word, {core::field_of<&svm::PlanRequest::strategy>(), "--strategy"}, node_memory_word};
   const auto add = [&](const auto& row) { words.push_back({row.takes.field, row.name}); };
-  add(nodes_row());
-  add(strategy_row());
-  add(memory_row());
   std::for_each(database_rows().begin(), database_rows().end(), add);
   for_each_row(add);
   return words;
@@ -370,26 +297,6 @@ const std::vector<RayRow>& ray_rows() {
   return rows;
 }
 
-const TopologyRow& topology_row() {
-  static const TopologyRow row = make_topology_row();
-  return row;
-}
-
-const NodesRow& nodes_row() {
-  static const NodesRow row = make_nodes_row();
-  return row;
-}
-
-const StrategyRow& strategy_row() {
-  static const StrategyRow row = make_strategy_row();
-  return row;
-}
-
-const MemoryRow& memory_row() {
-  static const MemoryRow row = make_memory_row();
-  return row;
-}
-
 bool has(Strategy strategy, const PageRow& row) {
   const svm::Strategy* const with_pages = page_strategy(strategy);
   return with_pages != nullptr && svm::goes_with(row.takes.field, *with_pages);
@@ -403,6 +310,7 @@ const std::vector<OptionWord>& strategy_words() {
 std::vector<ToldKey> told_keys() {
   std::vector<ToldKey> keys;
   for_each_row([&](const auto& row) { keys.push_back({row.key, row.takes.kind, row.meaning}); });
+  keys.push_back({topology_key, OptionKind::word, "onto which regions are mapped"});
   return in_order(std::move(keys));
 }
 

@@ -16,20 +16,11 @@ namespace dmpc::apps {
 using PageRow = OptionRow<svm::PageOptions, svm::Plan>;
 using BalanceRow = OptionRow<dataflow::BalanceOptions, dataflow::Plan>;
 using RayRow = OptionRow<dataflow::RayOptions, dataflow::Plan>;
-using TopologyRow = OptionRow<nodes::TopologyKind, dataflow::Plan>;
-/// Options that all strategies have; of nodes it is said where they are declared how many there are else.
-using NodesRow = OptionRow<std::uint32_t, StrategyOptions>;
-using StrategyRow = OptionRow<Strategy, StrategyOptions>;
-using MemoryRow = OptionRow<std::optional<std::size_t>, StrategyOptions>;
 
 /// In the order in which help has them.
 const std::vector<PageRow>& page_rows();
 const std::vector<BalanceRow>& balance_rows();
 const std::vector<RayRow>& ray_rows();
-const TopologyRow& topology_row();
-const NodesRow& nodes_row();
-const StrategyRow& strategy_row();
-const MemoryRow& memory_row();
 
 /// The strategy by which pixels stay; nullptr for dataflow.
 const svm::Strategy* page_strategy(Strategy strategy);
@@ -46,7 +37,6 @@ void for_each_row(const Visit& visit) {
   std::for_each(page_rows().begin(), page_rows().end(), visit);
   std::for_each(balance_rows().begin(), balance_rows().end(), visit);
   std::for_each(ray_rows().begin(), ray_rows().end(), visit);
-  visit(topology_row());
 }
 
 /// The words of all fields of plans, for with_options_named().

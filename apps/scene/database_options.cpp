@@ -14,8 +14,6 @@
 
 namespace dmpc::apps {
 
-const char* name_of(AxesChoice axes) { return axes == AxesChoice::screen ? "screen" : "world"; }
-
 const char* name_of(core::RecordOrder order) { return order == core::RecordOrder::scattered ? "scattered" : "spatial"; }
 
 const char* name_of(core::Structure structure) {
@@ -52,11 +50,7 @@ const std::vector<DatabaseRow>& database_rows() {
                  }},
        .help =
            "With --structure=voxels: usual, article (14 a polygon, at most 64^3, polygons of 129 B, no distances), or voxels a "
-           "primitive and, N of N^3, at most in all, as in 8:128"},
-      {.name = "--grid-axes",
-       .takes = word<&DatabaseOptions::axes>(
-           OptionSet::Choices<AxesChoice>{{"world", AxesChoice::world}, {"screen", AxesChoice::screen}}),
-       .help = "Directions of the grid, and so of dataflow's regions"}};
+           "primitive and, N of N^3, at most in all, as in 8:128"}};
   return rows;
 }
 

@@ -1,4 +1,4 @@
-// How a scene becomes records in pages: page size, their order, the grid's directions. Shared by `render` and the studies.
+// How a scene becomes records in pages: page size, their order, the structure. Shared by `render` and the studies.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,6 @@
 
 namespace dmpc::apps {
 
-/// The directions of the grid: the world's, or the screen's (right, up, towards the eye).
-enum class AxesChoice : std::uint8_t { world, screen };
-/// As the command line calls it.
-const char* name_of(AxesChoice axes);
 /// As the command line calls it.
 const char* name_of(core::RecordOrder order);
 
@@ -29,8 +25,7 @@ std::string text_of(const core::VoxelRule& rule);
 enum class InstancesChoice : std::uint8_t { expand, keep, automatic };
 
 struct DatabaseOptions {
-  core::BuildOptions build;             ///< but for the axes, which follow from the scene
-  AxesChoice axes = AxesChoice::world;  ///< which those are to be
+  core::BuildOptions build;
   InstancesChoice instances = InstancesChoice::expand;
   std::string why_copied;  ///< the option that keeps `automatic` from keeping any mesh; empty: none does
 

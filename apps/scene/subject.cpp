@@ -48,7 +48,6 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
   const bool chose_copies =
       options.instances == InstancesChoice::automatic && options.why_copied.empty() && !built.keeps_instances;
   core::BuildOptions build = built;
-  build.axes = options.axes == AxesChoice::screen ? core::screen_axes(scene.view) : core::world_axes;
   build.emitters_max = picture.transport.emitters_max();
   build.for_paths = picture.transport.is_by_paths();
   build.progress = [&progress](std::uint64_t done, std::uint64_t total) { progress.update(done, total); };

@@ -4,7 +4,6 @@
 
 #include "apps/run/instance_options.h"
 #include "apps/run/render_options.h"
-#include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -15,7 +14,7 @@ using core::UsageError;
 
 void add_computer_options(OptionSet& options, ViewOptions& view) {
   options.begin_group("The computer");
-  nodes_row().add_to(options, view.computer.node_count, "8");
+  add_nodes_option(options, view.computer.node_count, "8");
   add_strategy_option(options, view.strategy);
   add_system_option(options, view.system);
   add_memory_option(options, view.computer.node_memory_bytes);
@@ -31,15 +30,12 @@ void add_runner_options(OptionSet& options, ViewOptions& view) {
       "threads: a thread for each node. pool: a few threads drive all nodes in turn. virtual: the model of a machine");
   options.add_number("--pool-threads", view.computer.pool_threads, 1, nodes::node_count_max, "as many as processors",
                      "Threads that drive all nodes in turn (pool)");
-  add_machine_options(options, view.runner, " (virtual)");
+  add_machine_option(options, view.runner.machine_name, " (virtual)");
 }
 
 /// The scene is built once, for every camera.
 void check_camera_moves(const ViewOptions& view) {
   const std::string why = ", which the camera would take along: dmpc render shows it from one place";
-  if (view.database.axes == AxesChoice::screen) {
-    throw UsageError("--grid-axes=screen does not go with view: it is a grid of the screen" + why);
-  }
   if (view.picture.staging.fill.value_or(0) > 0) {
     throw UsageError("--fill does not go with view: it is a light in the eye" + why);
   }
@@ -60,7 +56,6 @@ void add_options(OptionSet options, ViewOptions& view) {
   add_runner_options(options, view);
   add_page_options(options, view.pages);
   add_ray_options(options, view.rays);
-  add_topology_option(options, *view.rays.topology);
   options.begin_group("The page");
   options.add_number(
       "--port", view.port, 0, 65535, "0",

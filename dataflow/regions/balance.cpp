@@ -8,12 +8,12 @@
 namespace dmpc::dataflow {
 namespace {
 
+/// Of the lattice that loads are counted on.
+constexpr std::int32_t columns_per_side = 256;
+
 void check(const BalanceOptions& options) {
   if (options.subsample < 1) {
     throw core::UsageError("a subsampled picture takes one pixel of every 1x1 or more");
-  }
-  if (options.columns_per_side < 1) {
-    throw core::UsageError("loads are counted on a grid of 1x1 columns or more");
   }
   if (options.regions_a_node < 1) {
     throw core::UsageError("a node has a region or more");
@@ -51,7 +51,7 @@ ColumnLoads column_loads(const core::Database& database, const core::RenderSetti
                          const std::stop_token& stop) {
   check(options);
   const core::Camera& camera = settings.camera;
-  const ColumnLattice lattice(core::grid_size(settings.header.frame), axes_facing(camera), options.columns_per_side);
+  const ColumnLattice lattice(core::grid_size(settings.header.frame), axes_facing(camera), columns_per_side);
   return !options.is_by_load() ? ColumnLoads(lattice)
                                : measure_loads(database, settings, lattice,
                                                core::subsampled_pixels(camera.width(), camera.height(), options.subsample), stop);

@@ -26,10 +26,9 @@ enum class Balance : std::uint8_t {
 
 struct BalanceOptions {
   Balance balance = Balance::subsampled;
-  int subsample = 8;                    ///< one pixel of every subsample x subsample is traced; at least 1
-  std::int32_t columns_per_side = 256;  ///< of the lattice that the loads are counted on; at least 1
-  BspOptions bsp = {};                  ///< unless scattered
-  std::uint32_t regions_a_node = 1;     ///< scattered: from 1 on; moving: units, from 2 on; else one is all that there is
+  int subsample = 8;                 ///< one pixel of every subsample x subsample is traced; at least 1
+  BspOptions bsp = {};               ///< unless scattered
+  std::uint32_t regions_a_node = 1;  ///< scattered: from 1 on; moving: units, from 2 on; else one is all that there is
 
   /// A node may have more than one.
   bool has_several_regions() const { return balance == Balance::scattered || balance == Balance::moving; }

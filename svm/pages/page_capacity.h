@@ -20,7 +20,6 @@ struct PageCapacity {
   std::uint32_t page_count = 0;  ///< of the database
   std::uint32_t node_count = 1;
   PageHomes where = PageHomes::spread;    ///< they are at home
-  std::uint32_t tree_arity = 1;           ///< children of a parent, where = tree
   std::uint32_t resident_count = 0;       ///< pages that every node keeps for good, wherever they are at home
   std::span<const PageId> resident = {};  ///< which; once they are known as many, and they outlive the making of programs
   CacheShape cache;                       ///< whose pages are as large as all
@@ -35,7 +34,7 @@ struct PageCapacity {
   std::size_t leading_bytes() const { return leading_pages * page_size_bytes(); }
   Homes homes() const { return homes_of(where, node_count); }
   /// Who asks whom, if all pages are at home at the host.
-  std::optional<RequestTree> tree() const { return request_tree_of(where, node_count, tree_arity); }
+  std::optional<RequestTree> tree() const { return request_tree_of(where, node_count); }
   /// Whether requests come to node `index`, or the host.
   bool is_asked(std::uint32_t index) const {
     return pages_at(index) > 0 || (index < node_count && tree() && tree()->count_below(index) > 0);

@@ -10,6 +10,9 @@
 
 namespace dmpc::svm {
 
+/// A transputer has four links: one up, three down.
+inline constexpr std::uint32_t tree_arity = 3;
+
 /// The host is the root, and it and every node have up to `arity` children, in the order of the nodes' numbers. With an arity of
 /// node_count or more all nodes are the host's children: a star. Requests climb, from child to parent, so none can wait for
 /// another in a circle, and the host has every page.
@@ -46,10 +49,9 @@ class RequestTree {
   std::uint32_t node_count_, arity_;
 };
 
-/// The tree of a computer with so many nodes; none where nodes ask each other. `arity` is read where = tree alone: else all ask
-/// the host.
-inline std::optional<RequestTree> request_tree_of(PageHomes where, std::uint32_t node_count, std::uint32_t arity) {
-  return are_at_host(where) ? std::optional(RequestTree(node_count, where == PageHomes::tree ? arity : node_count))
+/// The tree of a computer with so many nodes; none where nodes ask each other. Where there is none all ask the host.
+inline std::optional<RequestTree> request_tree_of(PageHomes where, std::uint32_t node_count) {
+  return are_at_host(where) ? std::optional(RequestTree(node_count, where == PageHomes::tree ? tree_arity : node_count))
                             : std::nullopt;
 }
 

@@ -79,7 +79,6 @@ void check(const apps::RenderOptions& render) {
   expect(render.computer.node_count >= 1, "there is a node");
   expect(render.picture.samples >= 1 && render.picture.samples <= 32768, "samples are 1 to 32768");
   expect(render.picture.depth >= 1 && render.picture.depth <= 255, "the depth is 1 to 255");
-  expect(!(render.runner.no_contention && render.runner.memory_port), "ports need contention");
 }
 
 void try_options(Lines lines) {

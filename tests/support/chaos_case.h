@@ -68,7 +68,6 @@ class ChaosCase {
                                           svm::Replacement::fifo, svm::Replacement::random, svm::Replacement::two_queues,
                                           svm::Replacement::adaptive, svm::Replacement::small_and_main});
       options.pages.homes = one_of({svm::PageHomes::spread, svm::PageHomes::spread, svm::PageHomes::host, svm::PageHomes::tree});
-      options.pages.tree_arity = 1 + draws_.below(4);
       options.pages.resident_percent = one_of({0U, 0U, 50U, 100U});
       options.pages.count_pages = draws_.chance(10) && !subject().settings().refinement.is_wanted();
     }

@@ -272,8 +272,8 @@ TEST_CASE(
     "virtual time: to pass a request on costs a node of the tree its reception, the service and the message to its parent") {
   const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
   const nodes::Machine machine = slow_network();
-  const svm::Report report = run_svm(subject, {.computer = {.node_count = 8, .machine = machine},
-                                               .pages = {.cache_pages = 4, .homes = svm::PageHomes::tree, .tree_arity = 2}});
+  const svm::Report report = run_svm(
+      subject, {.computer = {.node_count = 8, .machine = machine}, .pages = {.cache_pages = 4, .homes = svm::PageHomes::tree}});
   CHECK(outcome_of(report) == subject.outcome());
   const std::uint64_t passed = report.sent()[svm::number_of(svm::Kind::passed_request)].packets;
   const std::uint64_t taken_ns = machine.short_message.receive_ns + machine.service_ns;

@@ -17,7 +17,7 @@
 namespace dmpc::tests::watch_test {
 namespace {
 
-constexpr std::uint32_t watchers_nodes = 3;
+constexpr std::uint32_t watchers_nodes = 4;
 
 Subject subject_to_watch() {
   core::BuildOptions options;
@@ -41,7 +41,6 @@ void check_watched(const Subject& subject, svm::RunOptions options, svm::PageHom
   options.computer.node_count = watchers_nodes;
   options.pages.cache_pages = 2;
   options.pages.homes = homes;
-  options.pages.tree_arity = 1;
   options.watching.observer = &group;
   options.pages.reference_logs = &logs;
   const svm::Report report = run_svm(subject, options);

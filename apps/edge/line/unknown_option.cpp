@@ -31,14 +31,23 @@ struct Gone {
 };
 
 constexpr Gone gone[] = {
-    {"--pictures", "apps/scenes.png, among the documents, shows the built-in scenes, and dmpc render any of them"},
+    {"--balance-grid", "loads are counted in 256x256 columns"},
+    {"--grid-axes", "the grid has the world's axes; --camera turns the picture"},
+    {"--idle", "ranks spin where there are more processors than nodes, else sleep"},
+    {"--keep-checkpoint", "a checkpoint goes when the picture is there; without --resume that is rendered again"},
+    {"--memory-port", "--machine=FILE.json names a machine whose has_memory_port is true; dmpc machine prints one to begin with"},
+    {"--no-contention",
+     "--machine=FILE.json names a machine whose has_contention is false; dmpc machine prints one to begin with"},
     {"--preview", "--serve shows the picture in a browser as it comes"},
     {"--strip", "--heatmap=done:FILE.png shows when each pixel was done, and the page of --report plays it"},
+    {"--subsample", "one pixel of every 8x8 says how regions are cut; dmpc study balance --subsample=N shows what others do"},
+    {"--topology", "the machine's wiring counts, on threads a hypercube; dmpc study balance --topology=KIND compares"},
     {"--trace-every", "--trace-window=FROM,TO records all pixels, of a part of the run"},
     {"--trace-events", "a million events are kept, spread over the run; --trace-window=FROM,TO records all of a part of it"},
     {"--trace-keep",
      "a trace too long is kept in parts from all times of the run; --trace-window=FROM,TO records all of one time"},
     {"--trace-nodes", "--trace records all nodes; Perfetto shows those that are pinned on top"},
+    {"--tree-arity", "--homes=tree has three children a node"},
 };
 
 /// "w", of "--w", "-w" and "-W640"; "+w", of "+W640"; names of several letters keep their digits.

@@ -4,8 +4,10 @@
 #include <span>
 #include <string>
 
+#include "apps/edge/line/command_line.h"
 #include "core/base/refusal.h"
 #include "nodes/computer_request.h"
+#include "nodes/topology.h"
 
 namespace dmpc::apps {
 
@@ -19,6 +21,9 @@ struct OptionWord {
 inline constexpr OptionWord nodes_word{core::field_of<&nodes::ComputerRequest::node_count>(), "--nodes"};
 inline constexpr OptionWord node_memory_word{core::field_of<&nodes::ComputerRequest::node_memory_bytes>(), "--node-memory"};
 inline constexpr OptionWord computer_words[] = {nodes_word, node_memory_word};
+
+/// How a machine's nodes may be wired, by name.
+OptionSet::Choices<nodes::TopologyKind> topology_choices();
 
 /// The sentence with options in place of the fields that they set; any other field by its own name.
 std::string in_options(const core::Sentence& sentence, std::span<const OptionWord> words);

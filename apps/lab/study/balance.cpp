@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/run/option_words.h"
 #include "apps/edge/table/filled_columns.h"
 #include "apps/run/ray_hops.h"
 #include "core/families/scenes.h"
@@ -30,12 +31,12 @@ constexpr std::array<Cutting, 4> cuttings = {{{"subsampled", Balance::subsampled
                                               {"scattered, 16 a node", Balance::scattered, CutOrder::longer_axis, 16}}};
 
 dataflow::RunOptions options_for(const BalanceStudy& study, std::uint32_t node_count, const Cutting& cutting) {
-  dataflow::RunOptions options{.computer = {.node_count = node_count},
-                               .rays = {.balance = study.regions, .topology = study.topology}};
-  options.rays.balance.balance = cutting.balance;
-  options.rays.balance.bsp.order = cutting.order;
-  options.rays.balance.regions_a_node = cutting.regions_a_node;
-  return options;
+  return {.computer = {.node_count = node_count},
+          .rays = {.balance = {.balance = cutting.balance,
+                               .subsample = study.subsample,
+                               .bsp = {.order = cutting.order},
+                               .regions_a_node = cutting.regions_a_node},
+                   .topology = study.topology}};
 }
 
 /// A run, or one of its nodes.
@@ -56,6 +57,9 @@ Cell average_load_cell(std::span<const double> loads) {
 Cell share_cell(std::span<const double> loads, std::uint32_t node) {
   return loads.empty() ? Cell() : Cell(percent_of(loads[node], std::accumulate(loads.begin(), loads.end(), 0.0)));
 }
+
+/// No picture has a longer side.
+constexpr std::int64_t subsample_max = 65536;
 
 /// Nothing where no ray went on.
 Cell hops_cell(const BalanceRow& row, double hops) { return row.report.messages_per_ray() > 0 ? Cell(hops) : Cell(); }
@@ -103,9 +107,8 @@ std::optional<double> load_with(const Table& table, double node_count, const std
 
 void BalanceStudy::add_options(StudyLine line) {
   add_node_counts(line.set, node_counts);
-  add_option(line.set, core::field_of<&dataflow::BalanceOptions::subsample>(), regions);
-  add_option(line.set, core::field_of<&dataflow::BalanceOptions::columns_per_side>(), regions);
-  add_topology_option(line.set, topology);
+  line.set.add_number("--subsample", subsample, 1, subsample_max, "8", "The subsampled picture has one pixel of every NxN");
+  line.set.add_choice("--topology", topology, topology_choices(), "The wiring onto which neighbouring regions are mapped");
   line.set.add_flag("--per-node", per_node, "Show each node's share of the work, too");
   line.set.set_examples(
       "Examples:\n"
@@ -145,7 +148,7 @@ void BalanceStudy::measure(StudyRuns& runs, Table& table) const {
 }
 
 std::vector<std::string> BalanceStudy::notes(const std::string& scene) const {
-  const std::string step = std::to_string(regions.subsample);
+  const std::string step = std::to_string(subsample);
   std::vector<std::string> notes = {
       "Average load: mean over maximum of the nodes' work, which is counted operations at measured prices.",
       "Predicted: by the picture of one pixel of every " + step + "x" + step + ".",

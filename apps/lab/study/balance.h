@@ -8,7 +8,6 @@
 #include "apps/edge/table/plot.h"
 #include "apps/lab/study/engine/study_line.h"
 #include "apps/lab/study/runs.h"
-#include "dataflow/regions/balance.h"
 #include "nodes/topology.h"
 
 namespace dmpc::apps {
@@ -21,7 +20,7 @@ struct BalanceStudy {
   static constexpr const char* description = "How evenly the work of rays that travel is shared out";
 
   std::vector<std::uint32_t> node_counts = {4, 8, 16, 32, 64};
-  dataflow::BalanceOptions regions;  ///< how loads are predicted; which way they are cut is without meaning
+  int subsample = 8;  ///< loads are predicted by one pixel of every subsample x subsample
   nodes::TopologyKind topology = nodes::TopologyKind::hypercube;
   bool per_node = false;  ///< below each row one more for each node, with its share of the work
 

@@ -88,8 +88,8 @@ std::string title_of(const std::string& study, const StudyOptions& options, cons
   const core::Camera& camera = subject.settings.camera;
   return "Study " + study + " of " + picture.scene + ": " + std::to_string(camera.width()) + "x" +
          std::to_string(camera.height()) + " pixels, " + samples_text(picture) + ", " + light_text(picture) + ", convention " +
-         (picture.convention == core::Convention::haines ? "haines" : "paper") + ", grid axes " + name_of(options.database.axes) +
-         ", record order " + name_of(options.database.build.record_order) + ", " + structure_text(options.database.build) +
+         (picture.convention == core::Convention::haines ? "haines" : "paper") + ", record order " +
+         name_of(options.database.build.record_order) + ", " + structure_text(options.database.build) +
          counted(subject.database.header().primitive_count, "primitive");
 }
 

@@ -8,6 +8,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/line/words.h"
+#include "apps/edge/machine/machine_file.h"
 #include "apps/edge/machine/machines.h"
 #include "apps/lab/study/engine/measure_each.h"
 #include "apps/lab/study/frame_rows.h"
@@ -173,15 +174,6 @@ std::vector<std::string> parse_machines(const std::string& text) {
   return names;
 }
 
-nodes::Machine machine_of(const RunnerOptions& asked, const std::string& name) {
-  StrategyOptions one;
-  one.runner = asked;
-  one.runner.kind = RunnerKind::virtual_time;
-  one.runner.machine_name = name;
-  choose_machine(one);
-  return *one.computer.machine;
-}
-
 /// The means of the computer that the last row is of.
 std::vector<const std::vector<Cell>*> last_means(const Table& table, const std::string& frames) {
   std::vector<const std::vector<Cell>*> means;
@@ -211,16 +203,16 @@ void FramesStudy::add_options(StudyLine line) {
       "From one frame to the next the camera goes round the scene by so much");
   line.set.add_path("--camera-path", "FILE", camera_path,
                     "Move the camera through the keyframes of FILE, lines of a frame and what --camera takes, from frame 1 on");
-  add_machine_options(line.set, runner, "");
+  add_machine_option(line.set, machine_name, "");
   line.set.add_text(
       "--machines", "NAME,NAME,...", [this](const std::string& text) { machine_names = parse_machines(text); },
       "Several machines in place of one, each with rows of its own");
   line.set.check_in_the_end([this, line] {
     check_line(line, *this);
-    line.machine_name = runner.machine_name;
+    line.machine_name = machine_name;
     machines.clear();
-    for (const std::string& name : machine_names.empty() ? std::vector{runner.machine_name} : machine_names) {
-      machines.push_back(machine_of(runner, name));
+    for (const std::string& name : machine_names.empty() ? std::vector{machine_name} : machine_names) {
+      machines.push_back(load_machine(name).machine);
     }
   });
   line.set.set_examples(

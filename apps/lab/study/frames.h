@@ -30,7 +30,7 @@ struct FramesStudy {
   double turntable_degrees = 1;                      ///< a frame
   std::optional<std::filesystem::path> camera_path;  ///< in place of the turntable
   std::vector<nodes::Machine> machines = {*on_usual_machine().computer.machine};
-  RunnerOptions runner;                    ///< of the command line, by which the machines were chosen
+  std::string machine_name = "ipsc2";      ///< of the command line, by which the machines were chosen
   std::vector<std::string> machine_names;  ///< likewise, if there are several
   core::View own_view;                     ///< the scene's, which it is given
   core::Box bounds;                        ///< likewise, in the world's coordinates

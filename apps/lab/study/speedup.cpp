@@ -83,7 +83,7 @@ void SpeedupStudy::add_options(StudyLine line) {
   add_node_counts(line.set, node_counts);
   add_strategy_option(line.set, run.strategy);
   add_memory_option(line.set, run.computer.node_memory_bytes);
-  add_machine_options(line.set, run.runner, "");
+  add_machine_option(line.set, run.runner.machine_name, "");
   add_page_options(line.set, run.pages, "1");
   add_ray_options(line.set, run.rays);
   line.set.check_in_the_end([this, set = line.set, &file = line.machine_name, &database = line.database] {

@@ -236,7 +236,7 @@ void SystemsStudy::add_options(StudyLine line) {
       "--node-memory", "RULE,RULE,... [auto,25%,5%,1%]", [this](const std::string& text) { memories = parse_memory_rules(text); },
       "What a node may hold: auto, as much as its system needs; S%, its part and so much of the database more; or a size such "
       "as 4MiB, of all that its memory holds");
-  add_machine_options(line.set, machine.runner, "");
+  add_machine_option(line.set, machine.runner.machine_name, "");
   line.set.check_in_the_end([this, set = line.set, &file = line.machine_name] {
     file = machine.runner.machine_name;
     check_database(set);

@@ -17,19 +17,19 @@ __all__ = ["sweep", "balance", "traffic", "cache", "speedup", "systems", "frames
 
 
 def balance(
-    scene: Text, *, nodes: Text | Sequence[Text] | None = None, subsample: int | None = None, balance_grid: int | None = None, topology:
-    Literal["hypercube", "mesh", "torus", "fat-tree", "crossbar"] | None = None, per_node: bool = False, camera: Text | None = None, light:
-    Text | Sequence[Text] | None = None, fill: Text | None = None, ambient: Text | Sequence[Text] | None = None, background: Text |
-    Sequence[Text] | None = None, scale: Text | None = None, up: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text | None
-    = None, missing: Literal["error", "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None =
-    None, sandbox: Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention:
-    Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None,
-    cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit", "unlit",
-    "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport:
-    Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None
-    = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial",
-    "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, grid_axes:
-    Literal["world", "screen"] | None = None, report: Text | None = None, plots: Text | None = None
+    scene: Text, *, nodes: Text | Sequence[Text] | None = None, subsample: int | None = None, topology: Literal["hypercube", "mesh",
+    "torus", "fat-tree", "crossbar"] | None = None, per_node: bool = False, camera: Text | None = None, light: Text | Sequence[Text] | None
+    = None, fill: Text | None = None, ambient: Text | Sequence[Text] | None = None, background: Text | Sequence[Text] | None = None, scale:
+    Text | None = None, up: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text | None = None, missing: Literal["error",
+    "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox:
+    Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines",
+    "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None =
+    None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms",
+    "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] |
+    None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None =
+    None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,
+    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text | None = None, plots: Text |
+    None = None
 ) -> pandas.DataFrame:
     """How evenly the work of rays that travel is shared out."""
     return studying.study("balance", ["scene"], locals())
@@ -46,8 +46,7 @@ def traffic(
     "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None,
     bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None,
     light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure:
-    Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None,
-    report: Text | None = None, plots: Text | None = None
+    Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """What travels when rays do, beside what travels when pages do."""
     return studying.study("traffic", ["scene"], locals())
@@ -65,8 +64,7 @@ def cache(
     Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
     Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size:
     Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None
-    = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None, report: Text | None = None, plots: Text | None
-    = None
+    = None, voxels: Text | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How often pages are missed with caches of every size and policy."""
     return studying.study("cache", ["scene"], locals())
@@ -74,25 +72,23 @@ def cache(
 
 def speedup(
     scene: Text, *, nodes: Text | Sequence[Text] | None = None, strategy: Literal["svm", "replicated", "dataflow", "forest"] | None = None,
-    node_memory: Text | None = None, machine: Text | None = None, no_contention: bool = False, memory_port: bool = False, cache_pages: int |
-    None = None, homes: Literal["spread", "host", "tree"] | None = None, tree_arity: int | None = None, resident: int | None = None,
-    replacement: Literal["lru", "clock", "fifo", "random", "2q", "arc", "s3-fifo"] | None = None, in_flight: int | None = None, bundles:
-    bool = False, work_item: int | None = None, work_giver: Literal["ring", "host"] | None = None, pixels: Literal["submaps", "interleaved"]
-    | None = None, workers: int | None = None, balance: Literal["subsampled", "equal-size", "scattered", "moving"] | None = None, cuts:
-    Literal["longer-side", "alternating"] | None = None, regions: int | None = None, subsample: int | None = None, balance_grid: int | None
-    = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_places: int | None = None, ray_queue: int | None = None,
-    tested_objects: int | None = None, no_backpressure: bool = False, camera: Text | None = None, light: Text | Sequence[Text] | None =
-    None, fill: Text | None = None, ambient: Text | Sequence[Text] | None = None, background: Text | Sequence[Text] | None = None, scale:
-    Text | None = None, up: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text | None = None, missing: Literal["error",
-    "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox:
-    Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines",
-    "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None =
-    None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms",
-    "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] |
-    None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None =
-    None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,
-    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None
-    = None, report: Text | None = None, plots: Text | None = None
+    node_memory: Text | None = None, machine: Text | None = None, cache_pages: int | None = None, homes: Literal["spread", "host", "tree"] |
+    None = None, resident: int | None = None, replacement: Literal["lru", "clock", "fifo", "random", "2q", "arc", "s3-fifo"] | None = None,
+    in_flight: int | None = None, bundles: bool = False, work_item: int | None = None, work_giver: Literal["ring", "host"] | None = None,
+    pixels: Literal["submaps", "interleaved"] | None = None, workers: int | None = None, balance: Literal["subsampled", "equal-size",
+    "scattered", "moving"] | None = None, cuts: Literal["longer-side", "alternating"] | None = None, regions: int | None = None, ray_batch:
+    int | None = None, ray_credits: int | None = None, ray_places: int | None = None, ray_queue: int | None = None, tested_objects: int |
+    None = None, no_backpressure: bool = False, camera: Text | None = None, light: Text | Sequence[Text] | None = None, fill: Text | None =
+    None, ambient: Text | Sequence[Text] | None = None, background: Text | Sequence[Text] | None = None, scale: Text | None = None, up:
+    Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text | None = None, missing: Literal["error", "plain"] | Sequence[Text]
+    | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None =
+    None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text |
+    None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"]
+    | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes",
+    "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
+    Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size:
+    Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None
+    = None, voxels: Text | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How much faster a modelled machine gets by more nodes."""
     return studying.study("speedup", ["scene"], locals())
@@ -100,19 +96,18 @@ def speedup(
 
 def systems(
     scene: Text, *, nodes: Text | Sequence[Text] | None = None, systems: Text | Sequence[Text] | None = None, structures: Text |
-    Sequence[Text] | None = None, node_memory: Text | Sequence[Text] | None = None, machine: Text | None = None, no_contention: bool =
-    False, memory_port: bool = False, camera: Text | None = None, light: Text | Sequence[Text] | None = None, fill: Text | None = None,
-    ambient: Text | Sequence[Text] | None = None, background: Text | Sequence[Text] | None = None, scale: Text | None = None, up:
-    Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text | None = None, missing: Literal["error", "plain"] | Sequence[Text]
-    | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None =
-    None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text |
-    None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"]
-    | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes",
-    "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
-    Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size:
-    Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None
-    = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None, report: Text | None = None, plots: Text | None
-    = None
+    Sequence[Text] | None = None, node_memory: Text | Sequence[Text] | None = None, machine: Text | None = None, camera: Text | None = None,
+    light: Text | Sequence[Text] | None = None, fill: Text | None = None, ambient: Text | Sequence[Text] | None = None, background: Text |
+    Sequence[Text] | None = None, scale: Text | None = None, up: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text | None
+    = None, missing: Literal["error", "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None =
+    None, sandbox: Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention:
+    Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None,
+    cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit", "unlit",
+    "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport:
+    Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None
+    = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial",
+    "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text |
+    None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """The systems that the 1994 article classifies, side by side on one machine."""
     return studying.study("systems", ["scene"], locals())
@@ -120,19 +115,18 @@ def systems(
 
 def frames(
     scene: Text, *, nodes: Text | Sequence[Text] | None = None, frames: int | None = None, each_frame: bool = False, turntable: Text | None
-    = None, camera_path: Text | None = None, machine: Text | None = None, no_contention: bool = False, memory_port: bool = False, machines:
-    Text | Sequence[Text] | None = None, camera: Text | None = None, light: Text | Sequence[Text] | None = None, fill: Text | None = None,
-    ambient: Text | Sequence[Text] | None = None, background: Text | Sequence[Text] | None = None, scale: Text | None = None, up:
-    Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text | None = None, missing: Literal["error", "plain"] | Sequence[Text]
-    | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None =
-    None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text |
-    None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"]
-    | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes",
-    "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
-    Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size:
-    Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None
-    = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None, report: Text | None = None, plots: Text | None
-    = None
+    = None, camera_path: Text | None = None, machine: Text | None = None, machines: Text | Sequence[Text] | None = None, camera: Text | None
+    = None, light: Text | Sequence[Text] | None = None, fill: Text | None = None, ambient: Text | Sequence[Text] | None = None, background:
+    Text | Sequence[Text] | None = None, scale: Text | None = None, up: Literal["x", "y", "z", "-x", "-y", "-z"] | None = None, smooth: Text
+    | None = None, missing: Literal["error", "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] |
+    None = None, sandbox: Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None,
+    convention: Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None =
+    None, cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit",
+    "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport:
+    Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None
+    = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial",
+    "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text |
+    None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """What frames of a moving camera fetch and send, with caches warm and cold."""
     return studying.study("frames", ["scene"], locals())

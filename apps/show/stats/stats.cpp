@@ -224,7 +224,6 @@ Json options_json(const RenderRecord& record, const Account& account) {
       {"emitters", by_paths ? Json(options.picture.transport.emitters) : Json()},
       {"light_radius", options.picture.transport.light_radius ? Json(*options.picture.transport.light_radius) : Json()},
       {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},
-      {"grid_axes", name_of(options.database.axes)},
       {"record_order", name_of(options.database.build.record_order)},
       {"structure", name_of(options.database.build.structure)},
       {"voxels", has_voxels ? Json(text_of(options.database.build.voxels)) : Json()},

@@ -53,12 +53,11 @@ TEST_CASE("a scene is all that info needs, and then it renders nothing") {
 }
 
 TEST_CASE("wrong options of info are refused") {
-  for (const char* option : {"--nodes=0", "--nodes=4097", "--nodes=", "--format=csv", "--subsample=4", "--balance-grid=8",
-                             "--page-size=3", "--balance=none"}) {
+  for (const char* option : {"--nodes=0", "--nodes=4097", "--nodes=", "--format=csv", "--page-size=3", "--balance=none"}) {
     CAPTURE(option);
     CHECK_THROWS_AS(info("balls-1", {option}), core::UsageError);
   }
-  CHECK(info("balls-1", {"--balance=subsampled", "--subsample=4"}).balance.subsample == 4);
+  CHECK(info("balls-1", {"--balance=subsampled"}).balance.balance == dataflow::Balance::subsampled);
 }
 
 TEST_CASE("a system by name is asked about with its database and its pages' homes, and what contradicts it is refused") {
@@ -71,12 +70,6 @@ TEST_CASE("a system by name is asked about with its database and its pages' home
     CAPTURE(option);
     CHECK_THROWS_AS(info("balls-1", {"--system=pixel-machine", option}), core::UsageError);
   }
-}
-
-TEST_CASE("a tree of another arity is asked about where there is a tree") {
-  CHECK(info("balls-1", {"--homes=tree", "--tree-arity=2"}).pages.tree_arity == 2);
-  CHECK(info("balls-1", {"--system=green-paddon", "--tree-arity=2"}).pages.tree_arity == 2);
-  CHECK_THROWS_AS(info("balls-1", {"--homes=host", "--tree-arity=2"}), core::UsageError);
 }
 
 TEST_CASE("with pages at home at the host a node needs less, the more of them there are") {

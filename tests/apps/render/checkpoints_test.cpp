@@ -115,16 +115,14 @@ TEST_CASE("who resumes is told how far the picture was, unless quiet, or that th
   CHECK(messages.str().empty());
 }
 
-TEST_CASE("in the end the checkpoint is removed, with what a killed process has left, unless it is to stay") {
+TEST_CASE("in the end the checkpoint is removed, with what a killed process has left") {
   const TemporaryFolder folder;
   std::ostringstream messages;
-  for (const bool stays : {true, false}) {
-    Checkpoints checkpoints({.file = folder / "a", .stays = stays}, small_identity, messages, false);
-    keep(checkpoints.continuation(), 1);
-    write_text(next_name(folder / "a"), "half");
-    checkpoints.finish();
-    CHECK(folder.entry_count() == (stays ? 2 : 0));
-  }
+  Checkpoints checkpoints({.file = folder / "a"}, small_identity, messages, false);
+  keep(checkpoints.continuation(), 1);
+  write_text(next_name(folder / "a"), "half");
+  checkpoints.finish();
+  CHECK(folder.entry_count() == 0);
 }
 
 TEST_CASE("a checkpoint behind a symbolic link is removed, and the link stays") {

@@ -132,7 +132,6 @@ TEST_CASE("what frames cannot do is refused, and says what can be done") {
       {with("--stats=@a.json"), "--stats="},
       {with("--report=@a.html"), "--report does not go with several frames"},
       {with("--trace=@a.pftrace"), "--trace does not go with several frames"},
-      {with("--grid-axes=screen"), "--frames does not go with --grid-axes=screen"},
       {{"--frames=3", "--turntable=361", "-o", "@a.#.png"}, "expected degrees"}};
   for (const Refusal& refusal : refusals) {
     const Said said = render(folder, refusal.words);

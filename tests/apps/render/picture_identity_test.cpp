@@ -66,8 +66,6 @@ TEST_CASE("whatever of the settings is changed, the facts say so in words") {
   CHECK(difference_by_options([](auto& options) { options.picture.resolution = {8, 9}; }) == "resolution is 8x9, here 512x512");
   CHECK(difference_by_options([](auto& options) { options.picture.convention = core::Convention::paper; }) ==
         "convention is paper, here haines");
-  CHECK(difference_by_options([](auto& options) { options.database.axes = AxesChoice::screen; }) ==
-        "grid-axes is screen, here world");
   CHECK(difference_by_options([](auto& options) { options.tracer = TracerChoice::embree; }) == "tracer is embree, here grid");
 }
 

@@ -16,6 +16,7 @@
 #include "apps/render/command.h"
 #include "apps/render/ranks.h"
 #include "core/base/expect.h"
+#include "tests/support/lasting_files.h"
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -41,22 +42,24 @@ struct Ended {
 };
 
 std::vector<tests::RankResult<Ended>> render_over(std::uint32_t rank_count, const RenderOptions& options,
-                                                  const nodes::LoopbackTrouble& trouble = {}) {
+                                                  const nodes::LoopbackTrouble& trouble = {},
+                                                  apps::Files& files = apps::real_files()) {
   apps::Interrupt interrupt;
   const auto render = [&](nodes::Fabric& fabric) {
     std::ostringstream output;
-    const int status = apps::render_over(fabric, options, interrupt, output);
+    const int status = apps::render_over(fabric, options, interrupt, output, files);
     return Ended{status, output.str()};
   };
   return tests::on_ranks(rank_count, trouble, render, nodes::frame_bytes_for(apps::payload_bytes_max(options)));
 }
 
 /// The picture's file, of a render that goes well on all ranks.
-std::string picture_over(std::uint32_t rank_count, std::vector<std::string> line, const nodes::LoopbackTrouble& trouble = {}) {
+std::string picture_over(std::uint32_t rank_count, std::vector<std::string> line, const nodes::LoopbackTrouble& trouble = {},
+                         apps::Files& files = apps::real_files()) {
   const tests::TemporaryFolder folder;
   const fs::path image = folder.path() / "picture.exr";
   line.insert(line.end(), {"--runner=mpi", "-o", image.string()});
-  const auto results = render_over(rank_count, options_of(line), trouble);
+  const auto results = render_over(rank_count, options_of(line), trouble, files);
   for (std::size_t rank = 0; rank < results.size(); ++rank) {
     CAPTURE(rank);
     CHECK(results[rank].failure_text() == "");
@@ -208,15 +211,16 @@ TEST_CASE("what was kept on some ranks is gone on with on others, by another str
   const tests::TemporaryFolder folder;
   const std::string kept = "--checkpoint=" + (folder.path() / "kept").string();
   const std::string picture = picture_of(small);
-  auto first = small_with({"--checkpoint-every=0.000001", "--keep-checkpoint", "--strategy=svm"});
+  tests::LastingFiles files;
+  auto first = small_with({"--checkpoint-every=0.000001", "--strategy=svm"});
   first.push_back(kept);
-  CHECK((picture_over(2, first) == picture));
+  CHECK((picture_over(2, first, {}, files) == picture));
   REQUIRE(fs::exists(folder.path() / "kept"));
   for (const char* const strategy : {"--strategy=dataflow", "--strategy=replicated", "--strategy=svm"}) {
     CAPTURE(strategy);
-    auto next = small_with({"--resume", "--keep-checkpoint", strategy});
+    auto next = small_with({"--resume", strategy});
     next.push_back(kept);
-    CHECK((picture_over(3, next) == picture));
+    CHECK((picture_over(3, next, {}, files) == picture));
   }
 }
 

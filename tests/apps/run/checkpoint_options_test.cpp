@@ -31,18 +31,16 @@ TEST_CASE("nothing is kept unless that is asked for, and then every two minutes"
   CHECK(options.file == "a.checkpoint");
   CHECK(options.every_seconds == 120);
   CHECK_FALSE(options.resumes);
-  CHECK_FALSE(options.stays);
 }
 
-TEST_CASE("a checkpoint can come sooner, be resumed from, and stay") {
-  const CheckpointOptions options = parse({"--checkpoint=a", "--checkpoint-every=0.5", "--resume", "--keep-checkpoint"});
+TEST_CASE("a checkpoint can come sooner and be resumed from") {
+  const CheckpointOptions options = parse({"--checkpoint=a", "--checkpoint-every=0.5", "--resume"});
   CHECK(options.every_seconds == 0.5);
   CHECK(options.resumes);
-  CHECK(options.stays);
 }
 
 TEST_CASE("the options of checkpoints need a file") {
-  for (const std::string option : {"--resume", "--keep-checkpoint", "--checkpoint-every=3"}) {
+  for (const std::string option : {"--resume", "--checkpoint-every=3"}) {
     CHECK(contains(render_usage_complaint({option}), "goes with --checkpoint=FILE"));
   }
 }

@@ -53,7 +53,6 @@ TEST_CASE("a scene and an output are all that render needs") {
   CHECK(options.database.build.page_size_bytes == 1024);
   CHECK(options.database.build.record_order == core::RecordOrder::spatial);
   CHECK(options.database.build.structure == core::Structure::grid);
-  CHECK(options.database.axes == AxesChoice::world);
   CHECK_FALSE(options.picture.resolution);
   CHECK(options.picture.samples == 1);
   CHECK(options.picture.depth == 5);
@@ -232,15 +231,13 @@ TEST_CASE("a value may follow its option as a word of its own") { CHECK(render({
 
 TEST_CASE("a value out of range or of the wrong kind names its option") {
   for (const std::string option :
-       {"--nodes=0",        "--nodes=4097",        "--nodes=-1",        "--nodes=many",       "--nodes=2.5",
-        "--strategy=dance", "--tracer=magic",      "--samples=0",       "--samples=32769",    "--depth=0",
-        "--depth=256",      "--convention=mine",   "--cache-pages=0",   "--in-flight=0",      "--in-flight=4097",
-        "--work-item=-1",   "--balance=even",      "--cuts=third",      "--subsample=0",      "--subsample=65537",
-        "--balance-grid=0", "--balance-grid=4097", "--ray-batch=0",     "--ray-batch=683",    "--ray-credits=-1",
-        "--ray-queue=-1",   "--ray-places=0",      "--ray-places=4097", "--tested-objects=9", "--ray-queue=16385",
-        "--ray-credits=65", "--topology=ring",     "--grid-axes=moon",  "--work-item=1025",   "--no-skip=everything",
-        "--resolution=512", "--page-size=1000B",   "--page-size=256B",  "--page-size=128KiB", "--node-memory=lots",
-        "--unheard-of=1"}) {
+       {"--nodes=0",         "--nodes=4097",      "--nodes=-1",         "--nodes=many",         "--nodes=2.5",
+        "--strategy=dance",  "--tracer=magic",    "--samples=0",        "--samples=32769",      "--depth=0",
+        "--depth=256",       "--convention=mine", "--cache-pages=0",    "--in-flight=0",        "--in-flight=4097",
+        "--work-item=-1",    "--balance=even",    "--cuts=third",       "--ray-batch=0",        "--ray-batch=683",
+        "--ray-credits=-1",  "--ray-queue=-1",    "--ray-places=0",     "--ray-places=4097",    "--tested-objects=9",
+        "--ray-queue=16385", "--ray-credits=65",  "--work-item=1025",   "--no-skip=everything", "--resolution=512",
+        "--page-size=1000B", "--page-size=256B",  "--page-size=128KiB", "--node-memory=lots",   "--unheard-of=1"}) {
     CAPTURE(option);
     CHECK(contains(render_complaint({option}), option.substr(0, option.find('='))));
     CHECK(contains(render_complaint({option}), "Try: dmpc render --help"));
@@ -254,9 +251,8 @@ TEST_CASE("the smallest and largest values are taken") {
     CHECK_NOTHROW(render({option}));
   }
   for (const std::string option :
-       {"--nodes=1024", "--subsample=1", "--subsample=65536", "--balance-grid=1", "--balance-grid=4096", "--ray-batch=1",
-        "--ray-batch=546", "--ray-credits=0", "--ray-credits=64", "--ray-queue=0", "--ray-queue=16384", "--ray-places=1",
-        "--ray-places=4096", "--tested-objects=0", "--tested-objects=8"}) {
+       {"--nodes=1024", "--ray-batch=1", "--ray-batch=546", "--ray-credits=0", "--ray-credits=64", "--ray-queue=0",
+        "--ray-queue=16384", "--ray-places=1", "--ray-places=4096", "--tested-objects=0", "--tested-objects=8"}) {
     CAPTURE(option);
     CHECK_NOTHROW(render({"--strategy=dataflow", option}));
   }
@@ -303,7 +299,6 @@ TEST_CASE("dataflow needs no option of its own") {
   const dataflow::RayOptions rays = render({"--strategy=dataflow"}).rays;
   CHECK(rays.balance.balance == dataflow::Balance::subsampled);
   CHECK(rays.balance.subsample == 8);
-  CHECK(rays.balance.columns_per_side == 256);
   CHECK_FALSE(rays.ray_batch);
   CHECK_FALSE(rays.ray_credits);
   CHECK_FALSE(rays.queue_packets);
@@ -312,27 +307,20 @@ TEST_CASE("dataflow needs no option of its own") {
 
 TEST_CASE("every option of dataflow reaches its field") {
   const RenderOptions options =
-      render({"--strategy=dataflow", "--grid-axes=screen", "--balance=subsampled", "--subsample=4", "--balance-grid=64",
-              "--ray-batch=3", "--ray-credits=0", "--ray-queue=5", "--topology=fat-tree"});
+      render({"--strategy=dataflow", "--balance=subsampled", "--ray-batch=3", "--ray-credits=0", "--ray-queue=5"});
   CHECK(options.strategy == Strategy::dataflow);
-  CHECK(options.database.axes == AxesChoice::screen);
-  CHECK(options.rays.balance.subsample == 4);
-  CHECK(options.rays.balance.columns_per_side == 64);
   CHECK(options.rays.ray_batch == 3);
   CHECK(options.rays.ray_credits == 0);
   CHECK(options.rays.queue_packets == 5);
-  CHECK(options.rays.topology == nodes::TopologyKind::fat_tree);
   CHECK(options.pages.work_giver == svm::WorkGiver::ring);
   CHECK(render({"--work-giver=host"}).pages.work_giver == svm::WorkGiver::host);
   CHECK(options.pages.homes == svm::PageHomes::spread);
   CHECK(render({"--homes=host"}).pages.homes == svm::PageHomes::host);
-  CHECK(render({"--homes=tree"}).pages.tree_arity == 3);
-  CHECK(render({"--homes=tree", "--tree-arity=4", "--resident=25"}).pages.tree_arity == 4);
+  CHECK(render({"--homes=tree"}).pages.homes == svm::PageHomes::tree);
   CHECK(render({"--resident=25"}).pages.resident_percent == 25);
-  for (const std::string wrong : {"--tree-arity=0", "--resident=101", "--resident=-1", "--homes=root"}) {
-    CHECK_THROWS_AS(render({"--homes=tree", wrong}), core::UsageError);
+  for (const std::string wrong : {"--resident=101", "--resident=-1", "--homes=root"}) {
+    CHECK_THROWS_AS(render({wrong}), core::UsageError);
   }
-  CHECK_THROWS_AS(render({"--homes=host", "--tree-arity=4"}), core::UsageError);
   CHECK(options.pages.pixel_shares == svm::PixelShares::submaps);
   CHECK(render({"--pixels=interleaved"}).pages.pixel_shares == svm::PixelShares::interleaved);
   CHECK_FALSE(options.rays.without_backpressure);
@@ -343,17 +331,14 @@ TEST_CASE("every option of dataflow reaches its field") {
   const dataflow::BalanceOptions scattered = render({"--strategy=dataflow", "--balance=scattered", "--regions=4"}).rays.balance;
   CHECK(scattered.balance == dataflow::Balance::scattered);
   CHECK(scattered.regions_a_node == 4);
-  const dataflow::BalanceOptions moving =
-      render({"--strategy=dataflow", "--balance=moving", "--regions=4", "--subsample=4"}).rays.balance;
+  const dataflow::BalanceOptions moving = render({"--strategy=dataflow", "--balance=moving", "--regions=4"}).rays.balance;
   CHECK(moving.balance == dataflow::Balance::moving);
   CHECK(moving.regions_a_node == 4);
-  CHECK(moving.subsample == 4);
   CHECK_THROWS_WITH_AS(render({"--strategy=dataflow", "--balance=moving"}), doctest::Contains("from 2 units a node on"),
                        core::UsageError);
   CHECK_THROWS_AS(render({"--strategy=dataflow", "--balance=moving", "--regions=1"}), core::UsageError);
   CHECK_THROWS_AS(render({"--strategy=dataflow", "--regions=4"}), core::UsageError);
   CHECK_THROWS_AS(render({"--strategy=dataflow", "--balance=scattered", "--cuts=alternating"}), core::UsageError);
-  CHECK_THROWS_AS(render({"--strategy=dataflow", "--balance=scattered", "--subsample=4"}), core::UsageError);
 }
 
 TEST_CASE("an option of another strategy is refused with the strategies that it goes with and the reason") {
@@ -374,8 +359,6 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
                                      {"--work-item=3", dataflow, svm + " or " + replicated + " or " + forest},
                                      {"--balance=subsampled", svm, dataflow},
                                      {"--cuts=alternating", replicated, dataflow},
-                                     {"--subsample=8", replicated, dataflow},
-                                     {"--balance-grid=256", svm, dataflow},
                                      {"--ray-batch=10", replicated, dataflow},
                                      {"--ray-credits=4", svm, dataflow},
                                      {"--ray-places=4", svm, dataflow},
@@ -385,24 +368,15 @@ TEST_CASE("an option of another strategy is refused with the strategies that it 
                                      {"--homes=host", replicated, svm},
                                      {"--homes=host", forest, svm},
                                      {"--homes=spread", dataflow, svm},
-                                     {"--tree-arity=4", replicated, svm},
                                      {"--resident=50", forest, svm},
                                      {"--pixels=interleaved", dataflow, svm + " or " + replicated + " or " + forest},
-                                     {"--no-backpressure", svm, dataflow},
-                                     {"--topology=hypercube", replicated, dataflow}};
+                                     {"--no-backpressure", svm, dataflow}};
   for (const auto& [option, with, goes_with] : wrongs) {
     CAPTURE(option);
     CAPTURE(with);
     CHECK(contains(render_complaint({with, option, "--stats=s.json"}),
                    option.substr(0, option.find('=')) + " goes with " + goes_with + ": "));
   }
-}
-
-TEST_CASE("of several options that do not go with the strategy one that fewest have is named, and what rays remember first") {
-  CHECK(
-      contains(render_complaint({"--strategy=replicated", "--ray-queue=5", "--tested-objects=2"}), "--tested-objects goes with"));
-  CHECK(contains(render_complaint({"--ray-queue=5", "--no-backpressure"}), "--ray-queue goes with"));
-  CHECK(contains(render_complaint({"--strategy=dataflow", "--in-flight=2", "--cache-pages=3"}), "--cache-pages goes with"));
 }
 
 TEST_CASE("a system by name stands for its options") {
@@ -418,7 +392,6 @@ TEST_CASE("a system by name stands for its options") {
   CHECK(options_of(System::green_paddon) == "--strategy=svm --structure=grid --work-giver=host --resident=50 --homes=tree");
   CHECK(options_of(System::svm_resident) == "--strategy=svm --structure=grid --work-giver=host --resident=50 --homes=spread");
   CHECK(options_of(System::forest_static) == "--strategy=forest --structure=extents --work-item=0 --pixels=interleaved");
-  CHECK(render({"--system=green-paddon", "--tree-arity=2"}).pages.tree_arity == 2);
   const RenderOptions forest = render({"--system=forest"});
   CHECK(forest.strategy == Strategy::forest);
   CHECK(forest.database.build.structure == core::Structure::extents);
@@ -472,8 +445,8 @@ TEST_CASE("an option that contradicts the system is refused with what the system
 TEST_CASE("options that every strategy has go with each") {
   for (const std::string strategy : {"svm", "replicated", "dataflow", "forest"}) {
     CAPTURE(strategy);
-    CHECK_NOTHROW(render({"--strategy=" + strategy, "--nodes=2", "--node-memory=4MiB", "--page-size=2KiB", "--grid-axes=screen",
-                          "--chaos=1", "--no-skip=empty-space", "--stats=s.json", "--quiet"}));
+    CHECK_NOTHROW(render({"--strategy=" + strategy, "--nodes=2", "--node-memory=4MiB", "--page-size=2KiB", "--chaos=1",
+                          "--no-skip=empty-space", "--stats=s.json", "--quiet"}));
   }
 }
 
@@ -482,13 +455,8 @@ TEST_CASE("threads drive the computer unless a machine is to be modelled") {
   const RunnerOptions standard = render({"--runner=virtual"}).runner;
   CHECK(standard.kind == RunnerKind::virtual_time);
   CHECK(standard.machine_name == "ipsc2");
-  CHECK_FALSE(standard.no_contention);
   CHECK_FALSE(render({"--runner=virtual"}).computer.machine);
-  const RunnerOptions given = render({"--runner=virtual", "--machine=my.json", "--no-contention"}).runner;
-  CHECK(given.machine_name == "my.json");
-  CHECK(given.no_contention);
-  CHECK_FALSE(given.memory_port);
-  CHECK(render({"--runner=virtual", "--memory-port"}).runner.memory_port);
+  CHECK(render({"--runner=virtual", "--machine=my.json"}).runner.machine_name == "my.json");
   CHECK(render({"--runner=threads", "--chaos=1"}).runner.kind == RunnerKind::threads);
 }
 
@@ -508,26 +476,18 @@ TEST_CASE("what does not go with a pool, or has none, is refused with the reason
                  "--pool-threads does not go with --runner=virtual: a model has no threads"));
   CHECK(contains(render_complaint({"--runner=pool", "--machine=hdr"}),
                  "--machine does not go with --runner=pool: threads model no machine"));
-  CHECK(contains(render_complaint({"--runner=pool", "--idle=spin"}),
-                 "--idle does not go with --runner=pool: the nodes of one process wake each other"));
   CHECK(contains(render_complaint({"--runner=pool", "--pool-threads=0"}), "--pool-threads"));
 }
 
 TEST_CASE("an option of the other runner is refused with the reason") {
-  for (const std::string option : {"--machine=ipsc2", "--no-contention", "--memory-port"}) {
-    for (const std::string strategy : {"svm", "replicated", "dataflow"}) {
-      const std::string complaint = render_complaint({option, "--strategy=" + strategy});
-      CHECK(contains(complaint, option.substr(0, option.find('=')) + " does not go with --runner=threads: threads model no "));
-    }
+  for (const std::string strategy : {"svm", "replicated", "dataflow"}) {
+    CHECK(contains(render_complaint({"--machine=ipsc2", "--strategy=" + strategy}),
+                   "--machine does not go with --runner=threads: threads model no machine"));
   }
   const std::string runner = "--runner=virtual";
   CHECK(contains(render_complaint({runner, "--chaos=1"}), "--chaos does not go with --runner=virtual: "));
-  CHECK(contains(render_complaint({runner, "--strategy=dataflow", "--topology=hypercube"}),
-                 "--topology does not go with " + runner));
   CHECK(contains(render_complaint({runner, "--strategy=replicated", "--tracer=embree"}),
                  "--tracer=embree does not go with " + runner));
-  CHECK(contains(render_complaint({runner, "--no-contention", "--memory-port"}),
-                 "--memory-port does not go with --no-contention: "));
   CHECK(contains(render_complaint({"--runner=magic"}), "--runner"));
   CHECK(contains(render_complaint({runner, "--machine="}), "--machine"));
 }
@@ -537,10 +497,6 @@ TEST_CASE("options that do not go together are refused with the reason") {
   CHECK(contains(render_complaint({"--tracer=embree", "--strategy=dataflow"}), "needs --strategy=replicated"));
   CHECK(contains(render_complaint({"--count-pages"}), "give --stats=FILE.json too"));
   CHECK(contains(render_complaint({"--strategy=dataflow", "--nodes=4097"}), "--nodes=4097: "));
-  for (const std::string option : {"--subsample", "--balance-grid"}) {
-    CHECK(contains(render_complaint({"--strategy=dataflow", "--balance=equal-size", option + "=8"}),
-                   option + " goes with --balance"));
-  }
 }
 
 TEST_CASE("the help of render names every option and its default") {
@@ -577,13 +533,9 @@ TEST_CASE("the help of render names every option and its default") {
         "--stats",
         "--quiet",
         "-o",
-        "--grid-axes",
-        "world|screen [world]",
         "--balance",
         "subsampled|equal-size|scattered|moving [subsampled]",
         "longer-side|alternating [longer-side]",
-        "--subsample",
-        "--balance-grid",
         "--ray-batch",
         "1..546 [what fills 4 KiB; 2 KiB if rays walk alone or with --ray-places, modelled machines 1 KiB]",
         "--ray-credits",
@@ -594,16 +546,12 @@ TEST_CASE("the help of render names every option and its default") {
         "0..16384 [256; 512 if rays walk alone; 128 with --ray-places]",
         "--tested-objects",
         "--no-backpressure",
-        "--topology",
         "--runner",
         "threads|pool|virtual|mpi [threads]",
         "MACHINE|FILE.json [ipsc2]",
         "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
-        "--no-contention",
-        "--memory-port",
         "64, replicated 16, forest 16 to 256, runner virtual 1, or 16 in bundles, mpi up to 256",
-        "4, or 3 if rays walk alone",
-        "hypercube|mesh|torus|fat-tree|crossbar [hypercube]"}) {
+        "4, or 3 if rays walk alone"}) {
     CHECK_MESSAGE(contains(text, word), word);
   }
 }

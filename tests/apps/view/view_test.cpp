@@ -184,8 +184,7 @@ TEST_CASE("a signal ends it with status 130, and who looks on is told so") {
 
 TEST_CASE("what the camera would take along, and what there is none of, is refused before anything is read") {
   for (const auto& [option, said] :
-       std::vector<std::pair<std::string, std::string>>{{"--grid-axes=screen", "--grid-axes=screen does not go with view"},
-                                                        {"--fill=0.3", "--fill does not go with view"},
+       std::vector<std::pair<std::string, std::string>>{{"--fill=0.3", "--fill does not go with view"},
                                                         {"--light-radius=0.1", "--light-radius does not go with view"},
                                                         {"--pool-threads=2", "--pool-threads does not go with --runner=threads"},
                                                         {"--runner=mpi", "--runner"},

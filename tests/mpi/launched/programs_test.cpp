@@ -220,7 +220,6 @@ TEST_CASE("what does not go with ranks is refused") {
     CHECK(ended.status == 2);
     CHECK_MESSAGE(contains(ended.errors, " does not go with --runner=mpi: what ranks run on is no model"), ended.errors);
   }
-  CHECK(contains(alone("asker", {"--idle=spin"}).errors, "--idle does not go with --runner=threads"));
 }
 
 TEST_CASE("a program of one's own takes no module from around it, but from where it was linked to take it") {

@@ -58,7 +58,6 @@ TEST_CASE("a node of svm allocates nothing while it renders, pages, asks for wor
   options.pages.in_flight = 15;
   CHECK(allocated_by<svm::Pager>(svm::svm_strategy(), options) == 0);
   options.pages.homes = svm::PageHomes::tree;
-  options.pages.tree_arity = 1;
   CHECK(allocated_by<svm::Pager>(svm::svm_strategy(), options) == 0);
   options.pages.homes = svm::PageHomes::host;
   CHECK(allocated_by<svm::Pager>(svm::svm_strategy(), options) == 0);

@@ -153,17 +153,17 @@ TEST_CASE("a home replies with the page at once, to whoever asks") {
 }
 
 TEST_CASE("in a tree a node replies with what it has, to whoever asked first, and passes on what it has not") {
-  svm::Plan plan = svm::make_plan(
-      {.page_count = page_count,
-       .page_size_bytes = page_size,
-       .computer = {.node_count = 5},
-       .pages = {.cache_pages = 4, .homes = svm::PageHomes::tree, .tree_arity = 1, .resident_percent = 50, .in_flight = 1},
-       .width = 64,
-       .height = 1});
+  svm::Plan plan =
+      svm::make_plan({.page_count = page_count,
+                      .page_size_bytes = page_size,
+                      .computer = {.node_count = 40},  // node 3 is below node 0, and above nodes 12 and, below that, 39
+                      .pages = {.cache_pages = 4, .homes = svm::PageHomes::tree, .resident_percent = 50, .in_flight = 1},
+                      .width = 64,
+                      .height = 1});
   REQUIRE(plan.resident_count == 2);
   REQUIRE(plan.frames == 2);
   plan.resident = {PageId{7}, PageId{3}};
-  LoneNode lone(plan, 2);
+  LoneNode lone(plan, 3);
   const FakePages pages(page_count, page_size);
   svm::Pager pager(lone.node, plan.pages(), pages.bytes());
   const auto last_parcel = [&] { return lone.post.parcels.back(); };
@@ -172,16 +172,16 @@ TEST_CASE("in a tree a node replies with what it has, to whoever asked first, an
   CHECK(pager.counters().home_hits == 1);
   CHECK(pager.find(start_of(9)) == nullptr);
   pager.park(0, start_of(9));
-  CHECK(last_parcel().target == nodes::NodeId{1});
+  CHECK(last_parcel().target == nodes::NodeId{0});
   CHECK(last_parcel().kind == svm::number_of(Kind::page_request));
 
-  pager.serve(parcel_of(3, Kind::page_request, svm::PageRequest{PageId{9}}).packet());
-  CHECK(last_parcel().target == nodes::NodeId{1});
+  pager.serve(parcel_of(12, Kind::page_request, svm::PageRequest{PageId{9}}).packet());
+  CHECK(last_parcel().target == nodes::NodeId{0});
   CHECK(last_parcel().kind == svm::number_of(Kind::passed_request));
   CHECK(last_parcel().packet().as<svm::PassedRequest>().page == PageId{9});
-  CHECK(last_parcel().packet().as<svm::PassedRequest>().asker == 3);
-  pager.serve(parcel_of(3, Kind::passed_request, svm::PassedRequest{PageId{8}, 4}).packet());
-  CHECK(last_parcel().packet().as<svm::PassedRequest>().asker == 4);
+  CHECK(last_parcel().packet().as<svm::PassedRequest>().asker == 12);
+  pager.serve(parcel_of(12, Kind::passed_request, svm::PassedRequest{PageId{8}, 39}).packet());
+  CHECK(last_parcel().packet().as<svm::PassedRequest>().asker == 39);
   CHECK(pager.counters().served == 0);
 
   const svm::PageReplyHeader header{PageId{9}};
@@ -189,16 +189,16 @@ TEST_CASE("in a tree a node replies with what it has, to whoever asked first, an
     return nodes::Packet{nodes::NodeId{source}, svm::number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)),
                          pages.page(9)};
   };
-  CHECK_THROWS_AS(pager.install(reply_from(4)), core::InternalError);
-  pager.install(reply_from(5));  // the host's: node 1 did not have it, nor node 0
+  CHECK_THROWS_AS(pager.install(reply_from(12)), core::InternalError);
+  pager.install(reply_from(40));  // the host's: node 0 did not have it
   for (const std::uint32_t page : {9U, 7U}) {
-    pager.serve(parcel_of(3, Kind::passed_request, svm::PassedRequest{PageId{page}, 4}).packet());
-    CHECK(last_parcel().target == nodes::NodeId{4});
+    pager.serve(parcel_of(12, Kind::passed_request, svm::PassedRequest{PageId{page}, 39}).packet());
+    CHECK(last_parcel().target == nodes::NodeId{39});
     CHECK(last_parcel().kind == svm::number_of(Kind::page_reply));
     CHECK(std::memcmp(last_parcel().payload.data() + 8, pages.page(page).data(), page_size) == 0);
   }
   CHECK(pager.counters().served == 2);
-  CHECK(lone.node.credits(nodes::NodeId{1}, svm::request_channel) == plan.request_credits);
+  CHECK(lone.node.credits(nodes::NodeId{0}, svm::request_channel) == plan.request_credits);
 }
 
 TEST_CASE("on a modelled machine pages at home and in the cache are where they are in the database, and count as copies") {

@@ -65,7 +65,7 @@ TEST_CASE("scattered regions are 16 a node, and their load is more even than tha
 }
 
 TEST_CASE("regions by the subsampled picture are more even than those of equal size") {
-  const Table table = StudySubject("rings-2-t1", 64).measure(BalanceStudy{.node_counts = {8}, .regions = {.subsample = 2}});
+  const Table table = StudySubject("rings-2-t1", 64).measure(BalanceStudy{.node_counts = {8}, .subsample = 2});
   for (const std::size_t row : {0U, 1U}) {
     CHECK(real(table, row, "average load achieved") > 1.5 * real(table, 2, "average load achieved"));
     CHECK(real(table, row, "average load predicted") > real(table, 2, "average load achieved"));

@@ -80,8 +80,7 @@ Ended ended_by(int signal, const std::vector<std::string>& arguments) {
 
 TEST_CASE("a study says what it studied, its rows, and the film of all runs") {
   const std::string text = output_of(small_study());
-  CHECK(
-      contains(text, "Study traffic of balls-1: 16x16 pixels, 1 sample a pixel, depth 5, convention haines, grid axes world, "));
+  CHECK(contains(text, "Study traffic of balls-1: 16x16 pixels, 1 sample a pixel, depth 5, convention haines, record order "));
   CHECK(count(text, "\n|") == 4 * count(text, "\n| nodes |"));  // each piece of the table has its heading, a rule and two rows
   CHECK(contains(text, "Film of every run, 6 in all: "));
   CHECK_FALSE(contains(text, "Interrupted"));
@@ -96,15 +95,6 @@ TEST_CASE("a study by paths says how light got about, and gives the one film of 
   CHECK(contains(paths, "1 sample a pixel, paths, 1 bounce, convention haines"));
   CHECK(contains(paths, "Film of every run, 6 in all: "));
   CHECK(whitted.substr(whitted.find("Film of")) != paths.substr(paths.find("Film of")));
-}
-
-TEST_CASE("a study along the screen's axes says so and gives another film") {
-  StudyOptions options = small_study();
-  const std::string world = output_of(options);
-  options.database.axes = apps::AxesChoice::screen;
-  const std::string screen = output_of(options);
-  CHECK(contains(screen, "grid axes screen, "));
-  CHECK(world.substr(world.find("Film of")) != screen.substr(screen.find("Film of")));
 }
 
 TEST_CASE("a table goes to the file asked for and nothing to the standard output") {

@@ -42,24 +42,20 @@ TEST_CASE("a study and a scene are all that study needs") {
   CHECK(options.table.format == TableFormat::markdown);
   CHECK_FALSE(options.table.file);
   CHECK(balance().node_counts == Counts{4, 8, 16, 32, 64});
-  CHECK(balance().regions.subsample == 8);
-  CHECK(balance().regions.columns_per_side == 256);
+  CHECK(balance().subsample == 8);
   CHECK(balance().topology == nodes::TopologyKind::hypercube);
   CHECK_FALSE(balance().per_node);
   CHECK(std::get<TrafficStudy>(study("traffic").study).node_counts == Counts{1, 2, 4, 8, 16, 32, 64});
 }
 
 TEST_CASE("options of a study are taken") {
-  const StudyOptions options =
-      study("traffic", {"--nodes=3", "--depth=2", "--grid-axes=screen", "--format=json", "-o", "a.json"});
+  const StudyOptions options = study("traffic", {"--nodes=3", "--depth=2", "--format=json", "-o", "a.json"});
   CHECK(std::get<TrafficStudy>(options.study).node_counts == Counts{3});
   CHECK(options.picture.depth == 2);
-  CHECK(options.database.axes == AxesChoice::screen);
   CHECK(options.table.format == TableFormat::json);
   CHECK(options.table.file == "a.json");
-  const BalanceStudy taken = balance({"--subsample=4", "--balance-grid=16", "--topology=fat-tree", "--per-node"});
-  CHECK(taken.regions.subsample == 4);
-  CHECK(taken.regions.columns_per_side == 16);
+  const BalanceStudy taken = balance({"--subsample=4", "--topology=fat-tree", "--per-node"});
+  CHECK(taken.subsample == 4);
   CHECK(taken.topology == nodes::TopologyKind::fat_tree);
   CHECK(taken.per_node);
 }
@@ -109,10 +105,9 @@ TEST_CASE("frames are studied on one machine, or several that have names, by mor
   CHECK(frames({}).machines.size() == 1);
   CHECK(frames({}).machines.front().name == "ipsc2");
   CHECK(frames({"--machine=hdr"}).machines.front().name == "hdr");
-  const apps::FramesStudy several = frames({"--machines=hdr,paragon", "--nodes=16,64", "--no-contention"});
+  const apps::FramesStudy several = frames({"--machines=hdr,paragon", "--nodes=16,64"});
   REQUIRE(several.machines.size() == 2);
   CHECK(several.machines.back().name == "paragon");
-  CHECK_FALSE(several.machines.back().has_contention);
   CHECK(several.node_counts == Counts{16, 64});
   const auto complaint = [](const char* word) { return usage_complaint({"study", "frames", "teapot-12", word}); };
   CHECK(complaint("--machines=hdr,hdr").find("--machines=hdr,hdr: hdr is there twice") == 0);
@@ -139,9 +134,8 @@ TEST_CASE("the study of speedup runs svm on the ipsc2 with one pixel in flight, 
 }
 
 TEST_CASE("the options of the study of speedup are those of a run") {
-  const SpeedupStudy pages =
-      speedup({"--nodes=1,4096", "--strategy=svm", "--node-memory=4MiB", "--cache-pages=9", "--replacement=fifo", "--in-flight=3",
-               "--work-item=0", "--machine=paragon", "--memory-port"});
+  const SpeedupStudy pages = speedup({"--nodes=1,4096", "--strategy=svm", "--node-memory=4MiB", "--cache-pages=9",
+                                      "--replacement=fifo", "--in-flight=3", "--work-item=0", "--machine=paragon"});
   CHECK(pages.node_counts == Counts{1, 4096});
   CHECK(pages.run.computer.node_memory_bytes == std::size_t{4} << 20U);
   CHECK(pages.run.pages.cache_pages == 9);
@@ -149,17 +143,14 @@ TEST_CASE("the options of the study of speedup are those of a run") {
   CHECK(pages.run.pages.in_flight == 3);
   CHECK(pages.run.pages.work_item_side == 0);
   CHECK(pages.run.computer.machine.value().name == "paragon");
-  CHECK(pages.run.computer.machine.value().has_memory_port);
-  const SpeedupStudy rays = speedup({"--strategy=dataflow", "--nodes=1024", "--no-contention", "--balance=equal-size",
-                                     "--ray-batch=3", "--ray-credits=2", "--ray-queue=7", "--machine=hdr"});
+  const SpeedupStudy rays = speedup({"--strategy=dataflow", "--nodes=1024", "--balance=equal-size", "--ray-batch=3",
+                                     "--ray-credits=2", "--ray-queue=7", "--machine=hdr"});
   CHECK(rays.run.strategy == Strategy::dataflow);
-  CHECK_FALSE(rays.run.computer.machine.value().has_contention);
   CHECK(rays.run.rays.balance.balance == dataflow::Balance::equal_size);
   CHECK(rays.run.rays.ray_batch == 3);
   CHECK(rays.run.rays.ray_credits == 2);
   CHECK(rays.run.rays.queue_packets == 7);
   CHECK(rays.run.rays.topology == nodes::TopologyKind::fat_tree);
-  CHECK(speedup({"--strategy=dataflow", "--subsample=4", "--balance-grid=16"}).run.rays.balance.subsample == 4);
   CHECK(speedup({"--strategy=replicated", "--in-flight=2"}).run.strategy == Strategy::replicated);
 }
 
@@ -181,9 +172,6 @@ TEST_CASE("options of a study of speedup that do not go together are refused wit
   CHECK(says({"--strategy=dataflow", "--in-flight=5"},
              "--in-flight goes with --strategy=svm or --strategy=replicated or --strategy=forest: "));
   CHECK(says({"--ray-batch=5"}, "--ray-batch goes with --strategy=dataflow: "));
-  CHECK(says({"--strategy=dataflow", "--balance=equal-size", "--subsample=5"},
-             "--subsample goes with --balance=subsampled or moving: "));
-  CHECK(says({"--no-contention", "--memory-port"}, "--memory-port does not go with --no-contention: "));
   CHECK(says({"--nodes=4097"}, "--nodes=4097: expected numbers from 1 to 4096"));
   CHECK(says({"--topology=mesh"}, "--topology"));
   CHECK(says({"--runner=virtual"}, "--runner"));

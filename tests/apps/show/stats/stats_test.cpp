@@ -202,13 +202,8 @@ TEST_CASE("every strategy has the same keys") {
   CHECK(all_keys(Strategy::dataflow) == all_keys(Strategy::forest));
 }
 
-TEST_CASE("the strategy and the axes of the grid are told") {
-  RenderOptions options = small(Strategy::dataflow);
-  CHECK(value(Rendered(options).json(), "grid_axes") == "\"world\"");
-  options.database.axes = AxesChoice::screen;
-  const std::string json = Rendered(options).json();
-  CHECK(value(json, "grid_axes") == "\"screen\"");
-  CHECK(value(json, "strategy") == "\"dataflow\"");
+TEST_CASE("the strategy is told") {
+  CHECK(value(Rendered(small(Strategy::dataflow)).json(), "strategy") == "\"dataflow\"");
   CHECK(value(Rendered(small(Strategy::replicated)).json(), "strategy") == "\"replicated\"");
 }
 

@@ -96,7 +96,6 @@ TEST_CASE("loads are predicted where there was a subsampled picture") {
   CHECK(told["balance"] == "equal-size");
   CHECK(told["cuts"] == "longer-side");
   CHECK(told["backpressure"] == true);
-  CHECK(told["subsample"].is_null());
 }
 
 TEST_CASE("regions that are scattered have a count and no order of cuts, and together all of the grid") {
@@ -123,7 +122,6 @@ TEST_CASE("regions that move tell of their units, asks and bytes, others of none
   const Json told = told_options_of(options);
   CHECK(told["balance"] == "moving");
   CHECK(told["cuts"] == "longer-side");
-  CHECK(told["subsample"] == 8);
   CHECK(at(stats.all, "/travel/movement/units") == 4 * stats.nodes.size());
   for (const char* const figure : {"units", "units_given", "units_taken", "asks", "refusals", "pages_sent", "pages_installed",
                                    "records_walked", "primary_rays_given", "primary_rays_taken", "rays_sent_on", "bytes"}) {
