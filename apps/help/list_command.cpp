@@ -7,6 +7,7 @@
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/table/table.h"
 #include "apps/help/choices.h"
+#include "apps/help/gallery.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 
@@ -73,14 +74,30 @@ void add_options(OptionSet options, ListOptions& list) {
       "One of " + listed(kinds()) + "; without any all of them");
   options.add_choice<ListFormat>("--format", list.format, {{"text", ListFormat::text}, {"json", ListFormat::json}},
                                  "Lines to read, or a table with stable keys");
+  options.add_path(
+      "--pictures", "FOLDER", list.pictures,
+      "Write a small picture of each scene, and scenes.png with all of them, to this folder; scenes alone are listed "
+      "then. What is there is not written over");
+  options.check_in_the_end([&list] {
+    if (list.pictures && list.kinds.empty()) {
+      list.kinds = {"scenes"};
+    }
+    if (list.pictures && list.kinds != std::vector<std::string>{"scenes"}) {
+      throw core::UsageError("--pictures goes with the list of scenes alone: dmpc list --pictures=" + list.pictures->string());
+    }
+  });
   options.set_examples(
       "Examples:\n"
       "  dmpc list scenes\n"
       "  dmpc list machines policies --format=json\n"
+      "  dmpc list --pictures=scenes\n"
       "dmpc scene --help tells the sizes of scenes, dmpc machine NAME all figures of a machine with their sources.");
 }
 
-int list_command(const ListOptions& options, std::ostream& output) {
+int list_command(const ListOptions& options, Interrupt& interrupt, std::ostream& output) {
+  if (options.pictures) {
+    write_gallery(*options.pictures, interrupt);
+  }
   const std::vector<ChoiceList> lists = chosen(options);
   if (options.format == ListFormat::json) {
     output << text_of(table_of(lists), TableFormat::json);

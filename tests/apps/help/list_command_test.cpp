@@ -18,7 +18,8 @@ namespace {
 
 std::string list_of(const ListOptions& options) {
   std::ostringstream output;
-  CHECK(list_command(options, output) == 0);
+  Interrupt interrupt;
+  CHECK(list_command(options, interrupt, output) == 0);
   return output.str();
 }
 
