@@ -15,16 +15,15 @@
 #include "apps/edge/show/page/origin.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/picture/film_image.h"
+#include "apps/run/warm_nodes.h"
 #include "apps/scene/camera_path.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "apps/view/render_words.h"
 #include "apps/view/view_server.h"
-#include "apps/view/warm_nodes.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
 #include "core/database/conversion.h"
-#include "core/picture/frame_settings.h"
 #include "core/picture/rounding_loss.h"
 #include "core/scene/frame.h"
 
@@ -121,11 +120,11 @@ class Viewing {
     put_eye_far_away(scene, bounds);
     subject_.emplace(build_subject_quietly(std::move(scene), options_.picture, options_.database));
     const core::RenderSettings& built = subject_->settings;
-    const core::Camera camera(home_, built.header.frame, built.camera.width(), built.camera.height(), built.camera.samples());
-    say({dropped_text(subject_->database.dropped()), loss_text(core::find_rounding_loss(subject_->database, camera)),
+    const core::RenderSettings settings = seen_from(home_, built, subject_->database);
+    say({dropped_text(subject_->database.dropped()), loss_text(core::find_rounding_loss(subject_->database, settings.camera)),
          duplicates_text(subject_->database.duplicates()), subject_->gain, subject_->emitters, subject_->kept});
     subject_->database.forget_primitives();
-    resting_.emplace(options_, subject_->database, core::seen_by(camera, built, subject_->database));
+    resting_.emplace(options_, subject_->database, settings);
     moving_.emplace(options_, subject_->database, moving_settings(built, home_));
   }
 
@@ -166,10 +165,12 @@ class Viewing {
     view.up = *wish.camera.up;
     view.angle_degrees = *wish.camera.degrees;
     Stopwatch stopwatch;
-    const std::optional<Report> report = (wish.is_moving ? *moving_ : *resting_).render(view, teller(wish), stop.get_token());
+    WarmNodes& nodes = wish.is_moving ? *moving_ : *resting_;
+    nodes.move_to(view);
+    const Report report = nodes.render(teller(wish), stop.get_token());
     interrupt_.check();
-    if (report) {
-      tell(wish, account_of(*report).film, stopwatch.lap());
+    if (const Account account = account_of(report); account.end == nodes::RunEnd::finished) {
+      tell(wish, account.film, stopwatch.lap());
     }
   }
 
