@@ -76,7 +76,8 @@ void Checkpoints::keep(const core::Film& film, const core::Refinement& pass, con
   wait_for_next();
 }
 
-void Checkpoints::finish() const {
+void Checkpoints::finish() {
+  has_one_ = false;
   files_.remove(file_);
   files_.remove(next_name(file_));  // of a process that was killed
 }

@@ -34,7 +34,7 @@ class Checkpoints {
   /// There is a checkpoint to go on from: one was read, or one has been written. Not while the run's host may be writing.
   bool has_one() const { return has_one_; }
   /// The picture is written: removes the file.
-  void finish() const;
+  void finish();
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/render/outputs.h"
 #include "apps/run/frame_name.h"
 #include "core/base/expect.h"
 
@@ -12,17 +13,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check_name(const RenderOptions& asked, const std::string& option, const fs::path& path) {
-  if (!FrameName::in(path, option) && asked.frames.are_several()) {
-    throw core::UsageError(option + "=" + path.string() +
-                           ": of several frames expected a place for the frame's number in the file's name, such as in "
-                           "out.####.png or out.%04d.png");
+/// Calls visit(option, path) of each output of which every frame has one.
+template <class Options, class Visit>
+void visit_names(Options& options, const Visit& visit) {
+  visit("-o", options.image);
+  if (options.stats) {
+    visit("--stats", *options.stats);
+  }
+  for (auto& request : options.heat_maps) {
+    visit("--heatmap", request.path);
   }
 }
 
-fs::path of_frame(const fs::path& path, std::uint64_t frame) {
-  const auto name = FrameName::in(path, "");
-  return name ? name->of(frame) : path;
+void check_names(const RenderOptions& asked) {
+  visit_names(asked, [&asked](const std::string& option, const fs::path& path) {
+    if (!FrameName::in(path, option) && asked.frames.are_several()) {
+      throw core::UsageError(option + "=" + path.string() +
+                             ": of several frames expected a place for the frame's number in the file's name, such as in "
+                             "out.####.png or out.%04d.png");
+    }
+  });
 }
 
 /// What a pixel takes before it is packed.
@@ -31,30 +41,18 @@ std::uint64_t pixel_bytes(const fs::path& picture) {
   return ending == ".exr" || ending == ".tif" || ending == ".tiff" ? 12 : 3;
 }
 
-}  // namespace
-
-void check_frame_names(const RenderOptions& asked) {
-  check_name(asked, "-o", asked.image);
-  if (asked.stats) {
-    check_name(asked, "--stats", *asked.stats);
-  }
-  for (const HeatRequest& request : asked.heat_maps) {
-    check_name(asked, "--heatmap", request.path);
-  }
-}
-
+/// With the names of that frame.
 RenderOptions options_of(const RenderOptions& asked, std::uint64_t frame) {
   RenderOptions options = asked;
-  options.image = of_frame(asked.image, frame);
-  if (asked.stats) {
-    options.stats = of_frame(*asked.stats, frame);
-  }
-  for (HeatRequest& request : options.heat_maps) {
-    request.path = of_frame(request.path, frame);
-  }
+  visit_names(options, [frame](const std::string&, fs::path& path) {
+    if (const auto name = FrameName::in(path, "")) {
+      path = name->of(frame);
+    }
+  });
   return options;
 }
 
+/// Where names have numbers.
 std::set<std::uint64_t> frames_there(const RenderOptions& asked) {
   std::set<std::uint64_t> frames;
   const auto name = FrameName::in(asked.image, "-o");
@@ -76,11 +74,66 @@ std::set<std::uint64_t> frames_there(const RenderOptions& asked) {
   return frames;
 }
 
-std::string disk_note(const RenderOptions& asked, std::uint64_t frame_count, std::uint64_t pixel_count) {
-  const fs::path folder = asked.image.parent_path();
+}  // namespace
+
+DueFrames::DueFrames(const RenderOptions& asked) : asked_(asked) {
+  if (!asked.frames.range) {
+    return;
+  }
+  check_names(asked);
+  there_ = frames_there(asked);
+  if (!there_.empty() && !asked.checkpoint.resumes) {
+    throw core::InputError("-o " + options_of(asked, *there_.begin()).image.string() + ": the picture of this frame" +
+                           (there_.size() == 1 ? " is" : ", and of " + grouped(there_.size() - 1) + " more, is") +
+                           " there already: --resume leaves out what is there, or remove it, or give another name");
+  }
+}
+
+std::string DueFrames::note() const {
+  return there_.empty() ? ""
+                        : counted(there_.size(), "frame") + " of " + grouped(asked_.frames.range->count()) +
+                              (there_.size() == 1 ? " is there and stays as it is" : " are there and stay as they are");
+}
+
+std::optional<DueFrame> DueFrames::first() const {
+  return asked_.frames.range ? missing_from(asked_.frames.range->first) : DueFrame{std::nullopt, asked_, outputs_of(asked_)};
+}
+
+std::optional<DueFrame> DueFrames::after(const DueFrame& last) const {
+  return last.number ? missing_from(*last.number + 1) : std::nullopt;
+}
+
+std::optional<DueFrame> DueFrames::missing_from(std::uint64_t number) const {
+  while (number <= asked_.frames.range->last && (was_there(number) || is_there_by_now(number))) {
+    ++number;
+  }
+  if (number > asked_.frames.range->last) {
+    return std::nullopt;
+  }
+  RenderOptions options = options_of(asked_, number);
+  return DueFrame{number, options, outputs_of(options)};
+}
+
+bool DueFrames::is_there_by_now(std::uint64_t number) const {
+  const fs::path picture = options_of(asked_, number).image;
+  std::error_code error;
+  const bool is_there = picture != asked_.image && fs::exists(picture, error);
+  if (is_there && !asked_.checkpoint.resumes) {
+    throw core::InputError("-o " + picture.string() + ": the picture of this frame has come there meanwhile: --resume goes on " +
+                           "with those that are missing");
+  }
+  return is_there;
+}
+
+std::string DueFrames::disk_note(std::uint64_t pixel_count) const {
+  if (!asked_.frames.range) {
+    return "";
+  }
+  const std::uint64_t frame_count = asked_.frames.range->count() - there_.size();
+  const fs::path folder = asked_.image.parent_path();
   std::error_code error;
   const fs::space_info space = fs::space(folder.empty() ? fs::path(".") : folder, error);
-  const std::uint64_t picture_bytes = pixel_count * pixel_bytes(asked.image);
+  const std::uint64_t picture_bytes = pixel_count * pixel_bytes(asked_.image);
   if (error || static_cast<double>(frame_count) * static_cast<double>(picture_bytes) <= static_cast<double>(space.available)) {
     return "";
   }

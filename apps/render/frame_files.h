@@ -2,25 +2,51 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
-#include <vector>
+#include <string>
 
+#include "apps/edge/system/output_set.h"
 #include "apps/run/render_options.h"
+#include "apps/run/render_record.h"
 
 namespace dmpc::apps {
 
-/// Throws core::UsageError unless each output of several frames has a place for the frame's number (apps/run/frame_name.h), but
-/// for the checkpoint, of which there is one.
-void check_frame_names(const RenderOptions& asked);
+/// A picture that is to be made: one of several, or the only one.
+struct DueFrame {
+  std::optional<std::uint64_t> number;  ///< nothing without --frames
+  RenderOptions options;                ///< with its names
+  OutputSet<RenderRecord> outputs;
+};
 
-/// The options of one frame: with its names. Those of a frame alone may have none with a number.
-RenderOptions options_of(const RenderOptions& asked, std::uint64_t frame);
+/// The frames of a call whose pictures are not there. Thread safety: none.
+class DueFrames {
+ public:
+  /// `asked`, with names for all frames, outlives it. Throws core::UsageError unless each output of several frames has a place
+  /// for the frame's number (apps/run/frame_name.h), but for the checkpoint, of which there is one; core::InputError if the
+  /// folder cannot be read, or if a picture is there already that nobody wants to leave out.
+  explicit DueFrames(const RenderOptions& asked);
 
-/// The frames asked for whose picture is there, where names have numbers. Throws core::InputError if the folder cannot be read.
-std::set<std::uint64_t> frames_there(const RenderOptions& asked);
+  /// How many are there, in a sentence; empty if there is none.
+  std::string note() const;
+  bool was_there(std::uint64_t frame) const { return there_.contains(frame); }
 
-/// A sentence if the pictures of so many frames may take more than is free where they go, however well they can be packed; empty
-/// if not, or if that is not known.
-std::string disk_note(const RenderOptions& asked, std::uint64_t frame_count, std::uint64_t pixel_count);
+  /// The first; nothing if all are there.
+  std::optional<DueFrame> first() const;
+  /// The next of those that are not there by now: another process may have made them. Throws core::InputError if one has come
+  /// there that nobody wants to leave out.
+  std::optional<DueFrame> after(const DueFrame& last) const;
+
+  /// A sentence if their pictures, of so many pixels, may take more than is free where they go, however well they can be packed;
+  /// empty if not, or if that is not known.
+  std::string disk_note(std::uint64_t pixel_count) const;
+
+ private:
+  std::optional<DueFrame> missing_from(std::uint64_t number) const;
+  bool is_there_by_now(std::uint64_t number) const;
+
+  const RenderOptions& asked_;
+  std::set<std::uint64_t> there_;  ///< from the beginning
+};
 
 }  // namespace dmpc::apps

@@ -15,6 +15,15 @@ using Json = nlohmann::json;
 /// On one line; bytes that are no text, of a file's name perhaps, are replaced.
 std::string line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
+Json tile_of(const PictureTile& tile) {
+  std::string rgb;
+  rgb.reserve(tile.rgb.size());
+  for (const float value : tile.rgb) {
+    rgb += static_cast<char>(core::srgb_byte(value));
+  }
+  return {{"x", tile.x}, {"y", tile.y}, {"width", tile.width}, {"height", tile.height}, {"rgb", html::base64(rgb)}};
+}
+
 }  // namespace
 
 std::string json_of(const LiveHead& head, std::size_t steps_max) {
@@ -23,6 +32,8 @@ std::string json_of(const LiveHead& head, std::size_t steps_max) {
                {"nodes", head.node_count},
                {"modelled", head.is_modelled},
                {"frame", head.frame},
+               {"home", head.home},
+               {"pivot", head.pivot},
                {"works", work_names},
                {"levels", LiveSteps::levels_max},
                {"steps", steps_max}});
@@ -40,13 +51,13 @@ std::string json_of(const LiveState& state) {
                {"shares", state.shares}});
 }
 
-std::string json_of(const PictureTile& tile) {
-  std::string rgb;
-  rgb.reserve(tile.rgb.size());
-  for (const float value : tile.rgb) {
-    rgb += static_cast<char>(core::srgb_byte(value));
-  }
-  return line({{"x", tile.x}, {"y", tile.y}, {"width", tile.width}, {"height", tile.height}, {"rgb", html::base64(rgb)}});
+std::string json_of(const PictureTile& tile) { return line(tile_of(tile)); }
+
+std::string json_of(const LiveShot& shot) {
+  Json json = tile_of(shot.whole);
+  json.update(
+      {{"camera", shot.camera}, {"moving", shot.is_moving}, {"ms", shot.ms}, {"film", shot.film}, {"command", shot.command}});
+  return line(json);
 }
 
 std::string json_of(const LiveSteps& steps, std::size_t step, std::uint64_t frame) {

@@ -1,4 +1,4 @@
-// What viewers of a render are told, as their page's script (apps/show/page/live/live.js) reads it: one JSON text an event.
+// What viewers are told, as their page's script (apps/show/page/live/live.js) reads it: one JSON text an event.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@ struct LiveHead {
   std::uint32_t width = 0, height = 0;
   std::uint32_t node_count = 0;  ///< of those of which is shown what they do; 0: of none
   bool is_modelled = false;
-  std::uint64_t frame = 0;  ///< its number; 0 where there is one picture alone
+  std::uint64_t frame = 0;            ///< its number; 0 where there is one picture alone
+  std::string home = {}, pivot = {};  ///< of a camera that may be moved: at first, and the point about which it turns
 };
 
 /// How far it is.
@@ -29,13 +30,23 @@ struct LiveState {
   std::vector<double> shares = {};       ///< of the nodes' time since the one before, by kind of work; empty: none has passed
 };
 
-std::string json_of(const LiveHead& head, std::size_t steps_max);
+/// A picture that is done, where there are many.
+struct LiveShot {
+  PictureTile whole;
+  std::string camera;
+  bool is_moving = false;  ///< the camera is: the picture has fewer pixels
+  double ms = 0;           ///< how long it took
+  std::string film, command;
+};
+
+std::string json_of(const LiveHead& head, std::size_t steps_max = 0);
 std::string json_of(const LiveState& state);
 /// In bytes of sRGB, by base64.
 std::string json_of(const PictureTile& tile);
+std::string json_of(const LiveShot& shot);
 /// Of a frame, by base64.
 std::string json_of(const LiveSteps& steps, std::size_t step, std::uint64_t frame);
 /// That it is over, with lines of `figures`. `has_page`: another page is to be had now at the same place.
-std::string json_of_end(const std::string& said, const std::string& figures, bool has_page);
+std::string json_of_end(const std::string& said, const std::string& figures = "", bool has_page = false);
 
 }  // namespace dmpc::apps

@@ -12,7 +12,6 @@ namespace dmpc::apps {
 
 namespace {
 
-constexpr std::chrono::seconds patience_at_the_end{2};
 constexpr std::chrono::milliseconds look_interval{20};
 
 constexpr std::size_t steps_max = 240;
@@ -22,19 +21,18 @@ enum : std::size_t { head_place, state_place, first_step, first_tile = first_ste
 }  // namespace
 
 LiveView::LiveView(std::uint16_t port, const std::string& title, std::function<void()> stop)
-    : title_(title), feed_(first_tile), steps_(steps_max) {
-  const auto take_stop = [stop = std::move(stop)](const std::string& /*json*/) {
-    stop();
-    return WebAnswer{.body = "It stops.\n"};
-  };
-  server_.emplace(port, "--serve", feed_, PageServer::Service{.page = [this] { return page(); }, .takes = {{"stop", take_stop}}});
-  publisher_ = std::jthread([this](const std::stop_token& stop) { publish(stop); });
-}
+    : server_(port, {.option = "--serve",
+                     .page = html::live_page(title, html::LiveKind::run),
+                     .important = first_tile,
+                     .takes = {{"stop",
+                                [stop = std::move(stop)](const std::string& /*json*/) {
+                                  stop();
+                                  return WebAnswer{.body = "It stops.\n"};
+                                }}}}),
+      steps_(steps_max),
+      publisher_([this](const std::stop_token& stopping) { publish(stopping); }) {}
 
-LiveView::~LiveView() {
-  end({.said = "dmpc has ended before its picture was done."});
-  server_.reset();
-}
+LiveView::~LiveView() { end({.said = "dmpc has ended before its picture was done."}); }
 
 std::string LiveView::complaint() {
   const std::lock_guard lock(mutex_);
@@ -62,7 +60,7 @@ void LiveView::begin(const LiveHead& head, const core::PartialPicture* start) {
   }
   steps_.clear();
   last_.reset();
-  feed_.put(head_place, "head", json_of(head_, steps_max));
+  server_.feed().put(head_place, "head", json_of(head_, steps_max));
 }
 
 void LiveView::watch(const core::Film& film, const core::Refinement& pass, std::uint32_t pixel) {
@@ -92,8 +90,8 @@ void LiveView::publish(const std::stop_token& stop) {
 /// What is new is made once for all. Steps are kept for those who come later; tiles wait until somebody looks on.
 void LiveView::publish_all(bool is_last) {
   const std::lock_guard lock(mutex_);
-  feed_.put(state_place, "state", json_of(state(is_last)));
-  if (picture_ && feed_.seats_taken() > 0) {
+  server_.feed().put(state_place, "state", json_of(state(is_last)));
+  if (picture_ && server_.feed().seats_taken() > 0) {
     publish_tiles(picture_->take());
   }
 }
@@ -129,13 +127,13 @@ LiveState LiveView::state(bool is_last) {
 
 void LiveView::publish_steps(LiveMoment moment) {
   for (std::size_t step = steps_.add(std::move(moment)); step < steps_.count(); ++step) {
-    feed_.put(first_step + step, "step", json_of(steps_, step, head_.frame));
+    server_.feed().put(first_step + step, "step", json_of(steps_, step, head_.frame));
   }
 }
 
 void LiveView::publish_tiles(const std::vector<PictureTile>& tiles) {
   for (const PictureTile& tile : tiles) {
-    feed_.put(first_tile + tile.index, "tile", json_of(tile));
+    server_.feed().put(first_tile + tile.index, "tile", json_of(tile));
   }
 }
 
@@ -159,22 +157,12 @@ void LiveView::end(LiveEnd end, const std::stop_token& stop) {
 }
 
 void LiveView::tell_end(LiveEnd end, const std::stop_token& stop) {
-  const std::size_t viewers = feed_.seats_taken();
-  const bool has_page = !end.page.empty();
   say(end.said);
   publish_all(true);
-  if (has_page) {
-    const std::lock_guard lock(mutex_);
-    last_page_ = std::move(end.page);
-  }
-  feed_.close("end", json_of_end(end.said, end.figures, has_page));
-  const auto have_all = [&] {
-    return has_page ? pages_given_.load(std::memory_order_relaxed) >= viewers : feed_.seats_taken() == 0;
-  };
-  const Clock::time_point deadline = Clock::now() + patience_at_the_end;
-  while (!have_all() && Clock::now() < deadline && !stop.stop_requested()) {
-    std::this_thread::sleep_for(look_interval);
-  }
+  const std::string told = json_of_end(end.said, end.figures, !end.page.empty());
+  server_.end(told,
+              end.page.empty() ? std::nullopt : std::optional(PageServer::Page{std::move(end.page), "frame-ancestors 'none'"}),
+              stop);
 }
 
 void LiveView::complain(const std::exception& error) {
@@ -186,16 +174,6 @@ void LiveView::wait(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     std::this_thread::sleep_for(look_interval);
   }
-}
-
-/// The live one, or the last.
-PageServer::Page LiveView::page() {
-  const std::lock_guard lock(mutex_);
-  if (last_page_) {
-    pages_given_.fetch_add(1, std::memory_order_relaxed);
-    return {.html = *last_page_, .policy = "frame-ancestors 'none'"};
-  }
-  return {.html = html::live_page(title_), .policy = html::live_policy()};
 }
 
 }  // namespace dmpc::apps

@@ -14,7 +14,6 @@
 #include <string>
 #include <thread>
 
-#include "apps/edge/web/live_feed.h"
 #include "apps/edge/web/page_server.h"
 #include "apps/render/live_events.h"
 #include "apps/render/live_picture.h"
@@ -47,9 +46,9 @@ class LiveView {
   LiveView& operator=(const LiveView&) = delete;
 
   /// Where a browser finds it.
-  std::string address() const { return server_->address(); }
+  std::string address() const { return server_.address(); }
   /// Whether anybody has come.
-  bool has_had_visitors() const { return server_->has_had_visitors(); }
+  bool has_had_visitors() const { return server_.has_had_visitors(); }
   /// Why nobody was told anything any more; empty if nothing went wrong.
   std::string complaint();
 
@@ -75,7 +74,6 @@ class LiveView {
  private:
   using Clock = std::chrono::steady_clock;
 
-  PageServer::Page page();
   void publish(const std::stop_token& stop);
   void publish_all(bool is_last = false);
   LiveState state(bool is_last);
@@ -84,13 +82,11 @@ class LiveView {
   void complain(const std::exception& error);
   void publish_tiles(const std::vector<PictureTile>& tiles);
 
-  const std::string title_;
   const Clock::time_point start_ = Clock::now();
-  LiveFeed feed_;
+  PageServer server_;
   std::unique_ptr<LivePicture> picture_;
   std::unique_ptr<nodes::LiveCounts> counts_;
   std::atomic<std::uint32_t> done_ = 0, total_ = 0, pass_ = 1;
-  std::atomic<std::size_t> pages_given_ = 0;  ///< of the last page
   bool has_ended_ = false;
   std::mutex mutex_;  ///< guards what follows
   std::string phase_ = "The scene is read and built.";
@@ -98,8 +94,6 @@ class LiveView {
   LiveHead head_;
   LiveSteps steps_;
   std::optional<LiveMoment> last_;
-  std::optional<std::string> last_page_;
-  std::optional<PageServer> server_;  ///< ends before what its threads use
   std::jthread publisher_;
 };
 

@@ -67,6 +67,13 @@ nodes::Watching Onlookers::watching() {
   return watching;
 }
 
+/// Those there are of which other ranks have their share, but for the logs.
+template <class Self, class Visit>
+void Onlookers::visit_shared(Self& self, const Visit& visit) {
+  const auto visit_if_there = [&visit](auto&... each) { ((each ? visit(each) : void()), ...); };
+  visit_if_there(self.heat_, self.recorder_, self.profile_, self.fetches_);
+}
+
 void Onlookers::begin_again() {
   core::expect(!recorder_ && !profile_ && !fetches_ && reference_logs_.empty(), "of several runs heat maps alone are made");
   if (heat_) {
@@ -76,36 +83,20 @@ void Onlookers::begin_again() {
 
 std::string Onlookers::seen() const {
   nodes::FlatWriter flat;
-  if (heat_) {
-    flat.put_bytes(heat_->bytes());
-  }
-  if (recorder_) {
-    flat.put_bytes(recorder_->bytes());
-  }
-  if (profile_) {
-    flat.put_bytes(profile_->bytes());
-  }
-  if (fetches_) {
-    flat.put_bytes(fetches_->bytes());
-  }
+  visit_shared(*this, [&flat](const auto& one) { flat.put_bytes(one->bytes()); });
   svm::put_logs(flat, reference_logs_);
   return flat.take();
 }
 
 void Onlookers::add(std::string_view seen, const nodes::ClockDrift& clock) {
   nodes::FlatReader flat(seen);
-  if (heat_) {
-    heat_->add(flat.take_bytes(), clock);
-  }
-  if (recorder_) {
-    recorder_->add(flat.take_bytes(), clock);
-  }
-  if (profile_) {
-    profile_->add(flat.take_bytes());
-  }
-  if (fetches_) {
-    fetches_->add(flat.take_bytes(), clock);
-  }
+  visit_shared(*this, [&](auto& one) {
+    if constexpr (requires { one->add(seen, clock); }) {
+      one->add(flat.take_bytes(), clock);
+    } else {
+      one->add(flat.take_bytes());
+    }
+  });
   svm::take_logs(flat, reference_logs_);
   core::expect(flat.is_at_end(), "all that was seen was asked for");
 }

@@ -54,6 +54,9 @@ class Onlookers {
   Sights take();
 
  private:
+  template <class Self, class Visit>
+  static void visit_shared(Self& self, const Visit& visit);
+
   WatchOrder order_;
   std::optional<nodes::HeatMap> heat_;
   std::unique_ptr<nodes::TraceRecorder> recorder_;

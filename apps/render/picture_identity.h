@@ -2,14 +2,25 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include "apps/render/picture_facts.h"
 #include "apps/run/render_options.h"
 #include "core/picture/partial_picture.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
+
+/// One thing that a picture depends on. Both texts are without line ends, the name without "=".
+struct PictureFact {
+  std::string name;
+  std::string value;  ///< "#" and a digest where it would be too long
+  bool operator==(const PictureFact&) const = default;
+};
+
+/// How the facts of another picture differ from those of `here`, as a part of a sentence: "depth is 5, here 4; other materials".
+/// Empty if they are the same.
+std::string difference_text(const std::vector<PictureFact>& other, const std::vector<PictureFact>& here);
 
 /// The name of the fact that is the last: the scale of the film.
 inline constexpr const char* film_scale_fact = "film-scale";

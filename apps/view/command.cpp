@@ -14,17 +14,18 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/show/page/origin.h"
 #include "apps/edge/system/stopwatch.h"
+#include "apps/edge/web/page_server.h"
 #include "apps/picture/film_image.h"
+#include "apps/render/live_events.h"
+#include "apps/run/warm_nodes.h"
 #include "apps/scene/camera_path.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
+#include "apps/show/page/live_page.h"
 #include "apps/view/render_words.h"
-#include "apps/view/view_server.h"
-#include "apps/view/warm_nodes.h"
+#include "apps/view/wishes.h"
 #include "core/base/expect.h"
-#include "core/base/srgb.h"
 #include "core/database/conversion.h"
-#include "core/picture/frame_settings.h"
 #include "core/picture/rounding_loss.h"
 #include "core/scene/frame.h"
 
@@ -37,6 +38,10 @@ constexpr std::uint32_t pixels_max = std::uint32_t{1} << 22U;
 constexpr int moving_samples_by_paths = 4;
 /// How often it is told how far a picture is.
 constexpr std::chrono::milliseconds tell_interval{100};
+/// Pictures of a moving camera come as fast as they are made.
+constexpr std::chrono::milliseconds look_interval{15};
+/// Places of events, all of which a viewer gets at once.
+enum : std::size_t { head_place, state_place, picture_place, places };
 
 CameraChoice whole_camera(const core::View& view) {
   return {.from = view.from, .at = view.at, .up = view.up, .degrees = view.angle_degrees};
@@ -75,16 +80,6 @@ core::RenderSettings moving_settings(const core::RenderSettings& resting, const 
   return settings;
 }
 
-std::string srgb_of(const core::Film& film) {
-  const Image image = image_of(film);
-  std::string bytes;
-  bytes.reserve(image.rgb.size());
-  for (const float value : image.rgb) {
-    bytes += static_cast<char>(core::srgb_byte(value));
-  }
-  return bytes;
-}
-
 /// One call of `view`.
 class Viewing {
  public:
@@ -93,17 +88,22 @@ class Viewing {
   int run() {
     interrupt_.set_consequence("nobody is shown anything any more");
     choose_machine(options_);
-    server_.emplace(options_.port, "dmpc view " + options_.picture.scene);
+    server_.emplace(options_.port,
+                    PageServer::Service{.option = "--port",
+                                        .page = html::live_page("dmpc view " + options_.picture.scene, html::LiveKind::view),
+                                        .important = places,
+                                        .interval = look_interval,
+                                        .takes = {{"camera", [this](const std::string& json) { return wishes_.take(json); }}}});
     std::cerr << "dmpc: to be seen at " + server_->address() + "\n";  // at once
     try {
       build();
       show();
       throw Interrupted{};
     } catch (const Interrupted&) {
-      server_->tell_end("dmpc was told to end. What stands here is the last picture.");
+      server_->end(json_of_end("dmpc was told to end."));
       throw;
     } catch (const std::exception& error) {
-      server_->tell_end("dmpc has failed: " + std::string(error.what()));
+      server_->end(json_of_end("dmpc has failed: " + std::string(error.what()) + "."));
       throw;
     }
   }
@@ -111,7 +111,7 @@ class Viewing {
  private:
   /// Once; a signal ends the process here and now.
   void build() {
-    server_->tell(ViewState{.said = "The scene is read and built."});
+    tell({.said = "The scene is read and built."});
     const Interrupt::EndAtOnce end_at_once(interrupt_);
     core::Scene scene = load(options_.picture, options_.quiet);
     home_ = scene.view;
@@ -121,11 +121,11 @@ class Viewing {
     put_eye_far_away(scene, bounds);
     subject_.emplace(build_subject_quietly(std::move(scene), options_.picture, options_.database));
     const core::RenderSettings& built = subject_->settings;
-    const core::Camera camera(home_, built.header.frame, built.camera.width(), built.camera.height(), built.camera.samples());
-    say({dropped_text(subject_->database.dropped()), loss_text(core::find_rounding_loss(subject_->database, camera)),
+    const core::RenderSettings settings = seen_from(home_, built, subject_->database);
+    say({dropped_text(subject_->database.dropped()), loss_text(core::find_rounding_loss(subject_->database, settings.camera)),
          duplicates_text(subject_->database.duplicates()), subject_->gain, subject_->emitters, subject_->kept});
     subject_->database.forget_primitives();
-    resting_.emplace(options_, subject_->database, core::seen_by(camera, built, subject_->database));
+    resting_.emplace(options_, subject_->database, settings);
     moving_.emplace(options_, subject_->database, moving_settings(built, home_));
   }
 
@@ -142,13 +142,14 @@ class Viewing {
   /// What is asked for, until a signal comes: at first the scene's own view, roughly, and then as it is.
   void show() {
     const core::Camera& camera = resting_->camera();
-    server_->tell(ViewHead{.width = static_cast<std::uint32_t>(camera.width()),
-                           .height = static_cast<std::uint32_t>(camera.height()),
-                           .home = text_of(whole_camera(home_)),
-                           .pivot = text_of(pivot_)});
+    server_->feed().put(head_place, "head",
+                        json_of(LiveHead{.width = static_cast<std::uint32_t>(camera.width()),
+                                         .height = static_cast<std::uint32_t>(camera.height()),
+                                         .home = text_of(whole_camera(home_)),
+                                         .pivot = text_of(pivot_)}));
     show({.camera = whole_camera(home_), .is_moving = true});
     show({.camera = whole_camera(home_), .is_moving = false});
-    while (const std::optional<Wish> wish = server_->take_wish(interrupt_.token())) {
+    while (const std::optional<Wish> wish = wishes_.next(interrupt_.token())) {
       show(*wish);
     }
   }
@@ -158,7 +159,7 @@ class Viewing {
     std::stop_source stop;
     const std::stop_callback at_signal(interrupt_.token(), [&stop] { stop.request_stop(); });
     if (!wish.is_moving) {
-      server_->stop_at_next_wish(stop);
+      wishes_.stop_at_next(stop);
     }
     core::View view = home_;
     view.from = wish.camera.from;
@@ -166,10 +167,12 @@ class Viewing {
     view.up = *wish.camera.up;
     view.angle_degrees = *wish.camera.degrees;
     Stopwatch stopwatch;
-    const std::optional<Report> report = (wish.is_moving ? *moving_ : *resting_).render(view, teller(wish), stop.get_token());
+    WarmNodes& nodes = wish.is_moving ? *moving_ : *resting_;
+    nodes.move_to(view);
+    const Report report = nodes.render(teller(wish), stop.get_token());
     interrupt_.check();
-    if (report) {
-      tell(wish, account_of(*report).film, stopwatch.lap());
+    if (const Account account = account_of(report); account.end == nodes::RunEnd::finished) {
+      tell(wish, account.film, stopwatch.lap());
     }
   }
 
@@ -180,26 +183,27 @@ class Viewing {
     return [this, last = std::chrono::steady_clock::now()](std::uint32_t done, std::uint32_t total) mutable {
       if (const auto now = std::chrono::steady_clock::now(); now - last >= tell_interval) {
         last = now;
-        server_->tell(ViewState{.said = "The picture comes.", .done = done, .total = total});
+        tell({.said = "The picture comes.", .done = done, .total = total});
       }
     };
   }
 
+  void tell(const LiveState& state) { server_->feed().put(state_place, "state", json_of(state)); }
+
   void tell(const Wish& wish, const core::Film& film, double seconds) {
-    const std::string camera = text_of(wish.camera);
+    LiveShot shot{.whole = {.width = static_cast<std::uint32_t>(film.width()),
+                            .height = static_cast<std::uint32_t>(film.height()),
+                            .rgb = image_of(film).rgb},
+                  .camera = text_of(wish.camera),
+                  .is_moving = wish.is_moving,
+                  .ms = seconds * 1000};
+    if (!wish.is_moving) {
+      shot.film = hash_text(film.hash());
+      shot.command = command_text(render_words(own_words(), shot.camera, *options_.picture.resolution));
+    }
+    server_->feed().put(picture_place, "picture", json_of(shot));
     const auto pixels = static_cast<std::uint32_t>(film.pixel_count());
-    const std::vector<std::string> words = own_words();
-    server_->tell(
-        ViewPicture{.camera = camera,
-                    .is_moving = wish.is_moving,
-                    .width = static_cast<std::uint32_t>(film.width()),
-                    .height = static_cast<std::uint32_t>(film.height()),
-                    .rgb = srgb_of(film),
-                    .ms = seconds * 1000,
-                    .film = wish.is_moving ? "" : hash_text(film.hash()),
-                    .command = wish.is_moving ? "" : command_text(render_words(words, camera, *options_.picture.resolution))});
-    server_->tell(
-        ViewState{.said = wish.is_moving ? "The camera moves." : "The picture is done.", .done = pixels, .total = pixels});
+    tell({.said = wish.is_moving ? "The camera moves." : "The picture is done.", .done = pixels, .total = pixels});
   }
 
   void say(const std::vector<std::string>& notes) const {
@@ -216,7 +220,8 @@ class Viewing {
   core::Vec3d pivot_;
   std::optional<Subject> subject_;
   std::optional<WarmNodes> resting_, moving_;
-  std::optional<ViewServer> server_;  ///< ends before what it shows
+  Wishes wishes_;
+  std::optional<PageServer> server_;  ///< ends before what its threads use
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "apps/edge/web/live_feed.h"
 
 #include <algorithm>
-#include <thread>
 #include <utility>
 
 namespace dmpc::apps {
@@ -40,17 +39,10 @@ void LiveFeed::close(std::string_view name, std::string_view data) {
   closed_.notify_all();
 }
 
-void LiveFeed::see_off(std::chrono::milliseconds patience) const {
-  constexpr std::chrono::milliseconds look_interval{5};
-  const auto deadline = std::chrono::steady_clock::now() + patience;
-  while (seats_taken() > 0 && std::chrono::steady_clock::now() < deadline) {
-    std::this_thread::sleep_for(look_interval);
-  }
-}
-
-std::shared_ptr<const LiveFeed::Seat> LiveFeed::take_seat(std::size_t seats) {
-  auto seat = std::make_shared<const Seat>(taken_);
-  return seat->before() < seats ? seat : nullptr;
+std::shared_ptr<const void> LiveFeed::take_seat(std::size_t seats) {
+  const std::size_t before = taken_.fetch_add(1, std::memory_order_relaxed);
+  std::shared_ptr<const void> seat(this, [this](const void*) { taken_.fetch_sub(1, std::memory_order_relaxed); });
+  return before < seats ? seat : nullptr;
 }
 
 /// With the mutex locked. Once the feed is closed, all there is.

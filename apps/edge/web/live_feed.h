@@ -23,21 +23,6 @@ namespace dmpc::apps {
 /// Thread safety: any thread; follow() on each viewer's own.
 class LiveFeed {
  public:
-  /// A viewer's, as long as it is one.
-  class Seat {
-   public:
-    explicit Seat(std::atomic<std::size_t>& taken) : taken_(taken), before_(taken.fetch_add(1, std::memory_order_relaxed)) {}
-    ~Seat() { taken_.fetch_sub(1, std::memory_order_relaxed); }
-    Seat(const Seat&) = delete;
-    Seat& operator=(const Seat&) = delete;
-    /// How many were taken when it was.
-    std::size_t before() const { return before_; }
-
-   private:
-    std::atomic<std::size_t>& taken_;
-    const std::size_t before_;
-  };
-
   /// The first `important` places go to a viewer at once; of the others so many bytes at a time, and at least one event.
   explicit LiveFeed(std::size_t important, std::size_t bytes_at_once = bytes_usual,
                     std::chrono::milliseconds interval = interval_usual)
@@ -48,11 +33,8 @@ class LiveFeed {
   /// What is new goes out, then this event, and nothing more. Only the first call counts.
   void close(std::string_view name, std::string_view data);
 
-  /// After close(): waits until nobody follows any more, but so long at most.
-  void see_off(std::chrono::milliseconds patience) const;
-
-  /// nullptr if so many look on already. The seat does not outlive the feed.
-  std::shared_ptr<const Seat> take_seat(std::size_t seats);
+  /// A viewer's, as long as it is one; nullptr if so many look on already. It does not outlive the feed.
+  std::shared_ptr<const void> take_seat(std::size_t seats);
   std::size_t seats_taken() const { return taken_.load(std::memory_order_relaxed); }
   /// Sends until the feed is closed or the viewer gone.
   void follow(WebStream& viewer);

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "core/base/expect.h"
@@ -12,6 +13,8 @@ namespace {
 
 /// For pages: a stream holds a thread.
 constexpr std::size_t other_threads = 4;
+constexpr std::chrono::seconds patience_at_the_end{2};
+constexpr std::chrono::milliseconds look_interval{20};
 constexpr int not_found = 404, wrong_method = 405, wrong_type = 415, come_later = 503;
 
 const char* why_refused(int status) {
@@ -29,8 +32,8 @@ std::string why_not(const std::string& option, std::uint16_t port, int error) {
 
 }  // namespace
 
-PageServer::PageServer(std::uint16_t port, const std::string& option, LiveFeed& feed, Service service)
-    : feed_(feed), service_(std::move(service)) {
+PageServer::PageServer(std::uint16_t port, Service service)
+    : service_(std::move(service)), feed_(service_.important, LiveFeed::bytes_usual, service_.interval), page_(service_.page) {
   // Nobody knows the token before it is said, so that nothing can be asked before there is a gate.
   const std::string token = random_token();
   server_ =
@@ -38,10 +41,33 @@ PageServer::PageServer(std::uint16_t port, const std::string& option, LiveFeed& 
                               return answer(request);
                             }});
   if (!server_) {
-    throw core::InputError(why_not(option, port, errno));
+    throw core::InputError(why_not(service_.option, port, errno));
   }
   const std::lock_guard lock(mutex_);
   gate_.emplace(token, server_->port());
+}
+
+void PageServer::end(std::string_view json, std::optional<Page> last, const std::stop_token& stop) {
+  const std::size_t viewers = feed_.seats_taken();
+  const bool has_last = last.has_value();
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(has_ended_, true)) {
+      return;
+    }
+    if (has_last) {
+      page_ = std::move(*last);
+    }
+  }
+  feed_.close("end", json);
+  const auto have_all = [&] {
+    const std::lock_guard lock(mutex_);
+    return has_last ? given_since_ >= viewers : feed_.seats_taken() == 0;
+  };
+  const auto deadline = std::chrono::steady_clock::now() + patience_at_the_end;
+  while (!have_all() && std::chrono::steady_clock::now() < deadline && !stop.stop_requested()) {
+    std::this_thread::sleep_for(look_interval);
+  }
 }
 
 WebAnswer PageServer::answer(const WebRequest& request) {
@@ -71,7 +97,7 @@ WebAnswer PageServer::answer_at(const std::string& place, const WebRequest& requ
 
 WebAnswer PageServer::events() {
   has_had_visitors_.store(true, std::memory_order_relaxed);
-  std::shared_ptr<const LiveFeed::Seat> seat = feed_.take_seat(viewers_max);
+  std::shared_ptr<const void> seat = feed_.take_seat(viewers_max);
   if (!seat) {
     return {.status = come_later, .body = std::to_string(viewers_max) + " look on already, and there is room for no more.\n"};
   }
@@ -83,7 +109,12 @@ WebAnswer PageServer::events() {
 
 WebAnswer PageServer::page() {
   has_had_visitors_.store(true, std::memory_order_relaxed);
-  Page page = service_.page();
+  Page page;
+  {
+    const std::lock_guard lock(mutex_);
+    page = page_;
+    given_since_ += has_ended_ ? 1 : 0;
+  }
   return {.type = "text/html; charset=utf-8",
           .body = std::move(page.html),
           .headers = {{"Cache-Control", "no-store"},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -9,7 +10,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
+#include <string_view>
 
 #include "apps/edge/web/live_feed.h"
 #include "apps/edge/web/web_gate.h"
@@ -18,9 +21,9 @@
 namespace dmpc::apps {
 
 /// Serves a page, with a secret in its address, and `events` beside it. Nothing else is there, and nobody else may look
-/// (WebGate). Beyond what a viewer takes of the server (WebServer) it keeps what the feed keeps.
+/// (WebGate). Beyond what a viewer takes of the server (WebServer) it keeps the page and what the feed keeps.
 ///
-/// Thread safety: any thread; what it is made with is called by several at a time.
+/// Thread safety: any thread.
 class PageServer {
  public:
   struct Page {
@@ -28,24 +31,34 @@ class PageServer {
     std::string policy;  ///< Content-Security-Policy
   };
   struct Service {
-    std::function<Page()> page;
-    /// By the place to which it is sent: what a page may send, as JSON of at most 4 KiB.
+    std::string option;  ///< that names the port, such as "--serve"
+    Page page;
+    std::size_t important;  ///< of the feed, as it takes them
+    std::chrono::milliseconds interval = LiveFeed::interval_usual;
+    /// By the place to which it is sent: what a page may send, as JSON of at most 4 KiB. Called by several threads at a time.
     std::map<std::string, std::function<WebAnswer(const std::string&)>> takes = {};
   };
 
   /// Who comes when so many look on is told to come later.
   static constexpr std::size_t viewers_max = 48;
 
-  /// Listens, on any port if that is 0. Throws core::InputError, naming `option`, such as "--serve", if the port cannot be had,
-  /// and as open_module(). `feed` outlives it.
-  PageServer(std::uint16_t port, const std::string& option, LiveFeed& feed, Service service);
+  /// Listens, on any port if that is 0. Throws core::InputError, naming the option, if the port cannot be had, and as
+  /// open_module().
+  PageServer(std::uint16_t port, Service service);
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
 
   /// Where a browser finds it.
   std::string address() const { return gate_->address(); }
+  /// What viewers are told.
+  LiveFeed& feed() { return feed_; }
   /// Whether anybody has come.
   bool has_had_visitors() const { return has_had_visitors_.load(std::memory_order_relaxed); }
+
+  /// All is over: viewers are told so by the event "end", and, if there is one, where another page is now in place of the first.
+  /// Waits until they have that, or else have heard all, for two seconds at most, or until a stop is requested. Only the first
+  /// call counts.
+  void end(std::string_view json, std::optional<Page> last = {}, const std::stop_token& stop = {});
 
  private:
   WebAnswer answer(const WebRequest& request);
@@ -53,10 +66,13 @@ class PageServer {
   WebAnswer page();
   WebAnswer events();
 
-  LiveFeed& feed_;
   const Service service_;
+  LiveFeed feed_;
   std::atomic<bool> has_had_visitors_ = false;
-  std::mutex mutex_;                   ///< guards the gate
+  std::mutex mutex_;  ///< guards what follows, up to the server
+  Page page_;
+  bool has_ended_ = false;
+  std::size_t given_since_ = 0;        ///< pages
   std::optional<WebGate> gate_;        ///< set before anything can be asked
   std::unique_ptr<WebServer> server_;  ///< ends before what its threads use
 };

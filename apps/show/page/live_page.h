@@ -1,19 +1,21 @@
-// The page of --serve while the run goes on.
+// The page of --serve while the run goes on, and of `dmpc view`.
 #pragma once
 
 #include <string>
 
 #include "apps/edge/show/page/web_part.h"
+#include "apps/edge/web/page_server.h"
 
 namespace dmpc::apps::html {
 
 extern const WebPart live_style;   ///< live/live.css
 extern const WebPart live_script;  ///< live/live.js
 
-/// The whole document, about a run of this title. It asks its server for `events`.
-std::string live_page(const std::string& title);
+/// A run that is looked on at, or a scene that is looked round in.
+enum class LiveKind { run, view };
 
-/// What a server is to say of its policy with it: what the page has in itself, and the events.
-std::string live_policy();
+/// The whole document, about what has this title. It asks its server for `events`, and sends it `stop` or a `camera`; its policy
+/// allows what it has in itself, and that.
+PageServer::Page live_page(const std::string& title, LiveKind kind);
 
 }  // namespace dmpc::apps::html

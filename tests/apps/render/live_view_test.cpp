@@ -10,7 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include "core/base/expect.h"
 #include "tests/support/text.h"
 #include "tests/support/web_client.h"
 
@@ -194,19 +193,6 @@ TEST_CASE("as many look on as there are places, ten of them deaf, and who comes 
     is_let_in = contains(viewer->heard_until("event: "), "event: ");
   }
   CHECK(is_let_in);
-}
-
-TEST_CASE("a port that another program has is said with what to do") {
-  const SmallView small;
-  const std::string expected =
-      "--serve=" + std::to_string(small.port()) + ": this port of 127.0.0.1 cannot be had: Address already";
-  try {
-    const LiveView another(small.port(), "", [] {});
-    FAIL("a port is had twice");
-  } catch (const core::InputError& error) {
-    CHECK_MESSAGE(contains(error.what(), expected), error.what());
-    CHECK(contains(error.what(), "give another, from 1024 on, or --serve=0, which takes one that is free"));
-  }
 }
 
 }  // namespace dmpc::apps::live_view_test

@@ -80,7 +80,7 @@ TEST_CASE("a view begins with the scene's own camera, roughly and then as it is,
   const std::string first = viewed.resting_picture();
   CHECK(Viewed::value(first, "width") == "32");
   CHECK(Viewed::value(first, "height") == "24");
-  CHECK(contains(viewed.viewer.heard(), "event: head\ndata: {\"height\":24,\"home\":\"" + Viewed::value(first, "camera")));
+  CHECK(contains(viewed.viewer.heard(), "\"height\":24,\"home\":\"" + Viewed::value(first, "camera")));
   CHECK(contains(viewed.viewer.heard(), "\"pivot\":\""));
   CHECK(contains(viewed.wish("3,2,2/0,0,0/0,0,1/40", true), "200 OK"));
   const std::string moving = viewed.picture();
@@ -162,22 +162,12 @@ TEST_CASE("bad wishes are answered by a sentence, and what comes from elsewhere,
   CHECK(contains(viewed.page.got("camera"), "404 Not Found"));
 }
 
-TEST_CASE("the page asks for nothing but itself, its events and its camera") {
-  const ServedPage page(line_of("balls-2", {"--resolution=8x8"}));
-  const std::string answer = page.got("");
-  for (const std::string header :
-       {"default-src 'none'", "connect-src 'self'; frame-ancestors 'none'", "Cache-Control: no-store"}) {
-    CHECK_MESSAGE(contains(answer, header), header);
-  }
-  CHECK(contains(answer, "<h1>dmpc view balls-2</h1>"));
-}
-
 TEST_CASE("a signal ends it with status 130, and who looks on is told so") {
   Viewed viewed("balls-2");
   viewed.resting_picture();
   viewed.page.process.send(SIGINT);
   CHECK(contains(viewed.viewer.heard_all(),
-                 "event: end\ndata: {\"said\":\"dmpc was told to end. What stands here is the last picture.\"}"));
+                 "event: end\ndata: {\"figures\":\"\",\"page\":false,\"said\":\"dmpc was told to end.\"}"));
   CHECK(viewed.page.process.status() == 130);
   CHECK(contains(viewed.page.process.errors(), "interrupted, nobody is shown anything any more"));
 }

@@ -1,10 +1,11 @@
 #include "apps/edge/show/page/charts.h"
 
+#include <fstream>
 #include <ostream>
+#include <sstream>
 #include <utility>
 
 #include "apps/edge/show/page/data_url.h"
-#include "apps/edge/show/page/file_bytes.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/table/plot_program.h"
 
@@ -18,6 +19,13 @@ constexpr const char* chart_style =
     "@media(prefers-color-scheme:dark){[fill='black']{fill:#e4e4e4}[stroke='black']{stroke:#e4e4e4}[color='black']{color:#e4e4e4}"
     "[fill='rgb(  0,   0,   0)']{fill:#fff}[stroke='rgb(  0,   0,   0)']{stroke:#fff}[color='rgb(  0,   0,   0)']{color:#fff}"
     "[stroke='rgb(221, 221, 221)']{stroke:#444}}</style>\n";
+
+/// Empty if there is none.
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  return bytes.str();
+}
 
 }  // namespace
 
@@ -41,7 +49,7 @@ std::string Charts::draw(Plot plot, const Table& table) {
     }
     return "";
   }
-  return data_url("image/svg+xml", themed(file_bytes(folder_ / (plot.name + ".svg"))));
+  return data_url("image/svg+xml", themed(bytes_of(folder_ / (plot.name + ".svg"))));
 }
 
 std::string themed(std::string svg) {

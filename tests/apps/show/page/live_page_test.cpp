@@ -31,12 +31,40 @@ document.title=`${text('said')} shot ${pixel('shot',1,0)} ${pixel('shot',0,0)} s
 `${pixel('raster',3,200)} until ${text('until')} facts ${text('facts')} shares ${text('shares')} wide `+
 `${page.document.documentElement.scrollWidth} of ${page.innerWidth}`})</script>)";
 
+/// A picture of 2x1 pixels, the left one red, in place of 4x2; then the button to the left, and what is sent for it: at once that
+/// the camera moves, and once it rests that it does.
+constexpr const char* looking_round = R"(<script>addEventListener('load',()=>{
+const page=document.querySelector('iframe').contentWindow,tell=(name,event)=>page.eval(`${name}(${JSON.stringify(event)})`);
+const element=(id)=>page.document.getElementById(id),shown=(id)=>element(id).getClientRects().length>0,sent=[];
+page.fetch=async(place,{body})=>{sent.push(`${place} ${body}`);return{ok:true}};
+tell('begin',{width:4,height:2,nodes:0,works:[],levels:40,steps:0,home:'4,0,0/1,0,0/0,0,1/45',pivot:'0,0,0'});
+tell('drawShot',{x:0,y:0,width:2,height:1,rgb:'/wAAAAAA',camera:'4,0,0/1,0,0/0,0,1/45',moving:false,ms:7,film:'f',command:'dmpc'});
+const pixel=[...element('shot').getContext('2d').getImageData(0,1,1,1).data].join();
+element('right').click();
+setTimeout(()=>{document.title=`${element('shot').getAttribute('role')} pixel ${pixel} figures ${element('figures').textContent} facts `+
+`${element('facts').textContent} stop ${shown('stop')} nodes ${shown('nodes')} moves ${shown('moves')} sent ${sent.join(' then ')} wide `+
+`${page.document.documentElement.scrollWidth} of ${page.innerWidth}`},1000)})</script>)";
+
 }  // namespace
+
+TEST_CASE("in a browser who looks round sees pictures of any size, and moves the camera, which rests where it was left") {
+  const TemporaryFolder folder;
+  for (const int width : {400, 1280}) {
+    const std::string told = told_by_browser(html::live_page("dmpc view x", html::LiveKind::view).html, width, width == 400,
+                                             folder / "shot.png", looking_round);
+    const std::string camera = "\"3.984779,0.348623,0/0,0,0/0,0,1/45\"", wide = std::to_string(width);
+    CHECK(told ==
+          "application pixel 255,0,0,255 figures dmpc facts Picture2x1Time7 msCamera4,0,0/1,0,0/0,0,1/45Filmf stop false "
+          "nodes false moves true sent camera {\"camera\":" +
+              camera + ",\"moving\":true} then camera {\"camera\":" + camera + ",\"moving\":false} wide " + wide + " of " + wide);
+  }
+}
 
 TEST_CASE("in a browser the live page shows tiles, steps and figures as it is told them, on a telephone and a screen") {
   const TemporaryFolder folder;
   for (const int width : {400, 1280}) {
-    const std::string told = told_by_browser(html::live_page("dmpc render x"), width, width == 400, folder / "shot.png", telling);
+    const std::string told = told_by_browser(html::live_page("dmpc render x", html::LiveKind::run).html, width, width == 400,
+                                             folder / "shot.png", telling);
     const std::string wide = std::to_string(width);
     CHECK(told ==
           "It comes. shot 255,0,0,255 0,0,0,0 steps 0,114,178,255,0,0,0,0,0,0,0,0,0,0,0,0 idle 0,0,0,0 until 120 s facts "
@@ -47,13 +75,13 @@ TEST_CASE("in a browser the live page shows tiles, steps and figures as it is to
 }
 
 TEST_CASE("the live page's policy runs what it has in itself alone, and lets it ask its server alone") {
-  const std::string page = html::live_page("x"), policy = html::live_policy();
+  const auto [page, policy] = html::live_page("x", html::LiveKind::view);
   CHECK(policy.starts_with("default-src 'none'; img-src data:; script-src 'sha256-"));
   CHECK(policy.ends_with("'; base-uri 'none'; form-action 'none'; connect-src 'self'; frame-ancestors 'none'"));
   CHECK(count(policy, "'sha256-") == count(page, "<style>") + count(page, "<script>"));
   CHECK_FALSE(contains(policy, "unsafe"));
   CHECK_FALSE(contains(page, " style="));
-  CHECK(contains(html::live_page("</script><b>"), "&lt;/script&gt;&lt;b&gt;"));
+  CHECK(contains(html::live_page("</script><b>", html::LiveKind::run).html, "&lt;/script&gt;&lt;b&gt;"));
 }
 
 }  // namespace dmpc::tests::live_page_test

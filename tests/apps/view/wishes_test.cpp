@@ -1,5 +1,5 @@
 // What the page of `view` may send.
-#include "apps/view/messages.h"
+#include "apps/view/wishes.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include "core/base/expect.h"
 #include "tests/support/text.h"
 
-namespace dmpc::apps::messages_test {
+namespace dmpc::apps::wishes_test {
 
 namespace {
 
@@ -57,4 +57,4 @@ TEST_CASE("what leaves something open, or is no wish, is refused with the form o
   }
 }
 
-}  // namespace dmpc::apps::messages_test
+}  // namespace dmpc::apps::wishes_test

@@ -1,0 +1,68 @@
+#include "apps/render/call.h"
+
+#include <iostream>
+
+#include "apps/edge/line/parsed_number.h"
+#include "apps/oracle/oracle.h"
+#include "apps/render/outputs.h"
+#include "apps/run/run_strategy.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+RenderOptions with_machine(RenderOptions options) {
+  choose_machine(options);
+  return options;
+}
+
+}  // namespace
+
+RenderCall::RenderCall(const RenderOptions& options, Interrupt& interrupts, std::ostream& out, Files& written_to)
+    : asked(with_machine(options)), interrupt(interrupts), output(out), files(written_to) {}
+
+void RenderCall::say(const std::vector<std::string>& notes) const {
+  for (const std::string& note : notes) {
+    if (!asked.quiet && !note.empty()) {
+      std::cerr << "dmpc: " << note << '\n';
+    }
+  }
+}
+
+void RenderCall::tell_once(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) {
+    if (!note.empty() && told.insert(note).second) {
+      std::cerr << "dmpc: " << note << '\n';
+    }
+  }
+}
+
+void RenderCall::set_consequence() {
+  const bool are_frames = asked.frames.are_several();
+  if (checkpoints && checkpoints->has_one()) {
+    interrupt.set_consequence(are_frames
+                                  ? "this frame was not written, those before it were; --resume goes on from the checkpoint"
+                                  : "no picture was written; --resume goes on from the checkpoint");
+  } else if (are_frames) {
+    interrupt.set_consequence("this frame was not written, those before it were; --resume leaves them out");
+  } else if (checkpoints) {
+    interrupt.set_consequence("no picture was written");
+  }
+}
+
+void claim(RenderCall& call, const DueFrame& first) {
+  check_outputs(first.options, first.outputs);
+  if (call.asked.tracer == TracerChoice::embree) {
+    open_embree();
+  }
+  if (std::optional<FileLock> lock = claim_checkpoint(call.asked.checkpoint)) {
+    call.lock.emplace(std::move(*lock));
+  }
+  if (!call.asked.serve_port.empty()) {
+    call.live = std::make_unique<LiveView>(*number_in<std::uint16_t>(call.asked.serve_port),
+                                           "dmpc render " + call.asked.picture.scene, [&call] { call.interrupt.stop_once(); });
+    std::cerr << "dmpc: to be seen at " + call.live->address() + "\n";  // at once
+  }
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,59 @@
+// One call of `render`: what lasts from its beginning to its end, whatever becomes of its pictures.
+#pragma once
+
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "apps/edge/system/file_lock.h"
+#include "apps/edge/system/files.h"
+#include "apps/edge/system/interrupt.h"
+#include "apps/render/checkpoints.h"
+#include "apps/render/frame_files.h"
+#include "apps/render/frame_scenes.h"
+#include "apps/render/live_view.h"
+#include "apps/run/render_options.h"
+#include "nodes/ranks/life_signs.h"
+
+namespace dmpc::apps {
+
+/// On ranks, that of the first one.
+struct RenderCall {
+  /// Chooses the machine. Throws as choose_machine() and FrameScenes do.
+  RenderCall(const RenderOptions& options, Interrupt& interrupt, std::ostream& output, Files& files);
+  RenderCall(const RenderCall&) = delete;
+  RenderCall& operator=(const RenderCall&) = delete;
+
+  /// Those of `notes` that say something, unless quiet.
+  void say(const std::vector<std::string>& notes) const;
+  /// Those of `notes` that say something, and have not been said of a frame before.
+  void tell_once(const std::vector<std::string>& notes);
+  /// What an interruption means from now on, while a picture comes.
+  void set_consequence();
+
+  /// Where there are other ranks, they are shown that this one lives while it does something that has nothing to do with them.
+  template <class Work>
+  std::invoke_result_t<const Work&> apart(const Work& work) const {
+    return asked.computer.ranks == nullptr ? work() : nodes::with_life_signs(*asked.computer.ranks, work);
+  }
+
+  const RenderOptions asked;  ///< with names for all frames
+  Interrupt& interrupt;
+  std::ostream& output;
+  Files& files;
+  FrameScenes scenes{asked};
+  std::optional<FileLock> lock;    ///< on the checkpoint
+  std::unique_ptr<LiveView> live;  ///< outlives all that it looks on at
+  std::optional<Checkpoints> checkpoints;
+  std::set<std::string> told;  ///< what is said once
+};
+
+/// Takes what can be had before the scene is: paths, libraries, the checkpoint's lock, the port at which browsers look on. Throws
+/// core::UsageError or core::InputError for what cannot.
+void claim(RenderCall& call, const DueFrame& first);
+
+}  // namespace dmpc::apps

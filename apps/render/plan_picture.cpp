@@ -1,0 +1,200 @@
+#include <filesystem>
+#include <iostream>
+#include <system_error>
+#include <utility>
+
+#include "apps/edge/system/stopwatch.h"
+#include "apps/render/picture_notes.h"
+#include "apps/render/stages.h"
+#include "apps/scene/load_scene.h"
+#include "core/database/conversion.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// Whether a checkpoint may be there of the frame before, where a process was killed when that was written.
+bool follows_checkpoint(const RenderCall& call, const DueFrame& frame, const DueFrames& frames) {
+  const CheckpointOptions& checkpoint = call.asked.checkpoint;
+  std::error_code error;
+  return !call.checkpoints && checkpoint.file && checkpoint.resumes && frame.number && *frame.number > call.scenes.first() &&
+         frames.was_there(*frame.number - 1) && std::filesystem::exists(*checkpoint.file, error);
+}
+
+SceneFacts facts_of(const RenderOptions& options, const core::Scene& scene) {
+  SceneFacts facts;
+  facts.bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0));
+  facts.up = is_mesh(options.picture.scene) ? options.picture.staging.mesh.up.value_or(UpAxis{}) : up_of(scene.view);
+  if (options.report || options.frames.animation) {
+    facts.digest = scene_digest(scene);
+  }
+  if (options.checkpoint.file) {
+    facts.identity = identity_of(options, scene);
+  }
+  return facts;
+}
+
+/// That of the frame before, of which `own` is the scene's own picture.
+void remove_old_checkpoint(const RenderCall& call, const DueFrame& frame, const PictureIdentity& own) {
+  remove_checkpoint_of(identity_from(call.scenes.view(*frame.number - 1), own), call.asked.checkpoint, call.files);
+}
+
+/// The checkpoint is from now on that of this frame.
+void begin_checkpoint(RenderCall& call, const DueFrame& frame, const PictureIdentity& own) {
+  const PictureIdentity identity = frame.number ? identity_from(call.scenes.view(frame.number), own) : own;
+  if (call.checkpoints) {
+    call.checkpoints->begin(identity);
+  } else {
+    call.checkpoints.emplace(call.asked.checkpoint, identity, std::cerr, call.asked.quiet, call.interrupt.token(), call.files);
+  }
+}
+
+/// Of the first frame a checkpoint is read, too.
+ReadScene read_scene(RenderCall& call, const DueFrame& frame, const DueFrames& frames) {
+  Stopwatch stopwatch;
+  const bool follows = follows_checkpoint(call, frame, frames);
+  if (follows && call.scenes.are_animated()) {
+    OpenedFiles opened;
+    remove_old_checkpoint(call, frame, identity_of(call.asked, call.scenes.load(*frame.number - 1, opened)));
+  }
+  OpenedFiles opened;
+  ReadScene read{.scene = call.scenes.load(frame.number, opened), .facts = {}};
+  check_not_read(opened, files_of(frame.outputs.names()));
+  read.facts = facts_of(call.asked, read.scene);
+  if (follows && !call.scenes.are_animated()) {
+    remove_old_checkpoint(call, frame, *read.facts.identity);
+  }
+  if (read.facts.identity) {
+    begin_checkpoint(call, frame, *read.facts.identity);
+  }
+  read.facts.seconds.load = stopwatch.lap();
+  return read;
+}
+
+BuiltScene build_scene(RenderCall& call, ReadScene read) {
+  Stopwatch stopwatch;
+  BuiltScene built{.subject = build_subject_quietly(std::move(read.scene), call.asked.picture, call.asked.database, true),
+                   .facts = std::move(read.facts)};
+  call.tell_once(notes_of(built.subject));
+  const bool looks_for_detail = built.subject.built.keeps_instances && call.asked.picture.is_refined;
+  if (call.asked.tracer != TracerChoice::embree && !looks_for_detail) {
+    built.subject.database.forget_primitives();
+  }
+  built.facts.seconds.build = stopwatch.lap();
+  return built;
+}
+
+/// Where somebody observes threads they read the clock twice a call, which takes a third of the processor's time more: then
+/// what nodes do is shown only if others observe them, too.
+bool are_nodes_shown(const RenderOptions& options) { return options.computer.machine || options.report || options.trace.path; }
+
+LiveHead live_head(const RenderCall& call, const DueFrame& frame, const core::Camera& camera) {
+  return {.width = static_cast<std::uint32_t>(camera.width()),
+          .height = static_cast<std::uint32_t>(camera.height()),
+          .node_count = are_nodes_shown(call.asked) ? call.asked.computer.node_count : 0,
+          .is_modelled = call.asked.computer.machine.has_value(),
+          .frame = call.asked.frames.are_several() ? *frame.number : 0};
+}
+
+RenderOptions options_of(const DueFrame& frame, const Subject& subject) {
+  RenderOptions options = frame.options;
+  options.database.build = subject.built;
+  return options;
+}
+
+/// As the frame sees it, or the scene's own view.
+core::RenderSettings settings_of(const RenderCall& call, const DueFrame& frame, const Subject& subject) {
+  return frame.number ? seen_from(call.scenes.view(frame.number), subject.settings, subject.database) : subject.settings;
+}
+
+/// Shows the picture that is next to whoever looks on.
+nodes::Observer* show_next(const RenderCall& call, const DueFrame& frame, const core::Camera& camera) {
+  if (!call.live) {
+    return nullptr;
+  }
+  call.live->begin(live_head(call, frame, camera), call.checkpoints ? call.checkpoints->start() : nullptr);
+  return call.live->observer();
+}
+
+core::Continuation continuation_of(RenderCall& call) {
+  core::Continuation continuation;
+  if (call.checkpoints) {
+    continuation = call.checkpoints->continuation();
+    continuation.is_due = [is_due = continuation.is_due, &call] { return call.interrupt.take_keep_request() || is_due(); };
+    continuation.keep = [keep = continuation.keep, &call](const core::Film& film, const core::Refinement& pass,
+                                                          const core::PixelMask& done) {
+      keep(film, pass, done);
+      call.set_consequence();
+    };
+  }
+  if (call.live) {
+    continuation.watch = [live = call.live.get()](const core::Film& film, const core::Refinement& pass, std::uint32_t pixel) {
+      live->watch(film, pass, pixel);
+    };
+  }
+  return continuation;
+}
+
+void plan(RenderCall& call, PlannedPicture& picture) {
+  nodes::Watching watching = picture.onlookers.watching();
+  if (!call.asked.frames.are_several()) {  // of which each looks at the database for where it shows nothing
+    watching.distributed = [&picture] { picture.built.subject.database.forget_records(); };  // the nodes have theirs
+  }
+  Stopwatch stopwatch;
+  const std::vector<std::string> notes = picture.nodes.plan(watching, continuation_of(call));
+  picture.built.facts.seconds.prepare = stopwatch.lap();
+  if (!call.asked.quiet) {
+    call.tell_once(notes);
+  }
+}
+
+/// The nodes stay as they are.
+void go_on(RenderCall& call, const DueFrame& frame, PlannedPicture& picture) {
+  picture.options = options_of(frame, picture.built.subject);
+  picture.nodes.move_to(call.scenes.view(frame.number));
+  picture.onlookers.begin_again();
+  show_next(call, frame, picture.nodes.camera());
+}
+
+}  // namespace
+
+PlannedPicture::PlannedPicture(RenderCall& call, const DueFrame& frame, BuiltScene scene)
+    : built(std::move(scene)),
+      options(options_of(frame, built.subject)),
+      onlookers(watch_order(options, static_cast<std::uint32_t>(built.subject.database.page_count()),
+                            built.subject.settings.camera.pixel_count()),
+                show_next(call, frame, built.subject.settings.camera)),
+      nodes(options, built.subject.database, settings_of(call, frame, built.subject)) {
+  options.pages.reference_logs = onlookers.reference_logs();
+}
+
+std::unique_ptr<PlannedPicture> plan_picture(RenderCall& call, const DueFrame& frame, const DueFrames& frames,
+                                             std::unique_ptr<PlannedPicture> last) {
+  if (last && !call.scenes.are_animated()) {
+    if (last->built.facts.identity) {
+      begin_checkpoint(call, frame, *last->built.facts.identity);
+    }
+    go_on(call, frame, *last);
+    return last;
+  }
+  if (last) {
+    call.set_consequence();
+  }
+  const Interrupt::EndAtOnce end_at_once(call.interrupt);
+  ReadScene read = read_scene(call, frame, frames);
+  if (last && last->built.facts.digest == read.facts.digest) {
+    last->built.facts = std::move(read.facts);
+    go_on(call, frame, *last);
+    return last;
+  }
+  const bool is_first = last == nullptr;
+  last.reset();
+  auto picture = std::make_unique<PlannedPicture>(call, frame, build_scene(call, std::move(read)));
+  if (is_first) {
+    call.say({frames.disk_note(picture->nodes.camera().pixel_count())});
+  }
+  plan(call, *picture);
+  return picture;
+}
+
+}  // namespace dmpc::apps

@@ -1,0 +1,139 @@
+#include <cstdint>
+#include <iostream>
+#include <sstream>
+
+#include "apps/edge/show/page/origin.h"
+#include "apps/edge/system/attempts.h"
+#include "apps/edge/system/output_file.h"
+#include "apps/edge/system/progress.h"
+#include "apps/edge/system/stopwatch.h"
+#include "apps/picture/film_image.h"
+#include "apps/render/outputs.h"
+#include "apps/render/picture_notes.h"
+#include "apps/render/stages.h"
+#include "apps/show/frame_line.h"
+#include "apps/show/page/render_page.h"
+#include "apps/show/stats/stats.h"
+#include "apps/show/summary.h"
+#include "apps/show/trace/file.h"
+
+namespace dmpc::apps {
+
+namespace {
+
+/// By paths it tells so, too.
+ImageRows rows_for(const RenderOptions& options, const core::Film& film) {
+  ImageRows rows = rows_of(film);
+  if (options.picture.transport.is_by_paths()) {
+    rows.remarks.emplace_back("transport", text_of(options.picture.transport));
+  }
+  return rows;
+}
+
+/// Returns the seconds that it took.
+double write_film(const RenderCall& call, const RenderOptions& options, const core::Film& film) {
+  call.interrupt.set_consequence("the picture was not written");
+  const Interrupt::EndAtOnce end_at_once(call.interrupt, Interrupt::EndAtOnce::Before::is_passed_over);
+  Stopwatch stopwatch;
+  OutputFile picture(options.image, {.option = "-o"}, call.files);
+  picture.write(encoded_picture(options.image, rows_for(options, film)));
+  call.interrupt.set_consequence("perhaps the picture was not written");
+  picture.commit();
+  call.interrupt.set_consequence("the picture was written, what follows it is incomplete");
+  return stopwatch.lap();
+}
+
+std::uint64_t samples_found_done(const RenderCall& call) { return call.checkpoints ? call.checkpoints->samples_found_done() : 0; }
+
+/// If no ray from the eye has met anything of a scene that has something.
+std::string unseen_text(const RenderCall& call, const SceneFacts& scene, const Account& account) {
+  const bool sees_nothing = account.operations.primary_hits == 0 && samples_found_done(call) == 0 && !scene.bounds.empty();
+  return sees_nothing ? unseen_note(scene.bounds, scene.up) : "";
+}
+
+/// Shadow rays that brought light, where none is shot that would not.
+std::uint64_t lit_in(const RenderOptions& options, const Account& account) {
+  const bool all_bring_light = options.picture.skips.zero_terms && options.picture.convention == core::Convention::haines;
+  const std::uint64_t shot = account.operations.rays[static_cast<std::size_t>(core::RayKind::shadow)];
+  return all_bring_light ? shot - account.operations.shadow_blocked : 0;
+}
+
+/// Somebody looks on, or may in the end, where the page stays.
+bool has_viewers(const RenderCall& call) { return call.live && (call.live->has_had_visitors() || stderr_is_terminal()); }
+
+void end_checkpoint(RenderCall& call, bool is_written, Attempts& attempts) {
+  if (call.checkpoints && is_written) {
+    attempts.make([&] { call.checkpoints->finish(); });
+  } else if (call.checkpoints && call.checkpoints->has_one()) {
+    std::cerr << "dmpc: the checkpoint stays, --resume goes on from it\n";
+  }
+}
+
+/// What the onlookers have seen; says so if some of a trace was lost, or there is none.
+Sights take_sights(const RenderCall& call, Onlookers& onlookers) {
+  Sights sights = onlookers.take();
+  if (sights.trace) {
+    call.say({loss_note(*sights.trace), empty_note(*sights.trace)});
+  }
+  return sights;
+}
+
+/// What goes to the standard output: counters if they were asked for there, then the closing lines, which it returns.
+std::string print_closing(const RenderCall& call, const DueFrame& frame, const RenderRecord& record) {
+  if (has_counters_on_standard_output(record.options)) {
+    call.output << stats_json(record);
+  }
+  std::ostringstream lines;
+  call.asked.frames.are_several() ? print_frame(lines, *frame.number, record) : print_summary(lines, record);
+  if (!call.asked.quiet) {
+    call.output << lines.str();
+  }
+  finish_output(call.output, "what follows the picture");
+  return lines.str();
+}
+
+void write_others(const RenderCall& call, const DueFrame& frame, const RenderRecord& record, Attempts& attempts,
+                  WrittenPicture& written) {
+  const Interrupt::EndAtOnce end_at_once(call.interrupt);
+  frame.outputs.write(record, attempts, call.files);
+  if (record.options.report && has_viewers(call)) {
+    attempts.make([&] { written.page = html::render_page(record, this_origin(record.scene_digest), std::cerr); });
+  }
+  attempts.make([&] { written.closing = print_closing(call, frame, record); });
+}
+
+}  // namespace
+
+WrittenPicture write_picture(RenderCall& call, const DueFrame& frame, PlannedPicture& planned, RenderedPicture rendered) {
+  const Account account = account_of(rendered.report);
+  const SceneFacts& scene = planned.built.facts;
+  Attempts attempts(std::cerr);
+  const bool is_written = attempts.make([&] { rendered.seconds.write = write_film(call, planned.options, account.film); });
+  attempts.make([&] { call.say(film_notes(account.film, lit_in(planned.options, account))); });
+  attempts.make([&] { call.say({unseen_text(call, scene, account)}); });
+  if (has_viewers(call)) {
+    attempts.make([&] { call.live->show(account.film); });
+  }
+  end_checkpoint(call, is_written, attempts);
+  Sights sights;
+  attempts.make([&] { sights = take_sights(call, planned.onlookers); });
+  const ProcessorTime all = processor_time();
+  rendered.seconds.user = all.user;
+  rendered.seconds.system = all.system;
+  WrittenPicture written;
+  const RenderRecord record = {.options = planned.options,
+                               .database = planned.built.subject.database,
+                               .report = rendered.report,
+                               .seconds = rendered.seconds,
+                               .heat = planned.onlookers.heat(),
+                               .trace = sights.trace ? &*sights.trace : nullptr,
+                               .view = sights.view ? &*sights.view : nullptr,
+                               .references = sights.references.empty() ? nullptr : &sights.references,
+                               .samples_found_done = samples_found_done(call),
+                               .scene_digest = scene.digest};
+  write_others(call, frame, record, attempts, written);
+  written.status = attempts.status();
+  return written;
+}
+
+}  // namespace dmpc::apps
