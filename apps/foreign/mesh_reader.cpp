@@ -270,11 +270,6 @@ void add_geometry(MeshScene& result, std::vector<PolygonMesh> meshes, const std:
 
 std::string text_of(const core::Vec3d& point) { return shortest(point.x) + "," + shortest(point.y) + "," + shortest(point.z); }
 
-/// What is said, else what the file says, which holds for any camera.
-UpAxis up_of(const aiScene* file, const MeshOptions& options, std::vector<std::string>& notes) {
-  return (options.up || file == nullptr ? options.up : up_axis_of(*file, notes)).value_or(UpAxis{});
-}
-
 /// The whole in view; says how, to the last bit, as a start for a camera of one's own.
 core::View plain_view(const BoundingSphere& bounds, const UpAxis& up, const MeshOptions& options,
                       std::vector<std::string>& notes) {
@@ -313,7 +308,7 @@ void add_surroundings(MeshScene& result, const aiScene* file, const MeshOptions&
   std::vector<std::string> unsaid;
   const bool has_camera = file != nullptr && !options.is_seen_otherwise;
   const auto camera = has_camera ? camera_of(*file, options.size, scale, notes) : std::nullopt;
-  const UpAxis up = up_of(file, options, camera ? unsaid : notes);
+  const UpAxis up = options.up.value_or(UpAxis{});
   if (still != nullptr && has_camera && !camera) {
     check_still_seen(*still, up);
   }
@@ -353,9 +348,6 @@ MeshScene scene_of(ImportedFile file, const std::string& path, const MeshOptions
   judge_missing(missing, options, result.notes);
   add_geometry(result, file, placements, materials, options);
   add_surroundings(result, file.scene.get(), options);
-  if (!options.scale) {
-    note_unit(*file.scene, result.notes);
-  }
   return result;
 }
 
@@ -383,7 +375,7 @@ MeshScene read(const std::string& path, const MeshOptions& options, SceneFiles& 
   if (auto file = read_polygon_file(path, files)) {
     return scene_of(*std::move(file), path, options, files);
   }
-  return scene_of(import_file(path, files, options.animation, options.copies), path, options, files);
+  return scene_of(import_gltf(path, files, options.animation, options.copies), path, options, files);
 }
 
 }  // namespace

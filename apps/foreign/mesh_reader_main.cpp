@@ -4,7 +4,6 @@
 #include <string>
 
 #include "apps/foreign/asked_files.h"
-#include "apps/foreign/import.h"
 #include "apps/foreign/mesh_reader.h"
 #include "apps/foreign/service.h"
 #include "apps/formats/scene_blocks.h"
@@ -92,7 +91,4 @@ void serve_mesh(const Message& request, Line& line) {
 }  // namespace
 }  // namespace dmpc::apps
 
-int main() {
-  dmpc::apps::prepare_import();
-  dmpc::apps::serve_requests(dmpc::apps::serve_mesh);
-}
+int main() { dmpc::apps::serve_requests(dmpc::apps::serve_mesh); }

@@ -47,18 +47,12 @@ void note_materials(const std::set<const aiMaterial*>& materials, std::vector<st
     list_textures(*material, textures);
   }
   note_count(notes, "textures not used, since they are not of a surface's colour", textures.size());
-  note_count(notes, "materials whose texture is laid on by a projection, shown without it",
-             count(materials, has_projected_texture));
-  note_count(notes, "materials whose texture is moved, turned or scaled, shown without that",
-             count(materials, has_moved_texture));
   note_count(notes, "materials that shine by themselves, and light other things by paths, not by --transport=whitted",
              count(materials, is_emissive));
   note_count(notes, "materials whose own light is a texture's, shown without it", count(materials, has_emissive_texture));
   note_count(notes, "materials that colour what shines through them, shown without that",
              count(materials, colors_what_shines_through));
   note_count(notes, "materials cut away altogether by their alpha, whose faces are left out", count(materials, is_cut_away));
-  note_count(notes, "materials that mirror by a colour of their own (reflective), shown without that",
-             count(materials, is_reflective));
   note_count(notes, "materials with a clear coat, shown without it", count(materials, has_clear_coat));
   note_count(notes, "materials with factors outside 0 to 1, brought into it", count(materials, has_factor_beyond));
 }

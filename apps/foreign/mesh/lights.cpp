@@ -1,8 +1,5 @@
 #include "apps/foreign/mesh/lights.h"
 
-#include <assimp/commonMetaData.h>
-#include <assimp/version.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,7 +7,6 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/count_note.h"
-#include "apps/foreign/mesh/imported_file.h"
 #include "apps/foreign/mesh/placement.h"
 #include "apps/formats/view_faults.h"
 #include "core/base/elementary.h"
@@ -70,38 +66,25 @@ double with_tangent_times(double angle, double share) {
   return result;
 }
 
-/// glTF has cameras with a vertical angle; our reader of it, as Assimp before 5.3, gives that times the aspect as the horizontal
-/// one. Such an Assimp repeats the node's translation, which is in the node's transform already, as the camera's position, too.
-bool has_vertical_angles(const aiScene& scene) {
-  aiString format;
-  const bool is_gltf = scene.mMetaData != nullptr && scene.mMetaData->Get(AI_METADATA_SOURCE_FORMAT, format) &&
-                       std::string(format.C_Str()).find("glTF") != std::string::npos;
-  const bool is_ours = is_gltf && std::string(format.C_Str()) == gltf_source_format;
-  return is_ours || (is_gltf && aiGetVersionMajor() * 100 + aiGetVersionMinor() < 503);
-}
-
 bool has_aspect(const aiCamera& camera) { return std::isfinite(camera.mAspect) && camera.mAspect > 0; }
 
 /// Half of what core::View calls the angle, in degrees, if the camera's spans the pixels of `size` from edge to edge.
-double half_degrees(const aiScene& scene, const aiCamera& camera, const Resolution& size) {
+double half_degrees(const aiCamera& camera, const Resolution& size) {
   constexpr double degrees_of_radian = 57.295779513082320877;
   const double half = 0.5 * double{camera.mHorizontalFOV}, aspect = has_aspect(camera) ? double{camera.mAspect} : 0;
   const int steps = std::max(1, std::min(size.width, size.height) - 1);
-  if (has_vertical_angles(scene)) {
-    return degrees_of_radian * with_tangent_times(aspect > 0 ? half / aspect : half, double(steps) / size.height);
-  }
-  return degrees_of_radian * with_tangent_times(half, steps / (aspect > 0 ? aspect * size.height : double(size.width)));
+  return degrees_of_radian * with_tangent_times(aspect > 0 ? half / aspect : half, double(steps) / size.height);
 }
 
-core::View view_of(const aiScene& scene, const aiCamera& camera, const std::optional<Resolution>& size, const Transform& world) {
+core::View view_of(const aiCamera& camera, const std::optional<Resolution>& size, const Transform& world) {
   const double aspect = has_aspect(camera) ? std::clamp(double{camera.mAspect}, 1 / aspect_max, aspect_max) : 1;
   core::View view;
-  view.from = world.point(has_vertical_angles(scene) ? Vec3d{} : to_vec(camera.mPosition));
+  view.from = world.point({});
   view.at = view.from + world.direction(to_vec(camera.mLookAt));
   view.up = world.direction(to_vec(camera.mUp));
   view.width = static_cast<int>(std::lround(shorter_side * std::max(aspect, 1.0)));
   view.height = static_cast<int>(std::lround(shorter_side * std::max(1 / aspect, 1.0)));
-  view.angle_degrees = 2 * half_degrees(scene, camera, size.value_or(Resolution{view.width, view.height}));
+  view.angle_degrees = 2 * half_degrees(camera, size.value_or(Resolution{view.width, view.height}));
   return view;
 }
 
@@ -151,7 +134,7 @@ std::optional<core::View> camera_of(const aiScene& scene, const std::optional<Re
   const std::string count = std::to_string(scene.mNumCameras);
   for (unsigned i = 0; i < scene.mNumCameras; ++i) {
     const aiCamera& camera = *scene.mCameras[i];
-    const core::View view = view_of(scene, camera, size, world_of(scene, camera.mName, scale));
+    const core::View view = view_of(camera, size, world_of(scene, camera.mName, scale));
     if (!is_perspective(camera) || fault_of(view)) {
       continue;
     }
@@ -169,28 +152,6 @@ std::optional<core::View> camera_of(const aiScene& scene, const std::optional<Re
                         : "none of the file's " + count + " cameras is taken, since none has a perspective and a direction");
   }
   return std::nullopt;
-}
-
-std::optional<UpAxis> up_axis_of(const aiScene& scene, std::vector<std::string>& notes) {
-  const bool is_turned = aiGetVersionMajor() * 100 + aiGetVersionMinor() >= 503;  // by Assimp itself
-  std::int32_t axis = 0, sign = 1;
-  if (is_turned || scene.mMetaData == nullptr || !scene.mMetaData->Get("UpAxis", axis) || axis < 0 || axis > 2) {
-    return std::nullopt;
-  }
-  scene.mMetaData->Get("UpAxisSign", sign);
-  const UpAxis up{static_cast<std::size_t>(axis), sign < 0};
-  if (up != UpAxis{}) {
-    notes.push_back(text_of(up) + " points up, as the file's UpAxis says");
-  }
-  return up;
-}
-
-void note_unit(const aiScene& scene, std::vector<std::string>& notes) {
-  float centimetres = 1;
-  if (scene.mMetaData != nullptr && scene.mMetaData->Get("UnitScaleFactor", centimetres) && centimetres > 0 && centimetres != 1) {
-    notes.push_back("coordinates are in the file's own unit, " + rounded(double{centimetres}) +
-                    " cm; --scale turns them into another");
-  }
 }
 
 }  // namespace dmpc::apps

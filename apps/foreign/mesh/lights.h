@@ -32,9 +32,4 @@ void scale_down(std::vector<core::PointLight>& lights);
 std::optional<core::View> camera_of(const aiScene& scene, const std::optional<Resolution>& size, double scale,
                                     std::vector<std::string>& notes);
 
-/// Which axis points up, if the file says so and its importer has not turned it (FBX); `notes` gets a sentence if it is not y.
-std::optional<UpAxis> up_axis_of(const aiScene& scene, std::vector<std::string>& notes);
-/// Coordinates are in the file's own unit; `notes` gets a sentence if that is no centimetre (FBX).
-void note_unit(const aiScene& scene, std::vector<std::string>& notes);
-
 }  // namespace dmpc::apps

@@ -1,7 +1,6 @@
 #include "apps/foreign/mesh/material.h"
 
 #include <assimp/GltfMaterial.h>
-#include <assimp/ObjMaterial.h>
 
 #include <algorithm>
 #include <array>
@@ -62,10 +61,6 @@ std::string alpha_mode(const aiMaterial& source) {
 
 double alpha_cutoff(const aiMaterial& source) { return number(source, {AI_MATKEY_GLTF_ALPHACUTOFF}).value_or(0.5); }
 
-bool is_metallic_roughness(const aiMaterial& source) {
-  return number(source, {AI_MATKEY_METALLIC_FACTOR}) || number(source, {AI_MATKEY_ROUGHNESS_FACTOR});
-}
-
 /// What a texture's alpha does, by which the material's own is multiplied.
 void set_alpha(const aiMaterial& source, Material& material) {
   const double own = share(source, {AI_MATKEY_OPACITY}, 1), cutoff = alpha_cutoff(source);
@@ -79,10 +74,12 @@ void set_alpha(const aiMaterial& source, Material& material) {
 }
 
 Vec3d base_color(const aiMaterial& source) {
-  return color(source, {AI_MATKEY_BASE_COLOR}).value_or(color(source, {AI_MATKEY_COLOR_DIFFUSE}).value_or(Vec3d{1, 1, 1}));
+  return color(source, {AI_MATKEY_BASE_COLOR}).value_or(Vec3d{1, 1, 1});
 }
 
-Material from_metallic_roughness(const aiMaterial& source) {
+}  // namespace
+
+Material material_of(const aiMaterial& source) {
   const std::string mode = alpha_mode(source);
   Material material =
       material_of(MetallicSurface{.base = base_color(source),
@@ -96,27 +93,6 @@ Material from_metallic_roughness(const aiMaterial& source) {
   return material;
 }
 
-Material from_phong(const aiMaterial& source) {
-  PhongSurface surface{
-      .diffuse = color(source, {AI_MATKEY_COLOR_DIFFUSE}).value_or(Vec3d{plain_grey, plain_grey, plain_grey}),
-      .specular = color(source, {AI_MATKEY_COLOR_SPECULAR}).value_or(Vec3d{}) * share(source, {AI_MATKEY_SHININESS_STRENGTH}, 1),
-      .emission = emission(source),
-      .shine = number(source, {AI_MATKEY_SHININESS}).value_or(0),
-      .refraction_index = number(source, {AI_MATKEY_REFRACTI}).value_or(1),
-      .opacity = share(source, {AI_MATKEY_OPACITY}, 1),
-      .illumination = std::nullopt};
-  if (int illumination = 0; source.Get(AI_MATKEY_OBJ_ILLUM, illumination) == aiReturn_SUCCESS) {
-    surface.illumination = illumination;
-  }
-  return material_of(surface);
-}
-
-}  // namespace
-
-Material material_of(const aiMaterial& source) {
-  return is_metallic_roughness(source) ? from_metallic_roughness(source) : from_phong(source);
-}
-
 bool is_cut_away(const aiMaterial& source) {
   return alpha_mode(source) == "MASK" && share(source, {AI_MATKEY_OPACITY}, 1) < alpha_cutoff(source);
 }
@@ -126,7 +102,7 @@ bool says_what_alpha_does(const aiMaterial& source) { return !alpha_mode(source)
 void list_textures(const aiMaterial& source, std::set<std::string>& names) {
   for (int type = aiTextureType_NONE + 1; type <= AI_TEXTURE_TYPE_MAX; ++type) {
     const auto kind = static_cast<aiTextureType>(type);
-    if (kind == aiTextureType_BASE_COLOR || kind == aiTextureType_DIFFUSE) {
+    if (kind == aiTextureType_BASE_COLOR) {
       continue;
     }
     for (unsigned i = 0; i < source.GetTextureCount(kind); ++i) {
@@ -146,23 +122,8 @@ bool has_emissive_texture(const aiMaterial& source) {
 
 bool colors_what_shines_through(const aiMaterial& source) {
   const Vec3d base = base_color(source);
-  return is_metallic_roughness(source) && share(source, {AI_MATKEY_TRANSMISSION_FACTOR}, 0) > 0 &&
+  return share(source, {AI_MATKEY_TRANSMISSION_FACTOR}, 0) > 0 &&
          !(base.x == base.y && base.y == base.z);
-}
-
-bool has_moved_texture(const aiMaterial& source) {
-  const auto is_moved = [&](aiTextureType type) {
-    aiUVTransform transform;
-    const bool has_one = source.Get(AI_MATKEY_UVTRANSFORM(type, 0), transform) == aiReturn_SUCCESS;
-    return has_one && (transform.mTranslation != aiVector2D(0, 0) || transform.mScaling != aiVector2D(1, 1) ||
-                       transform.mRotation < 0 || transform.mRotation > 0);
-  };
-  return is_moved(aiTextureType_BASE_COLOR) || is_moved(aiTextureType_DIFFUSE);
-}
-
-bool is_reflective(const aiMaterial& source) {
-  return color(source, {AI_MATKEY_COLOR_REFLECTIVE}).value_or(Vec3d{}) * number(source, {AI_MATKEY_REFLECTIVITY}).value_or(0) !=
-         Vec3d{};
 }
 
 bool has_factor_beyond(const aiMaterial& source) {
@@ -173,13 +134,13 @@ bool has_factor_beyond(const aiMaterial& source) {
     return source.Get(key.name, key.type, key.index, color) == aiReturn_SUCCESS &&
            (is_beyond(double{color.r}, most) || is_beyond(double{color.g}, most) || is_beyond(double{color.b}, most));
   };
-  const std::array<Key, 3> colors{{{AI_MATKEY_COLOR_DIFFUSE}, {AI_MATKEY_BASE_COLOR}, {AI_MATKEY_COLOR_SPECULAR}}};
+  const std::array<Key, 1> colors{{{AI_MATKEY_BASE_COLOR}}};
   const std::array<Key, 4> shares{
       {{AI_MATKEY_OPACITY}, {AI_MATKEY_METALLIC_FACTOR}, {AI_MATKEY_ROUGHNESS_FACTOR}, {AI_MATKEY_TRANSMISSION_FACTOR}}};
   return std::any_of(colors.begin(), colors.end(), [&](const Key& key) { return has_color_beyond(key, 1); }) ||
          std::any_of(shares.begin(), shares.end(),
                      [&](const Key& key) { return is_beyond(number(source, key).value_or(0), 1); }) ||
-         has_color_beyond({AI_MATKEY_COLOR_EMISSIVE}, light_max) || number(source, {AI_MATKEY_SHININESS}).value_or(0) < 0;
+         has_color_beyond({AI_MATKEY_COLOR_EMISSIVE}, light_max);
 }
 
 bool has_clear_coat(const aiMaterial& source) { return share(source, {AI_MATKEY_CLEARCOAT_FACTOR}, 0) > 0; }

@@ -25,13 +25,8 @@ bool is_emissive(const aiMaterial& source);
 bool has_emissive_texture(const aiMaterial& source);
 /// glTF's transmission through a base colour that is not grey: ours lets all colours through alike.
 bool colors_what_shines_through(const aiMaterial& source);
-/// Whether it mirrors by a colour that is not its highlight's (Collada, FBX).
-bool is_reflective(const aiMaterial& source);
 bool has_clear_coat(const aiMaterial& source);
 /// Whether a colour or a share lies outside 0 to 1, or light or an exponent below 0: material_of() brings them into it.
 bool has_factor_beyond(const aiMaterial& source);
-/// Whether the coordinates of its colour's texture are to be transformed, of which glTF's alone are
-/// (apps/foreign/mesh/texture_place.h).
-bool has_moved_texture(const aiMaterial& source);
 
 }  // namespace dmpc::apps

@@ -55,18 +55,7 @@ core::TextureWrap wrap_of(aiTextureMapMode mode) {
 }
 
 std::optional<TextureUse> colour_texture(const aiMaterial& source) {
-  const auto base = texture_of(source, aiTextureType_BASE_COLOR);
-  return base ? base : texture_of(source, aiTextureType_DIFFUSE);
-}
-
-bool has_projected_texture(const aiMaterial& source) {
-  const auto is_projected = [&](aiTextureType type) {
-    aiString path;
-    aiTextureMapping mapping = aiTextureMapping_UV;
-    return source.GetTextureCount(type) > 0 && source.GetTexture(type, 0, &path, &mapping) == aiReturn_SUCCESS &&
-           mapping != aiTextureMapping_UV;
-  };
-  return !colour_texture(source) && (is_projected(aiTextureType_BASE_COLOR) || is_projected(aiTextureType_DIFFUSE));
+  return texture_of(source, aiTextureType_BASE_COLOR);
 }
 
 std::string TextureReader::file_of(const std::string& name) {

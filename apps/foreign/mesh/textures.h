@@ -32,9 +32,6 @@ core::TextureWrap wrap_of(aiTextureMapMode mode);
 /// by coordinates.
 std::optional<TextureUse> colour_texture(const aiMaterial& source);
 
-/// Whether such a colour comes from a picture that is thrown onto the surface, as from a lantern.
-bool has_projected_texture(const aiMaterial& source);
-
 /// Reads each texture once, from beside the mesh file or from within it.
 class TextureReader {
  public:

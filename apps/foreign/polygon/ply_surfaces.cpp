@@ -1,8 +1,8 @@
 #include "apps/foreign/polygon/ply_surfaces.h"
 
+#include <algorithm>
 #include <limits>
 
-#include "apps/foreign/mesh/material.h"
 #include "apps/foreign/mesh/surface.h"
 #include "core/base/expect.h"
 
@@ -19,8 +19,8 @@ double share_of(const PlyRow& row, PlyRole role) {
   return row[role] / most;
 }
 
-aiColor3D material_color(const PlyRow& row, PlyRole red, PlyRole green, PlyRole blue) {
-  const auto channel = [&row](PlyRole role) { return row.has(role) ? static_cast<ai_real>(share_of(row, role)) : 0; };
+core::Vec3d color_of(const PlyRow& row, PlyRole red, PlyRole green, PlyRole blue) {
+  const auto channel = [&row](PlyRole role) { return row.has(role) ? std::clamp(share_of(row, role), 0.0, 1.0) : 0; };
   return {channel(red), channel(green), channel(blue)};
 }
 
@@ -28,20 +28,12 @@ aiColor3D material_color(const PlyRow& row, PlyRole red, PlyRole green, PlyRole 
 
 void PlySurfaces::add_material(const PlyRow& row) {
   using enum PlyRole;
-  aiMaterial source;
-  const aiColor3D diffuse = material_color(row, red, green, blue),
-                  specular = material_color(row, specular_red, specular_green, specular_blue);
-  source.AddProperty(&diffuse, 1, AI_MATKEY_COLOR_DIFFUSE);
-  source.AddProperty(&specular, 1, AI_MATKEY_COLOR_SPECULAR);
-  if (row.has(shine)) {
-    const auto power = static_cast<ai_real>(row[shine]);
-    source.AddProperty(&power, 1, AI_MATKEY_SHININESS);
-  }
-  if (row.has(opacity)) {
-    const auto share = static_cast<ai_real>(share_of(row, opacity));
-    source.AddProperty(&share, 1, AI_MATKEY_OPACITY);
-  }
-  materials_.push_back(apps::material_of(source));
+  materials_.push_back(apps::material_of(PhongSurface{.diffuse = color_of(row, red, green, blue),
+                                                      .specular = color_of(row, specular_red, specular_green, specular_blue),
+                                                      .shine = row.has(shine) ? row[shine] : 0,
+                                                      .refraction_index = 1,
+                                                      .opacity = row.has(opacity) ? std::clamp(share_of(row, opacity), 0.0, 1.0) : 1,
+                                                      .illumination = std::nullopt}));
 }
 
 std::uint32_t PlySurfaces::find(std::uint32_t material, std::optional<std::uint32_t> texture) {

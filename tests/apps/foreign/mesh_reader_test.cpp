@@ -99,7 +99,7 @@ TEST_CASE("a path is a mesh file's by its ending, in small letters or large") {
   CHECK_FALSE(is_mesh_path("obj"));
   CHECK_FALSE(is_mesh_path("a.obj/b"));
   CHECK_FALSE(is_mesh_path(""));
-  CHECK(contains(known_mesh_formats(), "obj, ply, stl, gltf, glb"));
+  CHECK(contains(known_mesh_formats(), "obj, ply, stl, off, gltf, glb"));
 }
 
 TEST_CASE("a face keeps all its corners, points and lines are left out and counted") {

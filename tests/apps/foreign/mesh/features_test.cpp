@@ -32,10 +32,6 @@ Notes notes_of_text(const std::string& name, const std::string& text) {
 
 TEST_CASE("of a plain mesh nothing but the view is said, and who read it where we do not") {
   CHECK(notes_of_text("a.gltf", tests::Gltf{}.text()).size() == 1);
-  const Notes notes = notes_of_text("a.dae", tests::collada("<lambert/>"));
-  CHECK(notes.size() == 2);
-  CHECK(notes.front().starts_with("read by Assimp "));
-  CHECK(notes.front().ends_with(", single precision"));
 }
 
 TEST_CASE("a texture whose mesh has no places on it is said") {

@@ -157,24 +157,6 @@ TEST_CASE("the vertical angle spans the rows of the picture that is asked for, f
   CHECK(degrees(1, 1) == Approx(57.29578));
 }
 
-TEST_CASE("a horizontal angle spans the columns, or the rows that the camera's aspect makes of it") {
-  const auto degrees = [](const std::string& more, int width, int height) {
-    const tests::TemporaryFolder folder;
-    tests::write_text(
-        folder / "a.dae",
-        tests::collada(
-            "",
-            R"(<library_cameras><camera id="c"><optics><technique_common><perspective>)" + more +
-                R"(<znear>0.1</znear><zfar>9</zfar></perspective></technique_common></optics></camera></library_cameras>)",
-            R"(<node id="n"><translate>0 0 5</translate><instance_camera url="#c"/></node>)"));
-    return read_mesh_file(folder / "a.dae", {.size = Resolution{width, height}}).scene.view.angle_degrees;
-  };
-  CHECK(degrees("<xfov>57.29578</xfov>", 64, 32) == Approx(29.643256070));  // 2 atan(tan(0.5) 31/64)
-  CHECK(degrees("<xfov>57.29578</xfov><aspect_ratio>2</aspect_ratio>", 64, 32) == Approx(29.643256070));
-  CHECK(degrees("<xfov>57.29578</xfov><aspect_ratio>0.5</aspect_ratio>", 32, 32) ==
-        Approx(93.253569106));  // 2 atan(tan(0.5) 31/16)
-}
-
 TEST_CASE("a camera without perspective is not taken, and that is said") {
   const MeshFile file = seen(R"([{"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"zfar":9,"znear":0.1}}])");
   CHECK(says(file, "camera is not taken"));

@@ -40,15 +40,4 @@ TEST_CASE("text of PLY, STL, OFF and OBJ may begin with a byte order mark") {
   }
 }
 
-TEST_CASE("a Collada file without a mesh is refused, and no figure is shown in its place") {
-  const std::string refusal =
-      refusal_of("a.dae",
-                 "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
-                 "version=\"1.4.1\"><library_visual_scenes>"
-                 "<visual_scene id=\"s\"><node id=\"a\"><translate>0 0 1</translate><node id=\"b\"><translate>0 1 "
-                 "0</translate></node></node>"
-                 "</visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
-  CHECK(tests::contains(refusal, "there is no mesh in it"));
-}
-
 }  // namespace dmpc::apps::whole_file_test

@@ -1,0 +1,49 @@
+#include "apps/formats/other_formats.h"
+
+#include <doctest/doctest.h>
+
+#include "apps/formats/mesh_file.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+std::string complaint(const std::string& path) {
+  try {
+    read_mesh_file(path);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_CASE("a file of another format is refused with the line that converts it") {
+  CHECK(complaint("models/Chair.LWO") ==
+        "models/Chair.LWO: LWO is not read: have Assimp (Debian's assimp-utils) make glTF of it, and look at the result:\n"
+        "  assimp export 'models/Chair.LWO' 'models/Chair.glb'");
+  CHECK(complaint("a.step").ends_with("make STL of it, and look at the result:\n  gmsh 'a.step' -2 -o 'a.stl'"));
+}
+
+TEST_CASE("FBX, Collada and Blender's own are converted by Blender, whatever their files are called") {
+  CHECK(complaint("it's OUT IN.fbx")
+            .ends_with("bpy.ops.import_scene.fbx(filepath=sys.argv[-2]); bpy.ops.export_scene.gltf(filepath=sys.argv[-1])\" -- "
+                       "'it'\\''s OUT IN.fbx' 'it'\\''s OUT IN.glb'"));
+  CHECK(complaint("a.dae").find("blender --background --python-expr \"import bpy, sys; ") != std::string::npos);
+  CHECK(complaint("a.dae").find("bpy.ops.wm.collada_import(filepath=") != std::string::npos);
+  CHECK(complaint("a.blend").find("\n  blender --background 'a.blend' --python-expr") != std::string::npos);
+}
+
+TEST_CASE("files of other formats are mesh files by their ending, and those of ours are none of others") {
+  for (const char* const path : {"a.3mf", "a.X3D", "a.usdz", "a.Fbx", "b/a.ac"}) {
+    CAPTURE(path);
+    CHECK(is_other_format(path));
+    CHECK(is_mesh_path(path));
+  }
+  for (const std::string& ending : mesh_extensions()) {
+    CHECK_FALSE(is_other_format("a." + ending));
+  }
+  CHECK_FALSE(is_other_format("fbx"));
+}
+
+}  // namespace
+}  // namespace dmpc::apps
