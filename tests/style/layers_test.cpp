@@ -61,9 +61,8 @@ const std::map<std::string, Names> words_of_core = {
 /// Rooms from the ground up: each uses those that stand before it. What lies on the floor of the library itself uses all.
 const std::map<std::string, Names> rooms = {
     {"core", {"record", "scene", "database", "trace", "picture", "families"}},
-    {"apps/edge", {"line", "manual", "system", "ranks", "web", "picture", "table", "machine", "run", "help", "show"}},
-    {"apps",
-     {"reader", "picture", "formats", "scene", "oracle", "run", "effort", "help", "show", "render", "view", "info", "program"}},
+    {"apps/edge", {"line", "manual", "system", "ranks", "web", "picture", "table", "machine", "run", "effort", "help", "show"}},
+    {"apps", {"reader", "picture", "formats", "scene", "oracle", "run", "effort", "help", "show", "render", "view", "info", "program"}},
     {"apps/lab", {"crowd", "figures", "difference", "oracle", "check", "compare", "study", "bench"}},
 };
 
@@ -93,7 +92,7 @@ const std::vector<Foreign> foreign = {
     {"zlib.h", {"apps/foreign/pbrt/unpacked.cpp", "apps/show/trace/gzip_stream.cpp", "apps/lab/study/references/gzip_text.cpp"}},
     {"httplib.h", {"apps/modules/http.cpp"}},
     {"dlfcn.h", {"apps/edge/system/module.cpp", "tests/failing_allocation/", "tests/foreign_arithmetic/"}},
-    {"assimp/", {"apps/foreign/", "apps/lab/bench/speed/assimp_rival.cpp", "tests/apps/foreign/"}},
+    {"assimp/", {"apps/foreign/", "tests/apps/foreign/"}},
     {"meshoptimizer.h", {"apps/foreign/gltf/meshopt.cpp", "tests/apps/foreign/"}},
     {"draco/", {"apps/foreign/gltf/draco.cpp", "tests/apps/foreign/"}},
     {"seccomp.h", {"apps/foreign/sandbox.cpp", "tests/apps/reader/foreign_files_test.cpp"}},
@@ -113,9 +112,7 @@ const std::vector<Foreign> foreign = {
     {"benchmark/", {"tests/bench/"}},
     {"boost/", {"tests/bench/rivals.h"}},
     {"concurrentqueue/", {"tests/bench/rivals.h"}},
-    {"hwy/",
-     {"core/trace/bundle_steps.cpp", "core/trace/bundle_intersectors.cpp", "core/trace/kernel.cpp",
-      "apps/lab/bench/speed/packet_shading.cpp"}},
+    {"hwy/", {"core/trace/bundle_steps.cpp", "core/trace/bundle_intersectors.cpp", "core/trace/kernel.cpp"}},
     {"doctest/", {"tests/"}},
     // Threads are the computer's; the edge has one that waits for signals, those that answer browsers, those on which rays are
     // timed, some to see whether a library can have as many, and runs side by side that share their progress.
@@ -124,8 +121,7 @@ const std::vector<Foreign> foreign = {
       "apps/lab/bench/speed/crew.", "apps/edge/system/module.cpp"}},
     {"atomic",
      {"nodes/", "tests/", "apps/edge/system/interrupt.", "apps/edge/system/last_words.", "apps/render/live_",
-      "apps/view/view_server.", "apps/edge/web/", "apps/modules/http.cpp", "apps/lab/bench/speed/plain_tiles.h",
-      "apps/lab/bench/speed/packet_renderer."}},
+      "apps/view/view_server.", "apps/edge/web/", "apps/modules/http.cpp", "apps/lab/bench/speed/plain_tiles.h"}},
     {"mutex",
      {"nodes/", "tests/", "apps/edge/line/shown_text.h", "apps/render/live_", "apps/view/view_server.", "apps/edge/web/",
       "apps/modules/http.cpp", "apps/lab/study/sweep/kept_runs.cpp", "apps/lab/study/runs.cpp",

@@ -129,8 +129,8 @@ Table finished_table(const ErrorOptions& options, std::span<const SceneResult> r
       table.add_note(std::move(sentence));
     }
   }
-  for (std::string& sentence : findings_of_all(results)) {
-    table.add_note(std::move(sentence));
+  if (std::string mean = mean_of_all(results); !mean.empty()) {
+    table.add_note(std::move(mean));
   }
   table.add_note(load_note(load));
   if (!is_whole) {
@@ -285,7 +285,6 @@ void add_options(OptionSet set, ErrorOptions& options) {
       "By paths pictures have 128x128 pixels unless said otherwise, 96x96 with --quick, and references 32 x 32 samples with it.\n"
       "The reference and the base point have the depth given; the other depths are below it.");
   set.check_in_the_end([set, &options] {
-    options.measure.is_quiet = options.quiet;
     if (options.table.file && !options.table.plots && !options.quiet && stderr_is_terminal()) {
       options.table.plots = plots_beside(*options.table.file);
     }

@@ -31,47 +31,8 @@ Curve curve_of(const SceneResult& result, Knob knob) {
   return curve;
 }
 
-const Measurement* uniform(const SceneResult& result, int samples) {
-  for (std::size_t point = 0; point < result.points.size(); ++point) {
-    if (result.points[point].knob == Knob::samples && result.points[point].setting.samples == samples &&
-        result.of(point).is_done()) {
-      return &result.of(point);
-    }
-  }
-  return nullptr;
-}
-
 std::optional<double> divided(std::optional<double> cost, double whole) {
   return cost && whole > 0 ? std::optional(*cost / whole) : std::nullopt;
-}
-
-AdaptiveRatio ratio_at(const SceneResult& result, const Curve& adaptive, int samples) {
-  const Measurement* const even = uniform(result, samples);
-  const auto error = even != nullptr ? error_without_reference(result, *even) : std::nullopt;
-  if (!error) {
-    return {.samples = samples};
-  }
-  return {.samples = samples,
-          .rays = divided(cost_at(adaptive.rays, *error), static_cast<double>(even->rays)),
-          .seconds = divided(cost_at(adaptive.seconds, *error), median(even->seconds)),
-          .is_claimed = is_claimed(result, *even)};
-}
-
-std::string times_text(const std::optional<double>& ratio) { return ratio ? fixed(*ratio, 3) : "?"; }
-
-/// "0.320, 0.290, ? times the seconds (0.310, 0.280, ? times the rays)".
-std::string times_text(const std::vector<AdaptiveRatio>& ratios) {
-  std::string rays, seconds;
-  for (const AdaptiveRatio& ratio : ratios) {
-    const std::string comma = rays.empty() ? "" : ", ";
-    rays += comma + times_text(ratio.rays);
-    seconds += comma + times_text(ratio.seconds);
-  }
-  return seconds + " times the seconds (" + rays + " times the rays)";
-}
-
-bool has_any(const std::vector<AdaptiveRatio>& ratios) {
-  return std::any_of(ratios.begin(), ratios.end(), [](const AdaptiveRatio& ratio) { return ratio.rays.has_value(); });
 }
 
 std::string gain_text(const SceneResult& result) {
@@ -79,17 +40,6 @@ std::string gain_text(const SceneResult& result) {
   return gain.seconds && gain.rays ? result.scene + ": for an RMSE of 1/255 uniform samples take " + fixed(*gain.seconds, 2) +
                                          " times the time of adaptive ones (" + fixed(*gain.rays, 2) + " times the rays)."
                                    : "";
-}
-
-std::string adaptive_text(const SceneResult& result) {
-  const std::vector<AdaptiveRatio> ratios = adaptive_ratios(result);
-  if (!has_any(ratios)) {
-    return "";
-  }
-  const bool is_unclaimed =
-      std::any_of(ratios.begin(), ratios.end(), [](const auto& one) { return one.rays && !one.is_claimed; });
-  return result.scene + ": at the RMSE of 16, 32, 64 uniform samples adaptive sampling takes " + times_text(ratios) +
-         (is_unclaimed ? "; an error here is less than 10 times the reference's own, which is taken off" : "") + ".";
 }
 
 /// "1/255 (0.123/255, 0.81 times the rays)".
@@ -196,21 +146,7 @@ std::string reference_text(const SceneResult& result) {
          scientific(result.reference.own_relative_mean_square) + ").";
 }
 
-std::string mean_text(const std::vector<double>& numbers) {
-  const auto mean = geometric_mean(numbers);
-  return mean ? fixed(*mean, 3) + " (of " + counted(numbers.size(), "scene") + ")" : "?";
-}
-
 }  // namespace
-
-std::vector<AdaptiveRatio> adaptive_ratios(const SceneResult& result) {
-  const Curve adaptive = curve_of(result, Knob::adaptive);
-  std::vector<AdaptiveRatio> ratios;
-  for (const int samples : {16, 32, 64}) {
-    ratios.push_back(ratio_at(result, adaptive, samples));
-  }
-  return ratios;
-}
 
 AdaptiveGain adaptive_gain(const SceneResult& result) {
   const Curve even = curve_of(result, Knob::samples), adaptive = curve_of(result, Knob::adaptive);
@@ -234,8 +170,8 @@ std::optional<std::size_t> cheapest_point(const SceneResult& result, Knob knob) 
 
 std::vector<std::string> findings_of(const SceneResult& result) {
   std::vector<std::string> sentences;
-  for (std::string text : {gain_text(result), reference_text(result), adaptive_text(result), cheapest_text(result),
-                           quality_text(result), chance_text(result)}) {
+  for (std::string text :
+       {gain_text(result), reference_text(result), cheapest_text(result), quality_text(result), chance_text(result)}) {
     if (!text.empty()) {
       sentences.push_back(std::move(text));
     }
@@ -262,34 +198,17 @@ std::string summary_of(std::span<const SceneResult> results) {
                                           "with an interval.");
 }
 
-std::vector<std::string> findings_of_all(std::span<const SceneResult> results) {
-  std::vector<std::vector<double>> rays(3), seconds(3);
+std::string mean_of_all(std::span<const SceneResult> results) {
   std::vector<double> gains;
-  std::vector<std::string> sentences;
   for (const SceneResult& result : results) {
     if (const auto gain = adaptive_gain(result).seconds) {
       gains.push_back(*gain);
     }
-    const std::vector<AdaptiveRatio> ratios = adaptive_ratios(result);
-    for (std::size_t i = 0; i < ratios.size(); ++i) {
-      if (ratios[i].rays && ratios[i].seconds) {
-        rays[i].push_back(*ratios[i].rays);
-        seconds[i].push_back(*ratios[i].seconds);
-      }
-    }
   }
-  if (results.size() > 1 && !gains.empty()) {
-    sentences.push_back("For an RMSE of 1/255 uniform samples take " + mean_text(gains) +
-                        " times the time of adaptive ones, as a geometric mean.");
-  }
-  for (std::size_t i = 0; results.size() > 1 && i < rays.size(); ++i) {
-    if (!rays[i].empty()) {
-      sentences.push_back("At the RMSE of " + std::to_string(16 << i) + " uniform samples adaptive sampling takes " +
-                          mean_text(seconds[i]) + " times the seconds and " + mean_text(rays[i]) +
-                          " times the rays, as geometric means.");
-    }
-  }
-  return sentences;
+  return results.size() < 2 || gains.empty()
+             ? ""
+             : "For an RMSE of 1/255 uniform samples take " + fixed(*geometric_mean(gains), 3) + " (of " +
+                   counted(gains.size(), "scene") + ") times the time of adaptive ones, as a geometric mean.";
 }
 
 }  // namespace dmpc::apps

@@ -6,9 +6,9 @@
 
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
+#include "apps/lab/bench/speed/embree_tree.h"
 #include "apps/lab/bench/speed/matches.h"
 #include "apps/lab/bench/speed/parts.h"
-#include "apps/lab/bench/speed/rival.h"
 #include "core/database/database.h"
 
 namespace dmpc::apps {
@@ -44,7 +44,7 @@ void add_builders(const std::string& name, const core::Scene& scene, const core:
   for (const RivalTree& tree : rival_trees) {
     const std::size_t rival = matches.add([&database, &tree, &interrupt, threads] {
       interrupt.check();
-      return seconds_on(threads, EmbreeRival(database.primitives(), tree.mode, tree.quality, threads).build_times());
+      return seconds_on(threads, EmbreeTree(database.primitives(), tree.mode, tree.quality, threads).build_times());
     });
     matches.compare(own, rival,
                     {.part = SpeedPart::build,

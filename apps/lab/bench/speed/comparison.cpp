@@ -7,30 +7,29 @@
 
 namespace dmpc::apps {
 
-Comparison Comparison::once(double subject_figure, double rival_figure) const {
-  Comparison measured = *this;
-  measured.subject_figures = {subject_figure};
-  measured.rival_figures = {rival_figure};
-  return measured;
-}
+std::size_t Figures::rounds() const { return std::min(subject.size(), rival.size()); }
 
-std::size_t Comparison::rounds() const { return std::min(subject_figures.size(), rival_figures.size()); }
-
-RatioSpread ratio_of(const Comparison& comparison) {
-  std::vector<double> ratios(comparison.rounds());
+RatioSpread ratio_of(const Figures& figures) {
+  std::vector<double> ratios(figures.rounds());
   for (std::size_t round = 0; round < ratios.size(); ++round) {
-    core::expect(comparison.rival_figures[round] > 0, "a ratio is taken to a figure above 0");
-    ratios[round] = comparison.subject_figures[round] / comparison.rival_figures[round];
+    core::expect(figures.rival[round] > 0, "a ratio is taken to a figure above 0");
+    ratios[round] = figures.subject[round] / figures.rival[round];
   }
   core::expect(!ratios.empty(), "a comparison has been measured at least once");
   const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
   return {median(ratios), *least, *most};
 }
 
+Comparison Comparison::once(double subject_figure, double rival_figure) const {
+  Comparison measured = *this;
+  measured.figures = {{subject_figure}, {rival_figure}};
+  return measured;
+}
+
 Comparisons measured(std::span<const Comparison> comparisons, const std::function<bool(const Comparison&)>& is_meant) {
   Comparisons chosen;
   for (const Comparison& comparison : comparisons) {
-    if (comparison.rounds() > 0 && is_meant(comparison)) {
+    if (comparison.figures.rounds() > 0 && is_meant(comparison)) {
       chosen.push_back(&comparison);
     }
   }
@@ -48,10 +47,12 @@ std::vector<Comparisons> grouped(const Comparisons& comparisons,
   return groups;
 }
 
-std::vector<double> ratios_of(const Comparisons& comparisons) {
+std::vector<double> ratios_of(const Comparisons& comparisons, Figures Comparison::*figures) {
   std::vector<double> ratios;
   for (const Comparison* const comparison : comparisons) {
-    ratios.push_back(ratio_of(*comparison).median);
+    if ((comparison->*figures).rounds() > 0) {
+      ratios.push_back(ratio_of(comparison->*figures).median);
+    }
   }
   return ratios;
 }

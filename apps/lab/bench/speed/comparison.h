@@ -13,6 +13,20 @@
 namespace dmpc::apps {
 
 /// Figures by round; of each round's two the ratio is taken, so that a busy minute of the machine touches both.
+struct Figures {
+  std::vector<double> subject = {}, rival = {};
+
+  /// Those that have both figures.
+  std::size_t rounds() const;
+};
+
+/// The middle one of the rounds' ratios of subject to rival, and the outermost ones.
+struct RatioSpread {
+  double median = 0, least = 0, most = 0;
+};
+/// Requires a round, and figures of the rival above 0.
+RatioSpread ratio_of(const Figures& figures);
+
 struct Comparison {
   SpeedPart part{};
   std::string scene;
@@ -21,21 +35,12 @@ struct Comparison {
   std::uint32_t threads = 0;   ///< that worked, or nodes that rendered; 0: does not matter
   std::string subject, rival;  ///< whose figures they are
   std::string unit;            ///< of the figures: "Mray/s", "s"
-  std::vector<double> subject_figures = {}, rival_figures = {};
+  Figures figures = {};        ///< times are by the wall clock, unless the unit says otherwise
+  Figures processor = {};      ///< the same in processor time, of what is timed by both clocks
 
-  bool is_by_wall_clock() const { return detail == "wall clock"; }
   /// The same with one round, which has these figures.
   Comparison once(double subject_figure, double rival_figure) const;
-  /// Rounds that have both figures.
-  std::size_t rounds() const;
 };
-
-/// The middle one of the rounds' ratios of subject to rival, and the outermost ones. Figures of the rival are above 0.
-struct RatioSpread {
-  double median = 0, least = 0, most = 0;
-};
-/// Requires a round.
-RatioSpread ratio_of(const Comparison& comparison);
 
 /// Some of what was measured, each outliving this.
 using Comparisons = std::vector<const Comparison*>;
@@ -44,7 +49,7 @@ Comparisons measured(std::span<const Comparison> comparisons, const std::functio
 /// In groups of such as are alike, in the order in which the first of each comes.
 std::vector<Comparisons> grouped(const Comparisons& comparisons,
                                  const std::function<bool(const Comparison&, const Comparison&)>& are_alike);
-/// The median one of each.
-std::vector<double> ratios_of(const Comparisons& comparisons);
+/// The median one of each that has a round of those figures.
+std::vector<double> ratios_of(const Comparisons& comparisons, Figures Comparison::*figures = &Comparison::figures);
 
 }  // namespace dmpc::apps

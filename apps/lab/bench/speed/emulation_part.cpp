@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -5,11 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
 #include "apps/lab/bench/speed/matches.h"
 #include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/question_ring.h"
-#include "apps/lab/bench/speed/smallest_item.h"
 #include "apps/lab/study/engine/timed_render.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
@@ -17,42 +18,43 @@
 namespace dmpc::apps {
 namespace {
 
-/// One computer. Pages are svm's.
-struct Computer {
-  Strategy strategy;
-  std::uint32_t node_count;
-  double cache_share;  ///< of the database, in each node's cache
-};
-constexpr std::array<Computer, 8> computers = {{{Strategy::svm, 2, 1},
-                                                {Strategy::svm, 8, 1},
-                                                {Strategy::svm, 64, 1},
-                                                {Strategy::svm, 8, 0.25},
-                                                {Strategy::svm, 8, 0.1},
-                                                {Strategy::svm, 8, 0.05},
-                                                {Strategy::dataflow, 2, 1},
-                                                {Strategy::dataflow, 64, 1}}};
+constexpr std::uint32_t cache_node_count = 8;
+/// Of the database, in percent, in each node's cache. The first is the rival of the others.
+constexpr std::array<int, 4> cache_percents = {100, 25, 10, 5};
 
-/// Two computers, by their places, one held against the other.
-struct Pairing {
-  std::size_t subject, rival;
-  const char* what;
-  const char* subject_name;
-  const char* rival_name;
-};
-constexpr std::array<Pairing, 6> pairings = {{{2, 0, "nodes", "svm on 64 nodes", "svm on 2 nodes"},
-                                              {1, 0, "nodes", "svm on 8 nodes", "svm on 2 nodes"},
-                                              {7, 6, "nodes", "dataflow on 64 nodes", "dataflow on 2 nodes"},
-                                              {3, 1, "cache", "25 %", "100 %"},
-                                              {4, 1, "cache", "10 %", "100 %"},
-                                              {5, 1, "cache", "5 %", "100 %"}}};
-
-StrategyOptions strategy_of(const Computer& computer, const core::Database& database) {
-  StrategyOptions options{.strategy = computer.strategy, .computer = {.node_count = computer.node_count}};
-  if (computer.strategy == Strategy::svm) {
-    const auto pages = std::ceil(static_cast<double>(database.page_count()) * computer.cache_share);
-    options.pages.cache_pages = static_cast<std::uint32_t>(std::max(pages, 1.0));
-  }
+StrategyOptions with_cache(int percent, const core::Database& database) {
+  const auto pages = std::ceil(static_cast<double>(database.page_count()) * percent / 100);
+  StrategyOptions options{.strategy = Strategy::svm, .computer = {.node_count = cache_node_count}};
+  options.pages.cache_pages = static_cast<std::uint32_t>(std::max(pages, 1.0));
   return options;
+}
+
+void measure_caches(const std::string& scene, const SpeedSettings& settings, const Interrupt& interrupt,
+                    std::vector<Comparison>& results) {
+  Progress progress(std::cerr, stderr_is_terminal(), scene + " emulated:", "renders");
+  const Subject subject = settings.subject_of(SpeedPart::emulation, scene);
+  std::optional<std::uint64_t> film_hash;
+  Matches matches(results);
+  for (const int percent : cache_percents) {
+    const std::size_t number = matches.add([&, percent] {
+      const TimedRender one = render_timed(with_cache(percent, subject.database), subject.database, subject.settings, interrupt);
+      const std::uint64_t hash = account_of(one.report).film.hash();
+      film_hash = film_hash.value_or(hash);
+      core::expect(film_hash == hash, "all caches give one film");
+      return figures_of(one.times);
+    });
+    if (number > 0) {
+      matches.compare_timed(number, 0,
+                            {.part = SpeedPart::emulation,
+                             .scene = scene,
+                             .what = "cache",
+                             .threads = cache_node_count,
+                             .subject = std::to_string(percent) + " %",
+                             .rival = "100 %",
+                             .unit = "s"});
+    }
+  }
+  matches.measure(settings.rounds_of(SpeedPart::emulation), progress);
 }
 
 /// Of an item, in microseconds.
@@ -65,7 +67,8 @@ QuestionRing ring_of(double work_us, double step_seconds, bool is_quick) {
   return ring;
 }
 
-/// Whatever nodes compute: how much work an item it takes for 64 of them to cost little more.
+/// Whatever nodes compute: how much work an item it takes for 64 of them to cost little more. After E. Slaughter and others,
+/// "Task Bench" (SC 2020): minimum effective task granularity.
 void measure_items(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
   Progress progress(std::cerr, stderr_is_terminal(), "items of 64 nodes:", "runs");
   const double step_seconds = seconds_a_step();
@@ -83,12 +86,12 @@ void measure_items(const SpeedSettings& settings, const Interrupt& interrupt, st
       matches.compare(add([ring, runner] { return times_of(ring, runner); }), alone,
                       {.part = SpeedPart::emulation,
                        .scene = "questions",
-                       .what = item_comparison,
-                       .detail = clock_names.back(),
+                       .what = "work an item",
+                       .detail = shortest(work_us) + " us",
                        .threads = ring.node_count,
                        .subject = std::string("64 nodes, ") + name_of(runner),
                        .rival = "work alone",
-                       .unit = "us"});
+                       .unit = "us of processors"});
     }
   }
   matches.measure(settings.rounds_of(SpeedPart::emulation), progress);
@@ -98,31 +101,7 @@ void measure_items(const SpeedSettings& settings, const Interrupt& interrupt, st
 
 void measure_emulation(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
   for (const std::string& scene : settings.scenes_of(SpeedPart::emulation)) {
-    Progress progress(std::cerr, stderr_is_terminal(), scene + " emulated:", "renders");
-    const Subject subject = settings.subject_of(SpeedPart::emulation, scene);
-    std::optional<std::uint64_t> film_hash;
-    Matches matches(results);
-    for (const Computer& computer : computers) {
-      matches.add([&] {
-        const TimedRender one =
-            render_timed(strategy_of(computer, subject.database), subject.database, subject.settings, interrupt);
-        const std::uint64_t hash = account_of(one.report).film.hash();
-        film_hash = film_hash.value_or(hash);
-        core::expect(film_hash == hash, "all computers render one film");
-        return figures_of(one.times);
-      });
-    }
-    for (const Pairing& pairing : pairings) {
-      matches.compare_timed(pairing.subject, pairing.rival,
-                            {.part = SpeedPart::emulation,
-                             .scene = scene,
-                             .what = pairing.what,
-                             .threads = computers[pairing.subject].node_count,
-                             .subject = pairing.subject_name,
-                             .rival = pairing.rival_name,
-                             .unit = "s"});
-    }
-    matches.measure(settings.rounds_of(SpeedPart::emulation), progress);
+    measure_caches(scene, settings, interrupt, results);
   }
   measure_items(settings, interrupt, results);
 }

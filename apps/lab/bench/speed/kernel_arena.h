@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/lab/bench/speed/embree_tree.h"
 #include "apps/lab/bench/speed/part.h"
 #include "apps/lab/bench/speed/recording.h"
-#include "apps/lab/bench/speed/rival.h"
 #include "apps/lab/bench/speed/warm_pager.h"
 #include "apps/scene/subject.h"
 
@@ -46,7 +46,7 @@ class KernelArena {
   std::string name_;
   Subject subject_;
   Recording recording_;
-  EmbreeRival robust_, fast_;
+  EmbreeTree robust_, fast_;
   std::vector<std::unique_ptr<WarmPager>> pagers_;  ///< a node each, by thread
 };
 

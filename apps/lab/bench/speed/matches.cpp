@@ -19,10 +19,8 @@ void Matches::compare(std::size_t subject, std::size_t rival, Comparison compari
 }
 
 void Matches::compare_timed(std::size_t subject, std::size_t rival, Comparison comparison, std::size_t figure) {
-  for (const char* clock : clock_names) {
-    comparison.detail = clock;
-    compare(subject, rival, comparison, figure++);
-  }
+  pairs_.push_back({subject, rival, figure + 1, results_.size(), &Comparison::processor});
+  compare(subject, rival, std::move(comparison), figure);
 }
 
 void Matches::measure(std::size_t rounds, Progress& progress) {
@@ -33,8 +31,9 @@ void Matches::measure(std::size_t rounds, Progress& progress) {
       if (pair.later() == contender) {
         const double subject = figures[pair.subject][pair.figure], rival = figures[pair.rival][pair.figure];
         if (!std::isnan(subject) && !std::isnan(rival)) {
-          results_[pair.comparison].subject_figures.push_back(subject);
-          results_[pair.comparison].rival_figures.push_back(rival);
+          Figures& compared = results_[pair.comparison].*pair.figures;
+          compared.subject.push_back(subject);
+          compared.rival.push_back(rival);
         }
       }
     }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -30,7 +29,7 @@ class Matches {
   std::size_t add(Measure measure);
   /// Adds `comparison` to the results: of each round a figure of the subject, against the same one of the rival. They may be one.
   void compare(std::size_t subject, std::size_t rival, Comparison comparison, std::size_t figure = 0);
-  /// Adds it twice: by the wall clock, then by processor time, of those who have figures_of() their times.
+  /// Does as the other, and takes the next figure for processor time, of those who have figures_of() their times.
   void compare_timed(std::size_t subject, std::size_t rival, Comparison comparison, std::size_t figure = 0);
 
   /// All contenders, in the order in which they came, in every round. Throws what measuring throws.
@@ -40,6 +39,7 @@ class Matches {
   struct Pair {
     std::size_t subject, rival, figure;
     std::size_t comparison;  ///< its place among the results
+    Figures Comparison::*figures = &Comparison::figures;
 
     std::size_t later() const { return std::max(subject, rival); }
   };
@@ -48,9 +48,6 @@ class Matches {
   std::vector<Measure> contenders_;
   std::vector<Pair> pairs_;
 };
-
-/// The clocks that figures_of() times has, as comparisons call them.
-inline constexpr std::array<const char*, 2> clock_names = {"wall clock", "processor time"};
 
 /// By the wall clock and by processor time; above 0, since ratios are taken to them.
 std::vector<double> figures_of(const Times& times);

@@ -61,8 +61,7 @@ void measure_memory(const SpeedSettings& settings, const Interrupt& interrupt, s
                        .subject = "process above that of one triangle",
                        .rival = "local memories",
                        .unit = "MiB",
-                       .subject_figures = {mebibytes(peak)},
-                       .rival_figures = {mebibytes(static_cast<double>(local_bytes(scenes[i], settings)))}});
+                       .figures = {{mebibytes(peak)}, {mebibytes(static_cast<double>(local_bytes(scenes[i], settings)))}}});
   }
 }
 

@@ -38,8 +38,7 @@ Comparison comparison(const std::string& scene, const char* what, const char* un
           .subject = "here",
           .rival = "article of 1994",
           .unit = unit,
-          .subject_figures = {here},
-          .rival_figures = {there}};
+          .figures = {{here}, {there}}};
 }
 
 }  // namespace

@@ -15,29 +15,12 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::array<const char*, 10> names = {"plain", "paths", "kernel", "picture", "emulation",
-                                               "build", "load",  "memory", "pages",   "ablation"};
-/// The others come before it.
-constexpr auto comparing_count = static_cast<std::ptrdiff_t>(SpeedPart::ablation);
-constexpr std::uint32_t thread_count_max = 1024;
+/// Many parts have these.
+const std::vector<std::string> usual_scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9"};
 /// A million triangles.
 constexpr const char* big_scene = "tetra-10";
-constexpr int paths_side = 256, path_samples = 16, path_bounces = 3;
 /// A quarter of that, which part plain sets up some thirty times.
 constexpr const char* large_scene = "tetra-9";
-
-SpeedPart parse_part(const std::string& word) {
-  const auto end = names.begin() + comparing_count, found = std::find(names.begin(), end, word);
-  if (found == end) {
-    const std::vector<std::string> all(names.begin(), end);
-    const std::string meant = core::did_you_mean(word, all);
-    throw core::UsageError(
-        "--parts=" + word +
-        ": expected plain, paths, kernel, picture, emulation, build, load, memory, pages, with commas between" +
-        (meant.empty() ? "" : ".") + meant);
-  }
-  return SpeedPart{static_cast<std::uint8_t>(found - names.begin())};
-}
 
 std::vector<std::string> article_scenes() {
   std::vector<std::string> scenes;
@@ -47,39 +30,59 @@ std::vector<std::string> article_scenes() {
   return scenes;
 }
 
-std::vector<std::string> default_scenes(SpeedPart part) {
-  switch (part) {
-    case SpeedPart::pages:
-      return article_scenes();
-    case SpeedPart::load:
-    case SpeedPart::memory:
-      return {"tetra-9", big_scene};
-    case SpeedPart::plain:
-      return {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9", "balls-2-t4"};
-    case SpeedPart::build:
-      return {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9", big_scene};
-    case SpeedPart::ablation:
-      return {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9", "balls-4", "tree-8"};
-    default:
-      return {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9"};
-  }
-}
+/// What a part does unless something else is asked for.
+struct PartDefaults {
+  const char* name;
+  std::vector<std::string> scenes = usual_scenes;
+  int side = static_cast<int>(paper_resolution);  ///< of its pictures
+  std::size_t rounds = 3;
+};
 
-int default_side(SpeedPart part) {
-  if (part == SpeedPart::paths) {
-    return paths_side;
+/// By number.
+const std::array<PartDefaults, speed_part_count>& all_defaults() {
+  static const std::array<PartDefaults, speed_part_count> all = {
+      {{.name = "plain", .scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", large_scene, "balls-2-t4"}, .side = 1024},
+       {.name = "paths", .side = 256},
+       {.name = "kernel", .rounds = 7},
+       {.name = "emulation", .side = 1024},
+       {.name = "build", .scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9", big_scene}},
+       {.name = "memory", .scenes = {"tetra-9", big_scene}},
+       {.name = "pages", .scenes = article_scenes()},
+       {.name = "ablation", .scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9", "balls-4", "tree-8"}, .rounds = 5}}};
+  return all;
+}
+const PartDefaults& defaults_of(SpeedPart part) { return all_defaults()[static_cast<std::size_t>(part)]; }
+
+constexpr std::uint32_t thread_count_max = 1024;
+constexpr int path_samples = 16, path_bounces = 3;
+
+SpeedPart parse_part(const std::string& word) {
+  std::vector<std::string> names;
+  std::string list;
+  for (const SpeedPart part : all_speed_parts()) {
+    if (word == name_of(part)) {
+      return part;
+    }
+    names.emplace_back(name_of(part));
+    list += names.back() + ", ";
   }
-  return part == SpeedPart::plain || part == SpeedPart::emulation ? 1024 : static_cast<int>(paper_resolution);
+  if (word == "load" || word == "picture") {
+    throw core::UsageError("--parts=" + word +
+                           " is no part any more: dmpc render --stats=FILE says what loading and each phase behind it take, and "
+                           "--parts=plain has pictures by Embree");
+  }
+  const std::string meant = core::did_you_mean(word, names);
+  throw core::UsageError("--parts=" + word + ": expected " + list + "with commas between" + (meant.empty() ? "" : ".") + meant);
 }
 
 }  // namespace
 
-const char* name_of(SpeedPart part) { return names[static_cast<std::size_t>(part)]; }
+const char* name_of(SpeedPart part) { return defaults_of(part).name; }
 
 std::set<SpeedPart> all_speed_parts() {
   std::set<SpeedPart> parts;
-  for (std::ptrdiff_t i = 0; i < comparing_count; ++i) {
-    parts.insert(SpeedPart{static_cast<std::uint8_t>(i)});
+  for (std::uint8_t i = 0; SpeedPart{i} != SpeedPart::ablation; ++i) {
+    parts.insert(SpeedPart{i});
   }
   return parts;
 }
@@ -99,7 +102,7 @@ SpeedSettings::SpeedSettings() : thread_counts{1}, program("/proc/self/exe") {
 }
 
 std::vector<std::string> SpeedSettings::scenes_of(SpeedPart part) const {
-  std::vector<std::string> chosen = scenes.empty() ? default_scenes(part) : scenes;
+  std::vector<std::string> chosen = scenes.empty() ? defaults_of(part).scenes : scenes;
   if (scenes.empty() && is_quick) {
     std::erase(chosen, big_scene);
     if (part == SpeedPart::plain) {
@@ -114,12 +117,12 @@ std::vector<std::string> SpeedSettings::scenes_of(SpeedPart part) const {
 }
 
 std::size_t SpeedSettings::rounds_of(SpeedPart part) const {
-  const std::size_t standard = part == SpeedPart::kernel ? 7 : part == SpeedPart::ablation ? 5 : 3;
+  const std::size_t standard = defaults_of(part).rounds;
   return rounds.value_or(is_quick ? (standard - 1) / 2 : standard);
 }
 
 PictureOptions SpeedSettings::picture_of(SpeedPart part, const std::string& scene) const {
-  const int side = is_quick ? 128 : default_side(part);
+  const int side = is_quick ? 128 : defaults_of(part).side;
   PictureOptions picture;
   picture.scene = scene;
   picture.resolution = resolution.value_or(Resolution{side, side});

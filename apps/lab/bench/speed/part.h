@@ -16,11 +16,11 @@
 
 namespace dmpc::apps {
 
-/// plain: all our own beside a plain renderer. kernel: rays a second. picture: a whole render by phases. emulation: many nodes
-/// and small caches. build: databases. load: mesh files. memory: of the real computer. pages: databases and pages against the
-/// article's. ablation: what skips are worth.
+/// plain: all our own beside a plain renderer. kernel: rays a second. emulation: small caches, and items of work. build:
+/// databases. memory: of the real computer. pages: databases and pages against the article's. ablation: what skips are worth.
 /// paths: light along paths beside a plain path tracer.
-enum class SpeedPart : std::uint8_t { plain, paths, kernel, picture, emulation, build, load, memory, pages, ablation };
+enum class SpeedPart : std::uint8_t { plain, paths, kernel, emulation, build, memory, pages, ablation };
+inline constexpr std::size_t speed_part_count = 8;
 
 /// As the command line and the table call it.
 const char* name_of(SpeedPart part);

@@ -1,22 +1,24 @@
-#include <functional>
-#include <iostream>
-#include <map>
-#include <optional>
-#include <string>
+#include <sys/resource.h>
 
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
+#include "apps/edge/system/scratch_folder.h"
 #include "apps/edge/system/stopwatch.h"
-#include "apps/lab/bench/speed/busy_processes.h"
+#include "apps/edge/system/watched_process.h"
 #include "apps/lab/bench/speed/matches.h"
-#include "apps/lab/bench/speed/packet_renderer.h"
 #include "apps/lab/bench/speed/parts.h"
-#include "apps/lab/bench/speed/plain_commands.h"
-#include "apps/lab/bench/speed/plain_contender.h"
+#include "apps/lab/bench/speed/path_distance.h"
+#include "apps/lab/bench/speed/path_scene.h"
 #include "apps/lab/bench/speed/plain_renderer.h"
-#include "apps/lab/bench/speed/pov_rival.h"
 #include "apps/lab/study/engine/timed_render.h"
-#include "apps/picture/film_image.h"
-#include "apps/picture/image_file.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
@@ -24,196 +26,148 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::uint32_t rival_threads = 2;
-constexpr const char *rival_name = "plain on 2 threads", *pov_name = "POV-Ray on 2 threads";
-/// Who renders beside so many busy processes, which the plain renderer does, too.
-constexpr const char* busy_name = "svm on 64 nodes, pool";
-constexpr std::size_t busy_count = 8;
-/// Whose command has a share that is the writing of its file, and whose ranks are held against its one process.
-constexpr const char *writing_name = "svm on 2 nodes", *ranked_name = "dataflow on 2 nodes";
+using Kind = RunnerKind;
+using S = Strategy;
 
-/// A scene with its times of building.
-struct TimedSubject {
-  Subject subject;
-  Times build_times;
-
-  TimedSubject(core::Scene scene, const PictureOptions& picture, DoubleStopwatch stopwatch = {})
-      : subject(build_subject(std::move(scene), picture)), build_times(stopwatch.lap()) {}
+/// One of those that render.
+struct PlainContender {
+  std::uint32_t count;                              ///< of threads, or of nodes
+  std::optional<Strategy> strategy = std::nullopt;  ///< nothing: it is the plain renderer
+  RunnerKind runner = RunnerKind::threads;
+  bool is_command = false;  ///< timed as a whole command, too
+  TracerChoice tracer = TracerChoice::grid;
 };
+constexpr std::array<PlainContender, 17> plain_contenders = {{{1},
+                                                              {2},
+                                                              {1, S::svm, Kind::threads, true},
+                                                              {2, S::svm, Kind::threads, true},
+                                                              {2, S::svm, Kind::pool},
+                                                              {8, S::svm},
+                                                              {64, S::svm, Kind::threads, true},
+                                                              {64, S::svm, Kind::pool, true},
+                                                              {2, S::dataflow},
+                                                              {2, S::dataflow, Kind::pool},
+                                                              {64, S::dataflow},
+                                                              {64, S::dataflow, Kind::pool, true},
+                                                              {8, S::forest},
+                                                              {8, S::forest, Kind::pool},
+                                                              {2, S::replicated},
+                                                              {2, S::replicated, Kind::threads, false, TracerChoice::embree},
+                                                              {64, S::svm, Kind::virtual_time}}};
+constexpr std::array<PlainContender, 4> path_contenders = {{{1}, {2}, {1, S::replicated}, {2, S::svm}}};
 
-std::string beside_others(const char* name) { return std::string(name) + ", beside " + std::to_string(busy_count) + " busy"; }
+/// "svm on 64 nodes, pool".
+std::string name_of(const PlainContender& contender) {
+  return contender.strategy ? std::string(apps::name_of(*contender.strategy)) + " on " + counted(contender.count, "node") +
+                                  (contender.runner == Kind::threads ? "" : std::string(", ") + apps::name_of(contender.runner)) +
+                                  (contender.tracer == TracerChoice::grid ? "" : ", Embree")
+                            : "plain on " + counted(contender.count, "thread");
+}
+
+/// What one of ours asks for.
+StrategyOptions strategy_of(const PlainContender& contender) {
+  StrategyOptions options{
+      .strategy = *contender.strategy, .computer = {.node_count = contender.count}, .tracer = contender.tracer};
+  options.runner.kind = contender.runner;
+  choose_pool(contender.runner, options.computer);
+  if (contender.runner == Kind::virtual_time) {
+    choose_machine(options);
+  }
+  return options;
+}
+
+/// Of all children that have been waited for.
+double children_seconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds_of = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+}
 
 /// The renders of one scene.
 class PlainBench {
  public:
-  PlainBench(const std::string& scene, const SpeedSettings& settings, const Interrupt& interrupt,
-             std::vector<Comparison>& results)
-      : scene_(scene),
+  /// `forest` is the scene as that strategy has it; nullptr: nobody asks for it. What is given outlives it.
+  PlainBench(SpeedPart part, const std::string& scene, const Subject& subject, const Subject* forest,
+             const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results)
+      : part_(part),
+        scene_(scene),
+        subject_(subject),
+        forest_(forest),
+        settings_(settings),
         interrupt_(interrupt),
         results_(results),
-        is_quick_(settings.is_quick),
-        picture_options_(settings.picture_of(SpeedPart::plain, scene)),
-        timed_(settings.load(picture_options_), picture_options_),
-        forest_(build_subject_quietly(settings.load(picture_options_), picture_options_, usual_database(Strategy::forest))),
-        commands_(settings.program, scene_, *picture_options_.resolution, interrupt) {}
+        plain_(subject) {}
 
-  bool is_textured() const { return timed_.subject.database.records().textured > 0; }
-
-  void measure(std::size_t rounds) {
-    plain_.emplace(timed_.subject);
-    packets_.emplace(timed_.subject, EmbreeMode::robust);
-    fast_packets_.emplace(timed_.subject, EmbreeMode::fast);
+  /// The first two contenders are the plain renderer on 1 and on 2 threads.
+  void measure(std::span<const PlainContender> all) {
     Matches matches(results_);
-    add_renders(matches);
-    add_pov(matches);
-    add_commands(matches);
-    add_busy(matches);
-    compare_builds();
+    for (const PlainContender& contender : all) {
+      matches.add([&] { return figures_of(render(contender)); });
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::size_t rival = part_ == SpeedPart::paths ? all[i].count - 1 : 1;
+      matches.compare_timed(i, rival, comparison_of("render", all[i], all[rival]));
+    }
+    for (const PlainContender& contender : all) {
+      if (contender.is_command) {
+        matches.compare_timed(matches.add([&] { return figures_of_command(contender); }), 1,
+                              comparison_of("command", contender, all[1]));
+      }
+    }
     Progress progress(std::cerr, stderr_is_terminal(), scene_ + " beside a plain renderer:", "renders");
-    matches.measure(rounds, progress);
+    matches.measure(settings_.rounds_of(part_), progress);
     compare_pictures();
   }
 
+  void compare_builds(const Times& ours) {
+    Comparison builds = comparison_of("build", "database", "Embree robust of high quality", "s");
+    builds.figures = {{ours.wall_seconds}, {plain_.build_times().wall_seconds}};
+    builds.processor = {{ours.processor_seconds}, {plain_.build_times().processor_seconds}};
+    results_.push_back(builds);
+  }
+
  private:
-  Comparison comparison_of(const char* what, const std::string& subject, const std::string& rival, std::uint32_t count = 0,
-                           const char* unit = "s") const {
-    return {.part = SpeedPart::plain,
-            .scene = scene_,
-            .what = what,
-            .threads = count,
-            .subject = subject,
-            .rival = rival,
-            .unit = unit};
+  Comparison comparison_of(const char* what, const std::string& subject, const std::string& rival, const char* unit) const {
+    return {.part = part_, .scene = scene_, .what = what, .subject = subject, .rival = rival, .unit = unit};
   }
-
-  void add_renders(Matches& matches) {
-    std::map<std::string, std::size_t> numbers;
-    for (const PlainContender& contender : plain_contenders()) {
-      const std::size_t number = numbers[contender.name] = matches.add([&] { return figures_of(render(contender)); });
-      matches.compare_timed(number, 0, comparison_of("render", contender.name, rival_name, contender.count));
-    }
-    for (const PlainPair& pair : plain_pairs()) {
-      matches.compare_timed(numbers.at(pair.subject), numbers.at(pair.rival), comparison_of("pair", pair.subject, pair.rival));
-    }
-  }
-
-  void add_pov(Matches& matches) {
-    if (!is_quick_ && PovRival::is_installed()) {
-      pov_.emplace(timed_.subject);
-      const std::size_t number = matches.add([this] { return figures_of(pov_->render(rival_threads, interrupt_)); });
-      matches.compare_timed(number, 0, comparison_of("render", pov_name, rival_name, rival_threads));
-    }
-  }
-
-  /// Behind the renders, of which one leaves the film that is written.
-  void add_commands(Matches& matches) {
-    for (const PlainContender& contender : command_contenders()) {
-      const std::size_t number = matches.add([&] { return commands_.figures_of_command(contender); });
-      matches.compare_timed(number, 0, comparison_of("command", contender.name, rival_name, contender.count));
-      if (contender.name == std::string(writing_name)) {
-        const std::size_t writing = matches.add([this] { return figures_of_writing(); });
-        Comparison share = comparison_of("writing", "picture file", std::string(writing_name) + ", whole command");
-        share.detail = clock_names.back();
-        matches.compare(writing, number, share, 3);
-      }
-    }
-    if (!is_quick_) {
-      add_ranks(matches);
-    }
-  }
-
-  void add_ranks(Matches& matches) {
-    if (const std::string reason = commands_.why_no_ranks(); !reason.empty()) {
-      std::cerr << "dmpc: " << scene_ << ": dataflow over ranks is left out of part plain: " << reason << '\n';
-      return;
-    }
-    const PlainContender& ranked = contender_named(ranked_name);
-    const auto add = [&](bool is_over_ranks) {
-      return matches.add([&, is_over_ranks] { return std::vector{commands_.render_seconds(ranked, is_over_ranks)}; });
-    };
-    const std::size_t process = add(false), ranks = add(true);
-    Comparison comparison = comparison_of("ranks", std::string(ranked_name) + ", 2 ranks", ranked_name);
-    comparison.detail = clock_names.front();
-    matches.compare(ranks, process, comparison);
-  }
-
-  /// As the figures of a command have what all of it takes.
-  std::vector<double> figures_of_writing() {
-    interrupt_.check();
-    DoubleStopwatch stopwatch;
-    write_image(commands_.picture(), rows_of(*film_));
-    std::vector<double> figures = figures_of(stopwatch.lap());
-    figures.insert(figures.end(), figures.begin(), figures.end());
-    return figures;
-  }
-
-  void add_busy(Matches& matches) {
-    const PlainContender &ours = contender_named(busy_name), &plain = contender_named(rival_name);
-    const auto add = [&](const std::function<std::vector<double>()>& measure) {
-      return matches.add([measure] {
-        const BusyProcesses busy(busy_count);
-        return measure();
-      });
-    };
-    const std::size_t rival = add([&] { return figures_of(render(plain)); });
-    const std::string rival_beside = beside_others(rival_name), beside = beside_others(busy_name);
-    matches.compare_timed(rival, rival, comparison_of("render", rival_beside, rival_beside, plain.count));
-    matches.compare_timed(add([&] { return figures_of(render(ours)); }), rival,
-                          comparison_of("render", beside, rival_beside, ours.count));
-    matches.compare_timed(add([&] { return commands_.figures_of_command(ours); }), rival,
-                          comparison_of("command", beside, rival_beside, ours.count));
-  }
-
-  void compare_builds() {
-    Comparison builds = comparison_of("build", "database", "Embree robust of high quality", 0);
-    const std::vector<double> ours = figures_of(timed_.build_times), theirs = figures_of(plain_->build_times());
-    for (std::size_t clock = 0; clock < clock_names.size(); ++clock) {
-      builds.detail = clock_names[clock];
-      results_.push_back(builds.once(ours[clock], theirs[clock]));
-    }
+  Comparison comparison_of(const char* what, const PlainContender& contender, const PlainContender& rival) const {
+    Comparison comparison = comparison_of(what, name_of(contender), name_of(rival), "s");
+    comparison.threads = contender.count;
+    return comparison;
   }
 
   /// After a round.
   void compare_pictures() {
-    core::expect(picture_.has_value() && packet_picture_.has_value() && film_.has_value(), "what is compared has been rendered");
-    add("rays", "ours", "plain", "rays", static_cast<double>(rays_), static_cast<double>(picture_->rays));
-    add("distance", "plain to ours", "1/255", "root mean square", distance_to_ours(*picture_, *film_, scene_), plain_error_max);
-    add("packets' distance", "packets to ours", "1/255", "root mean square", distance_to_ours(*packet_picture_, *film_, scene_),
-        plain_error_max);
-    if (pov_) {
-      add("POV-Ray's distance", "POV-Ray to ours", "1/255", "root mean square",
-          pov_distance_to_ours(pov_->picture(), *film_, scene_), plain_error_max);
+    core::expect(picture_.has_value() && film_.has_value(), "what is compared has been rendered");
+    results_.push_back(
+        comparison_of("rays", "ours", "plain", "rays").once(static_cast<double>(rays_), static_cast<double>(picture_->rays)));
+    if (part_ == SpeedPart::paths) {
+      const PathDistance distance = path_distance(*picture_, *film_, scene_);
+      results_.push_back(
+          comparison_of("distance", "plain to ours", "noise", "root mean square").once(distance.apart, distance.noise));
+    } else {
+      results_.push_back(comparison_of("distance", "plain to ours", "1/255", "root mean square")
+                             .once(distance_to_ours(*picture_, *film_, scene_), plain_error_max));
     }
-  }
-
-  void add(const char* what, const char* subject, const char* rival, const char* unit, double ours, double theirs) {
-    results_.push_back(comparison_of(what, subject, rival, 0, unit).once(ours, theirs));
   }
 
   Times render(const PlainContender& contender) {
     interrupt_.check();
-    return contender.strategy                    ? render_ours(contender)
-           : contender.kind == PlainKind::single ? render_plain(contender.count)
-                                                 : render_packets(contender);
+    return contender.strategy ? render_ours(contender) : render_plain(contender.count);
   }
 
   Times render_plain(std::uint32_t threads) {
     picture_.reset();
     DoubleStopwatch stopwatch;
-    picture_ = plain_->render(threads);
-    return stopwatch.lap();
-  }
-
-  Times render_packets(const PlainContender& contender) {
-    packet_picture_.reset();
-    const PacketRenderer& renderer = contender.kind == PlainKind::packets ? *packets_ : *fast_packets_;
-    DoubleStopwatch stopwatch;
-    packet_picture_ = renderer.render(contender.count);
+    picture_ = plain_.render(threads);
     return stopwatch.lap();
   }
 
   Times render_ours(const PlainContender& contender) {
-    const Subject& subject = contender.strategy == Strategy::forest ? forest_ : timed_.subject;
+    const Subject& subject = contender.strategy == Strategy::forest ? *forest_ : subject_;
     const TimedRender one = render_timed(strategy_of(contender), subject.database, subject.settings, interrupt_);
     const Account account = account_of(one.report);
     core::expect(!film_ || film_->hash() == account.film.hash(), "all computers render one film");
@@ -222,33 +176,97 @@ class PlainBench {
     return one.times;
   }
 
+  /// What the command takes beyond the fastest of some that render 8x8 pixels, which start, load and build as it does: a busy
+  /// moment in such a run would count for the picture.
+  std::vector<double> figures_of_command(const PlainContender& contender) const {
+    constexpr Resolution least_size{8, 8};
+    constexpr int least_runs = 3;
+    Times least = times_of_command(contender, least_size);
+    for (int more = 1; more < least_runs; ++more) {
+      const Times times = times_of_command(contender, least_size);
+      least = {std::min(least.wall_seconds, times.wall_seconds), std::min(least.processor_seconds, times.processor_seconds)};
+    }
+    const Times all = times_of_command(contender, *settings_.picture_of(part_, scene_).resolution);
+    std::vector<double> figures = {all.wall_seconds - least.wall_seconds, all.processor_seconds - least.processor_seconds};
+    std::replace_if(
+        figures.begin(), figures.end(), [](double figure) { return figure <= 0; }, no_figure);
+    return figures;
+  }
+
+  Times times_of_command(const PlainContender& contender, const Resolution& size) const {
+    const double before = children_seconds();
+    Stopwatch stopwatch;
+    const WatchedProcess ended = watch_process(
+        settings_.program,
+        {"render", scene_, "--quiet", "--samples=1", std::string("--strategy=") + apps::name_of(*contender.strategy),
+         std::string("--runner=") + apps::name_of(contender.runner), "--nodes=" + std::to_string(contender.count),
+         "--resolution=" + std::to_string(size.width) + "x" + std::to_string(size.height), "-o",
+         (folder_ / "picture.exr").string()},
+        interrupt_);
+    if (ended.status != 0) {
+      throw core::InputError(settings_.program.string() + " was to be timed and ended with status " +
+                             std::to_string(ended.status) + (ended.complaint.empty() ? "" : ", saying: " + ended.complaint));
+    }
+    return {stopwatch.lap(), children_seconds() - before};
+  }
+
+  SpeedPart part_;
   std::string scene_;
+  const Subject& subject_;
+  const Subject* forest_;
+  const SpeedSettings& settings_;
   const Interrupt& interrupt_;
   std::vector<Comparison>& results_;
-  bool is_quick_;  ///< then POV-Ray, which reads for long, and ranks, which start for long, are left out
-  PictureOptions picture_options_;
-  TimedSubject timed_;
-  Subject forest_;
-  PlainCommands commands_;
-  std::optional<PlainRenderer> plain_;
-  std::optional<PovRival> pov_;
-  std::optional<PacketRenderer> packets_, fast_packets_;
-  std::optional<PlainPicture> picture_, packet_picture_;
+  PlainRenderer plain_;
+  ScratchFolder folder_;
+  std::optional<PlainPicture> picture_;
   std::optional<core::Film> film_;
   std::uint64_t rays_ = 0;
 };
+
+/// Says so.
+bool is_left_out(const Subject& subject, const std::string& scene, SpeedPart part) {
+  const bool is_textured = subject.database.records().textured > 0;
+  if (is_textured) {
+    std::cerr << "dmpc: " << scene << " has textures, of which the plain renderer knows nothing: left out of part "
+              << apps::name_of(part) << '\n';
+  }
+  return is_textured;
+}
 
 }  // namespace
 
 void measure_plain(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
   for (const std::string& scene : settings.scenes_of(SpeedPart::plain)) {
     interrupt.check();
-    PlainBench bench(scene, settings, interrupt, results);
-    if (bench.is_textured()) {
-      std::cerr << "dmpc: " << scene << " has textures, of which the plain renderer knows nothing: left out of part plain\n";
-    } else {
-      bench.measure(settings.rounds_of(SpeedPart::plain));
+    const PictureOptions picture = settings.picture_of(SpeedPart::plain, scene);
+    core::Scene loaded = settings.load(picture), again = loaded;
+    DoubleStopwatch stopwatch;
+    const Subject subject = build_subject(std::move(loaded), picture);
+    const Times build_times = stopwatch.lap();
+    if (!is_left_out(subject, scene, SpeedPart::plain)) {
+      const Subject forest = build_subject_quietly(std::move(again), picture, usual_database(Strategy::forest));
+      PlainBench bench(SpeedPart::plain, scene, subject, &forest, settings, interrupt, results);
+      bench.compare_builds(build_times);
+      bench.measure(plain_contenders);
     }
+  }
+}
+
+void measure_paths(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
+  for (const std::string& scene : settings.scenes_of(SpeedPart::paths)) {
+    const PictureOptions picture = settings.picture_of(SpeedPart::paths, scene);
+    core::Scene plain = settings.load(picture), lit = plain;
+    light_and_polish(lit);
+    const auto measure = [&](core::Scene shown, const std::string& name) {
+      interrupt.check();
+      const Subject subject = build_subject(std::move(shown), picture);
+      if (!is_left_out(subject, name, SpeedPart::paths)) {
+        PlainBench(SpeedPart::paths, name, subject, nullptr, settings, interrupt, results).measure(path_contenders);
+      }
+    };
+    measure(std::move(plain), scene);
+    measure(std::move(lit), scene + " with balls of light and metal");
   }
 }
 

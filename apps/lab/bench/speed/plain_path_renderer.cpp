@@ -1,5 +1,4 @@
-#include "apps/lab/bench/speed/plain_path_renderer.h"
-
+// The plain renderer by paths.
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -7,8 +6,8 @@
 #include "apps/lab/bench/speed/plain_asker.h"
 #include "apps/lab/bench/speed/plain_emitters.h"
 #include "apps/lab/bench/speed/plain_lobes.h"
+#include "apps/lab/bench/speed/plain_renderer.h"
 #include "apps/lab/bench/speed/plain_tiles.h"
-#include "core/base/expect.h"
 #include "core/picture/emitter_light.h"
 #include "core/picture/path_step.h"
 #include "core/picture/sample_position.h"
@@ -51,7 +50,7 @@ float way_share(float own, float other) { return static_cast<float>(core::way_sh
 }  // namespace
 
 /// One thread at work.
-class PlainPathRenderer::Walker : public PlainAsker {
+class PlainRenderer::Walker : public PlainAsker {
  public:
   explicit Walker(const PlainStage& stage)
       : PlainAsker(stage), settings_(stage.settings()), ray_depth_max_(core::ray_depth_max(settings_.shade, settings_.header)) {}
@@ -163,13 +162,7 @@ class PlainPathRenderer::Walker : public PlainAsker {
   int ray_depth_max_;
 };
 
-PlainPathRenderer::PlainPathRenderer(const Subject& subject) : stage_(std::make_unique<PlainStage>(subject, EmbreeMode::robust)) {
-  core::expect(!core::has_sky_picture(subject.settings.header),
-               "the plain path tracer knows skies of colours alone, no pictures");
-}
-PlainPathRenderer::~PlainPathRenderer() = default;
-
-PlainPicture PlainPathRenderer::render(std::uint32_t thread_count) const {
+PlainPicture PlainRenderer::render_paths(std::uint32_t thread_count) const {
   return painted<Walker>(*stage_, thread_count, [](Walker& walker, int x, int y) { return walker.mean_of(x, y); });
 }
 

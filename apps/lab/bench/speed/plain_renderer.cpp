@@ -7,6 +7,7 @@
 #include "apps/lab/bench/speed/plain_asker.h"
 #include "apps/lab/bench/speed/plain_tiles.h"
 #include "core/base/expect.h"
+#include "core/record/sky.h"
 
 namespace dmpc::apps {
 
@@ -59,12 +60,17 @@ class PlainRenderer::Painter : public PlainAsker {
   }
 };
 
-PlainRenderer::PlainRenderer(const Subject& subject) : stage_(std::make_unique<PlainStage>(subject, EmbreeMode::robust)) {}
+PlainRenderer::PlainRenderer(const Subject& subject) : stage_(std::make_unique<PlainStage>(subject)) {
+  core::expect(!core::has_sky_picture(subject.settings.header), "the plain renderer knows skies of colours alone, no pictures");
+}
 PlainRenderer::~PlainRenderer() = default;
 
 const Times& PlainRenderer::build_times() const { return stage_->tree().build_times(); }
 
 PlainPicture PlainRenderer::render(std::uint32_t thread_count) const {
+  if (stage_->settings().shade.transport.is_by_paths()) {
+    return render_paths(thread_count);
+  }
   return painted<Painter>(*stage_, thread_count, [this](Painter& painter, int x, int y) {
     return painter.light_along(stage_->camera().eye, stage_->camera().towards(x, y), 1);
   });

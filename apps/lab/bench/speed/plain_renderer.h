@@ -23,8 +23,12 @@ struct PlainPicture {
 /// Recursive shading after Whitted in single precision, one ray at a time asked of Embree's robust tree, one process, one copy of
 /// the scene, and threads that take the next tile of the picture when they are done with one. It emulates nothing, counts nothing
 /// but rays and keeps no two pictures equal. The rays are ours: Haines' convention, the same offsets, the same left out for what
-/// they cannot bring. Spheres and cones, of which Embree knows nothing, are ours in double precision. No textures, no more than
-/// one sample a pixel. Immutable; render() is thread-safe.
+/// they cannot bring. Spheres and cones, of which Embree knows nothing, are ours in double precision. No textures.
+///
+/// By paths, where the subject's picture is: the numbers of chance are ours (core/picture/sample_pair.h), and for the same
+/// purposes, as are the places in pixels, the ways in which a surface sends light on, tiny mirrors included, what hits aim at and
+/// how that is weighed, roulette, sky and last looks; so sample for sample its light is ours, but where rounding leads a path
+/// elsewhere. No sky's picture, no occlusion. Else no more than one sample a pixel. Immutable; render() is thread-safe.
 class PlainRenderer {
  public:
   /// Builds the tree, of high quality, on all cores. `subject` outlives it.
@@ -40,6 +44,9 @@ class PlainRenderer {
 
  private:
   class Painter;
+  class Walker;  ///< by paths
+  PlainPicture render_paths(std::uint32_t thread_count) const;
+
   std::unique_ptr<PlainStage> stage_;
 };
 

@@ -76,10 +76,10 @@ void PlainMaterial::add(const core::MicrofacetRecord& finish) {
   refraction_index = finish.refraction_index;
 }
 
-PlainStage::PlainStage(const Subject& subject, EmbreeMode mode)
+PlainStage::PlainStage(const Subject& subject)
     : settings_(subject.settings),
       records_(subject.database.bytes()),
-      tree_(subject.database.primitives(), mode, EmbreeQuality::high, 0),
+      tree_(subject.database.primitives(), EmbreeMode::robust, EmbreeQuality::high),
       places_(subject.database.find_places()),
       camera_(settings_.camera),
       materials_(materials_in(records_, settings_.header)),
@@ -94,14 +94,6 @@ PlainStage::PlainStage(const Subject& subject, EmbreeMode mode)
     core::read_geometry(state, records_.find(places_[id].block));
     shading_.push_back(state.shading);
   }
-}
-
-std::uint32_t PlainStage::material_of_curved(unsigned curved) const {
-  const core::Database::Place place = places_[tree_.shapes().curved[curved]];
-  const std::byte* const block = records_.find(place.block);
-  const auto header = core::read<core::BlockHeader>(block);
-  const std::size_t number = header.count + place.lane;  // behind the row of ids
-  return core::read<core::ShadingReference>(core::ids_of(header, block) + sizeof(core::ShadingReference) * number).material();
 }
 
 PlainSurface PlainStage::curved_at(unsigned curved, const Vec3f& origin, const Vec3f& direction, float t) const {

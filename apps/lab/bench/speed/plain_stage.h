@@ -63,8 +63,8 @@ struct PlainSurface {
 /// Immutable; every call is thread-safe.
 class PlainStage {
  public:
-  /// Builds the tree, of high quality, on all cores. `subject` outlives it.
-  PlainStage(const Subject& subject, EmbreeMode mode);
+  /// Builds the robust tree, of high quality, on all cores. `subject` outlives it.
+  explicit PlainStage(const Subject& subject);
 
   const EmbreeTree& tree() const { return tree_; }
   const PlainCamera& camera() const { return camera_; }
@@ -74,7 +74,6 @@ class PlainStage {
   /// What paths aim at, and the alias table by which it is drawn.
   const std::vector<core::EmitterRecord>& emitters() const { return emitters_; }
   const std::vector<core::EmitterChoice>& choices() const { return choices_; }
-  std::size_t triangle_count() const { return shading_.size(); }
   bool is_triangle(unsigned geometry) const { return geometry == 0 && !shading_.empty(); }
   /// Of a triangle, as Embree numbers them: nullptr if it is flat.
   const core::PatchNormals* normals_of(unsigned triangle) const {
@@ -83,8 +82,6 @@ class PlainStage {
   }
   /// Of one that is flat; others' stands with their normals.
   std::uint32_t flat_material_of(unsigned triangle) const { return shading_[triangle].material(); }
-  /// Of a sphere or cone, as Embree numbers them.
-  std::uint32_t material_of_curved(unsigned curved) const;
   /// Where a ray meets a sphere or cone, as Embree numbers them.
   PlainSurface curved_at(unsigned curved, const core::Vec3f& origin, const core::Vec3f& direction, float t) const;
 

@@ -3,19 +3,23 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/edge/table/averages.h"
 #include "apps/edge/table/filled_columns.h"
 
 namespace dmpc::apps {
 namespace {
 
-/// The middle one of the rounds that both have ended.
-double median_of(const Comparison& comparison, const std::vector<double>& figures) {
-  return median({figures.begin(), figures.begin() + static_cast<std::ptrdiff_t>(comparison.rounds())});
+/// The middle one of the rounds that both have ended; nothing without one.
+Cell median_of(const Figures& figures, std::vector<double> Figures::*whose) {
+  const std::vector<double>& all = figures.*whose;
+  return figures.rounds() == 0 ? Cell()
+                               : Cell(median({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(figures.rounds())}));
 }
 
 const FilledColumns<Comparison>& comparison_columns() {
   using C = Comparison;
+  using F = Figures;
   static const FilledColumns<C> columns = {
       {{"part"}, [](const C& c) { return name_of(c.part); }},
       {{"scene"}, &C::scene},
@@ -25,12 +29,16 @@ const FilledColumns<Comparison>& comparison_columns() {
       {{"subject"}, &C::subject},
       {{"rival"}, &C::rival},
       {{"unit"}, &C::unit},
-      {{"subject's figure", "", 4}, [](const C& c) { return median_of(c, c.subject_figures); }},
-      {{"rival's figure", "", 4}, [](const C& c) { return median_of(c, c.rival_figures); }},
-      {{"ratio", "", 3}, [](const C& c) { return ratio_of(c).median; }},
-      {{"least ratio", "", 3}, [](const C& c) { return ratio_of(c).least; }},
-      {{"largest ratio", "", 3}, [](const C& c) { return ratio_of(c).most; }},
-      {{"rounds"}, &C::rounds}};
+      {{"subject's figure", "", 4}, [](const C& c) { return median_of(c.figures, &F::subject); }},
+      {{"rival's figure", "", 4}, [](const C& c) { return median_of(c.figures, &F::rival); }},
+      {{"ratio", "", 3}, [](const C& c) { return ratio_of(c.figures).median; }},
+      {{"least ratio", "", 3}, [](const C& c) { return ratio_of(c.figures).least; }},
+      {{"largest ratio", "", 3}, [](const C& c) { return ratio_of(c.figures).most; }},
+      {{"subject's processor time", "s", 4}, [](const C& c) { return median_of(c.processor, &F::subject); }},
+      {{"rival's processor time", "s", 4}, [](const C& c) { return median_of(c.processor, &F::rival); }},
+      {{"ratio in processor time", "", 3},
+       [](const C& c) { return c.processor.rounds() > 0 ? Cell(ratio_of(c.processor).median) : Cell(); }},
+      {{"rounds"}, [](const C& c) { return std::uint64_t{c.figures.rounds()}; }}};
   return columns;
 }
 
@@ -45,7 +53,49 @@ bool are_of_one_bar(const Comparison& a, const Comparison& b) {
   return a.scene == b.scene && a.what == b.what && pair_named_in(a) == pair_named_in(b);
 }
 
+bool are_alike(const Comparison& a, const Comparison& b) {
+  return a.part == b.part && a.what == b.what && a.threads == b.threads && a.subject == b.subject && a.rival == b.rival;
+}
+
+Cell mean_of(const std::vector<double>& ratios) {
+  const bool is_there = !ratios.empty() && *std::min_element(ratios.begin(), ratios.end()) > 0;
+  return is_there ? Cell(*geometric_mean(ratios)) : Cell();
+}
+
+/// "primary 0.423, shadow 0.312"; empty where all are of one kind.
+std::string means_by_kind(const Comparisons& group) {
+  const auto kinds = grouped(group, [](const Comparison& a, const Comparison& b) { return a.detail == b.detail; });
+  std::string text;
+  for (const Comparisons& kind : kinds) {
+    text += (text.empty() ? "" : ", ") + kind.front()->detail + " " + fixed(geometric_mean(ratios_of(kind)).value_or(0), 3);
+  }
+  return kinds.size() > 1 ? text : "";
+}
+
 }  // namespace
+
+Table headline_of(std::span<const Comparison> comparisons, const std::string& title) {
+  Table table(title, {{"part"},
+                      {"what"},
+                      {"threads or nodes"},
+                      {"subject"},
+                      {"rival"},
+                      {"ratio", "", 3},
+                      {"least", "", 3},
+                      {"most", "", 3},
+                      {"in processor time", "", 3},
+                      {"of"},
+                      {"by kind"}});
+  for (const Comparisons& group : grouped(measured(comparisons, [](const Comparison&) { return true; }), are_alike)) {
+    const Comparison& one = *group.front();
+    const std::vector<double> ratios = ratios_of(group);
+    const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+    table.add_row({std::string(name_of(one.part)), one.what, one.threads == 0 ? Cell() : Cell(std::uint64_t{one.threads}),
+                   one.subject, one.rival, mean_of(ratios), *least, *most, mean_of(ratios_of(group, &Comparison::processor)),
+                   std::uint64_t{ratios.size()}, means_by_kind(group)});
+  }
+  return table;
+}
 
 Table table_of(std::span<const Comparison> comparisons, const std::string& title) {
   Table table(title, heads_of(comparison_columns()));
@@ -56,9 +106,8 @@ Table table_of(std::span<const Comparison> comparisons, const std::string& title
 }
 
 Table plotted_table(SpeedPart part, std::span<const Comparison> comparisons) {
-  const bool is_timed = part == SpeedPart::picture || part == SpeedPart::emulation;
-  const auto is_meant = [&](const Comparison& one) { return one.part == part && (!is_timed || one.is_by_wall_clock()); };
   Table table(name_of(part), {{"scene"}, {"what"}, {"pair"}, {"ratio"}});
+  const auto is_meant = [&](const Comparison& one) { return one.part == part; };
   for (const Comparisons& bar : grouped(measured(comparisons, is_meant), are_of_one_bar)) {
     const Comparison& one = *bar.front();
     table.add_row({one.scene, one.what, pair_named_in(one), *geometric_mean(ratios_of(bar))});
@@ -67,21 +116,20 @@ Table plotted_table(SpeedPart part, std::span<const Comparison> comparisons) {
 }
 
 Plot plot_of(SpeedPart part, const Table& plotted, const std::string& name) {
-  return with_bars("ratio", 2, plotted,
-                   {.name = name,
-                    .title = std::string("Speed: ") + name_of(part),
-                    .places = {"scene", "what"},
-                    .x = {},
-                    .y = {.label = part == SpeedPart::kernel ? "ratio (more is better)" : "ratio (less is better)", .least = 0},
-                    .series = {}});
-}
-
-Plot with_bars(const std::string& height, std::size_t kind, const Table& table, Plot plot) {
-  for (const auto& row : table.rows()) {
-    const auto& text = std::get<std::string>(row[kind]);
-    const auto is_same = [&](const PlotSeries& series) { return series.title == text; };
+  Plot plot{.name = name,
+            .title = std::string("Speed: ") + name_of(part),
+            .places = {"scene", "what"},
+            .x = {},
+            .y = {.label = part == SpeedPart::kernel     ? "ratio (more is better)"
+                           : part == SpeedPart::ablation ? "ratio (above 1 the skip wins)"
+                                                         : "ratio (less is better)",
+                  .least = 0},
+            .series = {}};
+  for (const auto& row : plotted.rows()) {
+    const auto& pair = std::get<std::string>(row[2]);
+    const auto is_same = [&](const PlotSeries& series) { return series.title == pair; };
     if (std::none_of(plot.series.begin(), plot.series.end(), is_same)) {
-      plot.series.push_back({text, height, {{table.columns()[kind].name, text}}, PlotMark::bars, plot.series.size() % 8});
+      plot.series.push_back({pair, "ratio", {{"pair", pair}}, PlotMark::bars, plot.series.size() % 8});
     }
   }
   return plot;

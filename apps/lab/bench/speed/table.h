@@ -1,4 +1,4 @@
-// The comparisons of `bench speed` as a table, and as pictures of it.
+// The comparisons of `bench speed` as tables, what they come to and all, and as pictures.
 #pragma once
 
 #include <span>
@@ -10,6 +10,11 @@
 
 namespace dmpc::apps {
 
+/// For each part, thing measured and pair the geometric mean of the ratios over scenes and kinds, in processor time, too, where
+/// there are two clocks, and of each kind by itself, and the outermost ones, in the order in which they come first; no mean where
+/// a ratio is 0.
+Table headline_of(std::span<const Comparison> comparisons, const std::string& title);
+
 /// A row for each comparison that has been measured, in their order.
 Table table_of(std::span<const Comparison> comparisons, const std::string& title);
 
@@ -19,8 +24,5 @@ Table plotted_table(SpeedPart part, std::span<const Comparison> comparisons);
 
 /// Bars of the ratios in a part's plotted table, side by side at each scene and what is compared.
 Plot plot_of(SpeedPart part, const Table& plotted, const std::string& name);
-
-/// `plot` with a series of bars for each text of the column number `kind`, in their order, as high as `height`.
-Plot with_bars(const std::string& height, std::size_t kind, const Table& table, Plot plot);
 
 }  // namespace dmpc::apps

@@ -12,7 +12,6 @@
 #include <thread>
 #include <vector>
 
-#include "apps/lab/bench/speed/ablation.h"
 #include "apps/lab/bench/speed/command.h"
 #include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/table.h"
@@ -53,39 +52,26 @@ std::string output_of(const SpeedOptions& options) {
   return output.str().starts_with("**") ? unfolded(output.str()) : output.str();
 }
 
+std::vector<Comparison> ablation_of(const Words& scenes) {
+  Words words = {"--ablation"};
+  words.insert(words.end(), scenes.begin(), scenes.end());
+  const SpeedOptions options = tiny_speed(words);
+  apps::Interrupt interrupt;
+  std::vector<Comparison> results;
+  apps::measure_ablation(options.settings, interrupt, results);
+  return results;
+}
+
 }  // namespace
 
-TEST_CASE("bench speed measures all its parts and holds them against what is to be reached") {
+TEST_CASE("bench speed measures all its parts") {
   const std::string table = output_of(tiny_speed());
-  for (const char* part : {"| svm on 64 nodes, virtual ",
-                           "our rays over the plain renderer's",
-                           "| kernel ",
-                           "| picture ",
-                           "| emulation ",
-                           "| build ",
-                           "| load ply ",
-                           "| memory ",
-                           "| packets on 2 threads ",
-                           "| forest on 8 nodes, pool ",
-                           "| svm on 64 nodes, pool, beside 8 busy ",
-                           "Writing the file, share of the command's processor time",
-                           "Loading a PLY or GLB file over Assimp's reading it, wall clock (worst of 2)",
-                           "| Embree robust ",
-                           "| Embree fast ",
-                           "| secondary",
-                           "| dataflow on 64 nodes ",
-                           "Kernel over Embree robust, records local",
-                           "Kernel over Embree robust, through the pager",
-                           "grid over Embree fast, threads: 1; closest hit",
-                           "paged bundles over Embree robust packets, threads: 1; closest hit",
-                           "Kernel in bundles over Embree robust, records local, primary and shadow, one thread",
-                           "Whole picture on 2 nodes",
-                           "64 nodes over 2",
-                           "8 nodes with a cache of 10 %",
-                           "Anonymous memory above",
-                           "Load of the machine"}) {
+  for (const char* part :
+       {"| svm on 64 nodes, virtual ", "| rays ", "| distance ", "| paths ", "| kernel ", "| emulation ", "| build ", "| memory ",
+        "| forest on 8 nodes, pool ", "| Embree robust ", "| Embree fast ", "secondary ", "| dataflow on 64 nodes ", "primary ",
+        "64 us ", "| replicated on 2 nodes, Embree ", "Load of the machine"}) {
     CAPTURE(std::string(part));
-    CHECK(contains(table, part) == (std::string(part) != "| secondary"));  // of which the scene has none
+    CHECK(contains(table, part) == (std::string(part) != "secondary "));  // of which the scene has none
   }
 }
 
@@ -96,7 +82,6 @@ TEST_CASE("bench speed holds a scene of the article against its table") {
   const std::string table = output_of(options);
   CHECK(contains(table, "| pages | database "));
   CHECK(contains(table, "| pages | mount-6-t6 | database "));
-  CHECK(contains(table, "Distinct pages a pixel over the article's (worst of 1)"));
 }
 
 TEST_CASE("bench speed prints its means first, and every comparison if asked or into a file") {
@@ -124,9 +109,9 @@ TEST_CASE("the kernel is measured for all classes, queries and threads, all in e
   apps::measure_kernel(options.settings, interrupt, results);
   CHECK(results.size() == 3 * 2 * 2 * kernel_pairs);
   for (const Comparison& one : results) {
-    CHECK(one.subject_figures.size() == 2);
-    CHECK(one.rival_figures.size() == 2);
-    CHECK(one.subject_figures.front() > 0);
+    CHECK(one.figures.subject.size() == 2);
+    CHECK(one.figures.rival.size() == 2);
+    CHECK(one.figures.subject.front() > 0);
   }
 }
 
@@ -135,14 +120,14 @@ TEST_CASE("who is in several of the kernel's comparisons has one figure of a rou
   apps::Interrupt interrupt;
   std::vector<Comparison> results;
   apps::measure_kernel(options.settings, interrupt, results);
-  using Figures = std::vector<double>;
+  using Each = std::vector<double>;
   for (std::size_t first = 0; first < results.size(); first += kernel_pairs) {
-    std::map<std::string, std::set<Figures>> figures;
+    std::map<std::string, std::set<Each>> figures;
     for (std::size_t i = first; i < first + kernel_pairs; ++i) {
-      figures[results[i].subject].insert(results[i].subject_figures);
-      figures[results[i].rival].insert(results[i].rival_figures);
+      figures[results[i].subject].insert(results[i].figures.subject);
+      figures[results[i].rival].insert(results[i].figures.rival);
     }
-    std::set<Figures> all;
+    std::set<Each> all;
     for (const auto& [contender, its] : figures) {
       CAPTURE(contender);
       CHECK(its.size() == 1);
@@ -156,18 +141,18 @@ TEST_CASE("who is in several of the kernel's comparisons has one figure of a rou
   }
 }
 
-TEST_CASE("a computer that is in several comparisons has one time in all") {
-  SpeedOptions options = tiny_speed();
+TEST_CASE("caches of each size are held against one that has all pages, and items of each work against the work alone") {
+  const SpeedOptions options = tiny_speed();
   apps::Interrupt interrupt;
   std::vector<Comparison> results;
   apps::measure_emulation(options.settings, interrupt, results);
   const auto of = [&](const std::string& subject) {
     return *std::find_if(results.begin(), results.end(), [&](const Comparison& one) { return one.subject == subject; });
   };
-  CHECK(of("svm on 64 nodes").rival_figures == of("svm on 8 nodes").rival_figures);
-  CHECK(of("svm on 8 nodes").subject_figures == of("10 %").rival_figures);
-  CHECK(of("5 %").rival_figures == of("25 %").rival_figures);
-  CHECK(of("5 %").subject_figures.size() == 2);
+  CHECK(of("5 %").figures.rival == of("25 %").figures.rival);
+  CHECK(of("5 %").figures.subject.size() == 2);
+  CHECK(of("64 nodes, pool").detail == "0.5 us");
+  CHECK(of("64 nodes, pool").figures.rival == of("64 nodes, threads").figures.rival);
 }
 
 TEST_CASE("bench speed writes its table and plots where they are asked for") {
@@ -212,66 +197,41 @@ TEST_CASE("an interrupted bench speed writes nothing before anything is measured
 }
 
 TEST_CASE("an ablation renders without each skip, without all, and with cutoffs, all in each round") {
-  SpeedOptions options = tiny_speed({"--ablation", "balls-2"});
-  apps::Interrupt interrupt;
-  std::vector<apps::Ablation> results;
-  apps::measure_ablation(options.settings, interrupt, results);
-  CHECK(results.size() == 2 * (1 + core::all_skips.size() + 2 + 2));
-  for (const apps::Ablation& one : results) {
-    CAPTURE(one.seconds.what);
-    CHECK(one.seconds.rounds() == 2);
-    CHECK(one.work_ratio > 0.5);
-    CHECK(one.is_exact() == !one.seconds.what.starts_with("cutoff"));
-    CHECK(one.avoided.has_value() == (one.seconds.what != "all" && !one.is_control()));
+  const std::vector<Comparison> results = ablation_of({"balls-2"});
+  constexpr std::size_t cutoffs = 2, controls = 2;
+  CHECK(results.size() == 2 * (2 * (1 + core::all_skips.size() + cutoffs + controls) + cutoffs));
+  for (const Comparison& one : results) {
+    CAPTURE(one.subject);
+    CHECK(one.figures.rounds() == (one.what == "error" ? 1 : 2));
     // With whom a ray of dataflow walks depends on the schedule, and so does its work, by some thousandths.
-    CHECK((!one.is_control() || std::abs(one.work_ratio - 1) < 0.02));
-    CHECK(one.noise > 0);
+    const bool is_control = one.what == "counted work" && one.subject == "the same again";
+    CHECK((!is_control || std::abs(ratio_of(one.figures).median - 1) < 0.02));
   }
-  CHECK(results.front().seconds.rival_figures == results[1].seconds.rival_figures);
-}
-
-TEST_CASE("an interrupted ablation has rows of whole rounds only") {
-  SpeedOptions options = tiny_speed({"--ablation"});
-  options.settings.rounds = 1000;
-  std::vector<apps::Ablation> results;
-  for (int milliseconds = 5; results.empty(); milliseconds *= 2) {
-    apps::Interrupt interrupt;
-    const std::jthread killer([=] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-      ::kill(::getpid(), SIGINT);
-    });
-    REQUIRE_THROWS_AS(apps::measure_ablation(options.settings, interrupt, results), apps::Interrupted);
-    for (const apps::Ablation& one : results) {
-      CHECK(one.seconds.subject_figures.size() == results.front().seconds.rounds());
-      CHECK(one.seconds.rival_figures.size() == results.front().seconds.rounds());
-      CHECK(one.avoided.has_value() == (one.seconds.what != "all" && !one.is_control()));
-    }
-  }
-  CHECK(results.front().work_ratio > 1);
+  CHECK(results.front().figures.rival == results[2].figures.rival);
 }
 
 TEST_CASE("skips that a scene needs not are worth nothing there, others are") {
-  SpeedOptions options = tiny_speed({"--ablation"});
-  apps::Interrupt interrupt;
-  std::vector<apps::Ablation> results;
-  apps::measure_ablation(options.settings, interrupt, results);
-  const auto of = [&](const std::string& skip) {
-    return *std::find_if(results.begin(), results.end(), [&](const apps::Ablation& one) { return one.seconds.what == skip; });
+  const std::vector<Comparison> results = ablation_of({});
+  const auto of = [&](const std::string& what, const std::string& subject) {
+    const auto found = std::find_if(results.begin(), results.end(),
+                                    [&](const Comparison& one) { return one.what == what && one.subject == subject; });
+    REQUIRE(found != results.end());
+    return ratio_of(found->figures).median;
   };
-  CHECK(of("all").work_ratio > 1.03);
-  CHECK(of("unlit").work_ratio > 1);
-  CHECK(*of("unlit").avoided > 0);
-  CHECK(of("background").work_ratio > 1);
-  CHECK(of("cutoff 1/255").work_ratio == 1);  // without mirrors nothing is weak
-  CHECK(*of("cutoff 1/255").error == 0);
+  CHECK(of("counted work", "without all skips") > 1.03);
+  CHECK(of("counted work", "without unlit") > 1);
+  CHECK(of("counted work", "without background") > 1);
+  CHECK(of("counted work", "without cutoff 1/255") == 1);  // without mirrors nothing is weak
+  CHECK(of("error", "with cutoff 1/255") == 0);
 }
 
-TEST_CASE("bench speed --ablation writes its own table and plot") {
+TEST_CASE("bench speed --ablation has a row for each skip, and its own plot") {
   const TemporaryFolder folder;
-  const std::string table = output_of(tiny_speed({"--ablation", "--plots=" + folder.path().string()}));
-  CHECK(contains(table, "| tetra-2 | background "));
-  CHECK(contains(table, "| cutoff 1/1024 | bounded "));
-  CHECK(contains(table, "any-hit: "));
+  const std::string table = output_of(tiny_speed({"--ablation", "--details", "--plots=" + folder.path().string()}));
+  for (const char* const cell : {"| counted work ", "| without background ", "| the same again ", "| with it, dataflow "}) {
+    CHECK_MESSAGE(contains(table, cell), cell);
+  }
+  CHECK(contains(table, "| ablation | tetra-2 | render "));
   CHECK(contains(table, "Load of the machine"));
   CHECK(std::filesystem::exists(folder / "speed_ablation.csv"));
 }
@@ -292,9 +252,29 @@ TEST_CASE("bench speed refuses what makes no sense before it begins") {
   CHECK(speed_options({}).parts == apps::all_speed_parts());
 }
 
+TEST_CASE("what was measured comes to a row for each pair, with means over scenes, by both clocks, and of each kind") {
+  const auto comparison = [](const char* scene, const char* detail, double figure) {
+    return Comparison{SpeedPart::kernel, scene, "any hit", detail, 1, "grid", "Embree fast", "", {{figure}, {1}}, {{3}, {1}}};
+  };
+  const std::vector<Comparison> results = {comparison("a", "primary", 1),
+                                           comparison("a", "bounce", 4),
+                                           comparison("b", "primary", 4),
+                                           comparison("b", "bounce", 16),
+                                           {.part = SpeedPart::build}};
+  const apps::Table table = apps::headline_of(results, "");
+  REQUIRE(table.rows().size() == 1);
+  const auto figure = [&](const char* column) { return apps::number_in(table, table.rows()[0], column).value(); };
+  CHECK(figure("ratio") == doctest::Approx(4));
+  CHECK(figure("least") == 1);
+  CHECK(figure("most") == 16);
+  CHECK(figure("in processor time") == doctest::Approx(3));
+  CHECK(figure("of") == 4);
+  CHECK(std::get<std::string>(table.rows()[0].back()) == "primary 2.000, bounce 8.000");
+}
+
 TEST_CASE("a plot of a part has a bar for each pair, the mean over what was traced") {
   const auto comparison = [](const char* detail, double figure) {
-    return Comparison{SpeedPart::kernel, "tetra-2", "any hit", detail, 1, "grid", "Embree fast", "", {figure}, {1}};
+    return Comparison{SpeedPart::kernel, "tetra-2", "any hit", detail, 1, "grid", "Embree fast", "", {{figure}, {1}}};
   };
   const std::vector<Comparison> results = {comparison("primary", 1), comparison("bounce", 4), {.part = SpeedPart::kernel}};
   const apps::Table table = plotted_table(SpeedPart::kernel, results);

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "apps/lab/bench/speed/crew.h"
+#include "apps/lab/bench/speed/embree_tree.h"
 #include "apps/lab/bench/speed/kernel_arena.h"
 #include "apps/lab/bench/speed/recording.h"
-#include "apps/lab/bench/speed/rival.h"
 #include "apps/lab/bench/speed/warm_pager.h"
 #include "tests/support/small_subject.h"
 
@@ -22,7 +22,7 @@ using apps::Coherence;
 using apps::Contender;
 using apps::EmbreeMode;
 using apps::EmbreeQuality;
-using apps::EmbreeRival;
+using apps::EmbreeTree;
 using apps::Query;
 using apps::RayClass;
 
@@ -49,7 +49,7 @@ TEST_CASE("the rival hits as many primary rays as our grid, triangles and sphere
     const std::uint64_t hits = hits_of(rays, records, subject.settings.header);
     REQUIRE(hits > 100);
     for (const EmbreeMode mode : {EmbreeMode::robust, EmbreeMode::fast}) {
-      const EmbreeRival rival(subject.database.primitives(), mode, EmbreeQuality::medium, 1);
+      const EmbreeTree rival(subject.database.primitives(), mode, EmbreeQuality::medium, 1);
       CHECK(rival.trace(rays, Query::closest) == hits);
       CHECK(rival.trace(rays, Query::any) == hits);
       CHECK(rival.trace({}, Query::any) == 0);
@@ -63,7 +63,7 @@ TEST_CASE("the rival hits as much by packets, full and not, as by single rays") 
     CAPTURE(std::string(scene));
     const apps::Subject subject = small_subject(scene, {30, 30});
     const apps::Recording recording = apps::record_rays(subject.database, subject.settings, 10'000);
-    const EmbreeRival rival(subject.database.primitives(), EmbreeMode::robust, EmbreeQuality::medium, 1);
+    const EmbreeTree rival(subject.database.primitives(), EmbreeMode::robust, EmbreeQuality::medium, 1);
     for (std::size_t i = 0; i < apps::ray_class_count; ++i) {
       const apps::BundledRays& rays = recording.rays[i];
       for (const Query query : {Query::closest, Query::any}) {
@@ -104,7 +104,7 @@ TEST_CASE("the rival looks no farther than a ray goes") {
   for (core::Ray& ray : rays) {
     ray.t_max = 1e-3F;
   }
-  const EmbreeRival rival(subject.database.primitives(), EmbreeMode::robust, EmbreeQuality::high);
+  const EmbreeTree rival(subject.database.primitives(), EmbreeMode::robust, EmbreeQuality::high);
   CHECK(rival.trace(rays, Query::closest) == 0);
   CHECK(rival.trace(rays, Query::any) == 0);
 }

@@ -29,6 +29,17 @@ TEST_CASE("parts are asked for by their names") {
   for (const char* text : {"", "kernels", "kernel, build", ","}) {
     CHECK_THROWS_AS(apps::parse_speed_parts(text), core::UsageError);
   }
+  CHECK_THROWS_WITH_AS(apps::parse_speed_parts("kernels"),
+                       "--parts=kernels: expected plain, paths, kernel, emulation, build, memory, pages, with commas "
+                       "between. Did you mean kernel?",
+                       core::UsageError);
+}
+
+TEST_CASE("a part that is gone is answered with what tells the same") {
+  for (const char* const part : {"kernel,load", "picture"}) {
+    CHECK_THROWS_WITH_AS(apps::parse_speed_parts(part), doctest::Contains("dmpc render --stats=FILE says what"),
+                         core::UsageError);
+  }
 }
 
 TEST_CASE("thread counts are ascending without repetition") {
@@ -43,7 +54,7 @@ TEST_CASE("without scenes each part has its own, in haste none of a million tria
   SpeedSettings settings;
   CHECK(settings.scenes_of(SpeedPart::kernel) == Words{"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9"});
   CHECK(has(settings.scenes_of(SpeedPart::build), "tetra-10"));
-  CHECK(settings.scenes_of(SpeedPart::load) == Words{"tetra-9", "tetra-10"});
+  CHECK(settings.scenes_of(SpeedPart::memory) == Words{"tetra-9", "tetra-10"});
   CHECK(settings.scenes_of(SpeedPart::pages).size() == 5);
   CHECK(settings.scenes_of(SpeedPart::plain).back() == "balls-2-t4");
   settings.is_quick = true;
@@ -66,7 +77,7 @@ TEST_CASE("rounds and pixels are the part's unless they are given") {
   CHECK(settings.rounds_of(SpeedPart::kernel) == 7);
   CHECK(settings.rounds_of(SpeedPart::build) == 3);
   CHECK(settings.picture_of(SpeedPart::emulation, "tetra-2").resolution->width == 1024);
-  CHECK(settings.picture_of(SpeedPart::picture, "tetra-2").resolution->height == 512);
+  CHECK(settings.picture_of(SpeedPart::kernel, "tetra-2").resolution->height == 512);
   settings.is_quick = true;
   CHECK(settings.rounds_of(SpeedPart::kernel) == 3);
   CHECK(settings.rounds_of(SpeedPart::build) == 1);

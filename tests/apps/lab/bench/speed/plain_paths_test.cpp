@@ -9,7 +9,7 @@
 #include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/bench/speed/path_distance.h"
 #include "apps/lab/bench/speed/path_scene.h"
-#include "apps/lab/bench/speed/plain_path_renderer.h"
+#include "apps/lab/bench/speed/plain_renderer.h"
 #include "core/base/expect.h"
 #include "core/picture/render.h"
 #include "tests/support/small_subject.h"
@@ -18,8 +18,8 @@ namespace dmpc::tests::plain_paths_test {
 
 using apps::Comparison;
 using apps::PathDistance;
-using apps::PlainPathRenderer;
 using apps::PlainPicture;
+using apps::PlainRenderer;
 using apps::SpeedPart;
 
 namespace {
@@ -87,7 +87,7 @@ core::Film film_of(const apps::Subject& subject, std::uint64_t& rays) {
 Compared compare(const apps::Subject& subject, const std::string& scene) {
   std::uint64_t rays = 0;
   const core::Film film = film_of(subject, rays);
-  const PlainPicture picture = PlainPathRenderer(subject).render(1);
+  const PlainPicture picture = PlainRenderer(subject).render(1);
   return {static_cast<double>(picture.rays) / static_cast<double>(rays), apps::path_distance(picture, film, scene)};
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("without a sky the plain path tracer's eye and mirrors see the backdro
 
 TEST_CASE("the plain path tracer's picture is the same on any number of threads") {
   const apps::Subject subject = subject_by_paths("teapot-3", 2, true);
-  const PlainPathRenderer renderer(subject);
+  const PlainRenderer renderer(subject);
   const PlainPicture one = renderer.render(1), three = renderer.render(3);
   CHECK(std::ranges::equal(one.pixels.span(), three.pixels.span()));
   CHECK(one.rays == three.rays);
@@ -141,14 +141,14 @@ TEST_CASE("a path picture that is brighter than ours, or beyond our noise, is an
   const apps::Subject subject = subject_by_paths("tetra-2", 2, true);
   std::uint64_t rays = 0;
   const core::Film film = film_of(subject, rays);
-  PlainPicture picture = PlainPathRenderer(subject).render(1);
+  PlainPicture picture = PlainRenderer(subject).render(1);
   CHECK_NOTHROW(apps::path_distance(picture, film, "tetra-2"));
   picture.pixels[7].y += 10;
   CHECK_THROWS_WITH_AS(apps::path_distance(picture, film, "tetra-2"),
                        doctest::Contains("the plain path tracer's picture of tetra-2 lies"), core::InternalError);
 }
 
-TEST_CASE("part paths holds ours against the plain path tracer on as many threads, by processor time") {
+TEST_CASE("part paths holds ours against the plain path tracer on as many threads, by both clocks") {
   apps::SpeedSettings settings;
   settings.scenes = {"tetra-2"};
   settings.resolution = {16, 16};
@@ -156,15 +156,17 @@ TEST_CASE("part paths holds ours against the plain path tracer on as many thread
   apps::Interrupt interrupt;
   std::vector<Comparison> results;
   apps::measure_paths(settings, interrupt, results);
-  REQUIRE(results.size() == 8);
-  CHECK(results[0].subject == "replicated on 1 node");
-  CHECK(results[0].rival == "plain paths on 1 thread");
-  CHECK(results[1].subject == "svm on 2 nodes");
-  CHECK(results[1].rival == "plain paths on 2 threads");
-  CHECK(results[0].rounds() == 2);
-  CHECK(results[2].what == "rays");
-  CHECK(results[3].what == "distance");
-  CHECK(results[4].scene == "tetra-2 with balls of light and metal");
+  REQUIRE(results.size() == 2 * 6);
+  CHECK(results[0].subject == "plain on 1 thread");
+  CHECK(results[2].subject == "replicated on 1 node");
+  CHECK(results[2].rival == "plain on 1 thread");
+  CHECK(results[3].subject == "svm on 2 nodes");
+  CHECK(results[3].rival == "plain on 2 threads");
+  CHECK(results[3].figures.rounds() == 2);
+  CHECK(results[3].processor.rounds() == 2);
+  CHECK(results[4].what == "rays");
+  CHECK(results[5].what == "distance");
+  CHECK(results[6].scene == "tetra-2 with balls of light and metal");
 }
 
 }  // namespace dmpc::tests::plain_paths_test
