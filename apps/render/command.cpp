@@ -25,7 +25,6 @@
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
-#include "apps/effort/render_effort.h"
 #include "apps/oracle/oracle.h"
 #include "apps/picture/film_image.h"
 #include "apps/render/checkpoints.h"
@@ -355,7 +354,6 @@ class Rendering {
 
   /// What the user should know before waiting for the first picture.
   void foretell() {
-    announce_long();
     if (frame_) {
       say({disk_note(asked_, frames_left(), settings_->camera.pixel_count())});
     }
@@ -373,23 +371,6 @@ class Rendering {
     seconds_.prepare = stopwatch.lap();
     if (!options_.quiet) {
       tell_once(ready_.notes);
-    }
-  }
-
-  /// How long a long render will take, where somebody waits; without what is done already.
-  void announce_long() {
-    if (options_.quiet || !stderr_is_terminal()) {
-      return;
-    }
-    const Interrupt::EndAtOnce end_at_once(interrupt_);
-    const double samples = static_cast<double>(subject_->settings.camera.pixel_count()) * options_.picture.samples;
-    Effort effort = render_effort(options_, *subject_);
-    effort.seconds *= std::max(0.0, 1 - static_cast<double>(samples_found_done()) / samples);
-    effort.seconds *= frame_ ? static_cast<double>(frames_left()) : 1;
-    if (is_long(effort)) {
-      announce("render " + options_.picture.scene + (frame_ ? ", " + counted(frames_left(), "frame") : "") +
-                   (options_.picture.is_refined ? ", at least" : ""),
-               effort, options_.quiet, std::cerr);
     }
   }
 

@@ -61,8 +61,8 @@ const std::map<std::string, Names> words_of_core = {
 /// Rooms from the ground up: each uses those that stand before it. What lies on the floor of the library itself uses all.
 const std::map<std::string, Names> rooms = {
     {"core", {"record", "scene", "database", "trace", "picture", "families"}},
-    {"apps/edge", {"line", "manual", "system", "ranks", "web", "picture", "table", "machine", "run", "effort", "help", "show"}},
-    {"apps", {"reader", "picture", "formats", "scene", "oracle", "run", "effort", "help", "show", "render", "view", "info", "program"}},
+    {"apps/edge", {"line", "manual", "system", "ranks", "web", "picture", "table", "machine", "run", "help", "show"}},
+    {"apps", {"reader", "picture", "formats", "scene", "oracle", "run", "help", "show", "render", "view", "info", "program"}},
     {"apps/lab", {"crowd", "figures", "difference", "oracle", "check", "compare", "study", "bench"}},
 };
 

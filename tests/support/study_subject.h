@@ -29,7 +29,7 @@ struct StudySubject {
   apps::Subject subject;
   apps::Interrupt interrupt;
   std::ostringstream progress;
-  apps::StudyRuns runs{subject.database, subject.settings, {progress, true, 9}, interrupt};
+  apps::StudyRuns runs{subject.database, subject.settings, {progress, true}, interrupt};
 };
 
 }  // namespace dmpc::tests

@@ -11,7 +11,6 @@
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/system/progress.h"
-#include "apps/effort/render_effort.h"
 #include "apps/lab/check/inspection.h"
 #include "apps/run/instance_options.h"
 #include "apps/scene/load_scene.h"
@@ -215,15 +214,6 @@ std::uint64_t print_report(std::ostream& output, const CheckOptions& options, co
   return unexplained + failed;
 }
 
-void announce_effort(const CheckOptions& options, const Subject& subject) {
-  if (options.quiet || !stderr_is_terminal()) {
-    return;
-  }
-  if (const Effort effort = check_effort(subject); is_long(effort)) {
-    announce("check " + options.picture.scene, effort, options.quiet, std::cerr);
-  }
-}
-
 }  // namespace
 
 void add_options(OptionSet options, CheckOptions& check) {
@@ -266,7 +256,6 @@ int check_command(const CheckOptions& options, Interrupt& interrupt, std::ostrea
   const Interrupt::EndAtOnce end_at_once(interrupt);
   core::Scene scene = load_scene(options.picture);
   const Subject subject = build_subject(std::move(scene), options.picture, options.database, true);
-  announce_effort(options, subject);
   const core::Database& database = subject.database;
   const core::RenderSettings& settings = subject.settings;
   const Inspection inspection = inspect_shown(options, database, settings);

@@ -127,11 +127,8 @@ std::vector<Plot> BalanceStudy::plots() const {
       curves("balance_load", "Average load of the nodes", "nodes", node_axis(), percent_axis("average load"), std::move(series))};
 }
 
-std::vector<PlannedRun> BalanceStudy::planned() const {
-  return planned_for(node_counts, std::vector<PlannedRun>(cuttings.size(), {Strategy::dataflow}));
-}
-
 void BalanceStudy::measure(StudyRuns& runs, Table& table) const {
+  runs.expect_runs(node_counts.size() * cuttings.size());
   const FilledColumns<BalanceRow> columns = balance_columns(*this);
   for (const std::uint32_t node_count : node_counts) {
     for (const Cutting& cutting : cuttings) {

@@ -141,13 +141,6 @@ std::vector<Plot> CacheStudy::plots() const {
   return plots;
 }
 
-std::vector<PlannedRun> CacheStudy::planned() const {
-  constexpr std::size_t policies_run = 3;  // feeding the caches of all policies takes about as long
-  constexpr double times = 2.5;            // small caches miss often
-  const std::size_t sizes = cache_pages.empty() ? standard_size_count : cache_pages.size();
-  return std::vector<PlannedRun>(1 + sizes * (policies_run + (machine ? 1 : 0)), {Strategy::svm, node_count, true, times});
-}
-
 void CacheStudy::measure(StudyRuns& runs, Table& table) const {
   svm::Report recorded = runs.run(std::to_string(node_count) + " nodes, recording", recording(node_count));
   const std::uint32_t page_count = recorded.plan.request.page_count;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "apps/edge/table/plot.h"
-#include "apps/effort/planned_run.h"
 #include "apps/lab/study/engine/study_line.h"
 #include "apps/lab/study/policies.h"
 #include "apps/lab/study/runs.h"
@@ -34,8 +33,6 @@ struct CacheStudy {
   void add_options(StudyLine line);
   std::vector<Column> columns() const;
   std::vector<Plot> plots() const;
-  /// About as many as there will be: how many depends on the first one.
-  std::vector<PlannedRun> planned() const;
   void measure(StudyRuns& runs, Table& table) const;
   std::vector<std::string> notes(const std::string& scene) const;
   std::string conclusion(const Table& table) const;

@@ -14,8 +14,6 @@
 #include "apps/edge/system/progress.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
-#include "apps/effort/effort.h"
-#include "apps/lab/study/effort.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/runs.h"
 #include "apps/render/picture_identity.h"
@@ -145,23 +143,6 @@ void measure(const OneStudy& study, StudyRuns& runs, Table& table) {
   }
 }
 
-/// A signal ends the process here and now.
-template <class OneStudy>
-void announce_effort(const OneStudy& study, const StudyOptions& options, const Subject& subject, Interrupt& interrupt) {
-  if (!options.quiet && stderr_is_terminal()) {
-    const Interrupt::EndAtOnce end_at_once(interrupt);
-    const std::vector<PlannedRun> runs = study.planned();
-    const std::string what = std::string("study ") + OneStudy::name + ", " + counted(runs.size(), "run");
-    announce(what, effort_of(runs, subject), options.quiet, std::cerr);
-  }
-}
-
-/// 0 where that is known after the first one.
-template <class OneStudy>
-std::uint32_t run_count(const OneStudy& study) {
-  return std::is_same_v<OneStudy, CacheStudy> ? 0 : static_cast<std::uint32_t>(study.planned().size());
-}
-
 /// A study that compares structures is given the scene to build them from.
 void give_scene(SystemsStudy& study, const core::Scene& scene, const StudyOptions& options) {
   study.build = [&scene, &options](const core::BuildOptions& asked) {
@@ -199,11 +180,10 @@ int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& fil
     study.own_view = view;
     study.bounds = bounds;
   }
-  announce_effort(study, options, subject, interrupt);
   Table table = empty_table(study, options, subject);
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   table.set_listener([&shown](const Table& rows) { shown.show(rows); });
-  StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal(), run_count(study)}, interrupt);
+  StudyRuns runs(subject.database, subject.settings, {std::cerr, stderr_is_terminal()}, interrupt);
   const auto write = [&](bool is_whole, Attempts& attempts) {
     table.add_note(film_note(runs));
     std::optional<Interrupt::EndAtOnce> end_at_once;

@@ -259,18 +259,6 @@ std::vector<Plot> FramesStudy::plots() const {
            .series = std::move(times)}};
 }
 
-std::vector<PlannedRun> FramesStudy::planned() const {
-  constexpr std::size_t with_pages = 4;
-  std::vector<PlannedRun> planned;
-  for (const std::uint32_t node_count : node_counts) {
-    const std::size_t frames = 2 * std::size_t{frame_count} * machines.size();
-    planned.insert(planned.end(), with_pages * frames, {Strategy::svm, node_count, true});
-    planned.insert(planned.end(), frames, {Strategy::dataflow, node_count, true});
-    planned.insert(planned.end(), frames, {Strategy::forest, node_count, true});
-  }
-  return planned;
-}
-
 void FramesStudy::measure(StudyRuns& runs, Table& table) const {
   const Subject tree = build_tree();
   const FrameRuns as_asked(*this, runs.database(), runs.settings(), runs), in_tree(*this, tree.database, tree.settings, runs);

@@ -18,7 +18,7 @@
 namespace dmpc::apps {
 
 /// One study: its file is all that there is of it. Each has a `name` (the word on the command line) and a `description`;
-/// add_options() declares what is its own; planned() are the runs that it will make; columns() are its table's, plots() of such a
+/// add_options() declares what is its own; columns() are its table's, plots() of such a
 /// table; notes() say what the columns mean, and what the 1994 article found if the scene, as on the command line, is one of its
 /// own; conclusion() is a sentence or two on a table, computed from its rows, empty if they tell too little. measure() adds row
 /// after row to a table that has columns(), as the runs end, and throws as StudyRuns does.

@@ -49,10 +49,10 @@ StudyRuns::StudyRuns(const core::Database& database, const core::RenderSettings&
   alone_.skips.bundles = false;
 }
 
-/// The numbers of the next ones: "3 of 8", "3 to 8 of 8".
+/// The numbers of the next ones: "3 of 8", "3 to 8".
 std::string StudyRuns::numbers(std::size_t run_count) const {
   const std::string last = run_count == 1 ? "" : " to " + std::to_string(count_ + run_count);
-  const std::string all = progress_.run_count == 0 ? "" : " of " + std::to_string(progress_.run_count);
+  const std::string all = expected_ == 0 ? "" : " of " + std::to_string(expected_);
   return std::to_string(count_ + 1) + last + all;
 }
 

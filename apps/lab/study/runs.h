@@ -27,7 +27,6 @@ namespace dmpc::apps {
 struct StudyProgress {
   std::ostream& output;
   bool is_shown = false;
-  std::uint32_t run_count = 0;  ///< of the whole study; 0: not known
 };
 
 /// What became of a run on a modelled machine.
@@ -66,6 +65,8 @@ class StudyRuns {
   StudyRuns(const core::Database& database, const core::RenderSettings& settings, const StudyProgress& progress,
             const Interrupt& interrupt);
 
+  /// So many there will be in all, which progress tells from now on.
+  void expect_runs(std::size_t count) { expected_ = count; }
   /// Renders with strategy dataflow or svm and the given options, whose progress is replaced. `computer` says which they are, in
   /// a few words, to who is waiting. Rays that travel walk alone: with whom else they walk depends on the schedule, and their
   /// work on that. Throws as the run does, Interrupted if a signal comes before its end, and core::InternalError if the film is
@@ -114,6 +115,7 @@ class StudyRuns {
   core::RenderSettings alone_;  ///< the same, for rays that walk alone
   StudyProgress progress_;
   const Interrupt& interrupt_;
+  std::size_t expected_ = 0;  ///< 0: not known
   std::uint32_t count_ = 0;
   std::optional<std::uint64_t> film_hash_;
 };

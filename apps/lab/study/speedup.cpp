@@ -116,8 +116,6 @@ std::vector<Plot> SpeedupStudy::plots() const {
           std::move(losses)};
 }
 
-std::vector<PlannedRun> SpeedupStudy::planned() const { return planned_for(node_counts, {{run.strategy, 1, true}}); }
-
 void SpeedupStudy::measure(StudyRuns& runs, Table& table) const {
   std::vector<StrategyOptions> options(node_counts.size(), run);
   for (std::size_t i = 0; i < options.size(); ++i) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "apps/edge/table/plot.h"
-#include "apps/effort/planned_run.h"
 #include "apps/lab/study/engine/study_line.h"
 #include "apps/lab/study/runs.h"
 
@@ -25,7 +24,6 @@ struct SpeedupStudy {
   void add_options(StudyLine line);
   std::vector<Column> columns() const;
   std::vector<Plot> plots() const;
-  std::vector<PlannedRun> planned() const;
   /// Adds to `table`, which has columns(), a row for each node count, those that were finished after a signal; and notes: why a
   /// row is empty (the scene does not fit so many nodes), and what was reduced to fit. Throws as StudyRuns does:
   /// NothingFits when all rows are there, without figures.

@@ -297,14 +297,6 @@ std::vector<Plot> SystemsStudy::plots() const {
   return plots;
 }
 
-std::vector<PlannedRun> SystemsStudy::planned() const {
-  std::vector<PlannedRun> planned;
-  for (const SystemRun& run : plan_of(*this).runs) {
-    planned.push_back({strategy_of(run.system).strategy, run.node_count, true});
-  }
-  return planned;
-}
-
 void SystemsStudy::measure(StudyRuns& runs, Table& table) const {
   const SystemPlan plan = plan_of(*this);
   Structures built({&runs.database(), &runs.settings()}, build);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "apps/edge/table/plot.h"
-#include "apps/effort/planned_run.h"
 #include "apps/lab/study/engine/study_line.h"
 #include "apps/lab/study/memory_rule.h"
 #include "apps/lab/study/runs.h"
@@ -48,7 +47,6 @@ struct SystemsStudy {
   void add_options(StudyLine line);
   std::vector<Column> columns() const;
   std::vector<Plot> plots() const;
-  std::vector<PlannedRun> planned() const;
   /// Adds to `table`, which has columns(), the rows; notes: why a system does not fit, and which of the expectations that were
   /// written down before the first of these runs have held. A system that memory does not change has one run for all rules, and
   /// one that has the structure that it had one for both.

@@ -87,11 +87,8 @@ std::vector<Plot> TrafficStudy::plots() const {
                  {{.title = "rays travel", .column = "dataflow memory", .color = 1}, {"pages travel", "svm memory"}})};
 }
 
-std::vector<PlannedRun> TrafficStudy::planned() const {
-  return planned_for(node_counts, {{Strategy::dataflow}, {Strategy::dataflow}, {Strategy::svm}});
-}
-
 void TrafficStudy::measure(StudyRuns& runs, Table& table) const {
+  runs.expect_runs(3 * node_counts.size());
   for (const std::uint32_t node_count : node_counts) {
     const auto by_rays = [&](Balance balance, const char* regions) {
       return runs.run(std::to_string(node_count) + " nodes, dataflow, regions " + regions,

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "apps/edge/table/plot.h"
-#include "apps/effort/planned_run.h"
 #include "apps/lab/study/engine/study_line.h"
 #include "apps/lab/study/runs.h"
 
@@ -22,7 +21,6 @@ struct TrafficStudy {
   void add_options(StudyLine line);
   std::vector<Column> columns() const;
   std::vector<Plot> plots() const;
-  std::vector<PlannedRun> planned() const;
   void measure(StudyRuns& runs, Table& table) const;
   std::vector<std::string> notes(const std::string& scene) const;
   std::string conclusion(const Table& table) const;

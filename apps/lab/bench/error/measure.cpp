@@ -7,10 +7,7 @@
 #include <utility>
 
 #include "apps/edge/system/progress.h"
-#include "apps/edge/system/real_load.h"
 #include "apps/edge/table/rounds.h"
-#include "apps/effort/effort.h"
-#include "apps/effort/pilot.h"
 #include "apps/lab/bench/error/path_reference.h"
 #include "apps/lab/oracle/accurate/picture.h"
 #include "apps/lab/study/engine/timed_render.h"
@@ -131,7 +128,6 @@ class Bench {
   }
 
   void measure() {
-    announce_effort();
     find_reference();
     find_accurate();
     plan();
@@ -141,23 +137,6 @@ class Bench {
   }
 
  private:
-  /// By the base point's picture: double precision takes longer a ray, most other points take less. A reference that is kept from
-  /// before takes nothing; that is found out later.
-  void announce_effort() {
-    if (options_.is_quiet || !stderr_is_terminal()) {
-      return;
-    }
-    constexpr double double_factor = 3.5, quick_renders = 8, renders = 18;
-    const Scenes::Built& built = scenes_.exact();
-    const core::Database& database = built.subject.database;
-    const PictureOptions base = picture_of(options_.picture, result_.base);
-    const double picture = picture_seconds(database, render_settings(base, built.scene, database));
-    const double side = options_.reference.samples_a_side, factor = result_.base.is_by_paths() ? 1 : double_factor;
-    const double reference = factor * picture * side * side / result_.base.samples;
-    const double rounds = static_cast<double>(options_.rounds) * (options_.is_quick ? quick_renders : renders) * picture;
-    announce("bench error " + result_.scene, {.seconds = (reference + rounds) / core_count()}, false, std::cerr);
-  }
-
   /// An error smaller than the reference's own could not be seen.
   void plan() {
     SweepOptions options{.knobs = options_.knobs,

@@ -24,7 +24,6 @@ struct MeasureOptions {
   StrategyOptions strategy;  ///< that renders, on threads
   std::set<Knob> knobs;      ///< tessellation only of scenes that can be
   bool is_quick = false;
-  bool is_quiet = false;  ///< nothing is said of how long it will take
   std::size_t rounds = 3;
   ReferenceOptions reference;
   std::optional<std::filesystem::path> pictures;  ///< an existing folder for pictures of the errors

@@ -10,7 +10,6 @@
 #include "apps/edge/table/filled_columns.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
-#include "apps/effort/effort.h"
 #include "apps/lab/bench/precision/expectation.h"
 #include "apps/lab/bench/precision/precision.h"
 #include "apps/lab/study/engine/tabled_job.h"
@@ -114,13 +113,6 @@ void describe_errors(const PrecisionRow& row, Table& table) {
   }
 }
 
-/// By processor time of a server's core in November 2026.
-Effort effort_of(const PrecisionOptions& options, std::size_t scene_count) {
-  constexpr double pixel_seconds = 5e-6;
-  const double pixels = static_cast<double>(options.resolution.width) * options.resolution.height;
-  return {.seconds = pixel_seconds * pixels * static_cast<double>(scene_count)};
-}
-
 Precision measure(const PrecisionOptions& options, const std::string& name, const TableFiles& files, Interrupt& interrupt) {
   PictureOptions picture{.scene = name, .resolution = options.resolution, .depth = options.depth, .staging = options.staging};
   const core::Scene scene = load_scene_beside(picture, files.names());
@@ -202,7 +194,6 @@ void add_options(OptionSet set, PrecisionOptions& options) {
 int bench_precision_command(const PrecisionOptions& options, Interrupt& interrupt, std::ostream& output) {
   const TableFiles files = files_of(options);
   const std::vector<std::string> scenes = options.scenes.empty() ? all_families() : options.scenes;
-  announce("bench precision", effort_of(options, scenes.size()), options.quiet, std::cerr);
   Table table = empty_table(options);
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   table.set_listener([&shown](const Table& rows) { shown.show(rows); });

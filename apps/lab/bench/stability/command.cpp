@@ -7,7 +7,6 @@
 #include "apps/edge/line/words.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/table/table_files.h"
-#include "apps/effort/effort.h"
 #include "apps/lab/bench/stability/run.h"
 #include "apps/lab/bench/stability/state.h"
 #include "apps/lab/bench/stability/table.h"
@@ -87,15 +86,6 @@ class KeptRun {
   Clock::time_point saved_ = Clock::now();
 };
 
-/// By processor time of a server's core in November 2026, all tests taken as alike; the long run has 10^9 rays of one test and
-/// fewer of others.
-Effort effort_of(const StabilityOptions& options) {
-  constexpr double row_ray_seconds = 8.5e-4, long_seconds = 4 * 3600;
-  constexpr double test_count = 15;
-  const double share = options.tests.empty() ? 1 : static_cast<double>(options.tests.size()) / test_count;
-  return {.seconds = share * (options.is_long ? long_seconds : row_ray_seconds * static_cast<double>(options.rays))};
-}
-
 }  // namespace
 
 void add_options(OptionSet set, StabilityOptions& options) {
@@ -129,7 +119,6 @@ void add_options(OptionSet set, StabilityOptions& options) {
 
 int bench_stability_command(const StabilityOptions& options, Interrupt& interrupt, std::ostream& output) {
   const TableFiles files = files_of(options);
-  announce("bench stability", effort_of(options), options.quiet, std::cerr);
   const StabilityRun run(stability_cases({options.rays}, options.tests), options.seed);
   KeptRun kept(options, run);
   const auto result = [&](bool) -> TableResult {

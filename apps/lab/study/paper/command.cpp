@@ -5,15 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/edge/system/attempts.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/system/output_set.h"
-#include "apps/edge/system/real_load.h"
 #include "apps/edge/system/scratch_folder.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_options.h"
-#include "apps/effort/effort.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/paper/calibration.h"
 #include "apps/lab/study/paper/catalogue.h"
@@ -121,17 +118,6 @@ void show_rows(const Catalogue& catalogue, const PaperResults& results, ShownRow
   }
 }
 
-/// By processor time of a server's core in November 2026. A plain grid has several times the records read.
-Effort effort_of(const Catalogue& catalogue) {
-  constexpr double pixel_seconds = 6e-6, voxel_pixel_seconds = 30e-6;
-  double seconds = 0;
-  for (const PaperRun& run : catalogue.runs) {
-    const double pixels = static_cast<double>(run.resolution) * run.resolution;
-    seconds += pixels * (run.structure == core::Structure::voxels ? voxel_pixel_seconds : pixel_seconds);
-  }
-  return {.seconds = seconds / core_count()};
-}
-
 }  // namespace
 
 void add_options(OptionSet options, PaperStudyOptions& paper) {
@@ -153,7 +139,6 @@ int study_paper_command(const PaperStudyOptions& options, Interrupt& interrupt, 
   Catalogue catalogue = catalogue_of(options.resolution);
   const std::vector<VariedRuns> varied = options.has_sensitivity ? add_variations(catalogue) : std::vector<VariedRuns>();
   check_files(options, report_of(catalogue, varied, PaperResults(catalogue.runs.size()), {}));
-  announce("study paper, " + counted(catalogue.runs.size(), "run"), effort_of(catalogue), options.quiet, std::cerr);
   return study_catalogue(catalogue, varied, options, interrupt, output);
 }
 

@@ -6,12 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/system/real_load.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
-#include "apps/effort/effort.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/lab/study/scale/measure.h"
 #include "apps/lab/study/scale/table.h"
@@ -98,22 +96,6 @@ void add_computer(OptionSet& set, ScaleSettings& settings) {
   set.add_number("--repeat", settings.rounds, 1, 1000, "1", "Runs of each row, of which it has the medians");
 }
 
-/// By processor time of a server's core in November 2026: what a primitive takes to be built, and a pixel to be rendered. The
-/// largest scene says how much memory is needed.
-Effort effort_of(const std::vector<ScaleRun>& runs, const ScaleSettings& settings) {
-  constexpr double primitive_seconds = 3e-6, pixel_seconds = 8e-6;
-  constexpr std::uint64_t primitive_bytes = 360;
-  const double pixels = static_cast<double>(settings.resolution.width) * settings.resolution.height;
-  double seconds = 0;
-  std::uint64_t most = 0;
-  for (const ScaleRun& run : runs) {
-    const std::uint64_t primitives = core::primitive_count(run.scene);
-    most = std::max(most, primitives);
-    seconds += primitive_seconds * static_cast<double>(primitives) + pixel_seconds * pixels;
-  }
-  return {static_cast<double>(settings.rounds) * seconds / core_count(), static_cast<std::size_t>(most * primitive_bytes)};
-}
-
 }  // namespace
 
 void add_options(OptionSet set, ScaleOptions& options) {
@@ -135,7 +117,6 @@ int study_scale_command(const ScaleOptions& options, Interrupt& interrupt, std::
   if (runs.empty()) {
     throw core::InputError("there is nothing to run: part nodes has none of the methods asked for");
   }
-  announce("study scale, " + counted(runs.size(), "run"), effort_of(runs, options.settings), options.quiet, std::cerr);
   const double load = machine_load();
   ShownRows shown(shows_rows(options.table, options.quiet), std::cerr);
   std::vector<ScaleResult> results;

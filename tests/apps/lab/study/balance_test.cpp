@@ -30,7 +30,7 @@ TEST_CASE("balance has a row for each node count and way to cut") {
   StudySubject subject("rings-2-t1");
   const Table table = subject.measure(study);
   REQUIRE(table.rows().size() == 8);
-  CHECK(subject.runs.count() == study.planned().size());
+  CHECK(subject.runs.count() == 8);
   CHECK(whole(table, 1, "nodes") == 2);
   CHECK(whole(table, 4, "nodes") == 5);
   CHECK(std::get<std::string>(cell(table, 4, "regions")) == "subsampled");

@@ -71,8 +71,7 @@ TEST_CASE("every system has a row for each rule of memory, and one run for all r
   const Table table = subject.measure(study);
   REQUIRE(table.rows().size() == 2 * 3 * count);
   constexpr std::size_t alone = 3;  // one node with voxels, a tree, a grid
-  CHECK(study.planned().size() == alone + count + 2 * with_cache + static_cast<std::size_t>(changed + 2 * changed_with_cache));
-  CHECK(subject.runs.count() == study.planned().size());
+  CHECK(subject.runs.count() == alone + count + 2 * with_cache + static_cast<std::size_t>(changed + 2 * changed_with_cache));
   for (std::size_t row = 0; row < table.rows().size(); ++row) {
     CAPTURE(row);
     CHECK(text(table, row, "system") == name_of(study.chosen[row % count]));
