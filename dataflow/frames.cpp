@@ -8,7 +8,6 @@
 #include "dataflow/packets.h"
 #include "dataflow/ranks.h"
 #include "nodes/gathering.h"
-#include "nodes/ranks/repeated_runs.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -126,96 +125,73 @@ HostCounters since(const HostCounters& now, const HostCounters& before) {
   HostCounters counters = core::counts_since(now, before);
   counters.rays_kept_max = now.rays_kept_max;
   counters.kept_bytes_max = now.kept_bytes_max;
+  counters.deposits_saturated = now.deposits_saturated;
   return counters;
-}
-
-core::Film film_of(const core::RenderSettings& settings) {
-  return core::Film(settings.camera.width(), settings.camera.height(), settings.shade.film_scale,
-                    core::planes_for(settings.first_samples().count));
 }
 
 }  // namespace
 
 Frames::Frames(const Prepared& prepared, const core::RenderSettings& first, const RunOptions& options,
                const std::stop_token& stop)
-    : prepared_(prepared),
-      options_(options),
-      settings_(first),
-      detail_(prepared.detail),
-      plan_(prepared.plan),
-      film_(options.continuation.start != nullptr ? options.continuation.start->film : film_of(first)) {
-  core::expect(film_.pixel_count() == first.camera.pixel_count(), "what is gone on with is of the same picture");
-  core::expect(options_.watching.heat == nullptr || options_.watching.heat->item_count() == film_.pixel_count(),
-               "a heat map is of the picture's size");
+    : prepared_(prepared), options_(options), settings_(first), detail_(prepared.detail), plan_(prepared.plan) {
   before_.nodes.resize(plan_.node_count());
   if (options_.computer.ranks != nullptr) {
     hand_out(plan_, prepared_.distribution, settings_, options_.watching.elsewhere.order, options_.are_frames,
              *options_.computer.ranks);
   }
-  runner_ = nodes::make_runner(specifications_of(plan_, prepared_.distribution, settings_, film_, options_, stop, &detail_),
-                               options_.computer, options_.watching.observer);
+  computer_.emplace(
+      pictures::film_of(plan_.request, first.shade.film_scale, options.continuation.start),
+      [&](core::Film& film) {
+        return specifications_of(plan_, prepared_.distribution, settings_, film, options_, stop, &detail_);
+      },
+      options_.computer, options_.watching);
   if (options_.watching.distributed) {
     options_.watching.distributed();
   }
 }
-
-HostProgram& Frames::host() const { return dynamic_cast<HostProgram&>(runner_->program(plan_.node_count())); }
 
 Report Frames::render(const core::RenderSettings& settings, const core::FineDetail& detail, std::stop_token stop) {
   core::expect(options_.are_frames, "several frames are said to be several");
   options_.continuation.start = nullptr;  // of the first frame
   settings_ = settings;
   detail_ = detail;
-  film_ = film_of(settings_);
-  for (std::uint32_t i = 0; i < plan_.node_count(); ++i) {
-    if (runner_->is_here(i)) {
-      dynamic_cast<NodeProgram&>(runner_->program(i)).begin_frame(settings_);
-    }
-  }
-  host().begin_frame(&detail_);
-  if (options_.computer.ranks != nullptr) {
-    nodes::hand_out_again(settings_, *options_.computer.ranks);
-  }
+  computer_->begin_frame(pictures::film_of(plan_.request, settings.shade.film_scale), settings_, &detail_);
   return render(std::move(stop));
 }
 
 Report Frames::render(std::stop_token stop) {
   const core::PartialPicture* const start = options_.continuation.start;
-  const nodes::RunEnd end = runner_->run(std::move(stop));
-  Report report{.film = std::move(film_),
-                .samples_found_done = start != nullptr ? start->samples_done() : 0,
-                .end = end,
-                .plan = plan_,
-                .regions = prepared_.distribution.regions,
-                .predicted = prepared_.predicted,
-                .duplication = prepared_.duplication};
-  fill(report);
-  return report;
-}
-
-/// What nodes and host tell.
-void Frames::fill(Report& report) {
-  const Distribution& distribution = prepared_.distribution;
-  GatheredReports gathered = gather_reports(*runner_, plan_);
-  report.ranks = nodes::gather_rank_figures(*runner_, plan_, options_.computer.ranks, options_.watching.elsewhere.adds());
-  const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();
-  report.nodes = std::move(gathered.nodes);
-  for (std::uint32_t i = 0; i < plan_.node_count(); ++i) {
-    const ProgramReport counted = std::exchange(report.nodes[i].program, since(report.nodes[i].program, before_.nodes[i]));
-    before_.nodes[i] = counted;
-    report_share(report.nodes[i], distribution, i, plan_.request.shares[i]);
-    report_regions(report.nodes[i], distribution.regions, regions[i]);
-  }
-  report.host = runner_->node(plan_.node_count()).counters();
-  report.host_rays = since(host().report(), before_.host);
-  before_.host = host().report();
-  report.refinement = host().refinement().result();
+  GatheredReports gathered;
+  pictures::Outcome outcome =
+      computer_->render(std::move(stop), plan_, [&] { gathered = gather_reports(computer_->runner(), plan_); });
+  Report report{{std::move(outcome), std::move(gathered.nodes)},
+                start != nullptr ? start->samples_done() : 0,
+                plan_,
+                prepared_.distribution.regions,
+                prepared_.predicted,
+                prepared_.duplication};
+  add_shares(report);
+  const HostCounters counted = dynamic_cast<const HostProgram&>(computer_->host()).report();
+  report.host_rays = since(counted, before_.host);
+  before_.host = counted;
   if (report.end == nodes::RunEnd::finished) {
     check_rays(report);
     check_units(report);
     check_packets(report);
     core::expect(gathered.are_credits_back, "every credit has come back, and every packet of primary rays was worked off");
-    report.virtual_time = runner_->virtual_report();
+  }
+  return report;
+}
+
+/// Of each node, what it did for this frame and what it was dealt.
+void Frames::add_shares(Report& report) {
+  const Distribution& distribution = prepared_.distribution;
+  const std::vector<std::vector<std::uint32_t>> regions = distribution.regions.by_node();
+  for (std::uint32_t i = 0; i < plan_.node_count(); ++i) {
+    const ProgramReport counted = std::exchange(report.nodes[i].program, since(report.nodes[i].program, before_.nodes[i]));
+    before_.nodes[i] = counted;
+    report_share(report.nodes[i], distribution, i, plan_.request.shares[i]);
+    report_regions(report.nodes[i], distribution.regions, regions[i]);
   }
 }
 

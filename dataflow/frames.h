@@ -1,17 +1,16 @@
 // Frames: pictures of one scene from one place after another, on nodes that keep their regions.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
-#include "core/picture/film.h"
 #include "core/picture/fine_detail.h"
 #include "core/picture/pixel_task.h"
 #include "dataflow/host.h"
 #include "dataflow/program.h"
 #include "dataflow/run.h"
-#include "nodes/runner.h"
+#include "nodes/pictures/computer.h"
 
 namespace dmpc::dataflow {
 
@@ -39,16 +38,14 @@ class Frames {
     HostCounters host;
   };
 
-  HostProgram& host() const;
-  void fill(Report& report);
+  void add_shares(Report& report);
 
   const Prepared& prepared_;
   RunOptions options_;
   core::RenderSettings settings_;  ///< of the frame under way
   core::FineDetail detail_;
   Plan plan_;
-  core::Film film_;
-  std::unique_ptr<nodes::Runner> runner_;
+  std::optional<pictures::Computer> computer_;
   Before before_;
 };
 

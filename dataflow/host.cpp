@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "core/base/expect.h"
-#include "core/base/units.h"
-#include "core/picture/memory_use.h"
 
 namespace dmpc::dataflow {
 namespace {
@@ -18,24 +16,17 @@ constexpr std::uint64_t run_rays_max = 16;
 
 HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress, DealPrimaries deal,
                          const core::Continuation& continuation, const core::FineDetail* detail)
-    : node_(&node),
-      film_(&film),
-      progress_(std::move(progress)),
+    : Host(node, film, plan.request.refinement, plan.request.first_samples, std::move(progress), continuation, detail),
       deal_(std::move(deal)),
-      continuation_(continuation),
-      wanted_(plan.request.refinement),
-      first_samples_(plan.request.first_samples),
-      refinement_(wanted_, first_samples_, film.width(), film.height(), detail, film.scale()),
       undealt_(plan.node_count(), plan.request.is_dealt_on_the_way ? run_rays_max : ~std::uint64_t{0},
                plan.request.pixel_order()),
       kept_(plan.node_count(), plan.tested_objects()),
       termination_(Termination::initiator({plan.node_count()})),
       relay_(termination_.place().child_count, Backpressure::relay_capacity),
+      packet_(packet_layout(plan).in(node.memory())),
       node_count_(plan.node_count()),
       ray_batch_(plan.ray_batch),
-      tested_objects_(plan.tested_objects()),
-      pixels_total_(plan.request.width * plan.request.height) {
-  std::tie(packet_, has_light_) = layout(plan).in(node.memory());
+      tested_objects_(plan.tested_objects()) {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     node.grant(nodes::NodeId{i}, ray_channel, plan.host_credits);
     node.grant(nodes::NodeId{i}, film_channel, plan.dealing_credits());
@@ -43,45 +34,30 @@ HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, 
   core::expect(plan.request.is_dealt_on_the_way || (continuation.start == nullptr && !continuation.keep),
                "where a picture is gone on with, or kept, the host deals all of it");
   if (plan.request.is_dealt_on_the_way) {
-    begin_first_pass();
+    deal_pass();
   }
+}
+
+nodes::MemoryPlan HostProgram::layout(const Plan& plan) {
+  return packet_layout(plan) + own_layout(std::size_t{plan.request.width} * plan.request.height);
 }
 
 void HostProgram::begin_frame(const core::FineDetail* detail) {
-  core::expect(stopped_, "a frame begins when the one before has ended");
-  refinement_ = core::Refinement(wanted_, first_samples_, film_->width(), film_->height(), detail, film_->scale());
-  continuation_.start = nullptr;  // of the first frame
+  Host::begin_frame(detail);
   finishing_ = stopped_ = false;
   termination_.begin_again();
   below_ = {};
-  begin_first_pass();
+  deal_pass();
 }
 
-/// Finds whose the rays are that are missing; work() deals them.
-void HostProgram::begin_first_pass() {
-  core::PixelMask done(pixels_total_);
-  if (const core::PartialPicture* const start = continuation_.start) {
-    refinement_.resume(*start);
-    done = start->done;
-  }
-  pixels_with_light_ = done.count();
-  std::copy(done.words().begin(), done.words().end(), has_light_.begin());
-  deal_pass(done);
-}
-
-/// The rays of the pass's pixels, but those that are done, from now on wait for deal_all().
-void HostProgram::deal_pass(const core::PixelMask& done) {
-  std::optional<std::vector<std::vector<PrimaryRun>>> runs = deal_(refinement_.pass(), done);
+/// Finds whose the rays are of the pass's pixels that have no light yet, which from now on wait for deal_all().
+void HostProgram::deal_pass() {
+  const core::PixelMask done = with_light();
+  std::optional<std::vector<std::vector<PrimaryRun>>> runs = deal_(refinement().pass(), done);
   if (runs) {
-    undealt_.begin_pass(std::move(*runs), numbered_samples(refinement_.pass()), done);
+    undealt_.begin_pass(std::move(*runs), numbered_samples(refinement().pass()), done);
   }
   is_cut_short_ = !runs;
-}
-
-nodes::Layout<std::byte, std::uint64_t> HostProgram::layout(const Plan& plan) {
-  const std::size_t pixels = std::size_t{plan.request.width} * plan.request.height;
-  return {{nodes::Category::queues, plan.packet_bytes()},
-          {core::MemoryUse::film_tiles, core::ceil_divide<std::size_t>(pixels, 64)}};
 }
 
 void HostProgram::receive(const nodes::Packet& packet) {
@@ -135,9 +111,7 @@ bool HostProgram::work() {
 }
 
 void HostProgram::take_overflow(const nodes::Packet& packet) {
-  core::expect(packet.payload.size() >= sizeof(RayPacketHeader), "a packet of rays has a header");
-  RayPacketHeader header;
-  std::memcpy(&header, packet.payload.data(), sizeof(header));
+  const auto header = packet.front<RayPacketHeader>();
   core::expect(packet.payload.size() == ray_packet_bytes(header.count, tested_objects_),
                "a packet of rays is as long as it says");
   core::expect(header.owner < node_count_, "rays have an owner");
@@ -174,44 +148,21 @@ void HostProgram::forward(std::uint32_t owner) {
 }
 
 void HostProgram::take_film(const nodes::Packet& packet) {
-  core::expect(packet.payload.size() >= sizeof(FilmHeader), "a film packet has a header");
-  FilmHeader header;
-  std::memcpy(&header, packet.payload.data(), sizeof(header));
+  const auto header = packet.front<FilmHeader>();
   core::expect(packet.payload.size() == film_packet_bytes(header.count), "a film packet is as long as it says");
   for (std::uint32_t i = 0; i < header.count; ++i) {
     FilmEntry entry;
     std::memcpy(&entry, packet.payload.data() + film_packet_bytes(i), sizeof(entry));
-    take_entry(entry);
+    core::expect(entry.plane < 2, "light falls on a plane of the film");
+    core::PixelSums sums;
+    sums.plane[entry.plane] = entry.light;
+    take_light(entry.pixel, entry.more, sums);
   }
   counters_.film_entries += header.count;
   send_control(*node_, packet.source, Kind::film_acknowledgement, FilmAcknowledgement{header.count});
-  if (progress_) {
-    progress_(pixels_with_light_, refinement_.pixel_count());
-  }
+  tell_progress(pixels_with_light());
   if (!undealt_.is_empty() && !undealt_.holds_back() && is_due()) {
     undealt_.hold_back();
-  }
-}
-
-void HostProgram::take_entry(const FilmEntry& entry) {
-  core::expect(entry.pixel < pixels_total_ && entry.more < pixels_total_ - entry.pixel && entry.plane < 2,
-               "light falls on the picture");
-  core::PixelSums sums;
-  sums.plane[entry.plane] = entry.light;
-  for (std::uint32_t pixel = entry.pixel; pixel <= entry.pixel + entry.more; ++pixel) {
-    take_light(pixel, sums);
-  }
-}
-
-void HostProgram::take_light(std::uint32_t pixel, const core::PixelSums& sums) {
-  core::expect(refinement_.pass().has(pixel), "light falls on a pixel of the pass");
-  counters_.deposits_saturated += film_->deposit(pixel, sums) ? 1 : 0;
-  std::uint64_t& word = has_light_[pixel / 64];
-  const std::uint64_t bit = std::uint64_t{1} << (pixel % 64);
-  pixels_with_light_ += (word & bit) == 0 ? 1 : 0;
-  word |= bit;
-  if (continuation_.watch) {
-    continuation_.watch(*film_, refinement_, pixel);
   }
 }
 
@@ -225,37 +176,30 @@ void HostProgram::take_done(const Done& done) {
   if (undealt_.holds_back()) {
     return go_on_dealing();
   }
-  if (progress_) {
-    progress_(refinement_.pixel_count(), refinement_.pixel_count());
-  }
+  tell_progress(refinement().pixel_count());
   end_pass();
 }
 
 /// All light of the pass is on the film: deals the next, or stops all.
 void HostProgram::end_pass() {
-  if (!refinement_.next_pass(*film_)) {
+  if (!next_pass()) {
     tell_children(*node_, termination_.place(), Kind::stop, Stop{});
     stopped_ = true;
     return;
   }
-  const core::PixelMask none(pixels_total_);
   if (is_due()) {
-    continuation_.keep(*film_, refinement_, none);
+    keep(with_light());
   }
-  pixels_with_light_ = 0;
-  std::fill(has_light_.begin(), has_light_.end(), 0);
-  deal_pass(none);
+  deal_pass();
   begin_again();
 }
 
 /// No ray is left but those held back: the pixels that have begun are done.
 void HostProgram::go_on_dealing() {
-  continuation_.keep(*film_, refinement_, undealt_.begun());
+  keep(undealt_.begun());
   undealt_.release();
   begin_again();
 }
-
-bool HostProgram::is_due() const { return continuation_.is_due && continuation_.is_due(); }
 
 /// After the end of what was dealt.
 void HostProgram::begin_again() {
@@ -283,8 +227,8 @@ void HostProgram::deal(std::uint32_t index) {
 bool HostProgram::is_passive() const { return host_is_passive(kept_.size(), relay_.is_settled()) && undealt_.is_empty(); }
 
 std::string HostProgram::describe() const {
-  return std::to_string(kept_.size()) + " rays kept, light on " + std::to_string(pixels_with_light_) + " of " +
-         std::to_string(refinement_.pixel_count()) + " pixels of pass " + std::to_string(refinement_.result().passes) +
+  return std::to_string(kept_.size()) + " rays kept, light on " + std::to_string(pixels_with_light()) + " of " +
+         std::to_string(refinement().pixel_count()) + " pixels of pass " + std::to_string(refinement().result().passes) +
          ", ray packets sent - received " + std::to_string(termination_.balance()) +
          (termination_.holds_token() ? ", holds the token" : "") + (termination_.is_black() ? ", black, " : ", white, ") +
          std::to_string(below_.told) + " of " + std::to_string(termination_.place().child_count) + " branches of nodes done" +
@@ -293,7 +237,7 @@ std::string HostProgram::describe() const {
 
 HostCounters HostProgram::report() const {
   HostCounters counters = counters_;
-  counters.deposits_saturated += refinement_.gatherings_saturated();
+  counters.deposits_saturated = deposits_saturated();
   counters.rays_kept_max = kept_.high_water();
   counters.kept_bytes_max = kept_.store_bytes();
   return counters;

@@ -10,7 +10,6 @@
 
 #include "core/picture/film.h"
 #include "core/picture/partial_picture.h"
-#include "core/picture/refinement.h"
 #include "dataflow/backpressure.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/packets.h"
@@ -20,7 +19,7 @@
 #include "dataflow/termination.h"
 #include "nodes/layout.h"
 #include "nodes/node.h"
-#include "nodes/program.h"
+#include "nodes/pictures/host.h"
 #include "nodes/watch/watching.h"
 
 namespace dmpc::dataflow {
@@ -46,69 +45,53 @@ struct HostCounters {
 /// Where the plan says so it deals those of the first pass, too. If then the picture is to be kept, it holds rays back until no
 /// other is left anywhere, which the same proof tells: then the pixels that have begun are done. A pass that could not be dealt
 /// whole never ends: the host then waits for the runner to end the run.
-class HostProgram final : public nodes::Program {
+class HostProgram final : public pictures::Host {
  public:
-  /// `film` outlives the program and is written by it alone until the run's end; it is as continuation.start has it.
-  /// `progress` may be empty. `deal` finds whose the primary rays are that are dealt after the start; nothing is kept unless the
-  /// plan says that all are. `detail` is the picture's, if it is refined, and outlives the program.
+  /// As pictures::Host. `deal` finds whose the primary rays are that are dealt after the start; nothing is kept unless the plan
+  /// says that all are.
   HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress, DealPrimaries deal,
               const core::Continuation& continuation = {}, const core::FineDetail* detail = nullptr);
   /// What the constructor takes of the local memory.
-  static nodes::Layout<std::byte, std::uint64_t> layout(const Plan& plan);
+  static nodes::MemoryPlan layout(const Plan& plan);
 
-  /// The run of the picture before has ended: another one follows, on the same film, which is as new. Whose its primary rays are
-  /// `deal` tells. `detail` is its own, as the constructor's was the first one's. What is counted goes on. Call it only while the
-  /// program is not running, where the plan says that the host deals all primary rays.
-  void begin_frame(const core::FineDetail* detail);
+  /// Whose the picture's primary rays are `deal` tells. What is counted goes on, but for what saturates. Where the plan says that
+  /// the host deals all primary rays.
+  void begin_frame(const core::FineDetail* detail) override;
 
   void receive(const nodes::Packet& packet) override;
   bool work() override;
   bool finished() const override { return stopped_; }
-  nodes::Levels levels() const override { return {{"pixels with light", pixels_with_light_}, {"rays kept", kept_.size()}}; }
+  nodes::Levels levels() const override { return {{"pixels with light", pixels_with_light()}, {"rays kept", kept_.size()}}; }
   std::string describe() const override;
 
   /// Call it only while the program is not running.
   HostCounters report() const;
-  const core::Refinement& refinement() const { return refinement_; }
 
  private:
   void take_film(const nodes::Packet& packet);
-  void take_entry(const FilmEntry& entry);
-  void take_light(std::uint32_t pixel, const core::PixelSums& sums);
   void take_overflow(const nodes::Packet& packet);
   void take_done(const Done& done);
   void relay_hold();
   bool can_forward(std::uint32_t owner) const;
   void forward(std::uint32_t owner);
-  void begin_first_pass();
-  void deal_pass(const core::PixelMask& done);
+  static nodes::Room<std::byte> packet_layout(const Plan& plan) { return {nodes::Category::queues, plan.packet_bytes()}; }
+  void deal_pass();
   void end_pass();
   void go_on_dealing();
-  bool is_due() const;
   void begin_again();
   void deal_all();
   void deal(std::uint32_t index);
   bool is_passive() const;
 
-  nodes::Node* node_;
-  core::Film* film_;
-  nodes::Progress progress_;
   DealPrimaries deal_;
-  core::Continuation continuation_;
-  core::RefinementOptions wanted_;
-  std::uint32_t first_samples_;
-  core::Refinement refinement_;
   Undealt undealt_;
   KeptRays kept_;
   Termination termination_;
-  Backpressure relay_;                  ///< of what nodes tell the host alone
-  std::span<std::byte> packet_;         ///< where a packet is put together
-  std::span<std::uint64_t> has_light_;  ///< a bit a pixel
+  Backpressure relay_;           ///< of what nodes tell the host alone
+  std::span<std::byte> packet_;  ///< where a packet is put together
   std::uint32_t node_count_;
   std::uint32_t ray_batch_;
   std::uint32_t tested_objects_;
-  std::uint32_t pixels_total_;
-  std::uint32_t pixels_with_light_ = 0;
   DoneBelow below_;
   HostCounters counters_;
   bool finishing_ = false;

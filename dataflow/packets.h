@@ -226,15 +226,18 @@ constexpr std::uint32_t rays_in(std::size_t bytes, std::uint32_t tested_objects 
 }
 inline constexpr std::uint32_t ray_batch_max = rays_in(packet_bytes_max);
 
+/// A packet of which the kind says all.
+struct Word {
+  std::uint32_t padding = 0;
+};
+
 /// The receiver has taken up the rays of so many packets.
 struct Credits {
   std::uint32_t count = 0;
 };
 
 /// Asks an owner for one of its shared places; the answer is a credit.
-struct Ask {
-  std::uint32_t padding = 0;
-};
+using Ask = Word;
 
 /// Gives a credit back that is not needed any more, in the place that it stands for: so long that it takes a slot of packets of
 /// rays.
@@ -248,9 +251,7 @@ struct Hold {
   std::uint32_t holds = 0;  ///< 1: start no primary rays for the time being; 0: this node no longer asks for it
 };
 
-struct HoldAcknowledgement {
-  std::uint32_t padding = 0;
-};
+using HoldAcknowledgement = Word;
 
 /// Light for a plane of a pixel: the sum of one or more deposits. A pixel's come from any number of nodes. Or for each of several
 /// pixels of the background.
@@ -284,9 +285,7 @@ struct FilmAcknowledgement {
 };
 
 /// No ray is left anywhere: send the rest of the film.
-struct Finish {
-  std::uint32_t padding = 0;
-};
+using Finish = Word;
 
 /// All that the sender, and those below it in the tree, put on the film has been acknowledged.
 struct Done {
@@ -325,9 +324,7 @@ struct UnitAsk {
   std::uint32_t free_frames = 0, free_runs = 0;
 };
 
-struct UnitRefusal {
-  std::uint32_t padding = 0;
-};
+using UnitRefusal = Word;
 
 /// Stands before a page that a unit's rays need.
 struct UnitPageHeader {
@@ -346,9 +343,7 @@ struct UnitPrimaryRays {
 static_assert(std::is_trivially_copyable_v<UnitPrimaryRays> && sizeof(UnitPrimaryRays) > nodes::small_payload_bytes);
 
 /// The page, or the primary rays, have come.
-struct UnitAcknowledgement {
-  std::uint32_t padding = 0;
-};
+using UnitAcknowledgement = Word;
 
 /// Who took a unit for which rays came to one that no longer answers for it.
 struct UnitMoved {
@@ -356,9 +351,7 @@ struct UnitMoved {
 };
 
 /// Every node is done.
-struct Stop {
-  std::uint32_t padding = 0;
-};
+using Stop = Word;
 
 template <class T>
 inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;

@@ -1,24 +1,31 @@
 #include "dataflow/ranks.h"
 
 #include <memory>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "dataflow/job.h"
+#include "core/base/expect.h"
 #include "dataflow/program.h"
 #include "dataflow/run.h"
 #include "nodes/byte_source.h"
-#include "nodes/flat_bytes.h"
-#include "nodes/ranks/ranks_runner.h"
-#include "nodes/ranks/repeated_runs.h"
-#include "nodes/ranks/stream_from_host.h"
-#include "nodes/ranks/streams_to_ranks.h"
+#include "nodes/pictures/ranks.h"
 
 namespace dmpc::dataflow {
 namespace {
+
+std::string figures_of(const Plan& plan) {
+  return pictures::figures_of(plan, plan.ray_batch, plan.ray_credits, plan.ray_places, plan.host_credits, plan.queue_packets,
+                              plan.rays_a_task, plan.film_credits, plan.spare_frames);
+}
+
+PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks) {
+  PlanRequest request;
+  request.shares = flat.take_all<Share>();
+  flat.take_into(request.rays, request.depth_max, request.is_dealt_on_the_way);
+  pictures::take_picture(flat, ranks, request);
+  return request;
+}
 
 /// What a node is dealt but for its records, which its program reads itself, behind it.
 struct Dealt {
@@ -31,8 +38,7 @@ struct Dealt {
 std::string dealt_bytes(const Distribution& distribution, std::uint32_t node) {
   const core::DatabasePart& part = distribution.parts[node];
   nodes::FlatWriter flat;
-  flat.put(part.header);
-  flat.put(std::size_t{part.bytes.size()});
+  flat.put(part.header, std::size_t{part.bytes.size()});
   flat.put_all(distribution.primaries[node]);
   flat.put_all(distribution.pages[node]);
   flat.put_all(distribution.runs_of_unit[node]);
@@ -48,88 +54,59 @@ Dealt dealt_from(std::string_view bytes) {
   return {header, record_bytes, std::move(primaries), std::move(pages), flat.take_all<std::uint32_t>()};
 }
 
-}  // namespace
-
-void hand_out(const Plan& plan, const Distribution& distribution, const core::RenderSettings& settings,
-              const std::string& watch_order, bool are_frames, nodes::RankLinks& links) {
-  nodes::StreamsToRanks streams(links);
-  const std::string job = job_bytes(plan, settings, distribution.regions, distribution.outline, are_frames);
-  streams.write_counted_to_all(job);
-  streams.write_counted_to_all(watch_order);
-  for (std::uint32_t node = 0; node < plan.node_count(); ++node) {
-    const std::uint32_t rank = nodes::rank_of(node, plan.node_count(), links.rank_count());
-    if (rank != 0) {
-      const core::DatabasePart& part = distribution.parts[node];
-      const std::string dealt = dealt_bytes(distribution, node);
-      streams.write_counted(rank, std::as_bytes(std::span(dealt)));
-      streams.write_piece(rank, part.bytes, 0, part.bytes.size());
-    }
-  }
-  streams.finish();
-}
-
-namespace {
-
-/// The nodes of a run that are here, and what they are made of.
-class Part {
+/// What a rank without the host makes its nodes of.
+class Job {
  public:
-  /// `job`: read from the stream, of which it reads the rest.
-  Part(std::string_view job, nodes::StreamFromHost& stream, nodes::RankLinks& links, const nodes::Following& following)
-      : following_(following), stream_(stream), job_(job_from(job, links)) {
-    following.check_room(nodes::rank_memory(nodes::peers_of(job_.plan), &links, links.rank()));
-    order_ = nodes::read_counted(stream);
-    watching_ = order_.empty() ? nodes::Watching() : following.watch(order_);
-    const MakeProgram make_program = [this](std::uint32_t, nodes::Node& node) { return program_for(node); };
-    runner_ =
-        nodes::make_runner(specifications_without_host(job_.plan, make_program), job_.plan.request.computer, watching_.observer);
-  }
-  Part(const Part&) = delete;
-  Part& operator=(const Part&) = delete;
-
-  bool is_repeated() const { return job_.are_frames; }
-
-  void begin_again(std::string_view told) {
-    job_.settings = nodes::read_again<core::RenderSettings>(told);
-    for (std::uint32_t node = 0; node < job_.plan.node_count(); ++node) {
-      if (runner_->is_here(node)) {
-        dynamic_cast<NodeProgram&>(runner_->program(node)).begin_frame(job_.settings);
-      }
-    }
-    if (!order_.empty()) {
-      following_.watch_again();
-    }
+  /// Makes the plan anew and expects it to be the same.
+  Job(nodes::FlatReader& flat, nodes::RankLinks& ranks, const nodes::Following& /*following*/)
+      : plan_(make_plan(take_request(flat, ranks))), regions_(flat.take<Regions>()) {
+    outline_.header = flat.take<core::DatabaseHeader>();
+    outline_.bytes = flat.take_all<std::byte>();
+    core::expect(flat.take_bytes() == figures_of(plan_), "all ranks have one plan");
   }
 
-  nodes::RunEnd run(std::stop_token stop) {
-    stream_.say_ready();
-    const nodes::RunEnd end = runner_->run(std::move(stop));
-    gather_reports(*runner_, job_.plan);
-    runner_->gather_ranks(order_.empty() ? std::string() : following_.seen());
-    return end;
+  const Plan& plan() const { return plan_; }
+  std::vector<nodes::NodeSpecification> specifications(const core::RenderSettings& settings, nodes::StreamFromHost& stream,
+                                                       const nodes::Watching& watching, const nodes::Following* /*watched*/) {
+    return specifications_without_host(plan_, [&](std::uint32_t, nodes::Node& node) {
+      const Dealt dealt = dealt_from(nodes::read_counted(stream));
+      return make_node_program(node, plan_,
+                               NodeDeal{dealt.header, nodes::ByteSource(stream, dealt.record_bytes), dealt.primaries, settings,
+                                        regions_, outline_, dealt.pages, dealt.runs_of_unit},
+                               nodes::meter_for(watching, plan_.request.computer, node.id()));
+    });
   }
+  void gather(nodes::Runner& runner) const { gather_reports(runner, plan_); }
 
  private:
-  std::unique_ptr<NodeProgram> program_for(nodes::Node& node) {
-    const Dealt dealt = dealt_from(nodes::read_counted(stream_));
-    return make_node_program(node, job_.plan,
-                             NodeDeal{dealt.header, nodes::ByteSource(stream_, dealt.record_bytes), dealt.primaries,
-                                      job_.settings, job_.regions, job_.outline, dealt.pages, dealt.runs_of_unit},
-                             nodes::meter_for(watching_, job_.plan.request.computer, node.id()));
-  }
-
-  const nodes::Following& following_;
-  nodes::StreamFromHost& stream_;
-  Job job_;
-  std::string order_;
-  nodes::Watching watching_;
-  std::unique_ptr<nodes::Runner> runner_;
+  Plan plan_;
+  Regions regions_;
+  core::DatabasePart outline_;  ///< its header and bytes alone
 };
 
 }  // namespace
 
+void hand_out(const Plan& plan, const Distribution& distribution, const core::RenderSettings& settings,
+              const std::string& watch_order, bool are_frames, nodes::RankLinks& links) {
+  const auto put_own = [&](nodes::FlatWriter& job) {
+    job.put_all(plan.request.shares);
+    job.put(plan.request.rays, plan.request.depth_max, plan.request.is_dealt_on_the_way);
+    pictures::put_picture(job, plan.request);
+    job.put(distribution.regions, distribution.outline.header);
+    job.put_all(distribution.outline.bytes);
+    job.put_bytes(figures_of(plan));
+  };
+  const auto deal = [&](nodes::StreamsToRanks& streams, std::uint32_t rank, std::uint32_t node) {
+    const core::DatabasePart& part = distribution.parts[node];
+    const std::string dealt = dealt_bytes(distribution, node);
+    streams.write_counted(rank, std::as_bytes(std::span(dealt)));
+    streams.write_piece(rank, part.bytes, 0, part.bytes.size());
+  };
+  pictures::hand_out(settings, plan.node_count(), watch_order, are_frames, links, put_own, deal);
+}
+
 nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const nodes::Following& following) {
-  return nodes::follow_runs(
-      links, stop, [&](std::string_view job, nodes::StreamFromHost& stream) { return Part(job, stream, links, following); });
+  return pictures::follow<Job>(links, stop, following);
 }
 
 }  // namespace dmpc::dataflow

@@ -7,9 +7,8 @@
 #include "core/picture/pixel_task.h"
 #include "dataflow/distribution.h"
 #include "dataflow/plan.h"
-#include "nodes/ranks/followed.h"
-#include "nodes/ranks/following.h"
 #include "nodes/ranks/rank_links.h"
+#include "nodes/ranks/repeated_runs.h"
 
 namespace dmpc::dataflow {
 

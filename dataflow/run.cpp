@@ -13,8 +13,6 @@
 namespace dmpc::dataflow {
 namespace {
 
-using nodes::TrafficByKind;
-
 /// What is told pixel by pixel needs rays that walk alone; and the nodes of a modelled machine compute as those of the article
 /// did.
 bool walks_in_bundles(const RunOptions& options) { return !options.computer.machine && !options.watching.is_metered(); }
@@ -65,14 +63,6 @@ Plan plan_for(const Distribution& distribution, const core::Database& database, 
   return make_plan(request, [&] { return smallest_node_count(request, make_shares); });
 }
 
-std::uint64_t sum_of(const std::array<std::uint64_t, core::ray_kind_count>& by_kind) {
-  std::uint64_t sum = 0;
-  for (const std::uint64_t of_kind : by_kind) {
-    sum += of_kind;
-  }
-  return sum;
-}
-
 }  // namespace
 
 Gather::Counters Report::gathers() const {
@@ -112,22 +102,12 @@ std::vector<Flow> Report::ray_flows() const {
 
 double Report::messages_per_ray() const {
   const std::uint64_t shot = operations().ray_count();
-  return shot == 0 ? 0.0 : static_cast<double>(sum_of(rays().out)) / static_cast<double>(shot);
+  return shot == 0 ? 0.0 : static_cast<double>(rays().sent()) / static_cast<double>(shot);
 }
 
 double Report::mean_fill() const { return gathers().mean_fill(plan.ray_batch); }
 
-TrafficByKind Report::sent() const {
-  TrafficByKind sum = core::total_of(nodes, [](const NodeReport& node) { return node.counters.sent; });
-  return core::add_counts(sum, host.sent);
-}
-
-TrafficByKind Report::received() const {
-  TrafficByKind sum = core::total_of(nodes, [](const NodeReport& node) { return node.counters.received; });
-  return core::add_counts(sum, host.received);
-}
-
-nodes::Traffic ray_traffic(const TrafficByKind& by_kind) {
+nodes::Traffic ray_traffic(const nodes::TrafficByKind& by_kind) {
   nodes::Traffic sum;
   for (const Kind kind : {Kind::rays, Kind::overflow, Kind::forwarded}) {
     sum += by_kind[number_of(kind)];
@@ -164,14 +144,7 @@ Prepared prepare(const core::Database& database, const core::RenderSettings& set
 }
 
 std::vector<nodes::NodeSpecification> specifications_without_host(const Plan& plan, const MakeProgram& make_program) {
-  std::vector<nodes::NodeSpecification> specifications;
-  for (std::uint32_t i = 0; i < plan.node_count(); ++i) {
-    specifications.push_back({plan.node_memory(i), plan.node_mailbox,
-                              [make_program, i](nodes::Node& node) { return make_program(i, node); }, plan.held_bytes, 0,
-                              nodes::patience_of(number_of(Kind::film), plan.film_credits)});
-  }
-  specifications.push_back({plan.host_memory(), plan.host_mailbox, {}, plan.held_bytes});
-  return specifications;
+  return pictures::specifications_without_host(plan, make_program, nodes::patience_of(number_of(Kind::film), plan.film_credits));
 }
 
 std::vector<nodes::NodeSpecification> specifications_of(const Plan& plan, const Distribution& distribution,

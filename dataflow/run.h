@@ -1,7 +1,6 @@
 // Renders a picture on N nodes between which rays travel: deals the scene, plans the memory, runs, and reports.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -10,9 +9,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/base/counts.h"
 #include "core/database/database.h"
-#include "core/picture/film.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/pixel_task.h"
 #include "core/trace/traversal.h"
@@ -24,9 +21,8 @@
 #include "dataflow/regions/mapping.h"
 #include "dataflow/regions/regions.h"
 #include "nodes/computer_request.h"
-#include "nodes/counters.h"
-#include "nodes/node_figures.h"
-#include "nodes/ranks/rank_figures.h"
+#include "nodes/gathering.h"
+#include "nodes/pictures/computer.h"
 #include "nodes/runner.h"
 #include "nodes/watch/watching.h"
 
@@ -55,26 +51,14 @@ struct NodeReport : nodes::NodeFigures {
   std::uint64_t primary_rays = 0;      ///< dealt before the start
 };
 
-struct Report {
-  core::Film film;
-  std::uint64_t samples_found_done = 0;         ///< of all pixels, before the start
-  nodes::RunEnd end = nodes::RunEnd::finished;  ///< interrupted: the film is not complete
+struct Report : pictures::Report<NodeReport> {
+  std::uint64_t samples_found_done = 0;  ///< of all pixels, before the start
   Plan plan;
   Regions regions;
   std::vector<double> predicted;  ///< load by node, in picoseconds of the subsampled picture; empty unless that was made
   double duplication = 1;         ///< copies of primitives over those in the database
-  std::vector<NodeReport> nodes;
-  nodes::NodeCounters host;
-  HostCounters host_rays;
-  core::RefinementResult refinement;
-  std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
-  std::vector<nodes::RankFigures> ranks;             ///< where there are several, or could be
+  HostCounters host_rays = {};
 
-  /// What programs count, summed over the nodes.
-  template <class Counts>
-  Counts summed(Counts ProgramCounts::*counts) const {
-    return core::total_of(nodes, [counts](const NodeReport& node) { return node.program.*counts; });
-  }
   core::Operations operations() const { return summed(&ProgramReport::operations); }
   RayCounters rays() const { return summed(&ProgramReport::rays); }
   MovementCounters movement() const { return summed(&ProgramReport::movement); }
@@ -89,9 +73,6 @@ struct Report {
   double messages_per_ray() const;
   /// Mean rays in a packet over those in a full one, in (0, 1]; 1 without packets.
   double mean_fill() const;
-  /// Packets and bytes sent by all nodes and the host, by Kind's number.
-  nodes::TrafficByKind sent() const;
-  nodes::TrafficByKind received() const;
 };
 
 /// What of this traffic is packets with rays, by whatever way: those by way of the host count twice, as they come and as they go.

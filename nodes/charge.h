@@ -4,9 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "core/base/counts.h"
-#include "nodes/programs_name.h"
 
 namespace dmpc::nodes {
 
@@ -18,12 +18,10 @@ inline constexpr std::size_t charge_count = 13;
 struct Charges {
   std::array<std::uint64_t, charge_count> count{};
 
-  template <ProgramsName Charge>
-  std::uint64_t& operator[](Charge charge) {
-    return count[static_cast<std::size_t>(charge)];
-  }
-  template <ProgramsName Charge>
-  std::uint64_t operator[](Charge charge) const {
+  template <class Charge>
+  requires std::is_enum_v<Charge> std::uint64_t& operator[](Charge charge) { return count[static_cast<std::size_t>(charge)]; }
+  template <class Charge>
+  requires std::is_enum_v<Charge> std::uint64_t operator[](Charge charge) const {
     return count[static_cast<std::size_t>(charge)];
   }
 

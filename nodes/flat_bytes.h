@@ -19,10 +19,10 @@ namespace dmpc::nodes {
 
 class FlatWriter {
  public:
-  template <class T>
-  void put(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
+  template <class... T>
+  void put(const T&... values) {
+    static_assert((std::is_trivially_copyable_v<T> && ...));
+    (bytes_.append(reinterpret_cast<const char*>(&values), sizeof(T)), ...);
   }
   /// How many there are, and then each.
   template <class Values>
@@ -56,6 +56,11 @@ class FlatReader {
     std::memcpy(bytes.data(), bytes_.data(), sizeof(T));
     bytes_.remove_prefix(sizeof(T));
     return std::bit_cast<T>(bytes);
+  }
+  /// Into each of these.
+  template <class... T>
+  void take_into(T&... values) {
+    ((values = take<T>()), ...);
   }
   template <class T>
   std::vector<T> take_all() {

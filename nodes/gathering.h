@@ -7,14 +7,28 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
+#include "nodes/counters.h"
 #include "nodes/flat_bytes.h"
+#include "nodes/local_memory.h"
+#include "nodes/node.h"
 #include "nodes/ranks/rank_figures.h"
 #include "nodes/runner.h"
 #include "nodes/watch/watching.h"
 
 namespace dmpc::nodes {
+
+/// What every node reports when a run is over, whatever its program. A value.
+struct NodeFigures {
+  NodeCounters counters;
+  MemoryPlan memory_planned, memory_used;
+};
+static_assert(std::is_trivially_copyable_v<NodeFigures>, "it travels as bytes to the host's rank");
+
+/// After the run.
+inline NodeFigures figures_of(Node& node) { return {node.counters(), node.memory().plan(), node.memory().used()}; }
 
 /// To be called on all ranks alike. tell(index, flat) writes what the program of a node that is here has to say; take(index,
 /// flat) reads it, in the same order: of all nodes, by number, where the host is; elsewhere of those that are there.

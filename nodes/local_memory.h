@@ -13,7 +13,6 @@
 #include <type_traits>
 
 #include "core/base/expect.h"
-#include "nodes/programs_name.h"
 
 namespace dmpc::nodes {
 
@@ -32,7 +31,8 @@ class Category {
   // Implicit: whoever names a use of bytes, the computer's or a program's, has named the category.
   constexpr Category(Own own) : number_(own) {}
   /// A program numbers its uses from 0 on; there is room for category_count - 3.
-  template <ProgramsName Use>
+  template <class Use>
+  requires std::is_enum_v<Use>
   constexpr Category(Use use) : number_(own_count + static_cast<std::size_t>(use)) {}
 
   /// Among all of a node's.

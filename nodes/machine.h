@@ -11,7 +11,6 @@
 #include <string>
 
 #include "nodes/charge.h"
-#include "nodes/switching.h"
 #include "nodes/topology.h"
 
 namespace dmpc::nodes {

@@ -44,12 +44,21 @@
 #include "core/base/units.h"
 #include "nodes/atomics.h"
 #include "nodes/awake_count.h"
-#include "nodes/bell.h"
 #include "nodes/local_memory.h"
 #include "nodes/packet.h"
 #include "nodes/slot_pool.h"
 
 namespace dmpc::nodes {
+
+/// Of a receiver that shares its thread with others, which is to be told that this one is no longer asleep.
+class Bell {
+ public:
+  /// Never blocks. Called by the thread that has replaced ASLEEP, which is counted itself.
+  virtual void ring() = 0;
+
+ protected:
+  ~Bell() = default;
+};
 
 /// Room in a node's mailbox, derived by the strategy from who can have how many packets under way.
 struct MailboxCapacity {

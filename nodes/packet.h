@@ -46,8 +46,14 @@ struct Packet {
   /// The payload as one value of a trivially copyable type; expects that the size is right.
   template <class T>
   T as() const {
-    static_assert(std::is_trivially_copyable_v<T>);
     core::expect(payload.size() == sizeof(T), "a packet has the size of its kind");
+    return front<T>();
+  }
+  /// What stands before the rest of the payload; expects that there is as much.
+  template <class T>
+  T front() const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    core::expect(payload.size() >= sizeof(T), "a packet has the header of its kind");
     T value;
     std::memcpy(&value, payload.data(), sizeof(T));
     return value;

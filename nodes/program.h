@@ -1,13 +1,49 @@
 // The seam between the runners and the strategies: an event-driven object that never blocks.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
+#include "core/base/expect.h"
 #include "nodes/charge.h"
-#include "nodes/level.h"
 #include "nodes/packet.h"
 
 namespace dmpc::nodes {
+
+/// How full or how far a program is: a count at a moment. `name` lives as long as the program's code.
+struct Level {
+  std::string_view name;
+  std::uint64_t value = 0;
+};
+
+/// A few of them, always the same ones in the same order of one program.
+class Levels {
+ public:
+  static constexpr std::size_t count_max = 4;
+
+  Levels() = default;
+  Levels(std::initializer_list<Level> levels) {
+    for (const Level& level : levels) {
+      add(level);
+    }
+  }
+
+  void add(const Level& level) {
+    core::expect(count_ < count_max, "a program has few levels");
+    levels_[count_++] = level;
+  }
+
+  const Level* begin() const { return levels_.data(); }
+  const Level* end() const { return levels_.data() + count_; }
+
+ private:
+  std::array<Level, count_max> levels_;
+  std::size_t count_ = 0;
+};
 
 /// What a node runs. A runner calls it, never the reverse; a program cannot tell which runner does. Calls for one program never
 /// overlap. A program may touch only its own state, its Node (send, local memory, charge, count) and immutable data made before
@@ -37,6 +73,15 @@ class Program {
 
   /// One line on queues and state, for the watchdog's report. Called only while the program is not running.
   virtual std::string describe() const = 0;
+};
+
+/// The host's where nodes need no host.
+class IdleProgram final : public Program {
+ public:
+  void receive(const Packet& /*packet*/) override { core::expect(false, "nobody sends the host anything"); }
+  bool work() override { return false; }
+  bool finished() const override { return true; }
+  std::string describe() const override { return "nothing to do"; }
 };
 
 }  // namespace dmpc::nodes

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/expect.h"
 #include "nodes/computer_request.h"
 #include "nodes/mailbox.h"
 #include "nodes/node.h"
@@ -51,6 +52,12 @@ void check_nodes_for(std::uint32_t node_count, std::uint32_t rank_count);
 void check_ranks(const ComputerRequest& computer);
 
 enum class RunEnd : std::uint8_t { finished, interrupted };
+
+/// Has what each node says of itself; of several ranks all have it. After it a runner's programs can be looked at, and what they
+/// say be gathered.
+struct StandstillError : core::InternalError {
+  using InternalError::InternalError;
+};
 
 /// Thread safety: one thread constructs, runs and reads. While run() is going nothing else may be called.
 class Runner {

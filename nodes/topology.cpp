@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <string>
 #include <utility>
 
 #include "core/base/expect.h"
 #include "core/base/units.h"
 
 namespace dmpc::nodes {
+
 namespace {
 
 constexpr std::array<std::pair<std::string_view, TopologyKind>, 5> names{{{"crossbar", TopologyKind::crossbar},
@@ -47,6 +49,17 @@ TopologyKind parse_topology(std::string_view name) {
     known += text;
   }
   throw core::InputError("there is no topology \"" + std::string(name) + "\": use one of " + known);
+}
+
+std::string_view name_of(Switching switching) { return switching == Switching::circuit ? "circuit" : "packet"; }
+
+Switching parse_switching(std::string_view name) {
+  for (const Switching switching : {Switching::circuit, Switching::packet}) {
+    if (name == name_of(switching)) {
+      return switching;
+    }
+  }
+  throw core::InputError("there is no switching \"" + std::string(name) + "\": use circuit or packet");
 }
 
 Topology::Topology(TopologyKind kind, std::uint32_t node_count, std::uint32_t uplinks)

@@ -1,7 +1,6 @@
 // Frames: pictures of one scene from one place after another, on nodes that keep what they have.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -10,13 +9,32 @@
 #include "core/picture/fine_detail.h"
 #include "core/picture/pixel_task.h"
 #include "nodes/byte_source.h"
+#include "nodes/pictures/computer.h"
+#include "svm/pages/node_program.h"
 #include "svm/pages/watch/reference_log.h"
-#include "svm/picture_computer.h"
 #include "svm/plan.h"
 #include "svm/run.h"
 #include "svm/strategy.h"
 
 namespace dmpc::svm {
+
+/// Any programs of this family under a plan, on a computer. Thread safety: none.
+class PictureComputer {
+ public:
+  /// Makes nodes and host. `plan` and what `make_program` was made with outlive this.
+  PictureComputer(const Plan& plan, const MakeProgram& make_program, const RunOptions& options);
+
+  /// As pictures::Computer's. Not where programs are others than pictures::PictureProgram.
+  void begin_frame(const core::RenderSettings& settings, const core::FineDetail* detail);
+
+  /// Runs, checks the laws of conservation and reports: what is counted is this picture's.
+  Report render(std::stop_token stop);
+
+ private:
+  const Plan& plan_;
+  pictures::Computer computer_;
+  std::vector<ProgramReport> before_;  ///< what programs had counted when the picture began
+};
 
 /// A run of one frame, or of many. The film of each is that of a run of it alone; what is counted of it, and how long it takes,
 /// is not: caches, and which pages are resident, are those that the frames before it have left. The camera comes to the nodes

@@ -1,79 +1,54 @@
 #include "svm/host.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "core/base/expect.h"
-#include "core/base/units.h"
-#include "core/picture/memory_use.h"
 
 namespace dmpc::svm {
-namespace {
 
-/// A bit a pixel.
-nodes::Room<std::uint64_t> own_layout(const HostShape& shape) {
-  return {core::MemoryUse::film_tiles, core::ceil_divide<std::size_t>(shape.pixel_count(), 64)};
-}
-
-}  // namespace
-
-HostProgram::HostProgram(nodes::Node& node, const HostShape& shape, core::Film& film, nodes::Progress progress,
+HostProgram::HostProgram(nodes::Node& node, const Plan& plan, core::Film& film, nodes::Progress progress,
                          const core::Continuation& continuation)
-    : node_(&node),
-      film_(&film),
-      progress_(std::move(progress)),
-      continuation_(continuation),
-      wanted_(shape.refinement),
-      first_samples_(shape.first_samples),
-      refinement_(wanted_, first_samples_, film.width(), film.height(), shape.detail, film.scale()),
-      arrived_(own_layout(shape).in(node.memory())),
-      pixels_sent_(shape.refinement.is_wanted() ? shape.node_count : 0),
-      node_count_(shape.node_count),
-      worker_count_(shape.worker_count),
-      width_(shape.width),
-      height_(shape.height),
-      planes_(shape.planes),
-      dealt_side_(shape.dealt_side),
-      shares_(shape.shares),
-      is_masked_(shape.is_masked),
-      items_({}, 0) {
-  for (std::uint32_t i = 0; i < node_count_; ++i) {
-    node.grant(nodes::NodeId{i}, control_channel, 1);  // for Stop; an acknowledgement's place is reserved by its film packet
-  }
-  if (const core::PartialPicture* const start = shape.start) {
-    refinement_.resume(*start);
-    const std::span<const std::uint64_t> done = start->done.words();
-    std::copy(done.begin(), done.end(), arrived_.begin());
-    pixels_done_ = pixels_found_done_ = start->done.count();
-  }
-  if (shape.pages) {
-    home_.emplace(HomePages(node, *shape.pages, shape.database), PageServer(node, *shape.pages));
+    : Host(node, film, plan.request.refinement, plan.request.first_samples, std::move(progress), continuation,
+           plan.request.detail),
+      plan_(plan),
+      pixels_sent_(plan.request.refinement.is_wanted() ? plan.node_count() : 0),
+      node_count_(plan.node_count()),
+      dealt_side_(plan.request.is_dealt() ? plan.work_item_side : 0),
+      is_masked_(plan.request.is_masked()),
+      items_({}, 0),
+      pixels_found_done_(pixels_with_light()) {
+  grant_stops();
+  if (are_at_host(plan.request.pages.homes)) {
+    home_.emplace(HomePages(node, plan.pages(), plan.request.database), PageServer(node, plan.pages()));
   }
   start_dealing();
 }
 
-void HostProgram::begin_frame(const core::FineDetail* detail) {
-  core::expect(stopped_, "a frame begins when the one before has ended");
-  for (std::uint32_t i = 0; i < node_count_; ++i) {
-    node_->grant(nodes::NodeId{i}, control_channel, 1);  // for Stop
+nodes::MemoryPlan HostProgram::layout(const Plan& plan) {
+  nodes::MemoryPlan memory = own_layout(std::size_t{plan.request.width} * plan.request.height);
+  if (are_at_host(plan.request.pages.homes)) {
+    memory += HomePages::layout(plan.pages(), plan.node_count()) + PageServer::layout(plan.pages(), plan.node_count());
   }
-  refinement_ = core::Refinement(wanted_, first_samples_, film_->width(), film_->height(), detail, film_->scale());
-  std::fill(arrived_.begin(), arrived_.end(), 0);
+  return memory;
+}
+
+void HostProgram::begin_frame(const core::FineDetail* detail) {
+  Host::begin_frame(detail);
+  grant_stops();
   std::fill(pixels_sent_.begin(), pixels_sent_.end(), 0);
   served_before_ = home_ ? home_->server.served() : 0;
-  items_given_ = pixels_announced_ = pixels_of_old_passes_ = deposits_saturated_ = 0;
-  nodes_masked_ = pixels_done_ = pixels_found_done_ = nodes_done_ = 0;
+  items_given_ = pixels_announced_ = pixels_of_old_passes_ = 0;
+  nodes_masked_ = pixels_found_done_ = nodes_done_ = 0;
   stopped_ = false;
   start_dealing();
 }
 
-nodes::MemoryPlan HostProgram::layout(const HostShape& shape) {
-  nodes::MemoryPlan plan = own_layout(shape);
-  if (shape.pages) {
-    plan += HomePages::layout(*shape.pages, shape.node_count) + PageServer::layout(*shape.pages, shape.node_count);
+/// An acknowledgement's place is reserved by its film packet.
+void HostProgram::grant_stops() {
+  for (std::uint32_t i = 0; i < node_count_; ++i) {
+    node_->grant(nodes::NodeId{i}, control_channel, 1);
   }
-  return plan;
 }
 
 void HostProgram::receive(const nodes::Packet& packet) {
@@ -103,45 +78,24 @@ void HostProgram::serve(const nodes::Packet& packet) {
 }
 
 void HostProgram::take_film(const nodes::Packet& packet) {
-  core::expect(packet.payload.size() >= sizeof(FilmHeader), "a film packet has a header");
-  FilmHeader header;
-  std::memcpy(&header, packet.payload.data(), sizeof(header));
-  core::expect(packet.payload.size() == film_packet_bytes(header.count, planes_), "a film packet is as long as it says");
+  const auto header = packet.front<FilmHeader>();
+  core::expect(packet.payload.size() == film_packet_bytes(header.count, plan_.film_planes),
+               "a film packet is as long as it says");
   for (std::uint32_t i = 0; i < header.count; ++i) {
-    const FilmEntry entry = film_entry_in(packet.payload, i, planes_);
-    core::expect(entry.pixel < film_->pixel_count() && entry.more < film_->pixel_count() - entry.pixel,
-                 "finished pixels are of the picture");
-    for (std::uint32_t pixel = entry.pixel; pixel <= entry.pixel + entry.more; ++pixel) {
-      take_pixel(pixel, entry.sums);
-    }
+    const FilmEntry entry = film_entry_in(packet.payload, i, plan_.film_planes);
+    core::expect(take_light(entry.pixel, entry.more, entry.sums) == entry.more + 1, "each pixel arrives once");
   }
   node_->grant(packet.source, control_channel);
   node_->send_reserved(packet.source, control_channel, number_of(Kind::film_acknowledgement), FilmAcknowledgement{header.count});
-  if (progress_) {
-    progress_(pixels_done_, refinement_.pixel_count());
-  }
-  if (continuation_.is_due && continuation_.is_due()) {
-    keep();
+  tell_progress(pixels_with_light());
+  if (is_due()) {
+    keep_interrupted();
   }
 }
 
-void HostProgram::keep() const {
-  if (stopped_ || !continuation_.keep) {
-    return;
-  }
-  core::PixelMask done(width_ * height_);
-  std::copy(arrived_.begin(), arrived_.end(), done.words().begin());
-  continuation_.keep(*film_, refinement_, done);
-}
-
-void HostProgram::take_pixel(std::uint32_t pixel, const core::PixelSums& sums) {
-  core::expect(refinement_.pass().has(pixel), "a finished pixel is of the pass");
-  core::expect(!has_arrived(pixel), "each pixel arrives once");
-  arrived_[pixel / 64] |= std::uint64_t{1} << (pixel % 64);
-  ++pixels_done_;
-  deposits_saturated_ += film_->deposit(pixel, sums) ? 1 : 0;
-  if (continuation_.watch) {
-    continuation_.watch(*film_, refinement_, pixel);
+void HostProgram::keep_interrupted() const {
+  if (!stopped_ && may_be_kept()) {
+    keep(with_light());
   }
 }
 
@@ -149,15 +103,15 @@ void HostProgram::take_done(const Done& done) {
   ++nodes_done_;
   pixels_announced_ += done.pixels_rendered;
   if (nodes_done_ == node_count_) {
-    const std::uint32_t pixels = refinement_.pixel_count();
-    core::expect(pixels_announced_ + pixels_found_done_ == pixels && pixels_done_ == pixels,
+    const std::uint32_t pixels = refinement().pixel_count();
+    core::expect(pixels_announced_ + pixels_found_done_ == pixels && pixels_with_light() == pixels,
                  "every pixel is rendered and has arrived");
     end_pass();
   }
 }
 
 PixelRectangle HostProgram::share_of(std::uint32_t index) const {
-  return svm::share_of(image(), index, dealt_side_ > 0 ? 0 : worker_count_, shares_);
+  return svm::share_of(image(), index, dealt_side_ > 0 ? 0 : plan_.worker_count, plan_.request.pages.pixel_shares);
 }
 
 void HostProgram::start_dealing() {
@@ -170,8 +124,8 @@ void HostProgram::start_dealing() {
 ItemSteps HostProgram::steps_of(const PixelRectangle& item) const {
   ItemSteps steps;
   for (std::uint32_t i = 0; i < item.pixel_count() && is_masked_; ++i) {
-    const std::uint32_t pixel = item.pixel_at(i, width_);
-    steps[i] = has_arrived(pixel) ? core::SampleStep() : refinement_.pass().steps()[pixel];
+    const std::uint32_t pixel = item.pixel_at(i, plan_.request.width);
+    steps[i] = has_light(pixel) ? core::SampleStep() : refinement().pass().steps()[pixel];
   }
   return steps;
 }
@@ -206,13 +160,13 @@ void HostProgram::deal(const WorkRequest& request) {
 
 /// The film is complete: begins with the next pass, or stops all.
 void HostProgram::end_pass() {
-  if (!refinement_.next_pass(*film_)) {
+  const std::uint64_t done = pixels_done();
+  if (!next_pass()) {
     return stop();
   }
-  std::fill(arrived_.begin(), arrived_.end(), 0);
   std::fill(pixels_sent_.begin(), pixels_sent_.end(), 0);
-  pixels_of_old_passes_ += std::exchange(pixels_done_, 0) - std::exchange(pixels_found_done_, 0);
-  pixels_announced_ = nodes_done_ = nodes_masked_ = 0;
+  pixels_of_old_passes_ = done;
+  pixels_announced_ = nodes_done_ = nodes_masked_ = pixels_found_done_ = 0;
   start_dealing();
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     send_mask(i);
@@ -229,7 +183,7 @@ void HostProgram::send_mask(std::uint32_t index) {
   }
   const std::uint64_t count = std::min<std::uint64_t>(part.steps.size(), share.pixel_count() - part.first_pixel);
   for (std::uint64_t i = 0; i < count; ++i) {
-    part.steps[i] = refinement_.pass().steps()[share.pixel_at(part.first_pixel + i, width_)];
+    part.steps[i] = refinement().pass().steps()[share.pixel_at(part.first_pixel + i, plan_.request.width)];
   }
   pixels_sent_[index] += static_cast<std::uint32_t>(part.steps.size());
   node_->grant(nodes::NodeId{index}, bulk_channel);  // one part is under way to each node
@@ -245,14 +199,15 @@ void HostProgram::begin_pass() {
 
 void HostProgram::stop() {
   for (std::uint32_t i = 0; i < node_count_; ++i) {
-    node_->send_reserved(nodes::NodeId{i}, control_channel, number_of(Kind::stop), Stop{width_ * height_});
+    node_->send_reserved(nodes::NodeId{i}, control_channel, number_of(Kind::stop),
+                         Stop{plan_.request.width * plan_.request.height});
   }
   stopped_ = true;
 }
 
 std::string HostProgram::describe() const {
-  return std::to_string(pixels_done_) + " of " + std::to_string(refinement_.pixel_count()) + " pixels of pass " +
-         std::to_string(refinement_.result().passes) + " arrived, " + std::to_string(nodes_done_) + " of " +
+  return std::to_string(pixels_with_light()) + " of " + std::to_string(refinement().pixel_count()) + " pixels of pass " +
+         std::to_string(refinement().result().passes) + " arrived, " + std::to_string(nodes_done_) + " of " +
          std::to_string(node_count_) + " nodes done";
 }
 

@@ -11,6 +11,7 @@
 #include "nodes/runner.h"
 #include "nodes/size_text.h"
 #include "nodes/threads/held_packets.h"
+#include "svm/host.h"
 #include "svm/packets.h"
 #include "svm/slots.h"
 #include "svm/work_items.h"
@@ -43,8 +44,6 @@ std::uint32_t item_side_of(const PlanRequest& request) {
   const std::uint32_t side = work_item_side_of(request.pages, request.bundles);
   return request.is_masked() ? std::min(side, masked_side_max) : side;
 }
-
-bool is_dealt(const PlanRequest& request) { return request.pages.work_giver == WorkGiver::host; }
 
 /// The most pixels that are ever under way on a node: all of the picture where work moves, else the largest share's. A node may
 /// have none, but has a place for one.
@@ -82,7 +81,7 @@ nodes::MailboxCapacity node_mailbox_of(const Plan& plan) {
   const bool ring = item_side_of(request) > 0;
   nodes::MailboxCapacity capacity;
   // Work requests: each other node has at most one on the ring, unless they go to the host.
-  const std::uint32_t passed_on = ring && !is_dealt(request) ? request.computer.node_count - 1 : 0;
+  const std::uint32_t passed_on = ring && !request.is_dealt() ? request.computer.node_count - 1 : 0;
   capacity.small_slots = passed_on                   // work requests
                          + (ring ? 1 : 0)            // the reply to this node's own work request
                          + film_credits_of(request)  // acknowledgements: one for each film packet of this node's
@@ -101,7 +100,7 @@ nodes::MailboxCapacity host_mailbox_of(const Plan& plan) {
   return {.small_slots = request.computer.node_count  // Done: one from each node
                          + (request.refinement.is_wanted() ? request.computer.node_count
                                                            : 0)  // acknowledgements: one for each node's part of the mask
-                         + (is_dealt(request) ? request.worker_count() : 0)  // work requests: one from each worker
+                         + (request.is_dealt() ? request.worker_count() : 0)  // work requests: one from each worker
                          + (is_host_home(request) ? request.computer.node_count * plan.request_credits
                                                   : 0),                          // page requests: each node's credits
           .bulk_slots = request.computer.node_count * film_credits_of(request),  // film packets: each node's credits
@@ -184,9 +183,9 @@ void check_work(const PlanRequest& request) {
   const std::uint32_t workers = request.worker_count(), in_flight = request.pages.in_flight.value_or(1);
   check_use(workers >= 1 && workers <= request.computer.node_count, field_of<&PageOptions::worker_count>(), "=", workers,
             ": expected at least one worker, and at most as many as there are nodes, ", request.computer.node_count);
-  check_use(!is_dealt(request) || request.pages.work_item_side != 0U, giver, "=host does not go with ",
+  check_use(!request.is_dealt() || request.pages.work_item_side != 0U, giver, "=host does not go with ",
             field_of<&PageOptions::work_item_side>(), "=0: the host deals items of a pixel or more");
-  check_use(!is_dealt(request) || request.pages.pixel_shares == PixelShares::submaps, field_of<&PageOptions::pixel_shares>(),
+  check_use(!request.is_dealt() || request.pages.pixel_shares == PixelShares::submaps, field_of<&PageOptions::pixel_shares>(),
             "=interleaved does not go with ", giver, "=host: where the host deals items, no pixel is a node's own");
   check_use(in_flight >= 1 && in_flight <= in_flight_max, field_of<&PageOptions::in_flight>(), "=", in_flight, ": from 1 to ",
             in_flight_max, " pixels");
@@ -344,26 +343,9 @@ WorkShape Plan::work() const {
           .tile = request.is_masked() ? tile_of(pixels_a_task) : tile_for(request.first_samples, pixels_a_task),
           .item_side = work_item_side,
           .shares = request.pages.pixel_shares,
-          .dealer = is_dealt(request) ? std::optional(request.computer.node_count) : std::nullopt,
+          .dealer = request.is_dealt() ? std::optional(request.computer.node_count) : std::nullopt,
           .is_masked = request.is_masked(),
           .start = request.start};
-}
-
-HostShape Plan::host() const {
-  return {.node_count = request.computer.node_count,
-          .worker_count = worker_count,
-          .width = request.width,
-          .height = request.height,
-          .first_samples = request.first_samples,
-          .planes = film_planes,
-          .dealt_side = is_dealt(request) ? work_item_side : 0,
-          .shares = request.pages.pixel_shares,
-          .is_masked = request.is_masked(),
-          .refinement = request.refinement,
-          .start = request.start,
-          .detail = request.detail,
-          .pages = is_host_home(request) ? std::optional(pages()) : std::nullopt,
-          .database = request.database};
 }
 
 nodes::Patience Plan::patience() const { return nodes::patience_of(number_of(Kind::film_sums), film_credits); }
@@ -397,7 +379,7 @@ std::size_t Plan::node_memory_max_bytes() const {
 
 nodes::MemoryPlan Plan::host_memory() const {
   return nodes::memory_beside_program(host_mailbox, request.computer.node_count + 1, held_bytes, host_stack_bytes) +
-         HostProgram::layout(host());
+         HostProgram::layout(*this);
 }
 
 std::size_t smallest_node_memory_bytes(const PlanRequest& request) { return bytes_with(request, frames_min(request), 1); }

@@ -16,7 +16,6 @@
 #include "nodes/mailbox.h"
 #include "nodes/patience.h"
 #include "svm/film_gather.h"
-#include "svm/host.h"
 #include "svm/page_options.h"
 #include "svm/pages/page.h"
 #include "svm/pages/page_capacity.h"
@@ -54,6 +53,8 @@ struct PlanRequest {
   std::uint32_t worker_count() const { return pages.worker_count.value_or(computer.node_count); }
   /// Some pass may leave pixels out, so that each node keeps a byte for each pixel of its share.
   bool is_masked() const { return refinement.is_wanted() || start != nullptr; }
+  /// The host deals the work.
+  bool is_dealt() const { return pages.work_giver == WorkGiver::host; }
 };
 
 /// The answer. Every capacity is derived in plan.cpp, as a sum with a comment for each term.
@@ -74,6 +75,7 @@ struct Plan {
   nodes::MailboxCapacity node_mailbox, host_mailbox;
   std::vector<std::string> notes;  ///< sentences to print, such as what was reduced
 
+  std::uint32_t node_count() const { return request.computer.node_count; }
   /// Exactly what node `index` takes, by category. Home pages differ by one page at most between nodes.
   nodes::MemoryPlan node_memory(std::uint32_t index) const;
   /// The most that any node takes.
@@ -84,7 +86,6 @@ struct Plan {
   PageCapacity pages() const;
   FilmCapacity film() const;
   WorkShape work() const;
-  HostShape host() const;
   /// Which packets need not wake their target each.
   nodes::Patience patience() const;
 

@@ -30,6 +30,7 @@
 #include "nodes/byte_source.h"
 #include "nodes/lasting_pieces.h"
 #include "nodes/node.h"
+#include "nodes/pictures/computer.h"
 #include "nodes/watch/meter.h"
 #include "svm/film_gather.h"
 #include "svm/packets.h"
@@ -41,18 +42,9 @@
 
 namespace dmpc::svm {
 
-/// A node program that renders pictures of one scene, one after another.
-class PictureProgram : public NodeProgram {
- public:
-  /// The run of the picture before has ended: another one follows, of the same size and samples, from another place. What the
-  /// node has of the scene it keeps, and what it counts goes on. `settings` outlive the picture. Call it only while the program
-  /// is not running.
-  virtual void begin_frame(const core::RenderSettings& settings) = 0;
-};
-
 /// `Records` is what PlainRecords describes; `Tracer` reads them; `Task` is core::PixelTask, core::BundleTask, or a test's.
 template <class Records, class Tracer, class Task = core::PixelTask>
-class ControlProgram final : public PictureProgram {
+class ControlProgram final : public NodeProgram, public pictures::PictureProgram {
  public:
   /// Takes all its memory from `node`, which keeps `settings` and `database` (nodes/lasting_pieces.h). make_tracer(Records&)
   /// returns the tracer. `meter` is there where somebody wants to know what is done for which pixel.

@@ -13,7 +13,7 @@
 #include "nodes/node.h"
 #include "nodes/watch/meter.h"
 #include "nodes/watch/watching.h"
-#include "svm/pages/watch/recording_pager.h"
+#include "svm/pages/watch/watched_pagers.h"
 #include "svm/plan.h"
 #include "svm/program.h"
 #include "svm/strategy.h"

@@ -1,95 +1,115 @@
 #include "svm/ranks.h"
 
-#include <memory>
+#include <algorithm>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "core/base/expect.h"
 #include "nodes/byte_source.h"
-#include "nodes/ranks/ranks_runner.h"
-#include "nodes/ranks/repeated_runs.h"
-#include "nodes/ranks/stream_from_host.h"
-#include "nodes/ranks/streams_to_ranks.h"
-#include "svm/job.h"
-#include "svm/program.h"
+#include "nodes/pictures/ranks.h"
 #include "svm/run.h"
 
 namespace dmpc::svm {
-
-void hand_out(const Plan& plan, const core::RenderSettings& settings, const core::Database& database,
-              const std::string& watch_order, bool are_frames, nodes::RankLinks& links) {
-  nodes::StreamsToRanks streams(links);
-  const std::uint32_t node_count = plan.request.computer.node_count;
-  const std::string job = job_bytes(plan, settings, are_frames);
-  streams.write_counted_to_all(job);
-  streams.write_counted_to_all(watch_order);
-  for (std::uint32_t node = 0; node < node_count; ++node) {
-    const std::uint32_t rank = nodes::rank_of(node, node_count, links.rank_count());
-    plan.request.strategy->for_each_piece(plan, node, [&](std::size_t offset, std::size_t bytes) {
-      if (rank != 0) {
-        streams.write_piece(rank, database.bytes(), offset, bytes);
-      }
-    });
-  }
-  streams.finish();
-}
-
 namespace {
 
-/// The nodes of a run that are here, and what they are made of.
-class Part {
+std::string figures_of(const Plan& plan) {
+  return pictures::figures_of(plan, plan.frames, plan.resident_count, plan.in_flight, plan.pixels_a_task, plan.worker_count,
+                              plan.work_item_side, plan.request_credits, plan.film_credits);
+}
+
+void put(nodes::FlatWriter& flat, const PlanRequest& request) {
+  flat.put_bytes(request.strategy->name());
+  PageOptions pages = request.pages;
+  pages.reference_logs = nullptr;  // of this process
+  flat.put(request.page_count, request.forest_page_count, request.open_page_count, request.page_size_bytes, pages);
+  pictures::put_picture(flat, request);
+}
+
+const Strategy* strategy_called(std::string_view name, const Strategies& strategies) {
+  const auto found = std::find_if(strategies.begin(), strategies.end(), [&](const Strategy* one) { return one->name() == name; });
+  core::expect(found != strategies.end(), "all ranks know the strategy of rank 0");
+  return *found;
+}
+
+PlanRequest take_request(nodes::FlatReader& flat, nodes::RankLinks& ranks, const Strategies& strategies) {
+  PlanRequest request;
+  request.strategy = strategy_called(flat.take_bytes(), strategies);
+  flat.take_into(request.page_count, request.forest_page_count, request.open_page_count, request.page_size_bytes, request.pages);
+  pictures::take_picture(flat, ranks, request);
+  return request;
+}
+
+void put(nodes::FlatWriter& flat, const core::PartialPicture* start) {
+  flat.put(start != nullptr);
+  if (start != nullptr) {
+    flat.put(start->passes);
+    flat.put_all(start->pass.steps());
+    flat.put_all(start->done.words());
+  }
+}
+
+std::optional<core::PartialPicture> take_start(nodes::FlatReader& flat, const PlanRequest& request) {
+  if (!flat.take<bool>()) {
+    return std::nullopt;
+  }
+  const std::uint32_t pixel_count = request.width * request.height;
+  core::PartialPicture start{.film = core::Film(1, 1),  // the light is the host's
+                             .passes = flat.take<std::uint32_t>(),
+                             .pass = core::Pass(pixel_count, request.first_samples),
+                             .done = core::PixelMask(pixel_count)};
+  flat.take_all(start.pass.steps());
+  flat.take_all(start.done.words());
+  return start;
+}
+
+/// What a rank without the host makes its nodes of.
+class Job {
  public:
-  /// `job`: read from the stream, of which it reads the rest.
-  Part(std::string_view job, nodes::StreamFromHost& stream, nodes::RankLinks& links, const Following& following)
-      : following_(following), stream_(stream), job_(job_from(job, links, following.strategies)) {
-    following.check_room(nodes::rank_memory(nodes::peers_of(job_->plan), &links, links.rank()));
-    order_ = nodes::read_counted(stream);
-    const nodes::Watching watching = order_.empty() ? nodes::Watching() : following.watch(order_);
-    pages_.emplace(stream, job_->plan.pages().database_bytes());
-    maker_ = job_->plan.request.strategy->maker(job_->plan, job_->settings, *pages_, watching,
-                                                order_.empty() ? nullptr : following.reference_logs());
-    runner_ = nodes::make_runner(specifications_without_host(job_->plan, maker_), job_->plan.request.computer, watching.observer);
+  /// Makes the plan anew and expects it to be the same.
+  Job(nodes::FlatReader& flat, nodes::RankLinks& ranks, const Following& following) {
+    PlanRequest request = take_request(flat, ranks, following.strategies);
+    start_ = take_start(flat, request);
+    request.start = start_ ? &*start_ : nullptr;
+    plan_ = make_plan(request);
+    plan_.resident = flat.take_all<PageId>();
+    core::expect(flat.take_bytes() == figures_of(plan_), "all ranks have one plan");
   }
 
-  bool is_repeated() const { return job_->are_frames; }
-
-  void begin_again(std::string_view told) {
-    job_->settings = nodes::read_again<core::RenderSettings>(told);
-    for (std::uint32_t node = 0; node < job_->plan.request.computer.node_count; ++node) {
-      if (runner_->is_here(node)) {
-        dynamic_cast<PictureProgram&>(runner_->program(node)).begin_frame(job_->settings);
-      }
-    }
-    if (!order_.empty()) {
-      following_.watch_again();
-    }
+  const Plan& plan() const { return plan_; }
+  std::vector<nodes::NodeSpecification> specifications(const core::RenderSettings& settings, nodes::StreamFromHost& stream,
+                                                       const nodes::Watching& watching, const Following* watched) {
+    pages_.emplace(stream, plan_.pages().database_bytes());
+    std::vector<ReferenceLog>* const logs = watched == nullptr ? nullptr : watched->reference_logs();
+    return specifications_without_host(plan_, plan_.request.strategy->maker(plan_, settings, *pages_, watching, logs));
   }
-
-  nodes::RunEnd run(std::stop_token stop) {
-    stream_.say_ready();
-    const nodes::RunEnd end = runner_->run(std::move(stop));
-    gather_reports(*runner_, job_->plan);
-    runner_->gather_ranks(order_.empty() ? std::string() : following_.seen());
-    return end;
-  }
+  void gather(nodes::Runner& runner) const { gather_reports(runner, plan_); }
 
  private:
-  const Following& following_;
-  nodes::StreamFromHost& stream_;
-  std::unique_ptr<Job> job_;
-  std::string order_;
+  std::optional<core::PartialPicture> start_;  ///< where the picture is begun
+  Plan plan_;                                  ///< refers to it
   std::optional<nodes::ByteSource> pages_;
-  MakeProgram maker_;
-  std::unique_ptr<nodes::Runner> runner_;
 };
 
 }  // namespace
 
+void hand_out(const Plan& plan, const core::RenderSettings& settings, const core::Database& database,
+              const std::string& watch_order, bool are_frames, nodes::RankLinks& links) {
+  const auto put_own = [&](nodes::FlatWriter& job) {
+    put(job, plan.request);
+    put(job, plan.request.start);
+    job.put_all(plan.resident);
+    job.put_bytes(figures_of(plan));
+  };
+  const auto deal = [&](nodes::StreamsToRanks& streams, std::uint32_t rank, std::uint32_t node) {
+    plan.request.strategy->for_each_piece(
+        plan, node, [&](std::size_t offset, std::size_t bytes) { streams.write_piece(rank, database.bytes(), offset, bytes); });
+  };
+  pictures::hand_out(settings, plan.node_count(), watch_order, are_frames, links, put_own, deal);
+}
+
 nodes::Followed follow(nodes::RankLinks& links, std::stop_token stop, const Following& following) {
-  return nodes::follow_runs(
-      links, stop, [&](std::string_view job, nodes::StreamFromHost& stream) { return Part(job, stream, links, following); });
+  return pictures::follow<Job>(links, stop, following);
 }
 
 }  // namespace dmpc::svm

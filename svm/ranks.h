@@ -8,9 +8,8 @@
 
 #include "core/database/database.h"
 #include "core/picture/pixel_task.h"
-#include "nodes/ranks/followed.h"
-#include "nodes/ranks/following.h"
 #include "nodes/ranks/rank_links.h"
+#include "nodes/ranks/repeated_runs.h"
 #include "svm/pages/watch/reference_log.h"
 #include "svm/plan.h"
 #include "svm/strategy.h"

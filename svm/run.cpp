@@ -5,7 +5,6 @@
 #include "core/base/refusal.h"
 #include "core/picture/heat_kind.h"
 #include "svm/frames.h"
-#include "svm/picture_computer.h"
 
 namespace dmpc::svm {
 namespace {
@@ -72,11 +71,6 @@ PlanRequest request_of(const Strategy& strategy, const core::Database& database,
 }
 
 }  // namespace
-
-nodes::TrafficByKind Report::sent() const {
-  nodes::TrafficByKind sum = core::total_of(nodes, [](const NodeReport& node) { return node.counters.sent; });
-  return core::add_counts(sum, host.sent);
-}
 
 Plan plan_of(const Strategy& strategy, const core::Database& database, const core::RenderSettings& settings,
              const RunOptions& options) {

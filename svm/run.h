@@ -1,7 +1,6 @@
 // Renders a picture on N nodes: plans the memory, assembles nodes and host, runs them on threads, and reports.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -13,21 +12,16 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/counts.h"
 #include "core/base/expect.h"
 #include "core/database/database.h"
-#include "core/picture/film.h"
 #include "core/picture/partial_picture.h"
 #include "core/picture/pixel_task.h"
-#include "core/trace/traversal.h"
 #include "nodes/computer_request.h"
-#include "nodes/counters.h"
-#include "nodes/node_figures.h"
-#include "nodes/ranks/rank_figures.h"
+#include "nodes/gathering.h"
+#include "nodes/pictures/computer.h"
 #include "nodes/runner.h"
 #include "nodes/watch/meter.h"
 #include "nodes/watch/watching.h"
-#include "svm/host.h"
 #include "svm/local_copy.h"
 #include "svm/page_options.h"
 #include "svm/pages/node_program.h"
@@ -53,31 +47,17 @@ struct NodeReport : nodes::NodeFigures {
   ReferenceLog references = {};  ///< empty unless recorded
 };
 
-struct Report {
-  core::Film film;
-  nodes::RunEnd end = nodes::RunEnd::finished;  ///< interrupted: the film is not complete
-  Plan plan;
-  std::vector<NodeReport> nodes;
-  nodes::NodeCounters host;
-  std::optional<nodes::VirtualReport> virtual_time;  ///< of a modelled machine
-  std::uint64_t host_deposits_saturated = 0;         ///< pixels whose sums saturated on the host's film
-  std::uint64_t pixels_done = 0;                     ///< by this run, over all passes
-  std::uint64_t items_dealt = 0;                     ///< work items that the host gave
-  std::uint64_t host_pages_served = 0;               ///< replies of the host to requests for pages
-  core::RefinementResult refinement;
-  std::vector<nodes::RankFigures> ranks;  ///< where there are several, or could be
+struct Report : pictures::Report<NodeReport> {
+  Plan plan = {};
+  std::uint64_t host_deposits_saturated = 0;  ///< pixels whose sums saturated on the host's film
+  std::uint64_t pixels_done = 0;              ///< by this run, over all passes
+  std::uint64_t items_dealt = 0;              ///< work items that the host gave
+  std::uint64_t host_pages_served = 0;        ///< replies of the host to requests for pages
 
-  /// What programs count, summed over the nodes.
-  template <class Counts>
-  Counts summed(Counts ProgramReport::*counts) const {
-    return core::total_of(nodes, [counts](const NodeReport& node) { return node.program.*counts; });
-  }
   core::Operations operations() const { return summed(&ProgramReport::operations); }
   PageCounters pages() const { return summed(&ProgramReport::pages); }
   WorkCounters work() const { return summed(&ProgramReport::work); }
   QuestionCounters questions() const { return summed(&ProgramReport::questions); }
-  /// Packets and bytes sent by all nodes and the host, by Kind's number.
-  nodes::TrafficByKind sent() const;
 };
 
 /// The plan that a run with these options will follow, for messages before the run. Throws as make_plan() does.

@@ -3,8 +3,7 @@
 
 #include "core/base/units.h"
 #include "svm/pages/pager.h"
-#include "svm/pages/watch/counting_pager.h"
-#include "svm/pages/watch/recording_pager.h"
+#include "svm/pages/watch/watched_pagers.h"
 #include "svm/program_maker.h"
 #include "svm/strategy.h"
 

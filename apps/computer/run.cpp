@@ -22,9 +22,8 @@
 #include "apps/edge/system/interrupt.h"
 #include "apps/edge/system/stopwatch.h"
 #include "nodes/gathering.h"
-#include "nodes/idle_program.h"
+#include "nodes/program.h"
 #include "nodes/runner.h"
-#include "nodes/standstill.h"
 
 namespace dmpc::apps {
 namespace {

@@ -12,7 +12,7 @@
 #include "apps/edge/system/trusted_path.h"
 #include "core/base/expect.h"
 #include "svm/pages/replacement.h"
-#include "svm/pages/watch/policy_misses.h"
+#include "svm/pages/watch/optimum.h"
 
 namespace dmpc::apps {
 namespace {

@@ -11,7 +11,7 @@
 #include "apps/render/watch_order.h"
 #include "dataflow/packets.h"
 #include "dataflow/ranks.h"
-#include "nodes/ranks/following.h"
+#include "nodes/ranks/repeated_runs.h"
 #include "nodes/runner.h"
 #include "svm/forest/strategy.h"
 #include "svm/packets.h"

@@ -5,7 +5,7 @@
 #include "core/base/expect.h"
 #include "core/picture/memory_use.h"
 #include "core/trace/traversal.h"
-#include "dataflow/rays/next_stops.h"
+#include "dataflow/rays/next_stop.h"
 
 namespace dmpc::dataflow {
 

@@ -12,7 +12,6 @@
 
 #include "core/base/region.h"
 #include "dataflow/regions/columns.h"
-#include "dataflow/regions/found_region.h"
 #include "nodes/node_id.h"
 
 namespace dmpc::dataflow {

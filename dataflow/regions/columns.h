@@ -12,6 +12,12 @@
 
 namespace dmpc::dataflow {
 
+/// The region that a finest cell lies in: its number, and its box in finest cells.
+struct FoundRegion {
+  std::uint32_t index = 0;
+  core::Region box;
+};
+
 /// Which two of the grid's axes the cuts are perpendicular to; along the third every region spans the grid. Different, below 3.
 using CutAxes = std::array<std::uint8_t, 2>;
 

@@ -14,7 +14,6 @@
 #include "core/base/expect.h"
 #include "core/base/region.h"
 #include "dataflow/regions/columns.h"
-#include "dataflow/regions/found_region.h"
 #include "nodes/node_id.h"
 
 namespace dmpc::dataflow {

@@ -153,8 +153,7 @@ void Movement::take_refusal() {
 void Movement::take_page(const nodes::Packet& packet) {
   core::expect(packet.payload.size() == packet_.size(), "a page comes with its header");
   core::expect(!hand_over_.is_settled(), "a page comes to a node that has asked");
-  UnitPageHeader header;
-  std::memcpy(&header, packet.payload.data(), sizeof(header));
+  const auto header = packet.front<UnitPageHeader>();
   const bool is_new = units_.pages->add(header.page, packet.payload.subspan(sizeof(header)));
   counters_.pages_installed += is_new ? 1 : 0;
   if (header.is_last != 0) {

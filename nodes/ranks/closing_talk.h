@@ -1,11 +1,14 @@
 // The last words of ranks: how the run has ended for each and, if not well, what there is to say.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nodes/chaos.h"
@@ -24,28 +27,95 @@ class ClosingTalk {
   ClosingTalk(RankLinks& links, NodeThreads& nodes) : links_(&links), nodes_(&nodes), last_words_(links.rank_count()) {}
 
   /// Takes an item of this talk; false if it is of another. What has ended elsewhere ends here.
-  bool receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes);
+  bool receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
+    LastWord& word = last_words_[rank];
+    if (header.item == Item::text) {
+      word.text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+      return true;
+    }
+    if (header.item == Item::closing) {
+      word.ending = value_of<Closing>(bytes).ending;
+      word.kind = value_of<Closing>(bytes).kind;
+      nodes_->end(word.ending);
+      return true;
+    }
+    return false;
+  }
 
   /// This rank's last word, when its nodes have stopped, for which it waits.
-  void close();
+  void close() {
+    is_closing_ = true;
+    nodes_->join();
+    const LastWord word = own_word();
+    if (!word.text.empty()) {
+      links_->say_to_all(Item::text, std::as_bytes(std::span(word.text)));
+    }
+    links_->say_to_all(Item::closing, bytes_of(Closing{word.ending, word.kind}));
+  }
+
   bool is_closing() const { return is_closing_; }
   /// All have said their last word.
-  bool is_closed() const;
+  bool is_closed() const {
+    const auto is_silent = [](const LastWord& word) { return word.ending == Ending::none; };
+    return is_closing_ && std::count_if(last_words_.begin(), last_words_.end(), is_silent) == 1 && links_->has_said_all();
+  }
+
   /// This rank knows from that one's last word that the run has not ended well.
   bool has_told_of_failure(std::uint32_t rank) const { return last_words_[rank].ending >= Ending::stalled; }
 
   /// How the run has ended, as badly as anywhere; throws what a rank has failed with, or StandstillError. When all is closed.
-  RunEnd judge(const std::optional<Chaos>& disturbance) const;
+  RunEnd judge(const std::optional<Chaos>& disturbance) const {
+    const auto gravity = [](const LastWord& word) { return std::pair(word.ending, !word.text.empty()); };
+    const auto gravest = std::max_element(last_words_.begin(), last_words_.end(),
+                                          [&](const LastWord& a, const LastWord& b) { return gravity(a) < gravity(b); });
+    switch (std::max(nodes_->ending(), gravest->ending)) {
+      case Ending::failed:
+        if (nodes_->failure()) {
+          std::rethrow_exception(nodes_->failure());
+        }
+        fail_as(gravest->kind, links_->name_of(static_cast<std::uint32_t>(gravest - last_words_.begin())) + ": " + gravest->text);
+      case Ending::stalled:
+        throw StandstillError(stall_text(disturbance) + nodes_->describe() + texts());
+      case Ending::interrupted:
+        return RunEnd::interrupted;
+      default:
+        return RunEnd::finished;
+    }
+  }
 
  private:
+  /// How the last word of a rank travels, behind its text.
+  struct Closing {
+    Ending ending;
+    FailureKind kind;
+  };
   struct LastWord {
     Ending ending = Ending::none;
     FailureKind kind = FailureKind::internal;  ///< of one that has failed
     std::string text;                          ///< of one that has failed, or a line for each program of one that stalls
   };
 
-  LastWord own_word() const;
-  std::string texts() const;
+  LastWord own_word() const {
+    LastWord word{.ending = nodes_->ending()};
+    if (word.ending == Ending::stalled) {
+      word.text = nodes_->describe();
+    }
+    if (nodes_->failure()) {
+      Failure failure = failure_of(nodes_->failure());
+      word.kind = failure.kind;
+      word.text = std::move(failure.text);
+    }
+    return word;
+  }
+
+  /// The texts of the other ranks.
+  std::string texts() const {
+    std::string texts;
+    for (const LastWord& word : last_words_) {
+      texts += word.text;
+    }
+    return texts;
+  }
 
   RankLinks* links_;
   NodeThreads* nodes_;

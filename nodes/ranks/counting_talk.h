@@ -1,18 +1,91 @@
 // What goes between the nodes of several ranks, and how the ranks find out that nothing does any more.
+//
+// Everybody counts, twice (F. Mattern, "Algorithms for distributed termination detection", Distributed Computing 2, 1987: four
+// counters).
+//
+// A rank counts for a wave while all its nodes sleep and its outbox is empty, and for the next one only when it knows what all
+// have said in this. Counts only grow; so where two waves in succession have equal sums, each rank's are equal, and nobody has
+// sent or received anything from its first word to its second; all first words lie before all second ones. Where as many packets
+// were received as sent, none was under way in between, and nothing can come any more. No time-out is in it, and no rank is
+// asked by another: each tells all others, comes to the same sums, and knows.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <vector>
 
+#include "core/base/expect.h"
 #include "nodes/mailbox.h"
-#include "nodes/ranks/counting_waves.h"
 #include "nodes/ranks/frame.h"
+#include "nodes/ranks/outbox.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/ranks/rank_report.h"
 #include "nodes/threads/node_threads.h"
 
 namespace dmpc::nodes {
+
+/// What one rank has counted, or all together.
+struct Counts {
+  std::uint64_t sent = 0, received = 0;  ///< packets, to and from other ranks
+  std::uint64_t unfinished = 0;          ///< programs
+
+  bool operator==(const Counts&) const = default;
+};
+
+/// One rank's view. Thread safety: none.
+class CountingWaves {
+ public:
+  explicit CountingWaves(std::size_t rank_count) : ranks_(rank_count) {}
+
+  /// Whether this rank has counted for the wave that is going on.
+  bool has_counted(std::size_t rank) const { return ranks_[rank].waves > wave_; }
+  /// What a rank says in the wave that is its next.
+  void count(std::size_t rank, const Counts& counts) {
+    Rank& one = ranks_.at(rank);
+    core::expect(one.waves <= wave_ + 1, "nobody is two waves ahead");
+    one.said[one.waves++ % one.said.size()] = counts;
+  }
+
+  /// Ends the wave if all have counted. What all stand still at, if by that they are found to.
+  std::optional<Counts> end_wave() {
+    for (std::size_t rank = 0; rank < ranks_.size(); ++rank) {
+      if (!has_counted(rank)) {
+        return std::nullopt;
+      }
+    }
+    const Counts sum = sum_of_wave();
+    const bool are_still = wave_ > 0 && sum == last_ && sum.sent == sum.received;
+    ++wave_;
+    last_ = sum;
+    return are_still ? std::optional(sum) : std::nullopt;
+  }
+  /// Waves that have ended.
+  std::uint64_t waves() const { return wave_; }
+
+ private:
+  struct Rank {
+    std::uint64_t waves = 0;  ///< in which it has counted
+    std::array<Counts, 2> said;
+  };
+
+  Counts sum_of_wave() const {
+    Counts sum;
+    for (const Rank& rank : ranks_) {
+      const Counts& said = rank.said[wave_ % rank.said.size()];
+      sum.sent += said.sent;
+      sum.received += said.received;
+      sum.unfinished += said.unfinished;
+    }
+    return sum;
+  }
+
+  std::vector<Rank> ranks_;
+  std::uint64_t wave_ = 0;
+  Counts last_;
+};
 
 /// Items: packet, counts. Thread safety: belongs to one thread at a time.
 class CountingTalk {
@@ -22,23 +95,77 @@ class CountingTalk {
       : links_(&links), nodes_(&nodes), outbox_(&outbox), node_count_(node_count), waves_(links.rank_count()) {}
 
   /// Takes an item of this talk; false if it is of another.
-  bool receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes);
+  bool receive(std::uint32_t rank, const ItemHeader& header, std::span<const std::byte> bytes) {
+    if (header.item == Item::packet) {
+      ++traffic_.packets_received;
+      if (!is_closing_) {
+        NodeThreads::Bringing(*nodes_).bring(NodeId{header.target}, header.packet, bytes);
+      }
+      return true;
+    }
+    if (header.item == Item::counts) {
+      waves_.count(rank, value_of<Counts>(bytes));
+      return true;
+    }
+    return false;
+  }
 
   /// Out of the outbox into frames, as far as there is room. A way that is full holds the others up, but not for long: what
   /// arrives at a rank has its place there, so frames are always taken. Returns whether there was anything.
-  bool send_packets();
+  bool send_packets() {
+    const std::uint64_t before = traffic_.packets_sent;
+    outbox_->drain_while([this](const Packet& packet) {
+      const auto target = value_of<TargetIndex>(packet.payload.first(sizeof(TargetIndex)));
+      const std::span<const std::byte> payload = packet.payload.subspan(sizeof(TargetIndex));
+      const ItemHeader header{.target = target,
+                              .packet = {.bytes = static_cast<std::uint32_t>(payload.size()),
+                                         .source = static_cast<std::uint16_t>(index_of(packet.source)),
+                                         .kind = packet.kind}};
+      const bool has_room = links_->put(rank_of(target, node_count_, links_->rank_count()), header, payload);
+      traffic_.packets_sent += has_room ? 1 : 0;
+      return has_room;
+    });
+    return traffic_.packets_sent > before;
+  }
+
   /// Counts if all is quiet here, and ends the run if it is everywhere.
-  void count_if_quiet();
+  /// The order matters: nodes that sleep have put into the outbox what they had, and while all do only what this thread brings
+  /// wakes them.
+  void count_if_quiet() {
+    if (is_to_count() && outbox_->is_drained()) {
+      const Counts counts{traffic_.packets_sent, traffic_.packets_received, nodes_->unfinished_count()};
+      waves_.count(links_->rank(), counts);
+      links_->say_to_all(Item::counts, bytes_of(counts));
+    }
+    if (const std::optional<Counts> still = waves_.end_wave()) {
+      nodes_->end(still->unfinished == 0 ? Ending::finished : Ending::stalled);
+    }
+  }
+
   /// There is something new to count.
   bool is_to_count() const { return nodes_->all_sleep() && !waves_.has_counted(links_->rank()); }
 
   /// The nodes here stop: packets that still come are for nobody.
   void close() { is_closing_ = true; }
   /// All were told how the run has ended. Call it before the next two.
-  void close_account();
+  void close_account() {
+    const RankLinks::Sent sent = links_->take_sent();
+    traffic_.frames_sent = sent.frames;
+    traffic_.bytes_sent = sent.bytes;
+    traffic_.waves = waves_.waves();
+  }
+
   const RankTraffic& traffic() const { return traffic_; }
   /// What was sent here or came here was received here or left.
-  void expect_nothing_lost() const;
+  void expect_nothing_lost() const {
+    nodes_->expect_nothing_lies_about();
+    std::uint64_t sent = 0, received = 0;
+    for (const auto& processor : nodes_->processors()) {
+      sent += total(processor->node.counters().sent).packets;
+      received += total(processor->node.counters().received).packets;
+    }
+    core::expect(sent + traffic_.packets_received == received + traffic_.packets_sent, "packets sent are packets received");
+  }
 
  private:
   RankLinks* links_;

@@ -1,4 +1,4 @@
-// Where a rank's packets for nodes elsewhere wait for a frame.
+// Which rank a node is on, and where packets for nodes elsewhere wait for a frame.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,12 @@
 #include "nodes/mailbox.h"
 
 namespace dmpc::nodes {
+
+/// The rank of a node, or of the host, whose index is node_count: blocks keep neighbours together, the host is on rank 0. Each
+/// rank has a node where there are at least as many nodes as ranks.
+constexpr std::uint32_t rank_of(std::uint32_t index, std::uint32_t node_count, std::uint32_t rank_count) {
+  return index == node_count ? 0 : static_cast<std::uint32_t>(std::uint64_t{index} * rank_count / node_count);
+}
 
 /// Before a packet in the outbox.
 using TargetIndex = std::uint32_t;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "nodes/ranks/outbox.h"
-#include "nodes/ranks/placement.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/ranks/streams_to_ranks.h"
 #include "nodes/runner.h"

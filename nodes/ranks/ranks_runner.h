@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "nodes/chaos.h"
-#include "nodes/ranks/placement.h"
+#include "nodes/ranks/outbox.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/runner.h"
 

@@ -2,6 +2,8 @@
 // and for each that follows the one value in which it differs.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -10,12 +12,43 @@
 #include "core/base/expect.h"
 #include "nodes/byte_source.h"
 #include "nodes/flat_bytes.h"
-#include "nodes/ranks/followed.h"
+#include "nodes/ranks/rank_memory.h"
 #include "nodes/ranks/stream_from_host.h"
-#include "nodes/ranks/stream_kind.h"
 #include "nodes/ranks/streams_to_ranks.h"
+#include "nodes/runner.h"
+#include "nodes/watch/watching.h"
 
 namespace dmpc::nodes {
+
+/// What a stream from rank 0 is about, by its first byte.
+enum class StreamKind : std::uint8_t {
+  job,   ///< a run on new nodes, which are made of what follows
+  again  ///< another run on the nodes that are there
+};
+
+/// Of what read_counted() has read first.
+inline StreamKind kind_of_stream(std::string_view bytes) {
+  core::expect(!bytes.empty(), "a stream says what it is about");
+  return StreamKind{static_cast<std::uint8_t>(bytes.front())};
+}
+
+/// What a rank brings to a run that rank 0 leads.
+struct Following {
+  /// Called when the plan is known, before anything of it is set aside; throws if this rank has no room.
+  std::function<void(const RankMemory&)> check_room = [](const RankMemory&) {};
+  /// Called next, if rank 0 wants the nodes looked at, with what it orders: who looks on here.
+  std::function<Watching(std::string_view order)> watch = [](std::string_view) { return Watching(); };
+  /// Called before each run but the first, where several follow each other on the same nodes: what was seen is forgotten.
+  std::function<void()> watch_again = [] {};
+  /// Called then, when the run is over: what was seen here, as WatchingElsewhere::add() of rank 0 understands it.
+  std::function<std::string()> seen = [] { return std::string(); };
+};
+
+/// How a run went for a rank that renders what rank 0 has handed out.
+struct Followed {
+  RunEnd end = RunEnd::finished;
+  std::uint64_t bytes_received = 0;  ///< all that it was told before the run: a job, and what its nodes keep during the run
+};
 
 /// On rank 0, before another run on the nodes that are there: sends each other rank the value. Returns when all have taken it up.
 /// Throws what fails on another rank.

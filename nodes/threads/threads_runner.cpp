@@ -6,7 +6,7 @@
 
 #include "core/base/expect.h"
 #include "nodes/processors.h"
-#include "nodes/standstill.h"
+#include "nodes/runner.h"
 #include "nodes/threads/node_threads.h"
 
 namespace dmpc::nodes {

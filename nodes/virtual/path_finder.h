@@ -14,7 +14,6 @@
 #include "nodes/node_id.h"
 #include "nodes/observer.h"
 #include "nodes/packet.h"
-#include "nodes/path_times.h"
 
 namespace dmpc::nodes {
 

@@ -9,7 +9,7 @@
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "nodes/processors.h"
-#include "nodes/standstill.h"
+#include "nodes/runner.h"
 #include "nodes/virtual/event_queue.h"
 #include "nodes/virtual/links.h"
 #include "nodes/virtual/path_finder.h"

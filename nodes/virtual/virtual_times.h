@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/sampling.h"
+#include "nodes/observer.h"
 #include "nodes/packet.h"
-#include "nodes/path_times.h"
 #include "nodes/virtual/links.h"
 
 namespace dmpc::nodes {

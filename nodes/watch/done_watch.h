@@ -1,7 +1,7 @@
 // When each item of a program's work was last worked on, onto a heat map: an instrument beside the computer, whose memory is no
 // node's.
 //
-// A HeatMeter cannot know it: programs have no clock. What a call has worked on is told before its span, which alone knows when
+// A Meter cannot know it: programs have no clock. What a call has worked on is told before its span, which alone knows when
 // the call ends; so the items of a call wait for it.
 #pragma once
 

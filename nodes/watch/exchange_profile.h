@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "nodes/level.h"
 #include "nodes/observer.h"
+#include "nodes/program.h"
 #include "nodes/topology.h"
 #include "nodes/watch/step_counts.h"
 

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "nodes/programs_name.h"
 #include "nodes/ranks/clock_drift.h"
 
 namespace dmpc::nodes {
@@ -23,7 +22,8 @@ class HeatNumber {
  public:
   explicit constexpr HeatNumber(std::size_t value) : value_(value) {}
   // Implicit: whoever names a kind has named its number.
-  template <ProgramsName Kind>
+  template <class Kind>
+  requires std::is_enum_v<Kind>
   constexpr HeatNumber(Kind kind) : value_(static_cast<std::size_t>(kind)) {}
 
   constexpr std::size_t value() const { return value_; }
@@ -34,7 +34,7 @@ class HeatNumber {
 
 /// Kinds that can be recorded. The computer knows what four of them mean, and the program counts the others.
 template <class Kind>
-concept HeatKinds = ProgramsName<Kind> && requires {
+concept HeatKinds = std::is_enum_v<Kind> && requires {
   Kind::time;   // picoseconds of computing
   Kind::node;   // number of the node that the item belongs to
   Kind::depth;  // of the deepest Worked

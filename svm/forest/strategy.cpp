@@ -1,6 +1,7 @@
 #include "svm/forest/strategy.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/expect.h"
 #include "core/database/database.h"
@@ -9,6 +10,7 @@
 #include "svm/run.h"
 
 namespace dmpc::svm {
+
 namespace {
 
 /// Room for packets of questions that a node keeps, about.
@@ -93,6 +95,11 @@ class ForestStrategy final : public Strategy {
 const Strategy* forest_strategy() {
   static const ForestStrategy strategy;
   return &strategy;
+}
+
+Report run_forest(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                  std::stop_token stop) {
+  return run_by(*forest_strategy(), database, settings, options, std::move(stop));
 }
 
 }  // namespace dmpc::svm

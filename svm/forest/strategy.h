@@ -2,7 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 
+#include "core/database/database.h"
+#include "core/picture/pixel_task.h"
+#include "svm/run.h"
 #include "svm/strategy.h"
 
 namespace dmpc::svm {
@@ -14,5 +18,9 @@ inline constexpr std::uint32_t forest_in_flight_least = 16, forest_in_flight_mos
 
 /// Every node holds the upper part of the tree, and asks the owners of its subtrees what rays meet there.
 const Strategy* forest_strategy();
+
+/// Renders with strategy forest, a database of one tree in spatial order (core::Database::forest_page_count()), as run_by() does.
+Report run_forest(const core::Database& database, const core::RenderSettings& settings, const RunOptions& options,
+                  std::stop_token stop);
 
 }  // namespace dmpc::svm

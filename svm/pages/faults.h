@@ -5,9 +5,11 @@
 // in the order in which they arose.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
+#include "core/base/expect.h"
 #include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "svm/pages/page.h"
@@ -27,24 +29,64 @@ class Faults {
   };
 
   /// Room for slots 0 .. slot_count - 1, which wait for up to `faults_max` pages.
-  Faults(nodes::LocalMemory& memory, std::uint32_t slot_count, std::uint32_t faults_max);
+  Faults(nodes::LocalMemory& memory, std::uint32_t slot_count, std::uint32_t faults_max) {
+    std::tie(faults_, next_) = layout(slot_count, faults_max).in(memory);
+  }
+
   /// What the constructor takes.
-  static nodes::Layout<Fault, std::uint32_t> layout(std::uint32_t slot_count, std::uint32_t faults_max);
+  static nodes::Layout<Fault, std::uint32_t> layout(std::uint32_t slot_count, std::uint32_t faults_max) {
+    return {{nodes::Category::queues, faults_max}, {nodes::Category::queues, slot_count}};
+  }
 
   /// `slot` waits for `page`. Returns the new fault if nobody waited for that page before, else nullptr.
-  Fault* park(std::uint32_t slot, PageId page, std::uint32_t home);
+  Fault* park(std::uint32_t slot, PageId page, std::uint32_t home) {
+    next_[slot] = no_slot;
+    if (Fault* fault = find(page)) {
+      next_[fault->last] = slot;
+      fault->last = slot;
+      return nullptr;
+    }
+    core::expect(count_ < faults_.size(),
+                 "there are never more faults than pixels in flight, nor than pages that live elsewhere");
+    Fault& fault = faults_[count_++];
+    fault = {page, home, slot, slot, false};
+    return &fault;
+  }
+
   /// Ends the fault of an arrived page; returns the first of the slots that waited for it. Expects that there was one,
   /// requested.
-  std::uint32_t arrived(PageId page);
+  std::uint32_t arrived(PageId page) {
+    Fault* fault = find(page);
+    core::expect(fault != nullptr && fault->requested, "a page arrives only where it was asked for");
+    const std::uint32_t first = fault->first;
+    std::copy(fault + 1, faults_.data() + count_, fault);
+    --count_;
+    return first;
+  }
+
   /// The slot that waits for the same page behind `slot`, or no_slot. Read it before the slot runs on: it may park again.
   std::uint32_t next(std::uint32_t slot) const { return next_[slot]; }
   /// The oldest fault at `home` whose request was refused, or nullptr.
-  Fault* oldest_refused(std::uint32_t home);
+  Fault* oldest_refused(std::uint32_t home) {
+    for (Fault& fault : faults_.first(count_)) {
+      if (!fault.requested && fault.home == home) {
+        return &fault;
+      }
+    }
+    return nullptr;
+  }
 
   std::uint32_t count() const { return count_; }
 
  private:
-  Fault* find(PageId page);
+  Fault* find(PageId page) {
+    for (Fault& fault : faults_.first(count_)) {
+      if (fault.page == page) {
+        return &fault;
+      }
+    }
+    return nullptr;
+  }
 
   std::span<Fault> faults_;
   std::span<std::uint32_t> next_;

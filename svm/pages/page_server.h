@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/base/expect.h"
 #include "nodes/layout.h"
 #include "nodes/node.h"
 #include "svm/pages/packets.h"
@@ -15,12 +16,26 @@ namespace dmpc::svm {
 /// Copies a page, so it may serve at any time. Thread safety: belongs to one node, or the host.
 class PageServer {
  public:
-  PageServer(nodes::Node& node, const PageCapacity& capacity);
+  PageServer(nodes::Node& node, const PageCapacity& capacity)
+      : node_(&node),
+        page_size_bytes_(capacity.page_size_bytes()),
+        reply_(layout(capacity, nodes::index_of(node.id())).in(node.memory())) {}
+
   /// What the constructor takes at node `index`, or at the host.
-  static nodes::Room<std::byte> layout(const PageCapacity& capacity, std::uint32_t index);
+  static nodes::Room<std::byte> layout(const PageCapacity& capacity, std::uint32_t index) {
+    return {nodes::Category::queues, capacity.is_asked(index) ? page_reply_bytes(capacity.page_size_bytes()) : 0};
+  }
 
   /// Replies at once, with the page's bytes: the request has reserved the reply's place.
-  void reply(const PassedRequest& request, const std::byte* bytes);
+  void reply(const PassedRequest& request, const std::byte* bytes) {
+    const PageReplyHeader header{request.page};
+    const nodes::NodeId asker{request.asker};
+    node_->grant(asker, bulk_channel);
+    core::expect(node_->try_send(asker, bulk_channel, number_of(Kind::page_reply), std::as_bytes(std::span(&header, 1)),
+                                 {bytes, page_size_bytes_}, reply_),
+                 "a reply always has room");
+    ++served_;
+  }
 
   /// Replies so far.
   std::uint64_t served() const { return served_; }

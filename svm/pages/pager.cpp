@@ -136,8 +136,7 @@ void Pager::request(Faults::Fault& fault) {
 
 std::uint32_t Pager::install(const nodes::Packet& reply) {
   core::expect(reply.payload_bytes() == page_reply_bytes(geometry_.size_bytes()), "a page reply carries one page");
-  PageReplyHeader header;
-  std::memcpy(&header, reply.payload.data(), sizeof(header));
+  const auto header = reply.front<PageReplyHeader>();
   const std::uint32_t source = nodes::index_of(reply.source), asked = asked_for(header.page);
   core::expect(tree_ ? tree_->is_above(source, nodes::index_of(node_->id())) : source == asked,
                "a page comes from its home, or from above in the tree");

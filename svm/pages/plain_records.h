@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "nodes/charge.h"
-#include "nodes/level.h"
+#include "nodes/program.h"
 #include "svm/pages/node_program.h"
 
 namespace dmpc::svm {

@@ -7,7 +7,7 @@
 #include "core/base/counts.h"
 #include "core/base/expect.h"
 #include "nodes/gathering.h"
-#include "nodes/idle_program.h"
+#include "nodes/program.h"
 #include "nodes/ranks/rank_memory.h"
 #include "svm/pages/packets.h"
 #include "svm/pages/task_program.h"

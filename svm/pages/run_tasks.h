@@ -21,8 +21,8 @@
 #include "svm/pages/task_heat.h"
 #include "svm/pages/task_kind.h"
 #include "svm/pages/task_plan.h"
-#include "svm/pages/watch/recording_pager.h"
 #include "svm/pages/watch/reference_log.h"
+#include "svm/pages/watch/watched_pagers.h"
 
 namespace dmpc::svm {
 

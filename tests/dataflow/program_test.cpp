@@ -56,13 +56,14 @@ struct Stage {
 };
 
 /// One node of a stage, with the primary rays given.
-template <class RaysTask>
-struct LoneProgramOf {
-  LoneProgramOf(const Stage& stage, std::uint32_t index, std::span<const dataflow::PrimaryRun> primaries = {})
+struct LoneProgram {
+  LoneProgram(const Stage& stage, std::uint32_t index, std::span<const dataflow::PrimaryRun> primaries = {})
       : single(stage.plan.node_memory(index), index, stage.plan.node_count() + 1),
-        program(single.node, stage.plan,
-                {stage.distribution.parts[index].header, std::span(stage.distribution.parts[index].bytes), primaries,
-                 stage.settings, stage.distribution.regions, stage.distribution.outline}) {}
+        made(
+            dataflow::make_node_program(single.node, stage.plan,
+                                        {stage.distribution.parts[index].header, std::span(stage.distribution.parts[index].bytes),
+                                         primaries, stage.settings, stage.distribution.regions, stage.distribution.outline})),
+        program(*made) {}
 
   void receive(std::uint32_t sender, const RayMessage& message) {
     const dataflow::RayPacketHeader header{1, static_cast<std::uint16_t>(nodes::index_of(single.node.id()))};
@@ -88,9 +89,9 @@ struct LoneProgramOf {
   }
 
   tests::SingleNode single;
-  dataflow::RayProgram<RaysTask> program;
+  std::unique_ptr<dataflow::NodeProgram> made;
+  dataflow::NodeProgram& program;
 };
-using LoneProgram = LoneProgramOf<dataflow::RayTask>;
 
 /// A primary ray that hits in the region in which it enters, its first passage and its hit in that region's part.
 struct LocalHit {
@@ -353,7 +354,7 @@ TEST_CASE("one node alone never sends a ray") {
 
 TEST_CASE("a bundle whose packet waits keeps its other rays, and goes on with them when a credit has come") {
   const Stage stage(tests::mirrors_and_glass(), 2, 16, {.rays = {.ray_batch = 1, .ray_credits = 0}, .bundles = true});
-  LoneProgramOf<dataflow::BundleTask> node(stage, 0, stage.distribution.primaries[0]);
+  LoneProgram node(stage, 0, stage.distribution.primaries[0]);
   const auto overflowed = [&] {
     return std::count_if(node.single.post.parcels.begin(), node.single.post.parcels.end(),
                          [](const Parcel& parcel) { return Kind{parcel.kind} == Kind::overflow; });
@@ -372,7 +373,7 @@ TEST_CASE("a bundle whose packet waits keeps its other rays, and goes on with th
 
 TEST_CASE("a node with bundles gives others time to fill its packets before it sends them") {
   const Stage stage(tests::mirrors_and_glass(), 2, 16, {.bundles = true});
-  LoneProgramOf<dataflow::BundleTask> node(stage, 0, stage.distribution.primaries[0]);
+  LoneProgram node(stage, 0, stage.distribution.primaries[0]);
   while (node.program.work()) {
   }
   const std::size_t sent = node.rays_sent().size();

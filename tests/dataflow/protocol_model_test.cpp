@@ -32,26 +32,14 @@ StateReport explore(const ProtocolSettings& settings) {
   return StateExplorer(model).explore();
 }
 
-/// No failure in any order of events; the way to it, step by step, otherwise.
 template <class Rules = ProtocolRules>
 void check_all_orders(const ProtocolSettings& settings, std::uint64_t states_min) {
-  const StateReport report = explore<Rules>(settings);
-  std::string way;
-  for (const std::string& step : report.way) {
-    way += step + "\n";
-  }
-  INFO(way);
-  CHECK(report.failure == "");
-  CHECK(report.states >= (spared == 0 ? states_min : 10));
+  check_no_failure(explore<Rules>(settings), spared == 0 ? states_min : 10);
 }
 
-/// Finds a failure that says `words`.
 template <class Rules>
 void check_found(const ProtocolSettings& settings, const std::string& words) {
-  const StateReport report = explore<Rules>(settings);
-  INFO(report.failure);
-  CHECK(report.failure.find(words) != std::string::npos);
-  CHECK_FALSE(report.way.empty());
+  check_failure(explore<Rules>(settings), words);
 }
 
 struct WithoutOverflow : ProtocolRules {

@@ -4,6 +4,8 @@
 // is_end(state), is_quiet(state) and text(action). Breadth first, so the way to a failure is as short as any.
 #pragma once
 
+#include <doctest/doctest.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <deque>
@@ -199,5 +201,23 @@ class StateExplorer {
   std::deque<State> pending_;
   std::uint32_t current_ = 0;
 };
+
+/// No failure in any order of events; the way to it, step by step, otherwise.
+inline void check_no_failure(const StateReport& report, std::uint64_t states_min) {
+  std::string way;
+  for (const std::string& step : report.way) {
+    way += step + "\n";
+  }
+  INFO(way);
+  CHECK(report.failure == "");
+  CHECK(report.states >= states_min);
+}
+
+/// A failure that says `words`.
+inline void check_failure(const StateReport& report, const std::string& words) {
+  INFO(report.failure);
+  CHECK(report.failure.find(words) != std::string::npos);
+  CHECK_FALSE(report.way.empty());
+}
 
 }  // namespace dmpc::tests

@@ -1,4 +1,4 @@
-#include "nodes/level.h"
+#include "nodes/program.h"
 
 #include <doctest/doctest.h>
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/base/expect.h"
-#include "nodes/switching.h"
 #include "tests/support/topologies.h"
 
 namespace dmpc::tests::topology_test {

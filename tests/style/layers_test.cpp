@@ -29,24 +29,27 @@ const std::map<std::string, Names> stands_on = {
     {"core", {"core/base"}},
     {"nodes", {"core/base"}},
     {"svm/pages", {"nodes", "core/base"}},
-    {"svm", {"svm/pages", "nodes", "core", "core/base"}},
-    {"svm/forest", {"svm", "svm/pages", "nodes", "core", "core/base"}},
-    {"dataflow", {"nodes", "core", "core/base"}},
+    {"nodes/pictures", {"nodes", "core", "core/base"}},
+    {"svm", {"svm/pages", "nodes/pictures", "nodes", "core", "core/base"}},
+    {"svm/forest", {"svm", "svm/pages", "nodes/pictures", "nodes", "core", "core/base"}},
+    {"dataflow", {"nodes/pictures", "nodes", "core", "core/base"}},
     {"apps/edge", {"svm/pages", "nodes", "core/base"}},
     {"apps/policy", {"apps/edge", "svm/pages", "nodes", "core/base"}},
     {"apps/computer", {"apps/edge", "svm/pages", "nodes", "core/base"}},
     {"apps/computer/scenes", {"apps/computer", "apps/edge", "svm/pages", "nodes", "core", "core/base"}},
     {"apps/computer/examples", {}},
-    {"apps", {"apps/edge", "svm/forest", "svm", "svm/pages", "dataflow", "nodes", "core", "core/base"}},
+    {"apps", {"apps/edge", "svm/forest", "svm", "svm/pages", "dataflow", "nodes/pictures", "nodes", "core", "core/base"}},
     {"apps/modules", {"apps", "apps/edge", "nodes", "core/base"}},
     {"apps/foreign", {"apps", "apps/edge", "core", "core/base"}},
     {"apps/lab",
-     {"apps", "apps/policy", "apps/edge", "svm/forest", "svm", "svm/pages", "dataflow", "nodes", "core", "core/base"}},
+     {"apps", "apps/policy", "apps/edge", "svm/forest", "svm", "svm/pages", "dataflow", "nodes/pictures", "nodes", "core",
+      "core/base"}},
     {"apps/main", {"apps/lab", "apps", "apps/edge", "core", "core/base"}},
     {"apps/manual", {"apps/main", "apps", "apps/edge", "core/base"}},
     {"tests",
      {"apps/manual", "apps/main", "apps/lab", "apps/foreign", "apps/modules", "apps", "apps/policy", "apps/computer/scenes",
-      "apps/computer", "apps/edge", "dataflow", "svm/forest", "svm", "svm/pages", "nodes", "core", "core/base"}},
+      "apps/computer", "apps/edge", "dataflow", "svm/forest", "svm", "svm/pages", "nodes/pictures", "nodes", "core",
+      "core/base"}},
 };
 
 /// What libraries that are installed without core may use of it: names and numbers, that need nothing of it when they are linked.
@@ -305,6 +308,9 @@ TEST_CASE("nodes uses of core nothing but its base") {
         Names{"nodes/charge.h:2: core/trace/operations.h"});
   CHECK(violations_in("nodes/watch/heat_map.cpp", "#include \"core/picture/heat_kind.h\"").size() == 1);
   CHECK(violations_in("nodes/node.h", "#include \"core/base/expect.h\"").empty());
+  CHECK(violations_in("nodes/gathering.h", "#include \"nodes/pictures/host.h\"").size() == 1);
+  CHECK(violations_in("nodes/pictures/host.h", "#include \"core/picture/film.h\"\n#include \"nodes/node.h\"").empty());
+  CHECK(violations_in("nodes/pictures/host.h", "#include \"svm/packets.h\"").size() == 1);
   CHECK(violations_in("svm/pages/pager.h", "#include \"core/picture/memory_use.h\"").empty());
 }
 

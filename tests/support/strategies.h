@@ -2,7 +2,6 @@
 #pragma once
 
 #include "dataflow/run.h"
-#include "svm/forest/run.h"
 #include "svm/forest/strategy.h"
 #include "svm/run.h"
 #include "tests/support/subject.h"

@@ -35,7 +35,7 @@ struct SmallHost {
       : plan(svm::make_plan({.page_count = 4, .computer = {.node_count = 2}, .width = 3, .height = 1})),
         lone(plan, 2),
         film(3, 1),
-        host(lone.node, plan.host(), film, std::move(progress)) {}
+        host(lone.node, plan, film, std::move(progress)) {}
   void film_from(std::uint32_t node, const std::vector<std::uint32_t>& pixels) {
     std::vector<svm::FilmEntry> entries;
     for (const std::uint32_t pixel : pixels) {
@@ -69,7 +69,7 @@ TEST_CASE("a host that deals the work gives each item once, in order, to whoever
                                          .height = 3});
   LoneNode lone(plan, 2);
   core::Film film(3, 3);
-  svm::HostProgram host(lone.node, plan.host(), film, {});
+  svm::HostProgram host(lone.node, plan, film, {});
   const svm::PixelRectangle items[] = {{0, 0, 2, 2}, {2, 0, 1, 2}, {0, 2, 2, 1}, {2, 2, 1, 1}, {}};
   std::uint32_t asker = 0;
   for (const svm::PixelRectangle& item : items) {
@@ -94,7 +94,7 @@ TEST_CASE("a host that is home to all pages replies with the one that is asked f
   const svm::Plan plan = svm::make_plan(request);
   LoneNode lone(plan, 2);
   core::Film film(3, 1);
-  svm::HostProgram host(lone.node, plan.host(), film, {});
+  svm::HostProgram host(lone.node, plan, film, {});
   CHECK(lone.memory.used()[core::MemoryUse::home_pages] == lone.memory.plan()[core::MemoryUse::home_pages]);
   for (const std::uint32_t page : {5U, 0U, 5U}) {
     host.receive(parcel_of(1, Kind::page_request, svm::PageRequest{svm::PageId{page}}).packet());
@@ -125,7 +125,7 @@ TEST_CASE("where the error is too large each node gets its mask part by part, an
                                          .refinement = {.error = 1e-9}});
   LoneNode lone(plan, 2);
   core::Film film(8000, 1);
-  svm::HostProgram host(lone.node, plan.host(), film, {});
+  svm::HostProgram host(lone.node, plan, film, {});
   const auto sent = [&](Kind kind) {
     return std::count_if(lone.post.parcels.begin(), lone.post.parcels.end(),
                          [&](const Parcel& parcel) { return parcel.kind == svm::number_of(kind); });

@@ -8,10 +8,10 @@
 #include "core/base/expect.h"
 #include "core/base/units.h"
 #include "core/picture/memory_use.h"
-#include "nodes/ranks/loopback.h"
 #include "nodes/ranks/rank_links.h"
 #include "nodes/size_text.h"
 #include "svm/forest/strategy.h"
+#include "tests/support/loopback_ranks.h"
 
 namespace svm_plan_test {
 

@@ -5,7 +5,7 @@
 #include "core/picture/memory_use.h"
 #include "svm/local_copy.h"
 #include "svm/pages/pager.h"
-#include "svm/pages/watch/counting_pager.h"
+#include "svm/pages/watch/watched_pagers.h"
 #include "svm/run.h"
 #include "tests/support/small_machine.h"
 

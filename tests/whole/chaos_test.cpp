@@ -19,7 +19,6 @@
 #include "dataflow/run.h"
 #include "nodes/chaos.h"
 #include "nodes/ranks/rank_links.h"
-#include "svm/forest/run.h"
 #include "svm/forest/strategy.h"
 #include "svm/ranks.h"
 #include "svm/run.h"

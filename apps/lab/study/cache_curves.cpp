@@ -9,7 +9,6 @@
 #include "apps/lab/crowd/side_by_side.h"
 #include "svm/pages/replacement.h"
 #include "svm/pages/watch/optimum.h"
-#include "svm/pages/watch/policy_misses.h"
 
 namespace dmpc::apps {
 namespace {

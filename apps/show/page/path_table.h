@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/edge/table/table.h"
-#include "nodes/path_times.h"
+#include "nodes/observer.h"
 
 namespace dmpc::apps::html {
 

@@ -1,15 +1,21 @@
 // Policies that read the time stamps which the cache writes: a page hit costs them nothing of their own.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "core/base/sampling.h"
+#include "core/picture/memory_use.h"
 #include "nodes/layout.h"
 #include "nodes/local_memory.h"
 #include "svm/pages/policy/policy.h"
 
 namespace dmpc::svm {
+
+/// The next one round.
+inline std::uint32_t frame_after(std::uint32_t frame, std::size_t frame_count) { return frame + 1 < frame_count ? frame + 1 : 0; }
 
 /// The page that was referenced least recently, exactly. A search yields the oldest few at once, in order: as long as their
 /// stamps have not changed they are the frames with the least stamps of all, for stamps only grow, so a frame that was not among
@@ -18,9 +24,24 @@ class LeastRecentlyUsed final : public ReplacementPolicy {
   struct Candidate;
 
  public:
-  explicit LeastRecentlyUsed(const PolicySite& site);
-  static nodes::Room<Candidate> layout(std::uint32_t frame_count);
-  std::uint32_t victim(PageId incoming) override;
+  explicit LeastRecentlyUsed(const PolicySite& site)
+      : stamps_(site.stamps), candidates_(layout(site.frame_count()).in(site.memory)) {}
+
+  static nodes::Room<Candidate> layout(std::uint32_t frame_count) {
+    return {core::MemoryUse::page_table, std::min(frame_count, candidate_count_max)};
+  }
+
+  std::uint32_t victim(PageId /*incoming*/) override {
+    while (true) {
+      while (next_candidate_ < candidate_count_) {
+        const Candidate& candidate = candidates_[next_candidate_++];
+        if (stamps_[candidate.frame] == candidate.stamp) {
+          return candidate.frame;
+        }
+      }
+      seek_candidates();
+    }
+  }
 
  private:
   struct Candidate {
@@ -28,7 +49,28 @@ class LeastRecentlyUsed final : public ReplacementPolicy {
     std::uint32_t frame = 0;
     std::uint32_t padding = 0;
   };
-  void seek_candidates();
+  /// One pass with a heap whose top is the youngest of the oldest.
+  /// More would make a search dearer, fewer would make searches more frequent.
+  static constexpr std::uint32_t candidate_count_max = 64;
+
+  void seek_candidates() {
+    const auto older = [](const Candidate& a, const Candidate& b) { return a.stamp < b.stamp; };
+    const auto begin = candidates_.begin();
+    auto end = begin;
+    for (std::uint32_t frame = 0; frame < stamps_.size(); ++frame) {
+      if (end != candidates_.end()) {
+        *end++ = {stamps_[frame], frame};
+        std::push_heap(begin, end, older);
+      } else if (stamps_[frame] < begin->stamp) {
+        std::pop_heap(begin, end, older);
+        *(end - 1) = {stamps_[frame], frame};
+        std::push_heap(begin, end, older);
+      }
+    }
+    std::sort_heap(begin, end, older);
+    candidate_count_ = static_cast<std::size_t>(end - begin);
+    next_candidate_ = 0;
+  }
 
   Stamps stamps_;
   std::span<Candidate> candidates_;  ///< the oldest frames at the last search, oldest first
@@ -40,7 +82,15 @@ class LeastRecentlyUsed final : public ReplacementPolicy {
 class Clock final : public ReplacementPolicy {
  public:
   explicit Clock(const PolicySite& site) : stamps_(site.stamps) {}
-  std::uint32_t victim(PageId incoming) override;
+  std::uint32_t victim(PageId /*incoming*/) override {
+    while (stamps_[hand_] != 0) {
+      stamps_[hand_] = 0;
+      hand_ = frame_after(hand_, stamps_.size());
+    }
+    const std::uint32_t frame = hand_;
+    hand_ = frame_after(hand_, stamps_.size());
+    return frame;
+  }
 
  private:
   Stamps stamps_;
@@ -51,7 +101,11 @@ class Clock final : public ReplacementPolicy {
 class FirstInFirstOut final : public ReplacementPolicy {
  public:
   explicit FirstInFirstOut(const PolicySite& site) : frame_count_(site.frame_count()) {}
-  std::uint32_t victim(PageId incoming) override;
+  std::uint32_t victim(PageId /*incoming*/) override {
+    const std::uint32_t frame = next_;
+    next_ = frame_after(next_, frame_count_);
+    return frame;
+  }
 
  private:
   std::uint32_t frame_count_;
@@ -62,8 +116,14 @@ class FirstInFirstOut final : public ReplacementPolicy {
 /// of its own.
 class RandomVictim final : public ReplacementPolicy {
  public:
-  explicit RandomVictim(const PolicySite& site);
-  std::uint32_t victim(PageId incoming) override;
+  explicit RandomVictim(const PolicySite& site)
+      : frame_count_(site.frame_count()), state_(core::mix(site.seed + std::uint64_t{1})) {}
+
+  /// A counter put through a hash; the upper half of the product is uniform below the count.
+  std::uint32_t victim(PageId /*incoming*/) override {
+    const std::uint64_t drawn = core::mix(++state_) >> 32U;
+    return static_cast<std::uint32_t>((drawn * frame_count_) >> 32U);
+  }
 
  private:
   std::uint64_t frame_count_;

@@ -11,7 +11,7 @@
 #include "apps/edge/system/interrupt.h"
 #include "core/base/expect.h"
 #include "svm/pages/replacement.h"
-#include "svm/pages/watch/policy_misses.h"
+#include "svm/pages/watch/optimum.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"

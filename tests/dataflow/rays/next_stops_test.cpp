@@ -1,4 +1,4 @@
-#include "dataflow/rays/next_stops.h"
+#include "dataflow/rays/next_stop.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "nodes/ranks/counting_waves.h"
+#include "nodes/ranks/counting_talk.h"
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-#include "nodes/ranks/loopback.h"
+#include "tests/support/loopback_ranks.h"
 
 namespace dmpc::nodes::rank_links_test {
 

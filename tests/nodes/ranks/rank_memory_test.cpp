@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "nodes/ranks/loopback.h"
 #include "tests/nodes/toy_machine.h"
+#include "tests/support/loopback_ranks.h"
 
 namespace dmpc::tests::rank_memory_test {
 namespace {

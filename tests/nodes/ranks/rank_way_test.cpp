@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "nodes/ranks/loopback.h"
+#include "tests/support/loopback_ranks.h"
 
 namespace dmpc::tests::rank_way_test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "nodes/idle_program.h"
+#include "nodes/program.h"
 
 namespace dmpc::nodes::watch_live_counts_test {
 

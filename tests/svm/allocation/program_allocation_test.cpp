@@ -12,7 +12,7 @@
 #include "svm/forest/strategy.h"
 #include "svm/local_copy.h"
 #include "svm/pages/pager.h"
-#include "svm/pages/watch/counting_pager.h"
+#include "svm/pages/watch/watched_pagers.h"
 #include "svm/run.h"
 #include "tests/support/allocation_guard.h"
 

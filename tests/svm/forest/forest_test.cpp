@@ -12,7 +12,6 @@
 
 #include "core/base/expect.h"
 #include "nodes/size_text.h"
-#include "svm/forest/run.h"
 #include "svm/forest/strategy.h"
 #include "svm/run.h"
 #include "tests/support/small_machine.h"

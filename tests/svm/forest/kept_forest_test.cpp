@@ -10,7 +10,6 @@
 #include "core/picture/memory_use.h"
 #include "core/picture/partial_picture.h"
 #include "svm/forest/forest.h"
-#include "svm/forest/run.h"
 #include "svm/forest/strategy.h"
 #include "svm/frames.h"
 #include "svm/run.h"

@@ -9,7 +9,7 @@
 #include "core/trace/charge.h"
 #include "svm/pages/task_program.h"
 #include "svm/pages/watch/miss_curve.h"
-#include "svm/pages/watch/policy_misses.h"
+#include "svm/pages/watch/optimum.h"
 #include "tests/svm/pages/page_rank.h"
 
 namespace dmpc::svm::run_tasks_test {

@@ -8,7 +8,7 @@
 
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
-#include "nodes/idle_program.h"
+#include "nodes/program.h"
 #include "nodes/runner.h"
 #include "nodes/threads/threads_runner.h"
 

@@ -1,4 +1,4 @@
-#include "svm/pages/watch/recording_pager.h"
+#include "svm/pages/watch/watched_pagers.h"
 
 #include <doctest/doctest.h>
 

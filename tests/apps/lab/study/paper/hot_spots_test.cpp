@@ -44,7 +44,7 @@ TEST_CASE("the flood at a light is what comes to its region over the mean, and n
 }
 
 TEST_CASE("the flood of pages is that of the node that sends most") {
-  svm::Report report{.film = core::Film(1, 1)};
+  svm::Report report{{{.film = core::Film(1, 1)}}};
   report.nodes.resize(2);
   CHECK(page_flood(report) == 0);
   report.nodes[1].counters.sent[svm::number_of(svm::Kind::page_reply)].packets = 3;

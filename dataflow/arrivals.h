@@ -1,0 +1,150 @@
+// The rays that have come to a node and wait there: whose the places are that they take, and how these go back.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/base/expect.h"
+#include "dataflow/packets.h"
+#include "dataflow/places.h"
+#include "dataflow/plan.h"
+#include "dataflow/rays/ray_queue.h"
+#include "nodes/layout.h"
+#include "nodes/node.h"
+
+namespace dmpc::dataflow {
+
+/// The backlog and its accounts. `Units`: NoUnits or MovingUnits, which has news for those that are sent credits. Thread safety:
+/// belongs to one node.
+template <class Units>
+class Arrivals {
+ public:
+  /// `units` outlive this.
+  Arrivals(nodes::Node& node, const Plan& plan, Units& units)
+      : node_(&node),
+        host_(plan.host()),
+        units_(&units),
+        tested_objects_(plan.tested_objects()),
+        backlog_(node.memory(), backlog_capacity(plan)),
+        places_(node.memory(), places_of(plan)) {}
+  /// What the constructor takes.
+  static nodes::MemoryPlan layout(const Plan& plan) {
+    return nodes::MemoryPlan(RayQueue::layout(backlog_capacity(plan))) + Places::layout(places_of(plan));
+  }
+
+  /// A packet of rays, from a node or the host: calls came(message) for each.
+  template <class Came>
+  void take_packet(const nodes::Packet& packet, const Came& came) {
+    const auto header = packet.front<RayPacketHeader>();
+    core::expect(packet.payload.size() == ray_packet_bytes(header.count, tested_objects_),
+                 "a packet of rays is as long as it says");
+    core::expect(nodes::NodeId{header.owner} == node_->id(), "rays come to their owner");
+    const std::uint32_t account = places_.account_of(packet.source);
+    const bool is_from_node = packet.source != host_;
+    if (is_from_node) {
+      units_->packet_came(packet.source, header);
+    }
+    backlog_.accept_packet(account, header.count);
+    for (std::uint32_t i = 0; i < header.count; ++i) {
+      const std::span<const std::byte> message = ray_bytes_in(packet.payload, i, tested_objects_);
+      backlog_.put(account, message);
+      if (is_from_node) {
+        units_->ray_came(packet.source, message);
+      }
+      came(message);
+    }
+  }
+
+  /// Takes out the deepest ray, as RayQueue does; its place goes back if it is time.
+  std::span<const std::byte> take() {
+    std::uint32_t account = 0;
+    const std::span<const std::byte> message = backlog_.take(account);
+    give_back(account, false);
+    return message;
+  }
+  bool has_alike() const { return backlog_.has_alike(); }
+  /// Takes out one as deep, and of its kind.
+  std::span<const std::byte> take_alike() {
+    std::uint32_t account = 0;
+    const std::span<const std::byte> message = backlog_.take_alike(account);
+    give_back(account, false);
+    return message;
+  }
+
+  /// A node waits for a shared place.
+  void take_ask(nodes::NodeId sender) {
+    places_.ask(sender);
+    grant_places();
+  }
+  /// One that was granted comes back unused.
+  void take_unused() {
+    places_.give_back(1);
+    grant_places();
+  }
+  /// A node that rests keeps nobody's place.
+  void give_all_back() {
+    for (std::uint32_t account = 0; account < backlog_.sender_count(); ++account) {
+      give_back(account, true);
+    }
+  }
+
+  const RayQueue& backlog() const { return backlog_; }
+  const Places& places() const { return places_; }
+
+ private:
+  static Places::Capacity places_of(const Plan& plan) {
+    return {.node_count = plan.node_count(),
+            .shared = plan.ray_places,
+            .ray_credits = plan.ray_credits,
+            .host_credits = plan.host_credits};
+  }
+  static RayQueue::Capacity backlog_capacity(const Plan& plan) {
+    const std::uint32_t packets_each = std::max({plan.ray_credits, plan.ray_places, plan.host_credits});
+    return {.sender_count = places_of(plan).account_count(),
+            .packets_each = packets_each,
+            .packets = plan.shares_places() ? plan.ray_places + plan.host_credits : plan.node_count() * packets_each,
+            .ray_batch = plan.ray_batch,
+            .depth_max = plan.request.depth_max,
+            .are_kinds_apart = plan.rays_a_task > 1,
+            .tested_objects = plan.tested_objects()};
+  }
+
+  void give_back(std::uint32_t account, bool rests) {
+    const std::uint32_t owed = backlog_.owed(account);
+    if (!places_.gives_back(account, owed, rests)) {
+      return;
+    }
+    backlog_.gave_back(account, owed);
+    if (places_.is_shared(account)) {
+      places_.give_back(owed);
+      grant_places();
+    } else {
+      send_credits(places_.sender_of(account), owed);
+    }
+  }
+
+  void grant_places() {
+    while (const std::optional<nodes::NodeId> sender = places_.grant()) {
+      send_credits(*sender, 1);
+    }
+  }
+
+  void send_credits(nodes::NodeId sender, std::uint32_t count) {
+    if (sender != host_) {
+      units_->tell_news(sender);
+    }
+    send_control(*node_, sender, Kind::credits, Credits{count});
+  }
+
+  nodes::Node* node_;
+  nodes::NodeId host_;
+  Units* units_;
+  std::uint32_t tested_objects_;
+  RayQueue backlog_;
+  Places places_;
+};
+
+}  // namespace dmpc::dataflow

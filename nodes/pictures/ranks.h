@@ -1,0 +1,148 @@
+// A picture on several ranks: what rank 0, which alone has the scene, sends the others before they can make their nodes, and what
+// they do with it, by whatever strategy.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/base/expect.h"
+#include "core/picture/pixel_task.h"
+#include "nodes/computer_request.h"
+#include "nodes/flat_bytes.h"
+#include "nodes/pictures/computer.h"
+#include "nodes/ranks/rank_memory.h"
+#include "nodes/ranks/repeated_runs.h"
+#include "nodes/runner.h"
+
+namespace dmpc::pictures {
+
+/// A computer request as bytes, but for the ranks. Requires that no machine is modelled.
+inline void put_computer(nodes::FlatWriter& flat, const nodes::ComputerRequest& computer) {
+  core::expect(!computer.machine, "a model has no ranks");
+  flat.put(computer.node_count, computer.node_memory_bytes, computer.stack_reserve_bytes, computer.chaos, computer.pool_threads);
+}
+
+inline nodes::ComputerRequest take_computer(nodes::FlatReader& flat, nodes::RankLinks& ranks) {
+  nodes::ComputerRequest computer;
+  flat.take_into(computer.node_count, computer.node_memory_bytes, computer.stack_reserve_bytes, computer.chaos,
+                 computer.pool_threads);
+  computer.ranks = &ranks;
+  return computer;
+}
+
+/// What every strategy's plan is asked for of a picture, as bytes.
+template <class PlanRequest>
+void put_picture(nodes::FlatWriter& flat, const PlanRequest& request) {
+  put_computer(flat, request.computer);
+  flat.put(request.waiting_hits_max, request.width, request.height, request.first_samples, request.refinement, request.bundles,
+           request.has_instances);
+}
+template <class PlanRequest>
+void take_picture(nodes::FlatReader& flat, nodes::RankLinks& ranks, PlanRequest& request) {
+  request.computer = take_computer(flat, ranks);
+  flat.take_into(request.waiting_hits_max, request.width, request.height, request.first_samples, request.refinement,
+                 request.bundles, request.has_instances);
+}
+
+/// By which two plans are told apart: whatever a node's memory and mailbox are for changes their sizes; `own` is a strategy's.
+template <class Plan, class... Own>
+std::string figures_of(const Plan& plan, const Own&... own) {
+  nodes::FlatWriter flat;
+  flat.put(plan.node_memory_max_bytes(), plan.node_mailbox.bytes(), plan.host_mailbox.bytes(), own...);
+  return flat.take();
+}
+
+/// On rank 0, before its own nodes are made: sends each other rank its job, what is to be watched there and, node by node, what
+/// its program keeps. Returns when all have their nodes. put_own(flat) adds to the job what is the strategy's, deal(streams,
+/// rank, node) sends what the node is dealt. `are_frames`: nodes are kept, for nodes::hand_out_again() of settings before another
+/// picture. Throws what fails on another rank.
+template <class PutOwn, class Deal>
+void hand_out(const core::RenderSettings& settings, std::uint32_t node_count, const std::string& watch_order, bool are_frames,
+              nodes::RankLinks& links, const PutOwn& put_own, const Deal& deal) {
+  nodes::FlatWriter job;
+  job.put(nodes::StreamKind::job, are_frames, settings);
+  put_own(job);
+  nodes::StreamsToRanks streams(links);
+  streams.write_counted_to_all(job.take());
+  streams.write_counted_to_all(watch_order);
+  for (std::uint32_t node = 0; node < node_count; ++node) {
+    if (const std::uint32_t rank = nodes::rank_of(node, node_count, links.rank_count()); rank != 0) {
+      deal(streams, rank, node);
+    }
+  }
+  streams.finish();
+}
+
+/// The nodes of a run that are on this rank. `Job` is what a strategy makes them of: made of the flat bytes behind settings, of
+/// which it takes all, it has a plan(), the specifications() of its nodes, for which it reads what they are dealt from the stream
+/// (with a Following if they are watched), and gather() of what they report.
+template <class Job, class Following>
+class PartOfRun {
+ public:
+  /// `told`: read from the stream, of which it reads the rest.
+  PartOfRun(std::string_view told, nodes::StreamFromHost& stream, nodes::RankLinks& links, const Following& following)
+      : PartOfRun(nodes::FlatReader(told), stream, links, following) {}
+  PartOfRun(const PartOfRun&) = delete;
+  PartOfRun& operator=(const PartOfRun&) = delete;
+
+  bool is_repeated() const { return are_frames_; }
+
+  void begin_again(std::string_view told) {
+    settings_ = nodes::read_again<core::RenderSettings>(told);
+    begin_frame(*runner_, job_.plan().node_count(), settings_);
+    if (!order_.empty()) {
+      following_.watch_again();
+    }
+  }
+
+  nodes::RunEnd run(std::stop_token stop) {
+    stream_.say_ready();
+    const nodes::RunEnd end = runner_->run(std::move(stop));
+    job_.gather(*runner_);
+    runner_->gather_ranks(order_.empty() ? std::string() : following_.seen());
+    return end;
+  }
+
+ private:
+  PartOfRun(nodes::FlatReader job, nodes::StreamFromHost& stream, nodes::RankLinks& links, const Following& following)
+      : following_(following), stream_(stream), settings_(beginning_of(job)), job_(job, links, following) {
+    core::expect(job.is_at_end(), "a job is as long as it says");
+    following.check_room(nodes::rank_memory(nodes::peers_of(job_.plan()), &links, links.rank()));
+    order_ = nodes::read_counted(stream);
+    watching_ = order_.empty() ? nodes::Watching() : following.watch(order_);
+    runner_ = nodes::make_runner(job_.specifications(settings_, stream, watching_, order_.empty() ? nullptr : &following),
+                                 job_.plan().request.computer, watching_.observer);
+  }
+
+  /// Takes what every job begins with.
+  core::RenderSettings beginning_of(nodes::FlatReader& flat) {
+    core::expect(flat.take<nodes::StreamKind>() == nodes::StreamKind::job, "nodes are there before frames");
+    are_frames_ = flat.take<bool>();
+    return flat.take<core::RenderSettings>();
+  }
+
+  const Following& following_;
+  nodes::StreamFromHost& stream_;
+  bool are_frames_ = false;
+  core::RenderSettings settings_;
+  Job job_;
+  std::string order_;
+  nodes::Watching watching_;
+  std::unique_ptr<nodes::Runner> runner_;
+};
+
+/// What another rank does while rank 0 renders. No more of the scene is in its memory than its nodes are dealt. Where there are
+/// several frames it goes on with the next, or with new nodes, until rank 0 ends: throws nodes::Dismissed then.
+template <class Job, class Following>
+nodes::Followed follow(nodes::RankLinks& links, const std::stop_token& stop, const Following& following) {
+  return nodes::follow_runs(links, stop, [&](std::string_view told, nodes::StreamFromHost& stream) {
+    return PartOfRun<Job, Following>(told, stream, links, following);
+  });
+}
+
+}  // namespace dmpc::pictures
