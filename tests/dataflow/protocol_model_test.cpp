@@ -184,7 +184,7 @@ TEST_CASE("rays that branch end in every order of events, and the end is proved 
   check_all_orders({.primaries = {1, 1, 0}, .children = children(3)}, 100'000);
 }
 
-TEST_CASE("two nodes that flood each other go on by way of the host") {
+TEST_CASE("two nodes that flood each other go on by way of the host" * doctest::test_suite("slow")) {
   check_all_orders({.primaries = {2, 0, 0}, .children = children(3), .owners = 2}, 10'000);
   check_all_orders({.primaries = {1, 1, 0}, .children = children(4), .owners = 2}, 100'000);
 }
@@ -286,7 +286,7 @@ TEST_CASE("without asking for shared places queued rays wait for ever") {
                          "deadlock");
 }
 
-TEST_CASE("a node that keeps the place it no longer needs keeps others from theirs") {
+TEST_CASE("a node that keeps the place it no longer needs keeps others from theirs" * doctest::test_suite("slow")) {
   check_found<KeepingPlaces>({.primaries = {1, 1, 0}, .children = 3, .shared_places = 1, .owners = 2}, "deadlock");
 }
 
@@ -313,7 +313,8 @@ TEST_CASE("a host that takes what it relays for nothing lets the end be announce
                             "only when nothing is announced");
 }
 
-TEST_CASE("a node that takes an unanswered request for nothing lets the end be announced too early") {
+TEST_CASE("a node that takes an unanswered request for nothing lets the end be announced too early" *
+          doctest::test_suite("slow")) {
   check_found<PassiveUnanswered>({.primaries = {0, 1, 0}, .children = 2, .shared_places = 1}, "no place is asked for");
 }
 

@@ -1,5 +1,5 @@
-// Counts what threads under watch allocate by operator new. Include it in one source of an executable:
-// it replaces the global operators of that executable.
+// Counts what threads under watch allocate by operator new, in the executable whose global operators count
+// (tests/nodes/allocation/allocation_guard_test.cpp).
 #pragma once
 
 #include <atomic>

@@ -178,8 +178,7 @@ TEST_CASE("a teapot gives one picture in every pair of choices") {
 }
 
 TEST_CASE("svm, replicated and dataflow give one film along the world's axes, and one along the screen's") {
-  for (const core::Scene& scene :
-       {tests::mirrors_and_glass(), tests::built_in("gears-1"), tests::built_in("balls-2"), tests::glass_on_floor(true, true)}) {
+  for (const core::Scene& scene : {tests::mirrors_and_glass(), tests::glass_on_floor(true, true)}) {
     CAPTURE(scene.name);
     for (const Subject& subject :
          tests::along_both_axes(scene, {.width = scaled_edge(20), .height = scaled_edge(16), .samples = 2})) {
@@ -250,7 +249,7 @@ TEST_CASE("an ambient light, which every hit shows without a ray, gives one pict
   CHECK(outcome_of(run_forest(extents, {.computer = {.node_count = 5}})) == subject.outcome());
 }
 
-TEST_CASE("twenty runs on 64 nodes give one picture") {
+TEST_CASE("twenty runs on 64 nodes give one picture" * doctest::test_suite("slow")) {
   const Subject subject(tests::mirrors_and_glass(), {scaled_edge(64), scaled_edge(64)});
   for (int run = 0; run < 20; ++run) {
     CAPTURE(run);

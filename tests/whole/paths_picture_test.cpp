@@ -88,7 +88,8 @@ TEST_CASE("paths under a sky, with mirrors, glass, tiny mirrors, textures and wh
   }
 }
 
-TEST_CASE("paths that aim at what shines give one picture by every strategy, whatever is left out on the way, under chaos") {
+TEST_CASE("paths that aim at what shines give one picture by every strategy, whatever is left out on the way, under chaos" *
+          doctest::test_suite("slow")) {
   for (const std::uint32_t emitters : {1U, 5U, 1024U}) {
     CAPTURE(emitters);
     const Subject subject(shining(), size_of(indoors, 3), {.page_size_bytes = 512, .emitters_max = emitters});
@@ -154,7 +155,7 @@ TEST_CASE("a picture by paths that was stopped goes on to the film of one run, b
   check_going_on(subject);
 }
 
-TEST_CASE("a picture by paths that is refined is one by every strategy, under chaos, too") {
+TEST_CASE("a picture by paths that is refined is one by every strategy, under chaos, too" * doctest::test_suite("slow")) {
   const Subject subject(mesh_surfaces(), refined_size());
   check_strategies(subject);
   check_strategies(subject, nodes::chaos_of(1));

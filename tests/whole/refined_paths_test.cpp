@@ -110,7 +110,8 @@ TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its erro
 TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: mountains, one bounce, few pixels") {
   check_error({white_background(tests::built_in("mount-4")), under_sky, 1, side * 3 / 4}, 4.0 / 255);
 }
-TEST_CASE("the estimate of a room that a small ball lights is that good, too, and it stays as bright as it is, as far as 1.5 %") {
+TEST_CASE("the estimate of a room that a small ball lights is that good, too, and it stays as bright as it is, as far as 1.5 %" *
+          doctest::test_suite("slow")) {
   const PathScene subject{furnace(), {.kind = TransportKind::paths}, 4};
   // The picture has some of its samples in common with this one, and takes hundreds where the ball is not seen.
   const Film truth = rendered(subject, 4 * true_samples, 0).film;

@@ -69,7 +69,8 @@ TEST_CASE("below a sky's picture paths give one film by every strategy, with cac
   }
 }
 
-TEST_CASE("below a sky's picture paths give one film under chaos, and whatever is left out on the way") {
+TEST_CASE("below a sky's picture paths give one film under chaos, and whatever is left out on the way" *
+          doctest::test_suite("slow")) {
   const Subject subject(much_of_all(), size_of(2), options_of(512));
   for (std::uint64_t seed = 1; seed <= scaled(4); ++seed) {
     CAPTURE(seed);
@@ -95,7 +96,7 @@ TEST_CASE("a film below a sky's picture that was stopped goes on to that of one 
   check_going_on(subject);
 }
 
-TEST_CASE("a film below a sky's picture that is refined is one by every strategy") {
+TEST_CASE("a film below a sky's picture that is refined is one by every strategy" * doctest::test_suite("slow")) {
   Subject::Size size = size_of(2, core::first_refined_samples(core::ErrorKind::noise));
   size.refinement = {.error = 16.0 / 255, .samples_max = 32, .kind = core::ErrorKind::noise};
   core::Scene scene = mesh_surfaces();

@@ -19,15 +19,6 @@ TEST_CASE("frames are told by their number, or by the first and the last of them
   CHECK(parse_frames("1000000000").count() == 1'000'000'000);
 }
 
-TEST_CASE("no frames, frames backwards, and what is no number are refused, with what is expected") {
-  for (const char* const text : {"0", "-1", "", "..", "3..", "..7", "7..3", "0..3", "1.5", "3...7", "x", "1000000001",
-                                 "99999999999999999999", "1..1000000001"}) {
-    CHECK_THROWS_AS_MESSAGE(parse_frames(text), core::UsageError, text);
-  }
-  CHECK_THROWS_WITH(parse_frames("0"),
-                    "--frames=0: expected how many frames, such as 24, or which, such as 3..7, of those from 1 to 1,000,000,000");
-}
-
 TEST_CASE("a path that lacks one of the frames is refused, and says which it has") {
   const TemporaryFolder folder;
   write_text(folder / "path", "5 0,0,9/0,0,0\n9 0,9,9/0,0,0\n");

@@ -47,9 +47,6 @@ TEST_CASE("a trace's window is given in milliseconds, and either end may be left
   CHECK(choice({"--trace-window=3,"}).to_ns == nodes::TraceChoice().to_ns);
   CHECK(choice({"--trace-window=,3"}).from_ns == 0);
   CHECK(choice({"--trace-window=,3"}).to_ns == 3'000'000);
-  for (const std::string wrong : {"", ",", "1", "2,1", "1,1", "-1,2", "1,2,3", "1;2", "a,b", "0,nan", "0,1e30"}) {
-    CHECK_MESSAGE(contains(render_usage_complaint({"--trace=a.pftrace", "--trace-window=" + wrong}), "--trace-window"), wrong);
-  }
 }
 
 TEST_CASE("a trace is Perfetto's, and who asks for another's is told what converts it") {

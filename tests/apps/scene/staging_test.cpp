@@ -38,33 +38,11 @@ TEST_CASE("a camera is two points, and up and degrees if wanted") {
   CHECK_FALSE(parse_camera("1,2,3/0,0,0/0,1,0").degrees);
 }
 
-TEST_CASE("anything but a camera is refused with the form that is expected") {
-  for (const char* text : {"", "1,2,3", "1,2/0,0,0", "1,2,3/0,0,x", "1,2,3/0,0,0/", "1,2,3/0,0,0/0,1", "1,2,3/0,0,0/0,1,0/45/1",
-                           "1,2,3,4/0,0,0", "nan,0,0/0,0,1", "inf,0,0/0,0,1", " 1,2,3/0,0,0"}) {
-    CAPTURE(text);
-    CHECK_THROWS_WITH_AS(parse_camera(text), Contains("--camera="), UsageError);
-  }
-}
-
-TEST_CASE("a camera that shows nothing is refused with the reason") {
-  CHECK_THROWS_WITH_AS(parse_camera("1,2,3/1,2,3"), Contains("different points"), UsageError);
-  CHECK_THROWS_WITH_AS(parse_camera("0,0,5/0,0,0/0,0,1"), Contains("not parallel"), UsageError);
-  CHECK_THROWS_WITH_AS(parse_camera("0,0,5/0,0,0/0,0,0"), Contains("not zero"), UsageError);
-  CHECK_THROWS_WITH_AS(parse_camera("0,0,5/0,0,0/0,1,0/0"), Contains("between 0 and 180"), UsageError);
-  CHECK_THROWS_WITH_AS(parse_camera("0,0,5/0,0,0/0,1,0/180"), Contains("between 0 and 180"), UsageError);
-  CHECK_THROWS_WITH_AS(parse_camera("0,0,5/0,0,0/0,1,0/x"), Contains("between 0 and 180"), UsageError);
-  CHECK_THROWS_WITH_AS(parse_camera("0,0,2e30/0,0,0"), Contains("1e30"), UsageError);
-}
-
 TEST_CASE("a light is a point, and a colour if wanted") {
   CHECK(parse_light("1,2,3").position == Vec3d{1, 2, 3});
   CHECK_FALSE(parse_light("1,2,3").has_color);
   CHECK(parse_light("1,2,3/0.5,1,2").color == Vec3d{0.5, 1, 2});
   CHECK(parse_light("1,2,3/0.5,1,2").has_color);
-  for (const char* text : {"", "1,2", "1,2,3/", "1,2,3/1", "1,2,3/1,1,-1", "1,2,3/1,1,1/1", "1,2,nan"}) {
-    CAPTURE(text);
-    CHECK_THROWS_WITH_AS(parse_light(text), Contains("--light="), UsageError);
-  }
 }
 
 TEST_CASE("a camera and a light are told as they are read, to the last bit") {
@@ -88,15 +66,6 @@ TEST_CASE("the options of a mesh and of the stage are read") {
   CHECK_FALSE(staged({"--missing=error"}).mesh.allows_missing);
   CHECK_FALSE(staged({}).camera);
   CHECK_FALSE(staged({}).mesh.up);
-}
-
-TEST_CASE("scales, axes and angles out of range are refused") {
-  for (const char* option :
-       {"--scale=0", "--scale=-1", "--scale=inf", "--scale=x", "--scale=1e31", "--light=1e31,0,0", "--up=w", "--up=-", "--up=--z",
-        "--up=x,y", "--smooth=-1", "--smooth=181", "--smooth=", "--missing=no", "--camera=1", "--light=1"}) {
-    CAPTURE(option);
-    CHECK_THROWS_AS(staged({option}), UsageError);
-  }
 }
 
 TEST_CASE("a camera replaces what it names of the scene's view, lights replace all lights") {
@@ -162,18 +131,6 @@ TEST_CASE("an ambient light and a background are a colour or a grey, in place of
   apply(staged({"--ambient=0.1,0.2,0.3"}), scene);
   CHECK(scene.ambient == Vec3d{0.1, 0.2, 0.3});
   CHECK(scene.background == Vec3d{0, 0.5, 1});
-}
-
-TEST_CASE("what is no brightness is refused with what was expected") {
-  for (const char* const option : {"--ambient=-1", "--ambient=1,2", "--ambient=0,0,-1", "--background=x", "--background=1e31",
-                                   "--background=1,2,3,4", "--ambient=nan"}) {
-    CAPTURE(option);
-    CHECK_THROWS_WITH_AS(staged({option}), Contains("expected R,G,B such as"), UsageError);
-  }
-  for (const char* const option : {"--fill=-0.1", "--fill=1e31", "--fill=0.3,0.3,0.3", "--fill=much"}) {
-    CAPTURE(option);
-    CHECK_THROWS_WITH_AS(staged({option}), Contains("expected a number from 0 to 1e30"), UsageError);
-  }
 }
 
 TEST_CASE("a camera along the scene's own up asks for another up") {

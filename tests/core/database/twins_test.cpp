@@ -63,7 +63,8 @@ constexpr std::size_t many = 300'000, room_bytes = std::size_t{350} << 20U;
 }  // namespace
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-TEST_CASE("triangles that coincide take memory in proportion to their number, equal or not, and wherever they are in the file") {
+TEST_CASE("triangles that coincide take memory in proportion to their number, equal or not, and wherever they are in the file" *
+          doctest::test_suite("slow")) {
   CHECK(ForkedProcess([] { return build_within(room_bytes, stacked(many, 0)); }).status() == 0);
   CHECK(ForkedProcess([] { return build_within(room_bytes, stacked(many, 1e-7)); }).status() == 0);
   CHECK(ForkedProcess([] { return build_within(room_bytes, stacked(many, 1e-7, 20'000)); }).status() == 0);

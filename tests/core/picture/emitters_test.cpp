@@ -211,7 +211,8 @@ TEST_CASE("to aim alone, to meet by chance alone, and both, weighed, have one me
 
 TEST_CASE(
     "errors fall by samples to the power of -0.6 after one bounce and of -0.53 after three: numbers are even, and each one's "
-    "own") {
+    "own" *
+    doctest::test_suite("slow")) {
   const Studio studio(lit_from_ceiling(), many);
   const int side = slowness == 1 ? 8 : 4;
   for (const auto& [bounces, slope] : {std::pair{1, -0.6}, std::pair{3, -0.53}}) {

@@ -91,7 +91,8 @@ TEST_CASE("below a picture that is white all over but for a texel in the ground 
   CHECK(least > 0.5);
 }
 
-TEST_CASE("to aim at a sky alone, to meet it by chance alone, and both, weighed, have one mean; both vary little more") {
+TEST_CASE("to aim at a sky alone, to meet it by chance alone, and both, weighed, have one mean; both vary little more" *
+          doctest::test_suite("slow")) {
   const int side = scaled_edge(16), samples = 64;
   Material rough = grey(0.7);
   rough.microfacets = {.roughness = 0.4, .metallic = 1};

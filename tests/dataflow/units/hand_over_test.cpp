@@ -100,7 +100,7 @@ TEST_CASE("a node that is passive though it wants to ask lets the end be announc
   check_found<PassiveThoughWanting>({.rays = {0, 0, 0}, .questions = 1}, "nobody will ask");
 }
 
-TEST_CASE("a node that news sets asking lets the end be announced too early") {
+TEST_CASE("a node that news sets asking lets the end be announced too early" * doctest::test_suite("slow")) {
   check_found<WokenByNews>({.rays = {0, 1, 0}, .questions = 2}, "nobody will ask");
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("a node that gives while it moves another unit has two transfers under
   check_found<GivingTwice>({.rays = {0, 0, 0}, .questions = 2}, "one transfer under way");
 }
 
-TEST_CASE("a node that believes old news answers for a unit that is another's") {
+TEST_CASE("a node that believes old news answers for a unit that is another's" * doctest::test_suite("slow")) {
   check_found<BelievingOldNews>({.rays = {0, 1, 0}, .questions = 2}, "one node answers");
 }
 

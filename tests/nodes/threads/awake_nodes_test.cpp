@@ -134,7 +134,7 @@ std::string failure_of(const Mutation& mutation) {
   return failure;
 }
 
-TEST_CASE("the last driver awake is the last in every interleaving with few preemptions") {
+TEST_CASE("the last driver awake is the last in every interleaving with few preemptions" * doctest::test_suite("slow")) {
   const Exploration result = Explorer({.preemptions_max = preemptions_max}).explore<PoolRing>();
   CHECK(result.failure == "");
   CHECK(result.is_complete);

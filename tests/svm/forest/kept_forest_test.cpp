@@ -54,7 +54,8 @@ svm::RunOptions way_of(int number, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("nodes that ask each other show of what is kept once what its copies show, on threads, a pool, a model, in chaos") {
+TEST_CASE("nodes that ask each other show of what is kept once what its copies show, on threads, a pool, a model, in chaos" *
+          doctest::test_suite("slow")) {
   std::uint64_t seed = 40;
   for (const Arrangement arrangement : arrangements) {
     for (const double size : {0.3, 0.01}) {
@@ -120,7 +121,7 @@ TEST_CASE("of what is kept once the film, the rays and all that walks do are tho
   }
 }
 
-TEST_CASE("in chaos what is kept once shows the same, whatever is under way") {
+TEST_CASE("in chaos what is kept once shows the same, whatever is under way" * doctest::test_suite("slow")) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     CAPTURE(seed);
     const std::size_t page_size = seed % 2 == 0 ? 512 : 4096;

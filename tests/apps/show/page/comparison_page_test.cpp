@@ -127,7 +127,7 @@ TEST_CASE("on one clock the pixels of either run are lit that it had done by the
   }
 }
 
-TEST_CASE("a run that is over does nothing any more while the other goes on") {
+TEST_CASE("a run that is over does nothing any more while the other goes on" * doctest::test_suite("slow")) {
   const Comparison comparison = four_and_eight();
   REQUIRE(comparison.pages[1].run.total_ns() < comparison.pages[0].run.total_ns());
   const std::string said = told(text_of(comparison), "", "id('said').textContent",
@@ -137,7 +137,8 @@ TEST_CASE("a run that is over does nothing any more while the other goes on") {
   CHECK(tests::contains(said.substr(said.find("B: ")), "ms: idle at the end 100.0 %."));
 }
 
-TEST_CASE("by keys alone a pixel of the second run is chosen, said of both, and the address brings the view back") {
+TEST_CASE("by keys alone a pixel of the second run is chosen, said of both, and the address brings the view back" *
+          doctest::test_suite("slow")) {
   const std::string page = text_of(four_and_eight());
   const std::string chosen = told(page, "key(id('shot1'),'ArrowRight')", "id('said').textContent+w.location.hash");
   CHECK(tests::contains(chosen, "A: Pixel 8, 6: node "));
@@ -154,7 +155,8 @@ TEST_CASE("by keys alone a pixel of the second run is chosen, said of both, and 
   CHECK(told(page, "", "!!p.documentElement.dataset.loaded", "#run=7&link=1e9&page=1e9&peer=1e9&why=1e9&x=1e9") == "true");
 }
 
-TEST_CASE("a name that would be script does nothing, and of a script in which a byte is changed nothing runs") {
+TEST_CASE("a name that would be script does nothing, and of a script in which a byte is changed nothing runs" *
+          doctest::test_suite("slow")) {
   const std::string name = "</script><script>document.title='run'</script>\xe2\x80\xa8<img src=x onerror=alert(1)>";
   std::string page = text_of(four_and_eight(name));
   CHECK(told(page, "", "[!!id('player'),p.querySelectorAll('img[onerror]').length,p.title.startsWith('Two runs')]") ==
@@ -171,7 +173,8 @@ TEST_CASE("a browser shows the page of two runs whole, on a screen and on a tele
   }
 }
 
-TEST_CASE("each part of the page of two runs has a name of its own, and words for those who do not see it") {
+TEST_CASE("each part of the page of two runs has a name of its own, and words for those who do not see it" *
+          doctest::test_suite("slow")) {
   CHECK(told(text_of(four_and_eight()), "", tests::broken_rules) == "0,0,0,0,0");
 }
 

@@ -102,7 +102,8 @@ TEST_CASE("a band that is wider than a tenth is not in the table, which says of 
   CHECK(contains(page, "the run would take a time that is not predicted: the two readings lie 20 % apart."));
 }
 
-TEST_CASE("by script a page says in words what is asked for in its address, with dots that a switch hides") {
+TEST_CASE("by script a page says in words what is asked for in its address, with dots that a switch hides" *
+          doctest::test_suite("slow")) {
   const std::string page = sweep_page_of(four_pages());
   CHECK(told(page, "") == "4 pages: the run from which all else is predicted, 10 ms. 3 dots, 2 bands");
   CHECK(told(page, "#cache=2") == "2 pages: predicted 20 to 21 ms, with 500 faults; a run took 20.5 ms. 3 dots, 2 bands");

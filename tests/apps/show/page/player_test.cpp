@@ -43,7 +43,8 @@ TEST_CASE("the pixels that are lit at a time are those that were done by then") 
   }
 }
 
-TEST_CASE("by keys alone a pixel is chosen, said and let go, time goes on, and the address has it") {
+TEST_CASE("by keys alone a pixel is chosen, said and let go, time goes on, and the address has it" *
+          doctest::test_suite("slow")) {
   const std::string page = page_of();
   const std::string chosen =
       told(page, "key(id('shot'),'ArrowRight');key(id('shot'),'ArrowDown')", "id('said').textContent+w.location.hash");
@@ -58,7 +59,8 @@ TEST_CASE("by keys alone a pixel is chosen, said and let go, time goes on, and t
   CHECK(told(page, "key(p.body,' ')", "id('play').textContent") == "Pause");
 }
 
-TEST_CASE("the chain of causes leads back to the start, from a wait by key and from the end of the run by address") {
+TEST_CASE("the chain of causes leads back to the start, from a wait by key and from the end of the run by address" *
+          doctest::test_suite("slow")) {
   const std::string page = page_of();
   const std::string last = "p.querySelector('#why li:last-child').textContent";
   const std::string path = told(page, "", "id('why-sum').textContent+" + last + "+id('path').textContent", "#why=1e9");
@@ -98,7 +100,7 @@ TEST_CASE("names that would be script do nothing") {
   CHECK(hostile.starts_with("true,0,"));
 }
 
-TEST_CASE("each part of the page has a name of its own, and words for those who do not see it") {
+TEST_CASE("each part of the page has a name of its own, and words for those who do not see it" * doctest::test_suite("slow")) {
   CHECK(told(page_of(), "", tests::broken_rules) == "0,0,0,0,0");
 }
 
@@ -117,7 +119,7 @@ TEST_CASE("a page has the scripts of what it plays, and no others") {
   CHECK(scripts(starved(small())) == "001100");
 }
 
-TEST_CASE("an address that says nonsense is taken as far as it makes sense") {
+TEST_CASE("an address that says nonsense is taken as far as it makes sense" * doctest::test_suite("slow")) {
   CHECK(told(page_of(), "", "!!p.documentElement.dataset.loaded", "#t=nan&x=1e9&node=-7&heat=__proto__&mix=-5&from=9&to=3") ==
         "true");
 }

@@ -26,13 +26,6 @@ TEST_CASE("parts are asked for by their names") {
     CHECK(apps::parse_speed_parts(apps::name_of(part)) == std::set{part});
   }
   CHECK(apps::parse_speed_parts("build,kernel,build") == std::set{SpeedPart::kernel, SpeedPart::build});
-  for (const char* text : {"", "kernels", "kernel, build", ","}) {
-    CHECK_THROWS_AS(apps::parse_speed_parts(text), core::UsageError);
-  }
-  CHECK_THROWS_WITH_AS(apps::parse_speed_parts("kernels"),
-                       "--parts=kernels: expected plain, paths, kernel, emulation, build, memory, pages, with commas "
-                       "between. Did you mean kernel?",
-                       core::UsageError);
 }
 
 TEST_CASE("a part that is gone is answered with what tells the same") {
@@ -44,10 +37,6 @@ TEST_CASE("a part that is gone is answered with what tells the same") {
 
 TEST_CASE("thread counts are ascending without repetition") {
   CHECK(apps::parse_thread_counts("8,1,2,1") == std::vector<std::uint32_t>{1, 2, 8});
-  for (const char* text : {"", "0", "1025", "1.5", "two", "1,", "-1"}) {
-    CAPTURE(std::string(text));
-    CHECK_THROWS_AS(apps::parse_thread_counts(text), core::UsageError);
-  }
 }
 
 TEST_CASE("without scenes each part has its own, in haste none of a million triangles") {

@@ -113,9 +113,4 @@ TEST_CASE("the long run has a billion rays from inside, and every test can be as
   CHECK(apps::stability_cases({}, {"R2"}).front().rays == 1'000'000'000);
 }
 
-TEST_CASE("a stability test that is none is refused with those that there are") {
-  CHECK_THROWS_WITH_AS(apps::stability_cases({100}, {"R99"}), doctest::Contains("R16, quadrics"), core::UsageError);
-  CHECK_THROWS_AS(apps::stability_cases({100}, {""}), core::UsageError);
-}
-
 }  // namespace dmpc::tests::stability_run_test

@@ -38,20 +38,12 @@ TEST_CASE("bench precision takes any number of scenes") {
   CHECK(parse({}).scenes.empty());
   CHECK(parse({"tetra-3", "balls-1", "--depth=3"}).scenes == std::vector<std::string>{"tetra-3", "balls-1"});
   CHECK(parse({"--resolution=20x10"}).resolution.height == 10);
-  CHECK_THROWS_AS(parse({"--resolution=20"}), core::UsageError);
-  CHECK_THROWS_AS(parse({"--depth=0"}), core::UsageError);
 }
 
 TEST_CASE("bench precision expects a percentage of equal pixels") {
   CHECK_FALSE(parse({}).expected);
   CHECK(parse({"--expect=98.5"}).expected == 98.5);
   CHECK(parse({"--expect=0"}).expected == 0);
-  for (const char* text : {"--expect=101", "--expect=-1", "--expect=most", "--expect=99%"}) {
-    CHECK_THROWS_WITH_AS(
-        parse({text}),
-        (std::string(text) + ": expected a percentage from 0 to 100, such as 99.5\nTry: dmpc bench precision --help").c_str(),
-        core::UsageError);
-  }
 }
 
 TEST_CASE("bench precision expects of families what was measured, as it was measured, and of all else 99 percent") {

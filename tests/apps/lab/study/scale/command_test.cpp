@@ -187,25 +187,13 @@ TEST_CASE("counters of a run that cannot be read are a fault of our own") {
                        doctest::Contains("the statistics of a render cannot be read"), core::InternalError);
 }
 
-TEST_CASE("options of the study of scale are taken, and wrong ones refused") {
+TEST_CASE("options of the study of scale are taken") {
   const ScaleOptions options = scale_options({"mount", "rings", "--sizes=2", "--scene=mount-3", "--repeat=3", "--parts=nodes"});
   CHECK(options.settings.families == Words{"mount", "rings"});
   CHECK(options.settings.rounds == 3);
   CHECK(scale_options({}).settings.families == Words{"tetra", "mount"});
   CHECK(scale_options({"--cache=64KiB"}).settings.cache_bytes == 65536);
   CHECK(scale_options({"--nodes=8,1,3,8,1"}).settings.node_counts == std::vector<std::uint32_t>{1, 3, 8});
-  for (const char* word : {"--sizes=x", "--parts=all", "--methods=svm", "--cache=100", "--nodes=0", "--nodes=4097",
-                           "--size-nodes=0", "--repeat=0", "--resolution=9", "--format=xml", "--cache=0", "--cache=1025GiB"}) {
-    CAPTURE(std::string(word));
-    CHECK_THROWS_AS(scale_options({word}), core::UsageError);
-  }
-}
-
-TEST_CASE("the study of scale says what is wrong with a family, and with a cache") {
-  CHECK_THROWS_WITH_AS(scale_options({"mount", "tetra", "mount"}), doctest::Contains("FAMILY mount: it is there twice"),
-                       core::UsageError);
-  CHECK_THROWS_WITH_AS(scale_options({"--cache=1500"}), doctest::Contains("multiple of 1KiB"), core::UsageError);
-  CHECK_THROWS_WITH_AS(scale_options({"--cache=9000GiB"}), doctest::Contains("at most 1024GiB"), core::UsageError);
 }
 
 TEST_CASE("Ctrl-C ends the study of scale with status 130 and the rows finished before") {

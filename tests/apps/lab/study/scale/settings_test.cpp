@@ -95,22 +95,12 @@ TEST_CASE("sizes are numbers and ranges") {
   CHECK(apps::parse_scale_sizes("5") == Sizes{5});
   CHECK(apps::parse_scale_sizes("5-8") == Sizes{5, 6, 7, 8});
   CHECK(apps::parse_scale_sizes("8,2-3,3,8-8") == Sizes{2, 3, 8});
-  for (const char* text : {"", ",", "0", "-1", "5-", "-5", "8-5", "5--8", "5-6-7", "x", "5x", "5 6", "1-999999", "99999999999"}) {
-    CAPTURE(std::string(text));
-    CHECK_THROWS_AS(apps::parse_scale_sizes(text), core::UsageError);
-  }
 }
 
 TEST_CASE("parts and methods are words") {
   CHECK(apps::parse_scale_parts("nodes") == std::set{ScalePart::nodes});
   CHECK(apps::parse_scale_parts("nodes,sizes").size() == 2);
   CHECK(apps::parse_scale_methods("dataflow,cache") == std::vector{ScaleMethod::dataflow, ScaleMethod::cache});
-  for (const char* text : {"", "size", "sizes,", "sizes nodes"}) {
-    CHECK_THROWS_AS(apps::parse_scale_parts(text), core::UsageError);
-  }
-  for (const char* text : {"", "svm", "cache,", "cache,dataflow,cache"}) {
-    CHECK_THROWS_AS(apps::parse_scale_methods(text), core::UsageError);
-  }
 }
 
 }  // namespace dmpc::tests::scale_settings_test

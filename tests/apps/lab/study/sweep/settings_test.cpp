@@ -71,23 +71,13 @@ TEST_CASE("a mesh file that is swept has one ray a pixel, unless something is sa
 }
 
 TEST_CASE("how something is rendered can vary, and what is written where cannot") {
-  for (const char* const name : {"--nodes", "--machine", "--samples", "--no-skip", "--count-pages", "--light", "--chaos"}) {
+  for (const char* const name :
+       {"--nodes", "--machine", "--samples", "--no-skip", "--count-pages", "--light", "--chaos", "--instances"}) {
     CHECK_MESSAGE(is_sweepable(name), name);
   }
   for (const char* const name : {"--output", "--stats", "--trace", "--quiet", "--checkpoint", "--help", "--serve"}) {
     CHECK_MESSAGE(!is_sweepable(name), name);
-    CHECK_THROWS_AS(parse_variation(std::string(name) + ":x"), core::UsageError);
   }
-}
-
-TEST_CASE("a variation that is none says what is expected") {
-  CHECK_THROWS_WITH_AS(parse_variation("page-sise:1KiB"), doctest::Contains("Did you mean page-size?"), core::UsageError);
-  CHECK_THROWS_WITH_AS(parse_variation("nodes"), doctest::Contains("expected nodes:VALUE,VALUE,..."), core::UsageError);
-  CHECK_THROWS_WITH_AS(parse_variation("nodes:"), doctest::Contains("--vary=nodes:: a value is missing"), core::UsageError);
-  CHECK_THROWS_WITH_AS(parse_variation("nodes:1,"), doctest::Contains("a value is missing"), core::UsageError);
-  CHECK_THROWS_WITH_AS(parse_variation(":1"), doctest::Contains("an option's name is missing"), core::UsageError);
-  CHECK_THROWS_WITH_AS(parse_variation("nodes:2,2"), doctest::Contains("2 is there twice"), core::UsageError);
-  CHECK_THROWS_WITH_AS(parse_variation("count-pages:yes"), doctest::Contains("expected on, off or on,off"), core::UsageError);
 }
 
 TEST_CASE("a combination that render would not take is refused before anything runs, in render's words") {
