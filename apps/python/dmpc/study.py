@@ -24,12 +24,12 @@ def balance(
     = None, missing: Literal["error", "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None =
     None, sandbox: Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention:
     Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None,
-    cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit", "unlit",
-    "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport:
-    Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None
-    = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial",
-    "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, grid_axes:
-    Literal["world", "screen"] | None = None, report: Text | None = None, plots: Text | None = None
+    cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms",
+    "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] |
+    None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None =
+    None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,
+    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None
+    = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How evenly the work of rays that travel is shared out."""
     return studying.study("balance", ["scene"], locals())
@@ -42,12 +42,12 @@ def traffic(
     | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available",
     "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None =
     None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality:
-    Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms", "empty-regions",
-    "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None,
-    bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None,
-    light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure:
-    Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None,
-    report: Text | None = None, plots: Text | None = None
+    Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles",
+    "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None,
+    sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None,
+    page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents",
+    "voxels"] | None = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None, report: Text | None = None,
+    plots: Text | None = None
 ) -> pandas.DataFrame:
     """What travels when rays do, beside what travels when pages do."""
     return studying.study("traffic", ["scene"], locals())
@@ -61,12 +61,11 @@ def cache(
     files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None = None, resolution:
     Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text | None = None, error:
     Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None,
-    no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] |
-    Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
-    Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size:
-    Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None
-    = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None, report: Text | None = None, plots: Text | None
-    = None
+    no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] |
+    None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None,
+    occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None,
+    record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text
+    | None = None, grid_axes: Literal["world", "screen"] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How often pages are missed with caches of every size and policy."""
     return studying.study("cache", ["scene"], locals())
@@ -87,12 +86,12 @@ def speedup(
     "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox:
     Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines",
     "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None =
-    None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms",
-    "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] |
-    None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None =
-    None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,
-    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None
-    = None, report: Text | None = None, plots: Text | None = None
+    None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions",
+    "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None,
+    bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None,
+    light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure:
+    Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None,
+    report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How much faster a modelled machine gets by more nodes."""
     return studying.study("speedup", ["scene"], locals())
@@ -107,8 +106,8 @@ def systems(
     | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None =
     None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text |
     None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"]
-    | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes",
-    "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
+    | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] |
+    Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
     Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size:
     Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None
     = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None, report: Text | None = None, plots: Text | None
@@ -127,8 +126,8 @@ def frames(
     | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None =
     None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text |
     None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"]
-    | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes",
-    "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
+    | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] |
+    Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
     Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size:
     Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None
     = None, voxels: Text | None = None, grid_axes: Literal["world", "screen"] | None = None, report: Text | None = None, plots: Text | None

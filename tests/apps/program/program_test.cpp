@@ -210,7 +210,7 @@ TEST_CASE("no option of dataflow changes the film") {
                                                {"--nodes=13", "--balance=equal-size"},
                                                {"--ray-batch=1", "--topology=torus"},
                                                {"--ray-credits=0", "--chaos=3"},
-                                               {"--subsample=1", "--balance-grid=7", "--no-skip=empty-space"},
+                                               {"--subsample=1", "--balance-grid=7", "--no-skip=empty-regions"},
                                                {"--nodes=3", "--node-memory=300KiB", "--page-size=512B"}}) {
     std::vector<std::string> arguments = {"render",          "balls-1", "--strategy=dataflow", "--resolution=16x16", "--stats",
                                           folder / "a.json", "-o",      folder / "a.exr"};
