@@ -11,7 +11,7 @@
 #include "core/base/expect.h"
 #include "core/picture/emitter_light.h"
 #include "core/picture/path_step.h"
-#include "core/picture/sample_position.h"
+#include "core/picture/sample_pair.h"
 #include "core/picture/surface_shares.h"
 #include "core/record/sky.h"
 
