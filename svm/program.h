@@ -22,7 +22,6 @@
 #include <utility>
 
 #include "core/base/expect.h"
-#include "core/picture/background_sums.h"
 #include "core/picture/heat_kind.h"
 #include "core/picture/memory_use.h"
 #include "core/picture/pixel_task.h"

@@ -6,7 +6,6 @@
 
 #include "core/base/expect.h"
 #include "core/record/curved_values.h"
-#include "core/record/on_surface.h"
 
 namespace dmpc::apps {
 namespace {

@@ -93,6 +93,7 @@ inline constexpr std::array hit_counters = {
 template <>
 inline constexpr auto counters_of<core::Operations> = std::array{
     counter<&core::Operations::cell_steps>({"cell_steps"}),
+    counter<&core::Operations::empty_cells>({"empty_cells", "that rays left together with others in one step"}),
     counter<&core::Operations::brick_reads>({"brick_reads"}),
     counter<&core::Operations::primitive_tests, 0>({"triangle_tests"}),
     counter<&core::Operations::primitive_tests, 1>({"sphere_tests"}),

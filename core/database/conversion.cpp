@@ -427,9 +427,8 @@ Box bounds_of_points(std::span<const Vec3d> points, const Turn& turn) {
 
 Box bounds_of_vertices(const std::vector<Vec3d>& vertices, const Turn& turn, const Parallel& parallel) {
   std::vector<Box> boxes(ceil_divide(vertices.size(), chunk_size));
-  parallel.for_each(boxes.size(), [&](std::size_t chunk) {
-    const std::size_t first = chunk * chunk_size;
-    boxes[chunk] = bounds_of_points(std::span(vertices).subspan(first, std::min(chunk_size, vertices.size() - first)), turn);
+  parallel.for_each_run(vertices.size(), chunk_size, [&](std::size_t first, std::size_t end) {
+    boxes[first / chunk_size] = bounds_of_points(std::span(vertices).subspan(first, end - first), turn);
   });
   Box all;
   for (const Box& box : boxes) {

@@ -51,11 +51,11 @@ class CopiesBounds {
       include(box, kept_.places[place]);
     }
     std::vector<Box> boxes(ceil_divide(kept_.places.size(), places_a_chunk), box);
-    parallel.for_each(boxes.size(), [&](std::size_t chunk) {
-      const std::size_t end = std::min(kept_.places.size(), (chunk + 1) * places_a_chunk);
-      for (std::size_t i = chunk * places_a_chunk; i < end; ++i) {
-        if (!holds(boxes[chunk], reach(kept_.places[i]))) {
-          include(boxes[chunk], kept_.places[i]);
+    parallel.for_each_run(kept_.places.size(), places_a_chunk, [&](std::size_t first, std::size_t end) {
+      Box& reached = boxes[first / places_a_chunk];
+      for (std::size_t i = first; i < end; ++i) {
+        if (!holds(reached, reach(kept_.places[i]))) {
+          include(reached, kept_.places[i]);
         }
       }
     });

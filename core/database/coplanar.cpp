@@ -9,7 +9,6 @@
 #include "core/database/cover_finder.h"
 #include "core/database/exact_corners.h"
 #include "core/database/face.h"
-#include "core/database/face_lanes.h"
 #include "core/database/face_stack.h"
 #include "core/database/plane_buckets.h"
 #include "core/database/twins.h"
@@ -74,6 +73,18 @@ bool is_smooth(const Conversion& conversion, const Face& face) {
   const auto found = std::lower_bound(conversion.smooth.begin(), conversion.smooth.end(), face.id,
                                       [](const Conversion::Smooth& one, std::uint32_t id) { return one.primitive < id; });
   return found != conversion.smooth.end() && found->primitive == face.id;
+}
+
+/// Of those that are triangles.
+std::vector<Face> faces_of(const Conversion& conversion, std::span<const std::uint32_t> ids) {
+  std::vector<Face> faces;
+  faces.reserve(ids.size());
+  for (const std::uint32_t id : ids) {
+    if (conversion.primitives[id].kind == PrimitiveKind::triangle) {
+      faces.emplace_back(conversion.primitives[id], id, conversion.sources[id].object);
+    }
+  }
+  return faces;
 }
 
 /// Those of a top cell, but for copies of a mesh, which has been judged by itself.

@@ -74,7 +74,11 @@ class Extractor {
       header.sky.choices = copy_array<EmitterChoice>(whole_.sky.choices, sky_tile_count(whole_.sky));
       header.sky.tiles = copy_array<TextureTile>(whole_.sky.tiles, sky_tile_count(whole_.sky));
     }
-    whole_.has_voxels() ? copy_voxels() : copy_directory(around);
+    if (whole_.has_voxels()) {
+      copy_voxels();
+    } else {
+      for_each_top_cell(header.directory_low, around.high, false, [&](const Corner& cell) { copy_top_cell(cell); });
+    }
     copy_textures();
     part_.record_bytes = writer_.page_bytes();
     part_.bytes = std::move(writer_).finish();
@@ -99,6 +103,9 @@ class Extractor {
   }
 
   const std::byte* at(Address address) const { return bytes_ + byte_offset(address); }
+  DirectoryEntry entry_at(const Corner& cell) const {
+    return entry_of(whole_, cell, [this](Address address) { return at(address); });
+  }
 
   template <class T>
   Address copy_array(Address from, std::size_t count) {
@@ -113,16 +120,10 @@ class Extractor {
   void choose_listed(const Region& around) {
     const DatabaseHeader& header = part_.header;
     entries_.resize(directory_entry_count(header.directory_size));
-    Corner cell;
-    for (cell[0] = header.directory_low[0]; cell[0] < around.high[0]; cell[0] += finest_per_top) {
-      for (cell[1] = header.directory_low[1]; cell[1] < around.high[1]; cell[1] += finest_per_top) {
-        for (cell[2] = header.directory_low[2]; cell[2] < around.high[2]; cell[2] += finest_per_top) {
-          const std::uint64_t from = directory_index(whole_, cell);
-          const auto entry = read<DirectoryEntry>(at(directory_address(whole_, from)) + directory_offset(from));
-          entries_[directory_index(header, cell)] = entry.empty() ? entry : choose_from_list(entry, cell);
-        }
-      }
-    }
+    for_each_top_cell(header.directory_low, around.high, true, [&](const Corner& cell) {
+      const DirectoryEntry entry = entry_at(cell);
+      entries_[directory_index(header, cell)] = entry.empty() ? entry : choose_from_list(entry, cell);
+    });
   }
 
   DirectoryEntry choose_from_list(const DirectoryEntry& entry, const Corner& cell) {
@@ -180,27 +181,15 @@ class Extractor {
     return !is_in_one;
   }
 
-  void copy_directory(const Region& around) {
-    const DatabaseHeader& header = part_.header;
-    Corner cell;
-    for (cell[2] = header.directory_low[2]; cell[2] < around.high[2]; cell[2] += finest_per_top) {
-      for (cell[1] = header.directory_low[1]; cell[1] < around.high[1]; cell[1] += finest_per_top) {
-        for (cell[0] = header.directory_low[0]; cell[0] < around.high[0]; cell[0] += finest_per_top) {
-          copy_top_cell(cell);
-        }
-      }
-    }
-  }
-
   void copy_top_cell(const Corner& cell) {
-    const std::uint64_t from = directory_index(whole_, cell), to = directory_index(part_.header, cell);
-    auto entry = read<DirectoryEntry>(at(directory_address(whole_, from)) + directory_offset(from));
+    DirectoryEntry entry = entry_at(cell);
     if (!entry.empty()) {
       const Those those = regions_over(cell);
       const Address copy = those.count > 0 ? copy_brick(brick_at(entry.brick()), those) : no_address;
       among_.clear();
       entry.bits = copy != no_address ? static_cast<std::uint32_t>(copy) : DirectoryEntry::empty_flag;
     }
+    const std::uint64_t to = directory_index(part_.header, cell);
     writer_.write(directory_address(part_.header, to), directory_offset(to), entry);
   }
 
@@ -216,9 +205,10 @@ class Extractor {
   /// Those that a child's box touches; let_go() of them before those from which they were chosen.
   Those touched(const Brick& brick, std::size_t child, const Those& those) {
     const std::size_t first = among_.size();
+    const Box box = box_of(brick, child);
     for (std::size_t i = 0; i < those.count; ++i) {
       const std::uint32_t region = among_[those.first + i];
-      if (touches(whole_.frame, brick, child, regions_[region])) {
+      if (touches_region(whole_.frame, box, regions_[region])) {
         among_.push_back(region);
       }
     }
@@ -301,11 +291,12 @@ class Extractor {
 
   /// Whether a child's box lies in none of those regions: a ray may meet it in others, too.
   bool is_shared(const Brick& brick, std::size_t child, const Those& those) const {
+    const Box box = box_of(brick, child);
     const auto holds = [&](std::uint32_t region) {
       bool is_within = true;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        is_within = is_within && place_of(brick, axis, child) > plane_at(whole_.frame, axis, regions_[region].low[axis]) &&
-                    place_of(brick, axis + 3, child) < plane_at(whole_.frame, axis, regions_[region].high[axis]);
+        is_within = is_within && box.low[axis] > plane_at(whole_.frame, axis, regions_[region].low[axis]) &&
+                    box.high[axis] < plane_at(whole_.frame, axis, regions_[region].high[axis]);
       }
       return is_within;
     };

@@ -17,37 +17,24 @@ namespace dmpc::core {
 /// Rounding to float moves a coordinate by this share of it at most.
 inline constexpr double corner_rounding = 0x1p-25;
 
-/// What follows from a triangle's corners: its plane, the least of its altitudes, and how far rounding moves a corner across the
-/// plane at most.
-struct FaceShape {
-  FacePlane plane;
-  double altitude, moved;
-
-  /// Its coordinates, and those `beside` them that they were reckoned with, are off by this share.
-  static FaceShape of(const std::array<Vec3d, 3>& corner, const Vec3d& beside, double rounding) {
-    const Vec3d area = cross(corner[1] - corner[0], corner[2] - corner[0]);
-    const double twice = length(area);
-    FaceShape shape{};
-    shape.plane.normal = area * (1.0 / twice);
-    shape.plane.offset = dot(shape.plane.normal, corner[0]);
-    const double by_beside = dot_of_magnitudes(shape.plane.normal, beside);
-    const auto moved = [&](const Vec3d& at) { return rounding * (dot_of_magnitudes(shape.plane.normal, at) + by_beside); };
-    shape.moved = std::max(std::max(moved(corner[0]), moved(corner[1])), moved(corner[2]));
-    shape.altitude = least_altitude(corner[1] - corner[0], corner[2] - corner[1], corner[0] - corner[2], twice);
-    return shape;
-  }
-};
-
 /// `id`: of the primitive; `object`: that it is of.
 struct Face {
   /// As records have it.
   Face(const PrimitiveValues& triangle, std::uint32_t primitive, std::uint32_t of_object)
       : Face({triangle.vector(0), triangle.vector(3), triangle.vector(6)}, {}, corner_rounding, primitive, of_object) {}
+  /// Coordinates, and those `beside` them that they were reckoned with, are off by this share.
   Face(const std::array<Vec3d, 3>& corners, const Vec3d& beside, double rounding, std::uint32_t primitive,
        std::uint32_t of_object)
-      : Face(corners, FaceShape::of(corners, beside, rounding), primitive, of_object) {}
-  Face(const std::array<Vec3d, 3>& corners, const FaceShape& shape, std::uint32_t primitive, std::uint32_t of_object)
-      : corner(corners), plane(shape.plane), altitude(shape.altitude), moved(shape.moved), id(primitive), object(of_object) {}
+      : corner(corners), id(primitive), object(of_object) {
+    const Vec3d area = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    const double twice = length(area);
+    plane.normal = area * (1.0 / twice);
+    plane.offset = dot(plane.normal, corner[0]);
+    const double by_beside = dot_of_magnitudes(plane.normal, beside);
+    const auto moved_by = [&](const Vec3d& at) { return rounding * (dot_of_magnitudes(plane.normal, at) + by_beside); };
+    moved = std::max({moved_by(corner[0]), moved_by(corner[1]), moved_by(corner[2])});
+    altitude = least_altitude(corner[1] - corner[0], corner[2] - corner[1], corner[0] - corner[2], twice);
+  }
 
   /// The axis that the plane faces most.
   std::size_t main_axis() const {
@@ -68,7 +55,8 @@ struct Face {
 
   std::array<Vec3d, 3> corner;
   FacePlane plane;
-  double altitude, moved;  ///< as in FaceShape
+  double altitude = 0;  ///< the least of the three
+  double moved = 0;     ///< how far rounding moves a corner across the plane at most
   std::uint32_t id, object;
   bool is_by_doubles = false;  ///< its corners are not rounded to float, so that its slopes are known, whatever `moved` is
 };

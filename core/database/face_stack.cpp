@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/record/coordinate.h"
-#include "core/record/exact_clearance.h"
 
 namespace dmpc::core {
 namespace {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include "core/base/expect.h"
@@ -32,35 +33,38 @@ double pad_in_mesh(const Transform& world, const GridFrame& frame, double unit, 
   return pad * most * rounded_up;
 }
 
-/// Makes another list of primitives.
+/// Brings primitives to other places.
 class Keeper {
  public:
   Keeper(const Scene& scene, std::span<const MeshFaces> faces, const GridFrame& frame, double pad, Conversion& conversion)
-      : scene_(scene), faces_(faces), frame_(frame), pad_(pad), old_(conversion) {}
+      : scene_(scene), faces_(faces), frame_(frame), pad_(pad), conversion_(conversion) {}
 
   KeptInstances keep(const Parallel& parallel) {
     choose(parallel);
-    std::vector<std::uint32_t> to(old_.primitives.size(), nowhere);
-    for (std::size_t i = 0; i < old_.primitives.size();) {
-      const KeptPlace* const place = place_of(scene_, old_.sources[i].object);
+    std::vector<bool> is_own(conversion_.primitives.size());
+    for (std::size_t i = 0; i < is_own.size();) {
+      const KeptPlace* const place = place_of(scene_, conversion_.sources[i].object);
       if (place != nullptr && is_kept_[static_cast<std::size_t>(place - scene_.kept->places.data())]) {
         i = add_place(*place, i);
       } else {
-        to[i] = static_cast<std::uint32_t>(primitives_.size());
-        result_.own_ids.push_back(to[i]);
+        is_own[i] = true;
+        result_.own_ids.push_back(static_cast<std::uint32_t>(from_.size()));
         copy(i++);
       }
     }
     if (!result_.empty()) {
       result_.meshes = std::move(meshes_.records);
-      hand_over(to);
+      result_.told.resize(from_.size());
+      std::iota(result_.told.begin(), result_.told.end(), 0U);
+      const auto is_copys = [&](const auto& item) { return !is_own[item.primitive]; };
+      std::erase_if(conversion_.smooth, is_copys);
+      std::erase_if(conversion_.textured, is_copys);
+      rearrange(conversion_, from_);
     }
     return std::move(result_);
   }
 
  private:
-  static constexpr std::uint32_t nowhere = 0xffffffffU;
-
   void choose(const Parallel& parallel) {
     std::vector<Obstacle> obstacles = obstacles_of(scene_, faces_, parallel);
     for (const Obstacle obstacle : obstacles) {
@@ -77,18 +81,14 @@ class Keeper {
     add(obstacles, result_.copied);
   }
 
-  void copy(std::size_t i) {
-    primitives_.push_back(old_.primitives[i]);
-    sources_.push_back(old_.sources[i]);
-    shading_.push_back(old_.shading[i]);
-  }
+  void copy(std::size_t i) { from_.push_back(static_cast<std::uint32_t>(i)); }
 
   /// Its copy begins at `i`; returns where that ends.
   std::size_t add_place(const KeptPlace& place, std::size_t i) {
     const MeshFaces& faces = faces_[place.mesh];
     const Scene& mesh = scene_.kept->meshes[place.mesh];
     const Placing placing(place.world, frame_);
-    KeptInstance instance{place.world, meshes_.index[place.mesh], static_cast<std::uint32_t>(primitives_.size()), {}};
+    KeptInstance instance{place.world, meshes_.index[place.mesh], static_cast<std::uint32_t>(from_.size()), {}};
     for (const MeshTriangle& triangle : faces.triangles) {
       const Object& object = mesh.objects[triangle.object];
       std::array<Vec3d, 3> corners;
@@ -96,48 +96,32 @@ class Keeper {
         corners[k] = Vec3d(coordinates_of(placing.corner(mesh.vertices[object.first + triangle.corner[k]])));
       }
       if (leaves_nothing(corners)) {
-        primitives_.push_back({.kind = PrimitiveKind::triangle});
-        sources_.push_back({place.at + triangle.object});
-        shading_.push_back(ShadingReference::flat(object.material));
+        copy(conversion_.primitives.size());
+        conversion_.primitives.push_back({.kind = PrimitiveKind::triangle});
+        conversion_.sources.push_back({place.at + triangle.object});
+        conversion_.shading.push_back(ShadingReference::flat(object.material));
       } else {
         const std::size_t first = placing.is_mirrored() ? 2 : 0;
-        expect(i < old_.primitives.size() && old_.sources[i].object == place.at + triangle.object &&
-                   old_.primitives[i].vector(0) == corners[first],
+        expect(i < conversion_.primitives.size() && conversion_.sources[i].object == place.at + triangle.object &&
+                   conversion_.primitives[i].vector(0) == corners[first],
                "a copy has the triangles of its mesh, in their order");
-        instance.bounds.include(rounded_bounds_of(old_.primitives[i]));
+        instance.bounds.include(rounded_bounds_of(conversion_.primitives[i]));
         copy(i++);
       }
     }
-    result_.triangles += faces.triangles.size();
     result_.places.push_back(instance);
     return i;
-  }
-
-  void hand_over(const std::vector<std::uint32_t>& to) {
-    old_.primitives = std::move(primitives_);
-    old_.sources = std::move(sources_);
-    old_.shading = std::move(shading_);
-    const auto follow = [&](auto& list) {
-      std::erase_if(list, [&](const auto& item) { return to[item.primitive] == nowhere; });
-      for (auto& item : list) {
-        item.primitive = to[item.primitive];
-      }
-    };
-    follow(old_.smooth);
-    follow(old_.textured);
   }
 
   const Scene& scene_;
   std::span<const MeshFaces> faces_;
   const GridFrame& frame_;
   double pad_;
-  Conversion& old_;
+  Conversion& conversion_;
   KeptInstances result_;
   MeshesRecords meshes_;
-  std::vector<bool> is_kept_;  ///< by place
-  std::vector<PrimitiveValues> primitives_;
-  std::vector<PrimitiveSource> sources_;
-  std::vector<ShadingReference> shading_;
+  std::vector<bool> is_kept_;        ///< by place
+  std::vector<std::uint32_t> from_;  ///< where what comes at each place has been
 };
 
 }  // namespace

@@ -30,10 +30,9 @@ struct KeptInstances {
   std::vector<MeshRecords> meshes;
   std::vector<KeptInstance> places;    ///< by `first`, ascending
   std::vector<std::uint32_t> own_ids;  ///< of primitives that are no copies, ascending: indices into the conversion's lists
-  /// Of primitives by these indices what their ids are, where copies have none of their own there; else empty.
-  std::vector<std::uint32_t> told;
-  std::uint64_t triangles = 0;  ///< of all places
-  ObstacleCounts copied;        ///< all other places
+  std::vector<std::uint32_t> told;     ///< by index into the conversion's lists: ids
+  std::uint64_t unlisted = 0;          ///< triangles of places that have an id, but are in no list of the conversion
+  ObstacleCounts copied;               ///< all other places
 
   bool empty() const { return places.empty(); }
   /// A place's record, but for the mesh's address. `pad`: the grid's.

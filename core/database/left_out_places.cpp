@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "core/base/expect.h"
-#include "core/base/units.h"
 #include "core/database/top_cells.h"
 #include "core/record/coordinate.h"
 #include "core/record/vanishing.h"
@@ -44,9 +44,8 @@ Box local_reach(const Box& own, const KeptPlace& place, const GridFrame& frame) 
 
 template <class Part>
 void for_each_place(std::size_t count, const Parallel& parallel, const Part& part) {
-  parallel.for_each(ceil_divide(count, places_together), [&](std::size_t chunk) {
-    const std::size_t end = std::min(count, (chunk + 1) * places_together);
-    for (std::size_t i = chunk * places_together; i < end; ++i) {
+  parallel.for_each_run(count, places_together, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
       part(i);
     }
   });
@@ -68,9 +67,30 @@ LeftOutPlaces::LeftOutPlaces(const Scene& scene, std::span<const MeshFaces> face
   meshes_ = records_of(scene, faces, is_left_out, parallel);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     if (meshes_.index[i] != MeshesRecords::nowhere) {
-      chunks_.emplace_back(scene.kept->meshes[i], faces[i], meshes_.records[meshes_.index[i]].tree.ids);
+      chunks_.push_back(chunks_of(i));
     }
   }
+}
+
+/// With fewer triangles the boxes around them fit better, and there are more of them. 128 fit well; a large mesh, which stands in
+/// few places, has as many groups as a group has triangles.
+std::vector<LeftOutPlaces::Chunk> LeftOutPlaces::chunks_of(std::size_t mesh) const {
+  const std::vector<std::uint32_t>& ids = meshes_.records[meshes_.index[mesh]].tree.ids;
+  const auto root = static_cast<std::size_t>(std::sqrt(static_cast<double>(ids.size())));
+  const std::size_t step = std::max(std::size_t{16}, std::min(ids.size() / 128, root));
+  std::vector<Chunk> chunks;
+  for (std::size_t first = 0; first < ids.size(); first += step) {
+    const auto some = std::span(ids).subspan(first, std::min(step, ids.size() - first));
+    Chunk& chunk = chunks.emplace_back(Chunk{{}, {some.begin(), some.end()}});
+    for (const std::uint32_t id : some) {
+      const MeshTriangle& triangle = faces_[mesh].triangles[id];
+      for (const std::uint32_t corner : triangle.corner) {
+        const Scene& own = scene_.kept->meshes[mesh];
+        chunk.box.include(own.vertices[own.objects[triangle.object].first + corner]);
+      }
+    }
+  }
+  return chunks;
 }
 
 /// Long triangles touch so many cells that to count them all would take minutes. Side by side a place is looked at until it has
@@ -106,15 +126,14 @@ std::int64_t LeftOutPlaces::excess(const GridFrame& frame, double pad, std::uint
 LeftOutPlaces::Touches LeftOutPlaces::touches_of(const KeptPlace& place, const GridFrame& frame, double pad,
                                                  std::uint64_t touches_max, bool is_exact) const {
   const Scene& mesh = scene_.kept->meshes[place.mesh];
-  const MeshChunks& chunks = chunks_[index_of(place)];
   const Placing placing(place.world, frame);
   const bool is_mirrored = placing.is_mirrored();
   std::vector<PrimitiveValues> copies;
-  for (const MeshChunks::Chunk& chunk : chunks.chunks()) {
+  for (const Chunk& chunk : chunks_[index_of(place)]) {
     if (!is_exact && TopCells::is_within_one(local_reach(chunk.box, place, frame), frame, pad)) {
       continue;
     }
-    for (const std::uint32_t id : chunks.ids(chunk)) {
+    for (const std::uint32_t id : chunk.triangles) {
       const MeshTriangle& triangle = faces_[place.mesh].triangles[id];
       PrimitiveValues copy{.kind = PrimitiveKind::triangle};
       for (std::size_t k = 0; k < 3; ++k) {
@@ -160,14 +179,14 @@ KeptInstances LeftOutPlaces::keep(const GridFrame& frame, double pad, Conversion
   }
   for_each_place(places_.size(), parallel, [&](std::size_t i) { kept.places[i].bounds = bounds_of(places_[i], frame); });
   rearrange(conversion, own);
-  kept.triangles = triangles_;
+  kept.unlisted = triangles_;
   kept.meshes = std::move(meshes_.records);
   return kept;
 }
 
 Bounds LeftOutPlaces::bounds_of(const KeptPlace& place, const GridFrame& frame) const {
   Box box;
-  for (const MeshChunks::Chunk& chunk : chunks_[index_of(place)].chunks()) {
+  for (const Chunk& chunk : chunks_[index_of(place)]) {
     const Box reach = local_reach(chunk.box, place, frame);
     box.include(reach.low);
     box.include(reach.high);

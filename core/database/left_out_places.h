@@ -1,6 +1,7 @@
 // The places of a scene that leaves copies out, as instances: no copy is made on the way.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,7 +9,6 @@
 #include "core/base/box.h"
 #include "core/database/conversion.h"
 #include "core/database/kept_instances.h"
-#include "core/database/mesh_chunks.h"
 #include "core/database/mesh_faces.h"
 #include "core/database/mesh_records.h"
 #include "core/database/obstacle.h"
@@ -42,12 +42,18 @@ class LeftOutPlaces {
   KeptInstances keep(const GridFrame& frame, double pad, Conversion& conversion, const Parallel& parallel);
 
  private:
+  /// Triangles of a mesh that lie together, to look at its places without a look at each corner.
+  struct Chunk {
+    Box box;  ///< of their corners, in the mesh's coordinates
+    std::vector<std::uint32_t> triangles;
+  };
   /// That a copy's triangles touch cells; more than `touches_max` if those that are looked at touch more.
   struct Touches {
     std::uint64_t triangles = 0, touches = 0;
   };
   Touches touches_of(const KeptPlace& place, const GridFrame& frame, double pad, std::uint64_t touches_max, bool is_exact) const;
   Bounds bounds_of(const KeptPlace& place, const GridFrame& frame) const;
+  std::vector<Chunk> chunks_of(std::size_t mesh) const;
   std::uint64_t triangles_of(const KeptPlace& place) const { return faces_[place.mesh].triangles.size(); }
   std::uint32_t index_of(const KeptPlace& place) const { return meshes_.index[place.mesh]; }
 
@@ -55,8 +61,8 @@ class LeftOutPlaces {
   std::span<const MeshFaces> faces_;
   std::vector<KeptPlace> places_;  ///< whose copies are left out
   MeshesRecords meshes_;
-  std::vector<MeshChunks> chunks_;  ///< as records
-  std::uint64_t triangles_ = 0;     ///< of all these places
+  std::vector<std::vector<Chunk>> chunks_;  ///< by MeshesRecords::index
+  std::uint64_t triangles_ = 0;             ///< of all these places
 };
 
 }  // namespace dmpc::core

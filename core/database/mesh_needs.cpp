@@ -19,7 +19,7 @@ bool MeshNeeds::add(const Region& region) {
 bool MeshNeeds::add_below(const Brick& brick, const Region& region) {
   bool has_any = false;
   for (std::size_t child = 0; child < brick.child_count; ++child) {
-    if (touches(header_.frame, brick, child, region)) {
+    if (touches_region(header_.frame, box_of(brick, child), region)) {
       const Address address = brick.child[child].address();
       const bool has = brick.child[child].is_block() ? add_places(at(address), region) : add_below(brick_at(address), region);
       has_any = has_any || has;

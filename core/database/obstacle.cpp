@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 #include "core/base/box.h"
-#include "core/base/units.h"
 #include "core/database/mesh_faces.h"
 #include "core/database/parallel.h"
 #include "core/database/usable_place.h"
@@ -112,9 +111,8 @@ std::vector<Obstacle> obstacles_of(const Scene& scene, std::span<const MeshFaces
     boxes[i] = Box::around(kept.meshes[i].vertices);
   });
   std::vector<Obstacle> obstacles(kept.places.size());
-  parallel.for_each(ceil_divide(kept.places.size(), places_a_part), [&](std::size_t part) {
-    const std::size_t end = std::min(kept.places.size(), (part + 1) * places_a_part);
-    for (std::size_t i = part * places_a_part; i < end; ++i) {
+  parallel.for_each_run(kept.places.size(), places_a_part, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
       const KeptPlace& place = kept.places[i];
       obstacles[i] = of_meshes[place.mesh];
       if (obstacles[i] == Obstacle::none && !is_within_grids(kept.meshes[place.mesh], boxes[place.mesh], place.world)) {

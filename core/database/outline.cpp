@@ -178,19 +178,11 @@ class VoxelOutliner {
 
   std::vector<DirectoryEntry> entries_of(const DatabaseHeader& header) const {
     std::vector<DirectoryEntry> entries(directory_entry_count(header.directory_size));
-    Corner cell;
-    const auto& count = whole_.directory_size;
-    for (cell[0] = 0; cell[0] < count[0] * finest_per_top; cell[0] += finest_per_top) {
-      for (cell[1] = 0; cell[1] < count[1] * finest_per_top; cell[1] += finest_per_top) {
-        for (cell[2] = 0; cell[2] < count[2] * finest_per_top; cell[2] += finest_per_top) {
-          const std::uint64_t from = directory_index(whole_, cell);
-          const std::byte* const record = records_.find(directory_address(whole_, from));
-          if (!read<DirectoryEntry>(record + directory_offset(from)).empty()) {
-            entries[directory_index(header, doubled(cell, header.directory_doublings))].bits = 0;
-          }
-        }
+    for_each_top_cell({}, grid_size(whole_.frame), true, [&](const Corner& cell) {
+      if (!entry_of(whole_, cell, [this](Address address) { return records_.find(address); }).empty()) {
+        entries[directory_index(header, doubled(cell, header.directory_doublings))].bits = 0;
       }
-    }
+    });
     const auto& size = header.directory_size;
     measure_empty_space({size[2], size[1], size[0]}, entries);
     return entries;

@@ -1,6 +1,9 @@
 #include "core/database/parallel.h"
 
+#include <algorithm>
 #include <mutex>
+
+#include "core/base/units.h"
 
 #ifndef DMPC_SERIAL_BUILD
 #include <tbb/parallel_for.h>
@@ -58,6 +61,11 @@ void Parallel::for_each(std::size_t count, const std::function<void(std::size_t)
   for (std::size_t i = 0; i < count; ++i) {
     part(i);
   }
+}
+
+void Parallel::for_each_run(std::size_t count, std::size_t together,
+                            const std::function<void(std::size_t, std::size_t)>& part) const {
+  for_each(ceil_divide(count, together), [&](std::size_t run) { part(run * together, std::min(count, (run + 1) * together)); });
 }
 
 void Parallel::for_each(std::size_t count, const std::function<void(std::size_t)>& part,

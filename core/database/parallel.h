@@ -23,7 +23,9 @@ class Parallel {
   /// Calls part(i) once for each i below `count` and returns when all are done. Throws what a part throws, one of them if several
   /// do.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& part) const;
-  /// Does as the other, and calls ended(i) after part(i); in any order, but never two of them at a time.
+  /// Calls part(first, end) for runs of `together` numbers below `count`; the last may be shorter.
+  void for_each_run(std::size_t count, std::size_t together, const std::function<void(std::size_t, std::size_t)>& part) const;
+  /// Does as for_each(), and calls ended(i) after part(i); in any order, but never two of them at a time.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& part,
                 const std::function<void(std::size_t)>& ended) const;
 

@@ -1,4 +1,4 @@
-// Where the boxes of a kept mesh lie in one of its places.
+// Where the boxes of bricks lie, and those of a kept mesh in one of its places.
 #pragma once
 
 #include <cmath>
@@ -12,6 +12,12 @@
 
 namespace dmpc::core {
 
+/// Of a brick's child: in the grid's coordinates, or its mesh's.
+inline Box box_of(const Brick& brick, std::size_t child) {
+  return {{place_of(brick, 0, child), place_of(brick, 1, child), place_of(brick, 2, child)},
+          {place_of(brick, 3, child), place_of(brick, 4, child), place_of(brick, 5, child)}};
+}
+
 /// Of the mesh's bricks, as the grid has them: boxes around the turned ones.
 class PlacedBoxes {
  public:
@@ -20,12 +26,8 @@ class PlacedBoxes {
   /// Within which a ray may hit what a brick's child holds, grid-local: the grid's pad around it, and what rounds off its
   /// corners.
   Box box_of(const Brick& brick, std::size_t child) const {
-    Vec3d middle, half;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double low = place_of(brick, axis, child), high = place_of(brick, axis + 3, child);
-      middle[axis] = 0.5 * (low + high);
-      half[axis] = 0.5 * (high - low) + pad_;
-    }
+    const Box own = core::box_of(brick, child);
+    const Vec3d middle = own.center(), half = own.half() + Vec3d{pad_, pad_, pad_};
     Box box;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Vec3d& row = way_.rows[axis];

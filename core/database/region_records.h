@@ -17,19 +17,8 @@
 
 namespace dmpc::core {
 
-/// Whether the box of a brick's child, borders included, touches a region: a ray in a region that it does not touch never needs
+/// Whether a box, grid-local, borders included, touches a region: a ray in a region that it does not touch never needs what is in
 /// it.
-inline bool touches(const GridFrame& frame, const Brick& brick, std::size_t child, const Region& region) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (place_of(brick, axis, child) > plane_at(frame, axis, region.high[axis]) ||
-        place_of(brick, axis + 3, child) < plane_at(frame, axis, region.low[axis])) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// The same for a box, grid-local.
 inline bool touches_region(const GridFrame& frame, const Box& box, const Region& region) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (box.low[axis] > plane_at(frame, axis, region.high[axis]) || box.high[axis] < plane_at(frame, axis, region.low[axis])) {
@@ -64,14 +53,7 @@ class RegionRecords {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       first[axis] = region_->low[axis] / finest_per_top * finest_per_top;
     }
-    Corner cell;
-    for (cell[2] = first[2]; cell[2] < region_->high[2]; cell[2] += finest_per_top) {
-      for (cell[1] = first[1]; cell[1] < region_->high[1]; cell[1] += finest_per_top) {
-        for (cell[0] = first[0]; cell[0] < region_->high[0]; cell[0] += finest_per_top) {
-          visit_top_cell(cell);
-        }
-      }
-    }
+    for_each_top_cell(first, region_->high, false, [this](const Corner& cell) { visit_top_cell(cell); });
   }
 
  private:
@@ -82,8 +64,7 @@ class RegionRecords {
   }
 
   void visit_top_cell(const Corner& cell) {
-    const std::uint64_t index = directory_index(*header_, cell);
-    const auto entry = read<DirectoryEntry>(at(directory_address(*header_, index)) + directory_offset(index));
+    const DirectoryEntry entry = entry_of(*header_, cell, [this](Address address) { return at(address); });
     if (!entry.empty()) {
       header_->has_voxels() ? visit_list(entry) : visit_brick(entry.brick());
     }
@@ -103,7 +84,7 @@ class RegionRecords {
   void visit_brick(Address address) {
     const auto brick = read<Brick>(at(address));
     for (std::size_t child = 0; child < brick.child_count; ++child) {
-      if (touches(header_->frame, brick, child, *region_)) {
+      if (touches_region(header_->frame, box_of(brick, child), *region_)) {
         brick.child[child].is_block() ? visit_block(brick.child[child].address()) : visit_brick(brick.child[child].address());
       }
     }

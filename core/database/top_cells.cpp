@@ -7,7 +7,6 @@
 
 #include "core/base/morton.h"
 #include "core/base/units.h"
-#include "core/base/vector_width.h"
 #include "core/database/overlap.h"
 #include "core/record/directory.h"
 
@@ -45,48 +44,6 @@ struct CellRange {
   return static_cast<std::int32_t>(most < within ? most : within);
 }
 
-/// Ranges of a few primitives, found side by side.
-class CellLanes {
- public:
-  static constexpr std::size_t count_max = 16;
-
-  /// Of cells from `low` on, with edges so long, which touch what is within `pad`.
-  CellLanes(const CellPlace& size, const Vec3d& low, double edge, double pad)
-      : size_(size), low_(low), edge_(edge), pad_(pad), width_(vector_width()) {}
-
-  void put(std::size_t lane, const Box& box) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lows_[axis][lane] = box.low[axis];
-      highs_[axis][lane] = box.high[axis];
-    }
-  }
-  void find() {
-    run_by(width_, [this] {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double begin = low_[axis], most = size_[axis] - 1.0;
-        for (std::size_t lane = 0; lane < count_max; ++lane) {
-          first_[axis][lane] = cell_at(lows_[axis][lane] - pad_, begin, edge_, most);
-          last_[axis][lane] = cell_at(highs_[axis][lane] + pad_, begin, edge_, most);
-        }
-      }
-    });
-  }
-  CellRange range(std::size_t lane) const {
-    return {{first_[0][lane], first_[1][lane], first_[2][lane]}, {last_[0][lane], last_[1][lane], last_[2][lane]}};
-  }
-
- private:
-  template <class T>
-  using Rows = std::array<std::array<T, count_max>, 3>;
-
-  CellPlace size_;
-  Vec3d low_;
-  double edge_, pad_;
-  VectorWidth width_;
-  alignas(64) Rows<double> lows_{}, highs_{};
-  Rows<std::int32_t> first_{}, last_{};
-};
-
 }  // namespace
 
 class TopCells::Lister {
@@ -106,35 +63,32 @@ class TopCells::Lister {
     const std::size_t end = std::min(primitives_.size(), (chunk + 1) * chunk_size);
     listed.next = std::max(listed.next, chunk * chunk_size);
     listed.is_cut_off = false;
-    CellLanes lanes(size_, low_, edge_, pad_);
     while (listed.next < end && !listed.is_cut_off) {
-      const auto some = primitives_.subspan(listed.next, std::min(CellLanes::count_max, end - listed.next));
-      for (std::size_t lane = 0; lane < some.size(); ++lane) {
-        lanes.put(lane, bounds_of(some[lane]));
-      }
-      lanes.find();
-      for (std::size_t lane = 0; lane < some.size() && !listed.is_cut_off; ++lane) {
-        list(some[lane], lanes.range(lane), bound, listed);
-      }
+      list(primitives_[listed.next], bound, listed);
     }
   }
 
   bool is_within_one(const Box& box) const {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto cell = [&](double at) { return cell_at(at, low_[axis], edge_, size_[axis] - 1.0); };
-      if (cell(box.low[axis] - pad_) != cell(box.high[axis] + pad_)) {
-        return false;
-      }
-    }
-    return true;
+    const CellRange range = range_of(box);
+    return range.first == range.last;
   }
 
  private:
+  /// The cells that are touched by what is within the pad of a box.
+  CellRange range_of(const Box& box) const {
+    CellRange range{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      range.first[axis] = cell_at(box.low[axis] - pad_, low_[axis], edge_, size_[axis] - 1.0);
+      range.last[axis] = cell_at(box.high[axis] + pad_, low_[axis], edge_, size_[axis] - 1.0);
+    }
+    return range;
+  }
+
   /// Lists the primitive that comes next, unless there would be too many touches.
-  void list(const PrimitiveValues& primitive, const CellRange& range, std::size_t bound, Listed& listed) const {
+  void list(const PrimitiveValues& primitive, std::size_t bound, Listed& listed) const {
     const std::size_t before = listed.touches.size();
     if (primitive.kind != PrimitiveKind::instance) {
-      add(static_cast<std::uint32_t>(listed.next), range, bound, listed.touches);
+      add(static_cast<std::uint32_t>(listed.next), range_of(bounds_of(primitive)), bound, listed.touches);
     }
     listed.is_cut_off = listed.touches.size() > bound;
     if (listed.is_cut_off) {
@@ -311,18 +265,12 @@ TopCells::TopCells(const GridFrame& frame, const std::vector<Listed>& chunks, Or
       ++counts[touch.cell];
     }
   }
-  Corner corner{};
-  const auto at = [&](std::size_t axis) { return static_cast<std::uint64_t>(corner[axis] / finest_per_top); };
-  for (corner[2] = 0; corner[2] < size[2] * finest_per_top; corner[2] += finest_per_top) {
-    for (corner[1] = 0; corner[1] < size[1] * finest_per_top; corner[1] += finest_per_top) {
-      for (corner[0] = 0; corner[0] < size[0] * finest_per_top; corner[0] += finest_per_top) {
-        if (const std::uint32_t count = counts[directory_index(size, corner)]; count > 0) {
-          cells_.push_back(
-              {order == Order::morton ? morton_code(at(0), at(1), at(2)) : voxel_index(size, corner), corner, 0, count});
-        }
-      }
+  for_each_top_cell({}, grid_size(frame), false, [&](const Corner& corner) {
+    const auto at = [&](std::size_t axis) { return static_cast<std::uint64_t>(corner[axis] / finest_per_top); };
+    if (const std::uint32_t count = counts[directory_index(size, corner)]; count > 0) {
+      cells_.push_back({order == Order::morton ? morton_code(at(0), at(1), at(2)) : voxel_index(size, corner), corner, 0, count});
     }
-  }
+  });
   std::sort(cells_.begin(), cells_.end(), [](const Cell& a, const Cell& b) { return a.code < b.code; });
   std::vector<std::size_t> next(counts.size());
   std::size_t end = 0;

@@ -35,7 +35,7 @@ class TopCells {
   /// Whether whatever lies in a box, grid-local, touches one cell alone.
   static bool is_within_one(const Box& box, const GridFrame& frame, double pad);
 
-  /// The same for a frame of voxels (core/database/voxel_frame.h), by its rule; none if there are more references than
+  /// The same for a frame of voxels (core/database/structure_builders.cpp), by its rule; none if there are more references than
   /// that allows.
   static std::optional<TopCells> list_voxels(std::span<const PrimitiveValues> primitives, const GridFrame& frame, double pad,
                                              const VoxelRule& rule, const Parallel& parallel);

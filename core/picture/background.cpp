@@ -4,6 +4,7 @@
 
 #include "core/database/block_values.h"
 #include "core/database/overlap.h"
+#include "core/database/placed_boxes.h"
 #include "core/record/directory.h"
 #include "core/record/records.h"
 #include "core/record/sky.h"
@@ -19,15 +20,6 @@ constexpr int few_tiles_of_brick = 6, few_tiles_of_block = 16;
 std::uint32_t count_of(std::uint64_t bits) { return static_cast<std::uint32_t>(std::popcount(bits)); }
 
 int tile_count(const TileFootprint& footprint) { return std::popcount(footprint.rows) * std::popcount(footprint.columns); }
-
-Box box_of(const Brick& brick, std::size_t child) {
-  Box box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.low[axis] = place_of(brick, axis, child);
-    box.high[axis] = place_of(brick, axis + 3, child);
-  }
-  return box;
-}
 
 Box box_of_cell(const Corner& corner, const GridFrame& frame) {
   Box box;
@@ -54,21 +46,13 @@ class Finder {
   }
 
   BackgroundTiles::Bits find() {
-    const auto& size = header_.directory_size;
-    for (std::int32_t z = 0; z < size[2]; ++z) {
-      for (std::int32_t y = 0; y < size[1]; ++y) {
-        for (std::int32_t x = 0; x < size[0] && left_ > 0; ++x) {
-          look_into_cell({x * finest_per_top, y * finest_per_top, z * finest_per_top});
-        }
-      }
-    }
+    for_each_top_cell({}, grid_size(header_.frame), false, [this](const Corner& cell) { look_into_cell(cell); });
     return bits_;
   }
 
  private:
   void look_into_cell(const Corner& corner) {
-    const std::uint64_t index = directory_index(header_, corner);
-    const auto entry = read<DirectoryEntry>(records_.find(directory_address(header_, index)) + directory_offset(index));
+    const DirectoryEntry entry = entry_of(header_, corner, [this](Address address) { return records_.find(address); });
     if (!entry.empty() && falls_on_any(projector_.footprint_of(box_of_cell(corner, header_.frame)))) {
       header_.has_voxels() ? look_into_voxel(entry, corner) : look_into_brick(entry.brick());
     }

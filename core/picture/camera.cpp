@@ -4,7 +4,7 @@
 
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
-#include "core/picture/sample_position.h"
+#include "core/picture/sample_pair.h"
 #include "core/scene/frame.h"
 
 namespace dmpc::core {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/expect.h"
+#include "core/database/block_values.h"
 #include "core/record/cone_floats.h"
 #include "core/record/records.h"
 #include "core/record/vanishing.h"
@@ -57,16 +58,6 @@ void clip(double start, double step, double low, double high, double& first, dou
   last = std::min(last, std::max(a, b));
 }
 
-PrimitiveValues primitive_at(const LocalRecords& records, const Database::Place& place) {
-  const std::byte* const record = records.find(place.block);
-  const auto header = read<BlockHeader>(record);
-  PrimitiveValues primitive{.kind = header.kind};
-  for (std::size_t row = 0; row < value_count(header.kind); ++row) {
-    primitive.value[row] = read<float>(record + sizeof(header) + sizeof(float) * (row * header.count + place.lane));
-  }
-  return primitive;
-}
-
 }  // namespace
 
 class FineDetailFinder {
@@ -104,7 +95,7 @@ class FineDetailFinder {
   void look_at_records() {
     for (const Database::Place& place : database_.find_places()) {
       if (place.block != no_address) {
-        look_at(primitive_at(records_, place));
+        look_at(primitive_in(records_.find(place.block), place.lane));
       }
     }
   }

@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "core/base/expect.h"
-#include "core/picture/curved_clearance.h"
 #include "core/picture/triangle_hit.h"
 #include "core/record/curved_values.h"
 #include "core/trace/primitive.h"

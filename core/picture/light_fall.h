@@ -7,7 +7,6 @@
 #include "core/base/vec.h"
 #include "core/picture/hit_state.h"
 #include "core/picture/lanes.h"
-#include "core/picture/ray_rows.h"
 #include "core/picture/ray_start.h"
 #include "core/picture/start_rows.h"
 

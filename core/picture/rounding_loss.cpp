@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/database/overlap.h"
-#include "core/picture/curved_clearance.h"
+#include "core/picture/hit_geometry.h"
 #include "core/record/coordinate.h"
 
 namespace dmpc::core {

@@ -7,7 +7,7 @@
 
 #include "core/base/altitude.h"
 #include "core/base/vec.h"
-#include "core/record/exact_clearance.h"
+#include "core/record/coordinate.h"
 
 namespace dmpc::core {
 

@@ -22,4 +22,10 @@ inline Vec3f coordinates_of(const Vec3d& point) {
   return {coordinate_of(point.x), coordinate_of(point.y), coordinate_of(point.z)};
 }
 
+/// By so much of the largest coordinates, each by its share in the normal: more than what doubles leave of a ray's start, and of
+/// its way to the plane.
+inline constexpr double exact_clearance = 0x1p-47;
+/// What two floats, in which a start is kept, leave of each of its coordinates.
+inline constexpr double start_rounding = 0x1p-48;
+
 }  // namespace dmpc::core

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 
 #include "core/base/units.h"
 #include "core/record/record.h"
@@ -45,6 +48,27 @@ constexpr Address directory_address(const DatabaseHeader& header, std::uint64_t 
 
 /// Where entry `index` begins in its record.
 constexpr std::size_t directory_offset(std::uint64_t index) { return index % 2 * sizeof(DirectoryEntry); }
+
+/// The entry of a cell of the grid; find(address) is the record at an address.
+template <class Find>
+DirectoryEntry entry_of(const DatabaseHeader& header, const Corner& cell, const Find& find) {
+  const std::uint64_t index = directory_index(header, cell);
+  return read<DirectoryEntry>(find(directory_address(header, index)) + directory_offset(index));
+}
+
+/// Calls visit(cell) for the lower corners of the top cells from one, `low`, to before `high`: x fastest, or z.
+template <class Visit>
+void for_each_top_cell(const Corner& low, const Corner& high, bool z_fastest, const Visit& visit) {
+  const std::size_t slow = z_fastest ? 0 : 2, fast = 2 - slow;
+  Corner cell;
+  for (cell[slow] = low[slow]; cell[slow] < high[slow]; cell[slow] += finest_per_top) {
+    for (cell[1] = low[1]; cell[1] < high[1]; cell[1] += finest_per_top) {
+      for (cell[fast] = low[fast]; cell[fast] < high[fast]; cell[fast] += finest_per_top) {
+        visit(std::as_const(cell));
+      }
+    }
+  }
+}
 
 /// Likewise, of references of voxels.
 constexpr Address reference_address(const DatabaseHeader& header, std::uint64_t index) {

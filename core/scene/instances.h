@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scene/expanded_size.h"
 #include "core/scene/scene.h"
 #include "core/scene/transform.h"
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/base/vec.h"
-#include "core/scene/expanded_size.h"
 #include "core/scene/kept_meshes.h"
 #include "core/scene/scene.h"
 #include "core/scene/transform.h"

@@ -138,13 +138,13 @@ class BundleWalk {
 
   /// Leaves the box of empty cells nearer than `radius`; with 0 others have something in this cell.
   void pass(std::int32_t radius) {
-    const bool jumps = skips_.empty_space && radius > 1;
+    const bool jumps = radius > 1;
     const Region limits = radius > 0 ? Region{.high = bundle_.grid_size} : bundle_.region;
     const PlanesAhead ahead = planes_ahead((jumps ? radius : 1) * finest_per_top, limits);
     const Region around{.low = ahead.below, .high = ahead.above};
     steps_.find_exits(bundle_, ahead);
     operations_.cell_steps += count_of(bundle_.group);
-    operations_.skipped.empty_space += steps_.leave(bundle_, bundle_.group, ahead, jumps ? &around : nullptr);
+    operations_.empty_cells += steps_.leave(bundle_, bundle_.group, ahead, jumps ? &around : nullptr);
     next_cell();
   }
 

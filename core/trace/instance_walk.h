@@ -3,15 +3,28 @@
 
 #include <algorithm>
 #include <optional>
+#include <type_traits>
 
 #include "core/record/instance.h"
 #include "core/record/records.h"
-#include "core/trace/instance_cursor.h"
+#include "core/trace/cursor.h"
 #include "core/trace/kernel.h"
+#include "core/trace/mesh_ray.h"
 #include "core/trace/placed_block.h"
 #include "core/trace/traversal.h"
 
 namespace dmpc::core {
+
+/// A Cursor, and where it is within a mesh: by value, so that pages may leave. In the grid an InstanceRecord is a child like
+/// others.
+struct InstanceCursor : Cursor {
+  bool is_inside = false;  ///< the rest is known: of the instance at `next`
+  InstanceRecord instance;
+  MeshRay ray;
+  BrickChild next_in_mesh = BrickChild::none();
+  MetChildren waiting_in_mesh;
+};
+static_assert(std::is_trivially_copyable_v<InstanceCursor>);
 
 /// One ray's way, as a RayWalk. Boxes decide what of a mesh is looked at, never what is hit: a block that is reached is placed,
 /// corner by corner, and then tested as its copy would be. So t, id and what follows from them have the copy's bits.

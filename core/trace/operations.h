@@ -14,6 +14,9 @@ namespace dmpc::core {
 /// Counted in one place each, the same under every runner and strategy.
 struct Operations {
   std::uint64_t cell_steps = 0;  ///< steps from one cell to the next, on any level
+  /// More steps that rays would take if they left each empty cell by itself; a walk's last jump, out of the grid or beyond the
+  /// light, is not counted.
+  std::uint64_t empty_cells = 0;
   std::uint64_t brick_reads = 0;
   std::array<std::uint64_t, primitive_kind_count> primitive_tests{};  ///< lanes tested, by kind
   std::uint64_t instance_entries = 0;                                 ///< rays that went into a kept mesh, by its place

@@ -9,7 +9,6 @@
 #include "core/record/block_lane.h"
 #include "core/record/cone_floats.h"
 #include "core/record/curved_values.h"
-#include "core/record/on_surface.h"
 
 namespace dmpc::core {
 namespace {

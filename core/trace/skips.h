@@ -9,7 +9,6 @@ namespace dmpc::core {
 /// What is left out unless it is switched off. Every switch is exact: it changes no bit of the film. `all_skips` says what each
 /// does.
 struct Skips {
-  bool empty_space = true;
   bool any_hit = true;
   bool unlit = true;
   bool zero_terms = true;
@@ -23,7 +22,6 @@ struct Skips {
 
 /// What was left out, in the units of `all_skips`; 0 where a skip is off.
 struct SkippedWork {
-  std::uint64_t empty_space = 0;
   std::uint64_t any_hit = 0;
   std::uint64_t unlit = 0;
   std::uint64_t zero_terms = 0;
@@ -43,9 +41,6 @@ struct Skip {
 
 /// Every skip, in the order of reports.
 inline constexpr std::array all_skips{
-    // The last jump of a walk, out of the grid or beyond the light, is not counted.
-    Skip{"empty-space", "a ray leaves a box of empty cells in one step", "cell steps", &Skips::empty_space,
-         &SkippedWork::empty_space},
     // Those whose boxes the ray enters before that hit.
     Skip{"any-hit", "a shadow ray ends at the first hit it finds, not at the nearest",
          "children of bricks that still waited in front of the hit", &Skips::any_hit, &SkippedWork::any_hit},

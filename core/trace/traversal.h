@@ -109,7 +109,7 @@ class RayWalk {
           cursor_.absent = address;
           return Traced::absent;
         }
-        if (!walk.read(ray_, read<DirectoryEntry>(record + directory_offset(index)), cursor_, skips, operations_)) {
+        if (!walk.read(ray_, read<DirectoryEntry>(record + directory_offset(index)), cursor_, operations_)) {
           return finish(cursor_);
         }
       } else if (!visit(box, any)) {
@@ -184,13 +184,13 @@ class RayWalk {
   /// Where the ray, from where the cursor arrives on, enters the first box of a block of the database, a float no greater than
   /// trace() could tell, or the first voxel with a list; infinite if trace() would test no primitive any more. No record is
   /// absent, and no list is looked into.
-  float first_block(const Walk& walk, const DatabaseHeader& header, const Skips& skips) {
+  float first_block(const Walk& walk, const DatabaseHeader& header) {
     const BoxRay box(ray_, walk.reciprocal());
     for (bool goes_on = true; goes_on;) {
       if (cursor_.stage == Cursor::Stage::directory) {
         const std::uint64_t index = directory_index(header, cursor_.cell);
         const std::byte* const record = records_.find(directory_address(header, index));
-        goes_on = walk.read(ray_, read<DirectoryEntry>(record + directory_offset(index)), cursor_, skips, operations_);
+        goes_on = walk.read(ray_, read<DirectoryEntry>(record + directory_offset(index)), cursor_, operations_);
       } else if (header.has_voxels()) {
         return static_cast<float>(cursor_.t_enter);
       } else if (const float first = first_block_in_cell(box); first < never) {

@@ -76,7 +76,7 @@ bool Walk::jump(const Ray& ray, std::int32_t radius, Cursor& cursor, Operations&
     box.high[axis] = std::min(grid_.high[axis], from[axis] + reach);
   }
   const bool goes_on = leave(ray, exit_through(planes_ahead(from, reach, grid_)), &box, cursor, operations);
-  operations.skipped.empty_space += static_cast<std::uint64_t>(std::max(top_cells_between(from, cursor.cell), 1) - 1);
+  operations.empty_cells += static_cast<std::uint64_t>(std::max(top_cells_between(from, cursor.cell), 1) - 1);
   return goes_on;
 }
 

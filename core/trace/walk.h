@@ -42,7 +42,7 @@ class Walk {
 
   /// Takes the directory entry of the cursor's cell: then a brick is to be visited, or another entry is needed, or the walk is
   /// finished (false) or has left the region (false, and cursor.stage says so).
-  bool read(const Ray& ray, const DirectoryEntry& entry, Cursor& cursor, const Skips& skips, Operations& operations) const;
+  bool read(const Ray& ray, const DirectoryEntry& entry, Cursor& cursor, Operations& operations) const;
 
   /// Leaves the cursor's cell, whose children have been visited, for one whose entry is needed, unless the walk is finished or
   /// has left the region (false).
@@ -106,8 +106,7 @@ inline Exit Walk::region_exit() const {
   return exit_through(planes);
 }
 
-inline bool Walk::read(const Ray& ray, const DirectoryEntry& entry, Cursor& cursor, const Skips& skips,
-                       Operations& operations) const {
+inline bool Walk::read(const Ray& ray, const DirectoryEntry& entry, Cursor& cursor, Operations& operations) const {
   if (!entry.empty()) {
     cursor.exit = exit_through(planes_ahead(cursor.cell, finest_per_top, region_));
     cursor.next = BrickChild::brick(entry.brick());
@@ -116,7 +115,7 @@ inline bool Walk::read(const Ray& ray, const DirectoryEntry& entry, Cursor& curs
     cursor.stage = Cursor::Stage::child;
     return true;
   }
-  if (skips.empty_space && entry.radius() > 1) {
+  if (entry.radius() > 1) {
     return jump(ray, entry.radius(), cursor, operations);
   }
   const Region& limits = entry.radius() > 0 ? grid_ : region_;

@@ -28,7 +28,7 @@ float first_in_cubes(const core::Ray& ray, const core::Passage& passage, const S
   entered.cell = core::doubled(passage.cell, cubes.directory_doublings);
   core::Cursor cursor = core::arrive(entered);
   const core::Walk walk(ray, cubes.frame, cubes.region);
-  return core::RayWalk(ray, cursor, records, operations).first_block(walk, cubes, surroundings.skips);
+  return core::RayWalk(ray, cursor, records, operations).first_block(walk, cubes);
 }
 
 /// Where the ray may first meet anything; in no region before that.
@@ -42,7 +42,7 @@ float first_meeting(const core::Ray& ray, const core::Walk& walk, const core::Pa
     return first_in_cubes(ray, passage, surroundings, operations);
   }
   core::Cursor cursor = core::arrive(passage);
-  return core::RayWalk(ray, cursor, records, operations).first_block(walk, surroundings.outline, surroundings.skips);
+  return core::RayWalk(ray, cursor, records, operations).first_block(walk, surroundings.outline);
 }
 
 }  // namespace

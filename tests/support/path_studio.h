@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "apps/lab/bench/stability/cells.h"
@@ -126,6 +127,10 @@ inline core::Scene floor_of(const core::Material& material, double half_side = 5
   builder.polygon(
       {{-half_side, -half_side, 0}, {half_side, -half_side, 0}, {half_side, half_side, 0}, {-half_side, half_side, 0}});
   return scene;
+}
+
+inline double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 inline double rmse(const std::vector<double>& picture, const std::vector<double>& reference) {

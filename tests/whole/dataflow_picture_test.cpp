@@ -76,8 +76,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
     options.rays.ray_credits = ray_credits[row[2]];
     options.rays.queue_packets = queues[row[3]];
     options.rays.balance = {.balance = row[4] == 0 ? Balance::subsampled : Balance::equal_size, .subsample = 4};
-    const core::Skips skips{
-        .empty_space = row[5] == 0, .any_hit = row[5] == 0, .empty_regions = row[5] == 0, .bundles = row[8] == 0};
+    const core::Skips skips{.any_hit = row[5] == 0, .empty_regions = row[5] == 0, .bundles = row[8] == 0};
     CAPTURE(row[8]);
     if (row[6] == 1) {
       options.rays.topology = nodes::TopologyKind::hypercube;
@@ -309,7 +308,6 @@ TEST_CASE("dataflow: a hit beside the region of its triangle, which its owner ca
     const dataflow::MakeRegions make_regions = [&](std::uint32_t n) { return dataflow::equal_size_bsp(size, {1, 2}, n); };
     for (const Wish& credits : ray_credits) {
       const RunOptions options{.computer = {.node_count = nodes}, .rays = {.ray_credits = credits}, .make_regions = make_regions};
-      CHECK(check(subject, options, {.empty_space = false, .empty_regions = false}).rays().hits_sent_back == 1);
       CHECK(check(subject, options, {.empty_regions = false}).rays().hits_sent_back == 1);
       CHECK(check(subject, options).rays().hits_sent_back == 0);  // the finder knows that nothing else is in the way
     }

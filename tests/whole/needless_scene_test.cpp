@@ -69,7 +69,7 @@ Features features_of(const core::Operations& operations) {
           {"tiles of textures read", operations.tile_reads},
           {"deposits saturated", operations.deposits_saturated},
           {"rays cut", operations.rays_cut},
-          {"cells skipped", operations.skipped.empty_space},
+          {"cells skipped", operations.empty_cells},
           {"children that waited", operations.skipped.any_hit},
           {"lights behind surfaces", operations.skipped.unlit}};
 }

@@ -113,8 +113,7 @@ TEST_CASE("skips: each counts what it leaves out, and nothing when it is off") {
   }
 }
 
-TEST_CASE(
-    "skips: rays left out are as many whoever renders, and cells and children as many with a cache of one page, by rays alone") {
+TEST_CASE("skips: rays left out are as many whoever renders, and children as many with a cache of one page, by rays alone") {
   const Subject subject = subject_of(everything());
   const core::SkippedWork expected = reference(subject, subject.settings()).skipped;
   const core::SkippedWork svm =
@@ -127,26 +126,16 @@ TEST_CASE(
     CHECK(skipped.zero_terms == expected.zero_terms);
     CHECK(skipped.background == expected.background);
   }
-  CHECK(svm.empty_space == expected.empty_space);
-  CHECK(alone.empty_space == expected.empty_space);
   CHECK(alone.any_hit == expected.any_hit);
   CHECK(alone.bundles == 0);
   CHECK(svm.empty_regions == 0);
 }
 
-TEST_CASE("skips: rays and hits are as many with empty space, empty regions and hits behind the first skipped or not") {
+TEST_CASE("skips: rays and hits are as many with empty regions and hits behind the first skipped or not") {
   const Subject subject = subject_of(everything());
-  const Skips skips{.empty_space = false, .any_hit = false, .empty_regions = false};
+  const Skips skips{.any_hit = false, .empty_regions = false};
   CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 3}}, skips)) == subject.outcome());
   CHECK(outcome_of(run_dataflow(subject, many_regions(), skips)) == subject.outcome());
-}
-
-TEST_CASE("skips: empty space that is not skipped takes at least the cell steps avoided") {
-  const Subject subject = subject_of(everything());
-  const Operations on = reference(subject, subject.settings()),
-                   off = reference(subject, subject.settings({.empty_space = false}));
-  CHECK(on.skipped.empty_space > 0);
-  CHECK(off.cell_steps >= on.cell_steps + on.skipped.empty_space);
 }
 
 TEST_CASE("skips: shadow rays that look for the nearest hit read more bricks or test more primitives") {

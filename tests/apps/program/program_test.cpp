@@ -202,7 +202,7 @@ TEST_CASE("no option of dataflow changes the film") {
                                                {"--nodes=13", "--balance=equal-size"},
                                                {"--ray-batch=1"},
                                                {"--ray-credits=0", "--chaos=3"},
-                                               {"--cuts=alternating", "--no-skip=empty-space"},
+                                               {"--cuts=alternating", "--no-skip=empty-regions"},
                                                {"--nodes=3", "--node-memory=300KiB", "--page-size=512B"}}) {
     std::vector<std::string> arguments = {"render",          "balls-1", "--strategy=dataflow", "--resolution=16x16", "--stats",
                                           folder / "a.json", "-o",      folder / "a.exr"};

@@ -57,7 +57,7 @@ TEST_CASE("a scene and an output are all that render needs") {
 TEST_CASE("every option of the computer reaches its field") {
   const RenderOptions options = render({"--nodes=64", "--node-memory=4MiB", "--page-size=4KiB", "--record-order=scattered",
                                         "--cache-pages=5", "--replacement=clock", "--in-flight=7", "--work-item=0",
-                                        "--no-skip=empty-space", "--count-pages", "--stats=s.json", "--quiet"});
+                                        "--no-skip=any-hit", "--count-pages", "--stats=s.json", "--quiet"});
   CHECK(options.computer.node_count == 64);
   CHECK(options.computer.node_memory_bytes == 4_MiB);
   CHECK(options.database.build.page_size_bytes == 4_KiB);
@@ -66,7 +66,7 @@ TEST_CASE("every option of the computer reaches its field") {
   CHECK(options.pages.replacement == svm::Replacement::clock);
   CHECK(options.pages.in_flight == 7);
   CHECK(options.pages.work_item_side == 0);
-  CHECK_FALSE(options.picture.skips.empty_space);
+  CHECK_FALSE(options.picture.skips.any_hit);
   CHECK(options.pages.count_pages);
   CHECK(options.stats == "s.json");
   CHECK(options.quiet);
@@ -332,7 +332,7 @@ TEST_CASE("options that every strategy has go with each") {
   for (const std::string strategy : {"svm", "replicated", "dataflow", "forest"}) {
     CAPTURE(strategy);
     CHECK_NOTHROW(render({"--strategy=" + strategy, "--nodes=2", "--node-memory=4MiB", "--page-size=2KiB", "--chaos=1",
-                          "--no-skip=empty-space", "--stats=s.json", "--quiet"}));
+                          "--no-skip=any-hit", "--stats=s.json", "--quiet"}));
   }
 }
 

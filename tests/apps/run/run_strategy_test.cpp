@@ -43,20 +43,6 @@ TEST_CASE("every option of the computer reaches the run") {
   }
 }
 
-TEST_CASE("without skipping empty space every strategy takes more steps to the same film") {
-  for (const Strategy strategy : {Strategy::svm, Strategy::replicated, Strategy::dataflow}) {
-    RenderOptions options = small(strategy);
-    options.picture.scene = "tetra-9";  // has empty boxes of several top cells
-    options.picture.resolution = {48, 36};
-    const Rendered skipping(options);
-    options.picture.skips.empty_space = false;
-    const Rendered stepping(options);
-    const Account few = account_of(*skipping.report), many = account_of(*stepping.report);
-    CHECK(many.operations.cell_steps > few.operations.cell_steps);
-    CHECK(many.film.hash() == few.film.hash());
-  }
-}
-
 TEST_CASE("every option of dataflow reaches the run") {
   RenderOptions options = small(Strategy::dataflow);
   options.rays = {.balance = {.balance = dataflow::Balance::equal_size}, .ray_batch = 3, .ray_credits = 2, .queue_packets = 7};

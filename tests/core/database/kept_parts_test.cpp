@@ -382,7 +382,7 @@ TEST_CASE("no ray hits what is kept before the first block of any outline, and o
         core::Operations operations;
         core::Cursor cursor = core::arrive(*start);
         const core::Walk walk(ray, outline.header.frame, outline.header.region);
-        const float first = core::RayWalk(ray, cursor, records, operations).first_block(walk, outline.header, {});
+        const float first = core::RayWalk(ray, cursor, records, operations).first_block(walk, outline.header);
         const Answer whole = trace_whole(database, ray);
         early += whole.hit.found() && whole.hit.t < first ? 1 : 0;
         later += first > std::exchange(before[i], first) ? 1 : 0;

@@ -29,7 +29,7 @@ float first_block(const core::DatabaseHeader& header, std::span<const std::byte>
   core::LocalRecords records(bytes);
   const core::Walk walk(ray, header.frame, header.region);
   core::Cursor cursor = core::arrive(start);
-  return core::RayWalk(ray, cursor, records, operations).first_block(walk, header, {});
+  return core::RayWalk(ray, cursor, records, operations).first_block(walk, header);
 }
 
 core::Ray random_ray(apps::Random& random, const core::GridFrame& frame) {

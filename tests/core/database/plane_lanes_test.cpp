@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <vector>
 
 #include "apps/lab/bench/stability/random.h"
-#include "core/database/conversion.h"
-#include "core/database/face_lanes.h"
+#include "core/database/face.h"
 
 namespace dmpc::tests::plane_lanes_test {
 namespace {
@@ -30,55 +28,26 @@ std::vector<VectorWidth> widths() {
   return all;
 }
 
-/// Triangles of all sizes: every fourth lies level, and every eighth is a sphere in its place.
-core::Conversion some_primitives(std::size_t count) {
+/// Of all sizes; every fourth lies level.
+std::vector<Face> some_faces(std::uint32_t count) {
   Random random(1);
-  core::Conversion conversion;
+  std::vector<Face> faces;
   for (std::uint32_t i = 0; i < count; ++i) {
-    PrimitiveValues primitive{.kind = i % 8 == 7 ? PrimitiveKind::sphere : PrimitiveKind::triangle};
+    PrimitiveValues triangle{.kind = PrimitiveKind::triangle};
     const Vec3d place = random.in_box(-1, 1);
     for (std::size_t row = 0; row < 9; ++row) {
       const double off = i % 4 == 3 && row % 3 == i % 3 ? 0 : random.in_box(-1, 1).x;
-      primitive.value[row] = static_cast<float>(place[row % 3] + off * (i % 2 == 0 ? 1 : 0x1p-12));
+      triangle.value[row] = static_cast<float>(place[row % 3] + off * (i % 2 == 0 ? 1 : 0x1p-12));
     }
-    conversion.primitives.push_back(primitive);
-    conversion.sources.push_back({i / 2});
-  }
-  return conversion;
-}
-
-std::vector<Face> one_by_one(const core::Conversion& conversion) {
-  std::vector<Face> faces;
-  for (std::uint32_t id = 0; id < conversion.primitives.size(); ++id) {
-    if (conversion.primitives[id].kind == PrimitiveKind::triangle) {
-      faces.emplace_back(conversion.primitives[id], id, conversion.sources[id].object);
-    }
+    faces.emplace_back(triangle, i, i / 2);
   }
   return faces;
 }
 
-bool are_alike(const Face& a, const Face& b) {
-  return a.corner == b.corner && a.plane.normal == b.plane.normal && a.plane.offset == b.plane.offset &&
-         a.altitude == b.altitude && a.moved == b.moved && a.id == b.id && a.object == b.object && !a.is_by_doubles;
-}
-
 bool are_equal(const core::BucketRange& a, const core::BucketRange& b) { return a.first == b.first && a.last == b.last; }
 
-TEST_CASE("faces that are found side by side have the bits of each alone, by every width of vectors") {
-  for (const std::size_t count : {0, 1, 15, 16, 17, 1000}) {
-    const core::Conversion conversion = some_primitives(count);
-    std::vector<std::uint32_t> ids(count);
-    std::iota(ids.begin(), ids.end(), 0U);
-    const std::vector<Face> alone = one_by_one(conversion);
-    for (const VectorWidth width : widths()) {
-      const std::vector<Face> faces = core::faces_of(conversion, ids, width);
-      CHECK(std::equal(faces.begin(), faces.end(), alone.begin(), alone.end(), are_alike));
-    }
-  }
-}
-
 TEST_CASE("places of planes that are found side by side are those of each alone, by every width of vectors") {
-  const std::vector<Face> faces = one_by_one(some_primitives(1000));
+  const std::vector<Face> faces = some_faces(1000);
   const core::Surroundings around{{0.1, -0.2, 0.3}, 2.5};
   for (const core::BucketSize& size : {core::fine_buckets, core::coarse_buckets}) {
     for (const VectorWidth width : widths()) {

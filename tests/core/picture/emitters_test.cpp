@@ -132,14 +132,6 @@ class Steps {
   Operations operations_;
 };
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) {
-    sum += value;
-  }
-  return sum / static_cast<double>(values.size());
-}
-
 }  // namespace
 
 TEST_CASE("a floor below the middle of a square that shines, one above, shows 0.239456 of it with few samples") {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/picture/sample_position.h"
+#include "core/picture/sample_pair.h"
 #include "tests/support/small_scenes.h"
 
 namespace fine_detail_test {

@@ -38,14 +38,6 @@ double irradiance_of_sun(std::uint32_t width, std::uint32_t row, double light) {
   return light * step * std::sin(2 * from_zenith) * std::sin(step) * std::sin(step) / (2 * step) / pi;
 }
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) {
-    sum += value;
-  }
-  return sum / static_cast<double>(values.size());
-}
-
 /// A ball on a floor.
 Scene ball_on_floor(const Material& material) {
   Scene scene = floor_of(material);

@@ -35,9 +35,9 @@ TEST_CASE("all skips are on by default, all but one without it, none with all of
 }
 
 TEST_CASE("work left out is summed one by one") {
-  SkippedWork sum{.empty_space = 1, .unlit = 2};
-  add_counts(sum, {.empty_space = 3, .background = 4});
-  CHECK(sum.empty_space == 4);
+  SkippedWork sum{.unlit = 2, .empty_regions = 1};
+  add_counts(sum, {.empty_regions = 3, .background = 4});
+  CHECK(sum.empty_regions == 4);
   CHECK(sum.unlit == 2);
   CHECK(sum.background == 4);
   CHECK(sum.any_hit == 0);

@@ -111,7 +111,7 @@ void check_stops(core::RayBundle& bundle, const dataflow::Surroundings& surround
   }
   CHECK(together.cell_steps == alone.cell_steps);
   CHECK(together.skipped.empty_regions == alone.skipped.empty_regions);
-  CHECK(together.skipped.empty_space == alone.skipped.empty_space);
+  CHECK(together.empty_cells == alone.empty_cells);
   seen.bricks += together.brick_reads;
   seen.bricks_alone += alone.brick_reads;
 }

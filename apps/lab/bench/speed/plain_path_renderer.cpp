@@ -10,7 +10,7 @@
 #include "apps/lab/bench/speed/plain_tiles.h"
 #include "core/picture/emitter_light.h"
 #include "core/picture/path_step.h"
-#include "core/picture/sample_position.h"
+#include "core/picture/sample_pair.h"
 #include "core/picture/surface_shares.h"
 #include "core/record/sky.h"
 

@@ -62,9 +62,9 @@ core::Hit shoot_in_bundle(const core::Database& database, const core::Ray& ray) 
 
 OwnAnswers ask_own_kernels(const core::Database& database, const core::Ray& ray) {
   const core::Ray nearest = of_kind(ray, core::RayKind::reflected);
-  return {shoot(database, nearest),           shoot_scalar(database, nearest),
-          shoot(database, nearest, false),    shoot_resumed(database, nearest),
-          shoot_in_bundle(database, nearest), shoot(database, of_kind(ray, core::RayKind::shadow))};
+  return {
+      shoot(database, nearest),         shoot_scalar(database, nearest),    shoot(CellByCell(database), database, nearest),
+      shoot_resumed(database, nearest), shoot_in_bundle(database, nearest), shoot(database, of_kind(ray, core::RayKind::shadow))};
 }
 
 }  // namespace dmpc::apps

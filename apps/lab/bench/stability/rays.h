@@ -2,12 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/database/database.h"
+#include "core/record/directory.h"
 #include "core/record/hit.h"
 #include "core/record/ray.h"
+#include "core/record/records.h"
 #include "core/scene/scene.h"
 #include "core/trace/traversal.h"
 
@@ -41,14 +45,44 @@ inline core::Ray ray_through(const core::Vec3d& origin, const core::Vec3d& targe
   return ray_from(start, core::Vec3f(core::normalize(target - core::Vec3d(start))));
 }
 
+/// The records of a database whose directory tells no distances: rays leave empty cells one by one.
+class CellByCell {
+ public:
+  explicit CellByCell(const core::Database& database)
+      : records_(database.bytes()),
+        directory_(database.header().directory),
+        end_(core::advance(directory_, core::directory_entry_count(database.header().directory_size) * sizeof(Pair) / 2)) {}
+
+  const std::byte* find(core::Address address) {
+    const std::byte* const record = records_.find(address);
+    if (address < directory_ || address >= end_) {
+      return record;
+    }
+    entries_ = core::read<Pair>(record);
+    for (core::DirectoryEntry& entry : entries_) {
+      entry = entry.radius() > 1 && entry.empty() ? core::DirectoryEntry() : entry;
+    }
+    return reinterpret_cast<const std::byte*>(entries_.data());
+  }
+
+ private:
+  using Pair = std::array<core::DirectoryEntry, 2>;
+
+  core::LocalRecords records_;
+  core::Address directory_, end_;
+  Pair entries_;
+};
+
 /// What tracing answers for one ray; infinity and no primitive for a miss.
-inline core::Hit shoot(const core::Database& database, const core::Ray& ray, bool skip_empty_space = true) {
-  core::LocalRecords records(database.bytes());
+template <core::Records R>
+core::Hit shoot(R records, const core::Database& database, const core::Ray& ray) {
   core::Cursor cursor;
   core::Operations operations;
-  const core::Skips skips{.empty_space = skip_empty_space};
-  core::trace(ray, cursor, records, database.header(), skips, operations);
+  core::trace(ray, cursor, records, database.header(), {}, operations);
   return cursor.best;
+}
+inline core::Hit shoot(const core::Database& database, const core::Ray& ray) {
+  return shoot(core::LocalRecords(database.bytes()), database, ray);
 }
 
 inline bool same_hit(const core::Hit& a, const core::Hit& b) {

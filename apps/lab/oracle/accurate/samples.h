@@ -5,7 +5,7 @@
 
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
-#include "core/picture/sample_position.h"
+#include "core/picture/sample_pair.h"
 
 namespace dmpc::apps {
 
