@@ -39,10 +39,8 @@ def render(
     int | None = None, balance_grid: int | None = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_places: int | None
     = None, ray_queue: int | None = None, tested_objects: int | None = None, no_backpressure: bool = False, topology: Literal["hypercube",
     "mesh", "torus", "fat-tree", "crossbar"] | None = None, tracer: Literal["grid", "embree"] | None = None, report: Text | None = None,
-    strip: Text | None = None, trace: Text | None = None, trace_window: Text | Sequence[Text] | None = None, trace_nodes: Text |
-    Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int | None = None, trace_keep: Literal["spread", "last",
-    "first"] | None = None, references: Text | None = None, serve: bool | Text = False, checkpoint: Text | None = None, checkpoint_every:
-    Text | None = None, resume: bool = False, keep_checkpoint: bool = False
+    trace: Text | None = None, trace_window: Text | Sequence[Text] | None = None, references: Text | None = None, serve: bool | Text =
+    False, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
 ) -> Render:
     """Render a scene on N nodes."""
     return rendering.render(locals())
@@ -112,10 +110,9 @@ def references(
     = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_places: int | None = None, ray_queue: int | None = None,
     tested_objects: int | None = None, no_backpressure: bool = False, topology: Literal["hypercube", "mesh", "torus", "fat-tree",
     "crossbar"] | None = None, tracer: Literal["grid", "embree"] | None = None, stats: Text | None = None, report: Text | None = None,
-    heatmap: Text | Sequence[Text] | None = None, strip: Text | None = None, trace: Text | None = None, trace_window: Text | Sequence[Text]
-    | None = None, trace_nodes: Text | Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int | None = None,
-    trace_keep: Literal["spread", "last", "first"] | None = None, serve: bool | Text = False, checkpoint: Text | None = None,
-    checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
+    heatmap: Text | Sequence[Text] | None = None, trace: Text | None = None, trace_window: Text | Sequence[Text] | None = None, serve: bool
+    | Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool =
+    False
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.references(locals())
@@ -146,10 +143,9 @@ def trace(
     = None, ray_batch: int | None = None, ray_credits: int | None = None, ray_places: int | None = None, ray_queue: int | None = None,
     tested_objects: int | None = None, no_backpressure: bool = False, topology: Literal["hypercube", "mesh", "torus", "fat-tree",
     "crossbar"] | None = None, tracer: Literal["grid", "embree"] | None = None, stats: Text | None = None, report: Text | None = None,
-    heatmap: Text | Sequence[Text] | None = None, strip: Text | None = None, trace_window: Text | Sequence[Text] | None = None, trace_nodes:
-    Text | Sequence[Text] | None = None, trace_every: int | None = None, trace_events: int | None = None, trace_keep: Literal["spread",
-    "last", "first"] | None = None, references: Text | None = None, serve: bool | Text = False, checkpoint: Text | None = None,
-    checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool = False
+    heatmap: Text | Sequence[Text] | None = None, trace_window: Text | Sequence[Text] | None = None, references: Text | None = None, serve:
+    bool | Text = False, checkpoint: Text | None = None, checkpoint_every: Text | None = None, resume: bool = False, keep_checkpoint: bool =
+    False
 ) -> pandas.DataFrame:
     """Render a scene on N nodes."""
     return looking.trace(locals())
