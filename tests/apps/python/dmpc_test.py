@@ -281,7 +281,7 @@ class LookingTest(unittest.TestCase):
         self.assertTrue({"node 0", "node 1", "node 2", "host"} <= set(frame["track"]))
         spans = frame[frame["ph"] == "X"]
         self.assertTrue((spans["dur"] >= 0).all())
-        self.assertTrue({"trace", "shade", "install page"} <= set(spans["name"]))
+        self.assertTrue({"trace", "shade"} <= set(spans["name"]))
         messages = frame.groupby("ph")["id"].apply(set)
         self.assertEqual(messages["s"], messages["f"])
         self.assertTrue(frame[frame["ph"] == "W"]["name"].str.startswith("page ").all())
