@@ -6,6 +6,7 @@
 #include "apps/edge/line/lines.h"
 #include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/typed_line.h"
+#include "apps/edge/line/unknown_option.h"
 #include "apps/edge/line/words.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
@@ -65,6 +66,9 @@ bool is_among(const std::vector<std::string>& words, const std::string& word) {
 
 [[noreturn]] void refuse_word(const std::string& option, const std::string& word, const std::vector<std::string>& words,
                               const std::string& more = "") {
+  if (const std::string instead = said_instead_of(option + "=" + word); !instead.empty()) {
+    throw UsageError(option + "=" + word + " is there no more: " + instead);
+  }
   const std::string advice = core::did_you_mean(word, words);
   throw UsageError(option + "=" + word + ": expected " + listed(words) + more + (advice.empty() ? "" : ".") + advice);
 }

@@ -38,6 +38,7 @@ constexpr Gone gone[] = {
     {"--memory-port", "--machine=FILE.json names a machine whose has_memory_port is true; dmpc machine prints one to begin with"},
     {"--no-contention",
      "--machine=FILE.json names a machine whose has_contention is false; dmpc machine prints one to begin with"},
+    {"--no-skip=empty-space", "empty voxels are passed over by all; --structure=voxels --voxels=article visits each"},
     {"--preview", "--serve shows the picture in a browser as it comes"},
     {"--strip", "--heatmap=done:FILE.png shows when each pixel was done, and the page of --report plays it"},
     {"--subsample", "one pixel of every 8x8 says how regions are cut; dmpc study balance --subsample=N shows what others do"},
