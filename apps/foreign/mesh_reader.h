@@ -25,7 +25,7 @@ struct MeshScene {
 /// At the moment of an animation, if one is asked for: then what is not the file's, a view of all and lights, is as in the still
 /// scene that it names. All triangles and polygons, what stands in several places once, but for `options` that smooth it; the
 /// file's first camera, else the whole scene in view; its lights, else two of ours; a plain background. Throws core::InputError
-/// for what cannot be read or makes no scene (apps/foreign/mesh/geometry.h, apps/foreign/mesh/placement.h), has no triangle at
+/// for what cannot be read or makes no scene (apps/foreign/mesh/geometry.h, apps/foreign/gltf/places.h), has no triangle at
 /// all, or refers to files that cannot be had, unless `options` allow that; std::bad_alloc if memory ends.
 MeshScene read_mesh(const std::string& path, const MeshOptions& options, SceneFiles& files);
 

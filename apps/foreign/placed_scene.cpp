@@ -13,11 +13,11 @@
 #include "apps/foreign/mesh/lights.h"
 #include "apps/foreign/mesh/round_mesh.h"
 #include "apps/foreign/mesh/textures.h"
-#include "apps/foreign/mesh/without_area.h"
 #include "apps/formats/view_faults.h"
 #include "apps/formats/whole_view.h"
 #include "core/base/box.h"
 #include "core/base/expect.h"
+#include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps {
 namespace {
@@ -25,7 +25,7 @@ namespace {
 using core::Vec3d;
 
 constexpr double pi = std::numbers::pi;
-constexpr double far_radii = 1000, light_share = 1.0 / 1000;
+constexpr double light_share = 1.0 / 1000;
 
 Transform scaled(const Transform& world, double scale) {
   return {{{world.rows[0] * scale, world.rows[1] * scale, world.rows[2] * scale}}, world.shift * scale};
@@ -41,26 +41,19 @@ std::optional<double> even_stretch(const Transform& world) {
   return is_even && square > 0 ? std::optional(std::sqrt(square)) : std::nullopt;
 }
 
-/// So that all faces look to the other side, with what their corners have.
+/// So that all faces look to the other side.
 void turn_faces(PolygonMesh& mesh) {
-  const auto reverse = [](auto& list, std::size_t first, std::size_t end) {
-    if (!list.empty()) {
-      std::reverse(list.begin() + static_cast<std::ptrdiff_t>(first), list.begin() + static_cast<std::ptrdiff_t>(end));
-    }
-  };
   std::size_t first = 0;
   for (const std::uint32_t end : mesh.faces.ends) {
-    reverse(mesh.faces.corners, first, end);
-    reverse(mesh.normals, first, end);
-    reverse(mesh.places, first, end);
+    mesh.turn(first, end);
     first = end;
   }
 }
 
-void put_in_place(PolygonMesh& mesh, const Transform& world, bool is_turned, const PlacedMaterial& material) {
-  if (material.surface.material.texture == core::Material::no_texture) {
-    mesh.places.clear();
-  }
+/// Most files' meshes stand where they are.
+bool stands_still(const Transform& world) { return world.rows == Transform{}.rows && world.shift == Vec3d{}; }
+
+void move(PolygonMesh& mesh, const Transform& world, bool is_turned) {
   for (Vec3d& vertex : mesh.vertices) {
     vertex = world.point(vertex);
   }
@@ -75,6 +68,20 @@ void put_in_place(PolygonMesh& mesh, const Transform& world, bool is_turned, con
   if ((determinant < 0) != is_turned) {
     turn_faces(mesh);
   }
+}
+
+/// `scale`: of the coordinates of the world.
+void put_in_place(PolygonMesh& mesh, const Transform& world, double scale, bool is_turned, const FileMaterial& material) {
+  if (material.material.texture == core::Material::no_texture) {
+    mesh.places.clear();
+  }
+  if (is_turned || !stands_still(world)) {
+    move(mesh, scaled(world, scale), is_turned);
+  } else {
+    for (Vec3d& vertex : mesh.vertices) {
+      vertex = vertex * scale;
+    }
+  }
   if (!material.place.is_plain()) {
     for (auto& [s, t] : mesh.places) {
       const auto moved = material.place(double{s}, double{t});
@@ -83,6 +90,48 @@ void put_in_place(PolygonMesh& mesh, const Transform& world, bool is_turned, con
     }
   }
 }
+
+/// What is known of files that cannot be had: an error, unless the options allow that; then notes. A picture without them would
+/// be another, so that has to be asked for.
+void judge_missing(const std::vector<std::string>& missing, const MeshOptions& options, std::vector<std::string>& notes) {
+  std::string list;
+  for (const std::string& one : missing) {
+    list += "\n  " + one;
+    notes.push_back(one + "; what it covers has its plain colour");
+  }
+  if (!missing.empty() && !options.allows_missing) {
+    throw core::InputError("what it refers to cannot be had:" + list +
+                           "\nPut these files where they are looked for, or show what they cover in its plain colour by " +
+                           "--missing=plain");
+  }
+}
+
+/// One line for all textures that are not where the file says.
+void note_other_names(const std::vector<std::string>& names, std::vector<std::string>& notes) {
+  constexpr std::size_t shown = 4;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
+    list += (i > 0 ? ", " : "") + names[i];
+  }
+  if (!names.empty()) {
+    notes.push_back(grouped(names.size()) + (names.size() == 1 ? " texture was" : " textures were") +
+                    " found under other names: " + list +
+                    (names.size() > shown ? " and " + grouped(names.size() - shown) + " more" : ""));
+  }
+}
+
+/// The error about a file of which nothing is seen, with what was said of it, which may say why.
+[[noreturn]] void refuse_without_area(const PlacedFile& file, const std::vector<std::string>& notes) {
+  std::string text = file.shapes.empty() ? "there is no mesh in it, and so no triangle that has an area"
+                                         : "there is no triangle in it that has an area";
+  text += "; expected a mesh of triangles or polygons";
+  for (const std::string& note : notes) {
+    text += "\n  " + note;
+  }
+  throw core::InputError(text);
+}
+
+std::string text_of(const Vec3d& point) { return shortest(point.x) + "," + shortest(point.y) + "," + shortest(point.z); }
 
 class PlacedScene {
  public:
@@ -94,11 +143,10 @@ class PlacedScene {
   }
 
   MeshScene make() {
-    note_instances();
+    measure();
     make_materials();
     add_shapes();
     set_view();
-    result_.scene.background = file_.background;
     add_lights();
     note_count(result_.notes, "skies of pictures, which are shown by paths below the file's own sky alone",
                options_.is_below_own_sky ? 0 : file_.skies.size());
@@ -109,38 +157,83 @@ class PlacedScene {
   }
 
  private:
-  void note_instances() {
-    std::uint64_t shapes = 0, places = file_.places.size();
-    for (const PlacedShape& shape : file_.shapes) {
-      shapes += shape.uses > 0 ? 1 : 0;
+  /// What meshes become, each of them once, and as often as the scene has it; says what copies cost.
+  void measure() {
+    GeometrySize once, all, made;
+    std::uint64_t meshes = 0, places = 0;
+    std::vector<bool> is_placed(file_.shapes.size());
+    for (const ShapePlace& place : file_.places) {
+      const PlacedShape& shape = file_.shapes[place.shape];
+      const GeometrySize size = size_of(shape.mesh.faces);
+      const bool is_first = !is_placed[place.shape], is_mesh = !shape.sphere;
+      const bool is_left_out =
+          options_.copies == core::Copies::left_out && shape.uses > 1 && size.triangles > core::copied_triangles_max;
+      is_placed[place.shape] = true;
+      meshes += is_mesh && is_first ? 1 : 0;
+      places += is_mesh ? 1 : 0;
+      all += size;
+      once += is_first ? size : GeometrySize{};
+      made += is_first || !is_left_out ? size : GeometrySize{};
     }
-    if (shapes < places && options_.copies == core::Copies::put) {
-      result_.notes.push_back(counted(shapes, "shape") + (shapes == 1 ? " stands in " : " stand in ") + grouped(places) +
-                              " places, and is there as often");
+    check_size(made);
+    result_.scene.objects.reserve(options_.smooth_degrees ? all.faces : once.faces);
+    if (meshes < places && options_.copies == core::Copies::put) {
+      result_.notes.push_back(grouped(meshes) + (meshes == 1 ? " mesh stands in " : " meshes stand in ") + grouped(places) +
+                              " places: " + grouped(once.triangles) + " triangles become " + grouped(all.triangles));
     }
   }
 
-  void make_materials() {
-    TextureReader textures(file_.pictures, result_.scene.name, files_, result_.scene.textures);
+  /// Which materials some shape in its place has.
+  std::vector<bool> used_materials() const {
     std::vector<bool> used(file_.materials.size());
     for (const ShapePlace& place : file_.places) {
       const PlacedShape& shape = file_.shapes[place.shape];
       used[shape.mesh.material] = true;
       used[shape.back.value_or(shape.mesh.material)] = true;
     }
+    return used;
+  }
+
+  void make_materials() {
+    TextureReader textures(file_.pictures, result_.scene.name, files_, result_.scene.textures);
+    const std::vector<bool> used = used_materials();
+    std::uint64_t black = 0, means = 0;
     for (std::size_t i = 0; i < used.size(); ++i) {
-      core::Material& material = file_.materials[i].surface.material;
-      auto use = file_.materials[i].surface.texture;
-      if (use && used[i]) {
-        use->edges.alpha = TextureAlpha::said;
-        material.texture = textures.find(*use).value_or(core::Material::no_texture);
+      const FileMaterial& known = file_.materials[i];
+      core::Material& material = file_.materials[i].material;
+      if (!used[i] || known.is_cut_away) {
+        continue;
       }
+      if (known.texture) {
+        material.texture = textures.find(*known.texture).value_or(core::Material::no_texture);
+        black += material.texture != core::Material::no_texture && material.color == Vec3d{} ? 1 : 0;
+      }
+      means += add_facets(known, textures, material) ? 1 : 0;
     }
     std::vector<std::string> missing = std::move(file_.missing);
     const std::vector<std::string> more = textures.missing();
     missing.insert(missing.end(), more.begin(), more.end());
     note_other_names(textures.other_names(), result_.notes);
+    note_count(result_.notes, "materials that are black, so that nothing of their texture shows", black);
+    note_count(
+        result_.notes,
+        "materials whose texture of metal and roughness is shown by its mean, as it does not lie where that of their colour does",
+        means);
     judge_missing(missing, options_, result_.notes);
+  }
+
+  /// Gives a material its texture of metal and roughness, if somebody shows it; returns whether that is shown by its mean, as it
+  /// lies elsewhere than that of the colour, or there is none.
+  bool add_facets(const FileMaterial& known, TextureReader& textures, core::Material& material) const {
+    const bool is_shown = options_.is_by_paths && known.facets && material.microfacets.are_there();
+    const auto texture = is_shown ? textures.find_numbers(*known.facets) : std::nullopt;
+    if (!texture) {
+      return false;
+    }
+    const bool lies_there = material.texture != core::Material::no_texture && known.lie_facets_there;
+    material.microfacets.texture = *texture;
+    material.microfacets.use = lies_there ? core::FacetTexture::placed : core::FacetTexture::mean;
+    return !lies_there;
   }
 
   void add_shapes() {
@@ -149,69 +242,73 @@ class PlacedScene {
       add_shape(place, writer);
     }
     result_.instances = writer.instances();
-    bounds_ = sphere_around(result_.vertices, result_.scene.objects, result_.instances, result_.scene.spheres);
+    result_.bounds = sphere_around(result_.vertices, result_.scene.objects, result_.instances, result_.scene.spheres);
     for (const PolygonMesh& back : backs_) {
-      writer.add(behind(back), file_.materials[back.material].surface.material);
+      writer.add(behind(back), file_.materials[back.material].material);
     }
     if (!writer.has_area()) {
-      refuse_without_area("there is no shape in it that has an area", result_.notes);
+      refuse_without_area(file_, result_.notes);
     }
-    note_count(result_.notes, "shapes whose texture is not shown, since no corner has a place on it", writer.unplaced());
+    note_count(result_.notes, "meshes whose texture is not shown, since no corner has a place on it", writer.unplaced());
     note_count(result_.notes, "spheres that are turned inside out, shown as if they were not", inside_out_);
-    note_count(result_.notes, "shapes that let all light through, so that nothing of them is seen", writer.unseen());
+    note_count(result_.notes, "meshes that let all light through, so that nothing of them is seen", writer.unseen());
+    note_count(result_.notes, "meshes whose vertex colours are not used, since there is a texture",
+               writer.meshes_without_colors());
   }
 
   void add_shape(const ShapePlace& place, GeometryWriter& writer) {
+    PlacedShape& shape = file_.shapes[place.shape];
+    const FileMaterial& material = file_.materials[shape.mesh.material];
+    if (material.is_cut_away) {
+      writer.leave_out();
+      return;
+    }
+    if (shape.uses > 1 && !shape.sphere && !shape.back && !options_.smooth_degrees && !shared_.contains(place.shape)) {
+      PolygonMesh mesh = std::move(shape.mesh);
+      shape.mesh.material = mesh.material;
+      put_in_place(mesh, {}, 1, shape.is_turned, material);
+      shared_.emplace(place.shape, writer.add_shared(std::move(mesh), material.material));
+    }
     const Transform world = scaled(place.world, scale_);
     if (const auto shared = shared_.find(place.shape); shared != shared_.end()) {
-      put(shared->second, world, writer);
+      if (shared->second) {
+        writer.place(*shared->second, world);
+      }
       return;
     }
-    PlacedShape& shape = file_.shapes[place.shape];
-    const PlacedMaterial& material = file_.materials[shape.mesh.material];
-    if (shape.uses > 1 && !shape.sphere && !shape.back && !options_.smooth_degrees) {
-      PolygonMesh mesh = std::move(shape.mesh);
-      put_in_place(mesh, {}, shape.is_turned, material);
-      const auto shared = writer.add_shared(std::move(mesh), material.surface.material);
-      shared_.emplace(place.shape, shared);
-      put(shared, world, writer);
-      return;
-    }
-    const bool is_last = --shape.uses == 0;
-    const auto stretch = even_stretch(world);
-    if (shape.sphere && stretch && material.surface.material.texture == core::Material::no_texture) {
+    const auto stretch = shape.sphere ? even_stretch(world) : std::nullopt;
+    if (stretch && material.material.texture == core::Material::no_texture) {
       inside_out_ += shape.is_turned ? 1 : 0;
-      writer.add(core::Sphere{world.point(shape.sphere->center), shape.sphere->radius * *stretch}, material.surface.material);
+      writer.add(core::Sphere{world.point(shape.sphere->center), shape.sphere->radius * *stretch}, material.material);
       return;
     }
-    PolygonMesh mesh;
-    if (shape.sphere) {
-      const double radius = shape.sphere->radius;
-      mesh = sphere_mesh({.radius = radius, .least_z = -radius, .most_z = radius, .degrees = 360});
-      mesh.name = shape.mesh.name;
-    } else {
-      mesh = is_last ? std::move(shape.mesh) : shape.mesh;
-    }
-    put_in_place(mesh, world, shape.is_turned, material);
+    PolygonMesh mesh = mesh_of(shape);
+    put_in_place(mesh, place.world, scale_, shape.is_turned, material);
     if (shape.back) {
       backs_.push_back(mesh);
       backs_.back().material = *shape.back;
     }
-    writer.add(std::move(mesh), material.surface.material);
+    writer.add(std::move(mesh), material.material);
   }
 
-  static void put(const std::optional<std::uint32_t>& shared, const Transform& world, GeometryWriter& writer) {
-    if (shared) {
-      writer.place(*shared, world);
+  /// In its own coordinates, of which nothing is left behind in its last place.
+  static PolygonMesh mesh_of(PlacedShape& shape) {
+    const bool is_last = --shape.uses == 0;
+    if (!shape.sphere) {
+      return is_last ? std::exchange(shape.mesh, {.name = {}, .material = shape.mesh.material}) : shape.mesh;
     }
+    const double radius = shape.sphere->radius;
+    PolygonMesh mesh = sphere_mesh({.radius = radius, .least_z = -radius, .most_z = radius, .degrees = 360});
+    mesh.name = shape.mesh.name;
+    return mesh;
   }
 
   /// What shines here shines to both sides: so what shines to the front alone has a back of its surface, which does not shine, a
   /// little behind.
   PolygonMesh behind(const PolygonMesh& front) const {
-    PolygonMesh back{.name = front.name, .material = front.material, .normals = front.normals, .places = front.places};
+    PolygonMesh back{.name = front.name, .material = front.material};
     const double size = front.vertices.empty() ? 0 : length(core::Box::around(front.vertices).half());
-    const double away = std::max(size * 0x1p-11, bounds_.radius * 0x1p-17);
+    const double away = std::max(size * 0x1p-11, result_.bounds.radius * 0x1p-17);
     std::size_t first = 0;
     for (const std::uint32_t end : front.faces.ends) {
       const auto corner = [&](std::size_t i) { return front.vertices[front.faces.corners[i]]; };
@@ -223,6 +320,12 @@ class PlacedScene {
       for (std::size_t i = first; i < end; ++i) {
         back.faces.corners.push_back(static_cast<std::uint32_t>(back.vertices.size()));
         back.vertices.push_back(corner(i) + shift);
+        if (!front.normals.empty()) {
+          back.normals.push_back(front.normals[front.of_corner(i)]);
+        }
+        if (!front.places.empty()) {
+          back.places.push_back(front.places[front.of_corner(i)]);
+        }
       }
       back.faces.ends.push_back(static_cast<std::uint32_t>(back.faces.corners.size()));
       first = end;
@@ -230,29 +333,57 @@ class PlacedScene {
     return back;
   }
 
+  /// Where an animation is asked for, what is not the file's stays as it was in the still scene.
+  const StillScene* still() const {
+    return options_.animation && options_.animation->still ? &*options_.animation->still : nullptr;
+  }
+  BoundingSphere still_bounds() const { return still() == nullptr ? result_.bounds : still()->bounds; }
+
   void set_view() {
-    core::View& view = result_.scene.view;
-    view = whole_view(bounds_, options_.up.value_or(UpAxis{}));
-    if (!file_.view || options_.is_seen_otherwise) {
-      return;
+    core::Scene& scene = result_.scene;
+    const UpAxis up = options_.up.value_or(UpAxis{});
+    const auto own = options_.is_seen_otherwise ? std::nullopt : view_of(file_.views, scale_, result_.notes);
+    const core::View whole = whole_view(still_bounds(), up);
+    // A film goes on as it began: whoever was seen by the file's camera at first is not to be seen by another one later on.
+    if (still() != nullptr && !options_.is_seen_otherwise && !own && still()->view.from != whole.from) {
+      throw core::InputError(
+          "the animation takes the camera beyond 1e30, or presses it flat, so that it sees nothing: show other frames, or give a "
+          "camera by --camera or --camera-path");
     }
-    core::View own = *file_.view;
-    const Vec3d ahead = own.at - own.from;
-    own.from = own.from * scale_;
-    own.at = own.from + ahead;
-    if (fault_of(own)) {
-      result_.notes.emplace_back("the file's camera is not taken, since it sees nothing");
-      return;
+    scene.view = own.value_or(whole);
+    has_own_view_ = own.has_value();
+    if (!own && !options_.is_seen_otherwise) {  // to the last bit, as a start for a camera of one's own
+      result_.notes.push_back("the whole is in view, as by --camera=" + text_of(whole.from) + "/" + text_of(whole.at) + "/" +
+                              text_of(whole.up));
     }
-    view = own;
+    scene.zenith = file_.is_lit_whole ? Vec3d{} : axes_of(up).up;
   }
 
   void add_lights() {
+    if (file_.is_lit_whole) {
+      add_physical_lights();
+      return;
+    }
+    core::Scene& scene = result_.scene;
+    scene.background = plain_background;
+    // By a sky, or, by paths, by what shines in it: other transports show that, but not what it lights.
+    const bool is_lit_else =
+        options_.is_below_sky || (options_.is_by_paths && std::ranges::any_of(scene.materials, &core::Material::shines));
+    std::vector<std::string> unsaid;  // of lights that others are put in place of
+    scene.lights =
+        lights_of(file_.lights, still_bounds(), scale_, is_lit_else, options_.is_lit_otherwise ? unsaid : result_.notes);
+    if (scene.lights.empty() && !is_lit_else) {
+      scene.lights = plain_lights(still_bounds(), still() != nullptr && has_own_view_ ? still()->view : scene.view);
+    }
+  }
+
+  void add_physical_lights() {
+    result_.scene.background = file_.background;
     if (options_.is_lit_otherwise) {
       return;
     }
     const bool is_by_paths = options_.is_below_sky || options_.is_below_own_sky;
-    const auto shines = [](const PlacedMaterial& material) { return material.surface.material.shines(); };
+    const auto shines = [](const FileMaterial& material) { return material.material.shines(); };
     const auto shining = std::count_if(file_.materials.begin(), file_.materials.end(), shines);
     note_count(result_.notes, "materials that shine, which light other things by paths alone",
                is_by_paths ? 0 : static_cast<std::uint64_t>(shining));
@@ -264,13 +395,13 @@ class PlacedScene {
         continue;
       }
       if (light.kind == FileLightKind::distant) {
-        points.push_back({bounds_.center - light.position * (far_radii * bounds_.radius), light.intensity * (1 / pi), true});
+        points.push_back({far_position(light, result_.bounds), light.intensity * (1 / pi), true});
       } else if (is_by_paths) {
         add_sphere(light, builder);
         ++spheres;
       } else {
         const Vec3d position = light.position * scale_;
-        const double way = std::max(length(position - bounds_.center), light_share * bounds_.radius);
+        const double way = std::max(length(position - result_.bounds.center), light_share * result_.bounds.radius);
         points.push_back({position, light.intensity * (scale_ * scale_ / (pi * way * way)), true});
         ++unfallen;
       }
@@ -285,7 +416,7 @@ class PlacedScene {
 
   /// One shines as brightly as its point: its radiance times the area that is seen of it is the intensity.
   void add_sphere(const FileLight& light, core::SceneBuilder& builder) {
-    const double radius = light_share * bounds_.radius, area = pi * radius * radius;
+    const double radius = light_share * result_.bounds.radius, area = pi * radius * radius;
     const double most = 1e29;
     const Vec3d radiance = light.intensity * (scale_ * scale_ / area);
     const Vec3d position = light.position * scale_;
@@ -301,10 +432,10 @@ class PlacedScene {
   SceneFiles& files_;
   double scale_;
   MeshScene result_;
-  BoundingSphere bounds_;
   std::map<std::uint32_t, std::optional<std::uint32_t>> shared_;  ///< by shape; nothing of one without faces
   std::uint64_t inside_out_ = 0;                                  ///< spheres
-  std::vector<PolygonMesh> backs_;                                ///< where their fronts are
+  bool has_own_view_ = false;
+  std::vector<PolygonMesh> backs_;  ///< where their fronts are
 };
 
 }  // namespace

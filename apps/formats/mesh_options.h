@@ -13,7 +13,7 @@ namespace dmpc::apps {
 
 struct MeshOptions {
   std::optional<double> scale;           ///< all coordinates are multiplied by it; above 0; 1 if not given
-  std::optional<UpAxis> up;              ///< what points up where the file has no camera; what the file says, else y
+  std::optional<UpAxis> up;              ///< what points up where the file has no camera; y if not given
   std::optional<Resolution> size;        ///< pixels of the picture, over which a file's camera spans its angle; the file's own
   std::optional<double> smooth_degrees;  ///< vertex normals are reckoned anew, over edges up to this angle; 0 to 180
   bool opens_anywhere = false;           ///< files that lie neither beside nor below the scene are opened, too

@@ -58,8 +58,9 @@ class OneFile final : public apps::SceneFiles {
 
 void check_obj(std::string_view text) {
   OneFile files(text);
-  const apps::PolygonFile file = apps::read_obj("a.obj", files);
-  for (const apps::PolygonMesh& mesh : file.meshes) {
+  const apps::PlacedFile file = apps::read_obj("a.obj", files);
+  for (const apps::PlacedShape& shape : file.shapes) {
+    const apps::PolygonMesh& mesh = shape.mesh;
     const std::size_t corners = mesh.faces.corners.size();
     core::expect(mesh.material < file.materials.size(), "a mesh has a material");
     core::expect(!mesh.faces.ends.empty() && mesh.faces.ends.back() == corners, "all corners are of a face");

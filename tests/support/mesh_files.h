@@ -49,28 +49,6 @@ inline std::string base64(const std::string& bytes) {
   return text;
 }
 
-/// The triangle as Collada, with an effect's `shader` ("<lambert/>"; none if empty), further libraries and further nodes.
-inline std::string collada(const std::string& shader, const std::string& libraries = "", const std::string& nodes = "") {
-  const std::string accessor = R"(<technique_common><accessor source="#pa" count="3" stride="3"><param name="X" type="float"/>)"
-                               R"(<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common>)";
-  const std::string materials =
-      R"(<library_effects><effect id="e"><profile_COMMON><technique sid="t">)" + shader +
-      R"(</technique></profile_COMMON></effect></library_effects><library_materials><material id="m"><instance_effect url="#e"/>)"
-      R"(</material></library_materials>)";
-  const std::string bound = R"(<bind_material><technique_common><instance_material symbol="S" target="#m"/></technique_common>)"
-                            R"(</bind_material>)";
-  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>)"
-         R"(<unit name="m" meter="1"/><up_axis>Y_UP</up_axis></asset>)" +
-         libraries + (shader.empty() ? "" : materials) +
-         R"(<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="pa" count="9">0 0 0 2 0 0 0 1 0</float_array>)" +
-         accessor +
-         R"(</source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="1" material="S">)"
-         R"(<input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>)"
-         R"(<library_visual_scenes><visual_scene id="s"><node id="w"><instance_geometry url="#g">)" +
-         (shader.empty() ? "" : bound) + "</instance_geometry></node>" + nodes +
-         R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
-}
-
 /// A glTF scene around the triangle.
 struct Gltf {
   std::string nodes = R"([{"mesh":0}])", roots = "[0]";

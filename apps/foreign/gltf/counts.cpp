@@ -1,12 +1,12 @@
 #include "apps/foreign/gltf/counts.h"
 
-#include <assimp/mesh.h>
-
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/vec.h"
 #include "core/scene/kept_meshes.h"
 
 namespace dmpc::apps::gltf {
@@ -23,8 +23,7 @@ void add_placed(std::uint64_t& sum, std::uint64_t once, std::uint64_t places) {
 /// Of a mesh, once.
 struct MeshSize {
   std::uint64_t vertices = 0, corners = 0;
-  std::uint64_t thin_faces = 0;  ///< points and lines
-  std::uint64_t indices = 0;     ///< of all faces
+  std::uint64_t indices = 0;  ///< of all faces
 };
 
 class Counter {
@@ -39,7 +38,6 @@ class Counter {
       const auto indices = primitive.find("indices");
       const std::uint64_t places = indices ? count_of(indices) : vertices, mode = primitive.whole("mode", 4);
       size.vertices += vertices;
-      size.thin_faces += mode >= triangles ? 0 : mode == lines ? places / 2 : places;
       size.corners += mode < triangles ? 0 : mode == triangles ? places : 3 * places;
       size.indices += mode > triangles ? 3 * places : places;
       counts.has_normals = counts.has_normals || (attributes && attributes->find("NORMAL"));
@@ -61,7 +59,7 @@ class Counter {
   }
 
  private:
-  static constexpr std::uint64_t lines = 1, triangles = 4;
+  static constexpr std::uint64_t triangles = 4;
 
   std::uint64_t count_of_instances(const Part& instancing) const {
     const Part attributes = instancing.get("attributes");
@@ -92,9 +90,7 @@ std::uint64_t buffer_bytes(const Document& document, std::uint64_t file_bytes) {
 }  // namespace
 
 MeshCounts counts_of(const Document& document, std::uint64_t file_bytes, core::Copies copies) {
-  // Assimp's: four floats at most each; a triangle is three indices and where they end; a point or line is a face of Assimp's
-  // with a piece of memory of its own.
-  constexpr std::uint64_t vector_bytes = 12, color_bytes = 16, face_bytes = 16, piece_bytes = 32;
+  constexpr std::uint64_t place_bytes = sizeof(std::array<float, 2>), color_bytes = sizeof(core::Vec3d) + sizeof(double);
   const Counter counter(document);
   const std::vector<Part> meshes = document.root().list("meshes");
   const std::vector<std::uint64_t> uses = counter.uses(meshes.size());
@@ -103,8 +99,6 @@ MeshCounts counts_of(const Document& document, std::uint64_t file_bytes, core::C
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const MeshSize size = counter.size(meshes[i], counts);
     once.vertices += size.vertices;
-    once.corners += size.corners;
-    once.thin_faces += size.thin_faces;
     once.indices += size.indices;
     const bool is_left_out = copies == core::Copies::left_out && size.corners > 3 * core::copied_triangles_max;
     const std::uint64_t placed = is_left_out ? std::min<std::uint64_t>(uses[i], 1) : uses[i];
@@ -114,12 +108,9 @@ MeshCounts counts_of(const Document& document, std::uint64_t file_bytes, core::C
     counts.triangles_min += uses[i] > 0 ? size.corners / 3 : 0;
   }
   counts.faces = counts.corners / 3;
-  const std::uint64_t of_vertex =
-      vector_bytes * (1 + (counts.has_normals ? 1 : 0) + (counts.has_places ? 1 : 0)) + (counts.has_colors ? color_bytes : 0);
-  counts.kept_bytes =
-      of_vertex * once.vertices + face_bytes * (once.corners / 3) + (sizeof(aiFace) + piece_bytes) * once.thin_faces;
-  counts.read_bytes =
-      counts.kept_bytes + buffer_bytes(document, file_bytes) + of_vertex * once.vertices + sizeof(std::uint32_t) * once.indices;
+  const std::uint64_t of_vertex = sizeof(core::Vec3d) * (counts.has_normals ? 2 : 1) + (counts.has_places ? place_bytes : 0) +
+                                  (counts.has_colors ? color_bytes : 0);
+  counts.read_bytes = buffer_bytes(document, file_bytes) + of_vertex * once.vertices + sizeof(std::uint32_t) * once.indices;
   return counts;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "apps/edge/line/number_text.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::gltf {
@@ -48,14 +49,15 @@ nlohmann::json parse(Bytes text) {
   }
 }
 
-/// 1 or 2. Files of version 1 write it as a number, too.
-int version_of(const Part& root) {
+/// Files of version 1 write it as a number, too.
+void check_version(const Part& root) {
   const Part version = root.get("asset").get("version");
-  const std::string text = version.is_number() ? std::to_string(version.as_whole()) : version.as_text();
-  if (text.empty() || (text[0] != '1' && text[0] != '2')) {
-    version.fail("the version is '" + text + "', expected 2.0");
+  const std::string text = version.is_number() ? rounded(version.as_number()) : version.as_text();
+  if (!text.starts_with('2')) {
+    version.fail(
+        "the version is '" + text + "', expected 2.0" +
+        (text.starts_with('1') ? ": have Assimp make that of it (assimp export IN OUT.glb), and look at the result" : ""));
   }
-  return text[0] - '0';
 }
 
 }  // namespace
@@ -77,10 +79,7 @@ Document parse_document(Bytes file) {
   } else {
     document.json = parse(file);
   }
-  document.version = version_of(document.root());
-  if (document.version == 1 && is_binary(file)) {
-    throw core::InputError("is a .glb of another version, expected glTF 2.0");
-  }
+  check_version(document.root());
   return document;
 }
 

@@ -13,7 +13,6 @@ namespace dmpc::apps::gltf {
 struct Document {
   nlohmann::json json;
   std::optional<std::span<const std::byte>> chunk;  ///< of the file's bytes
-  int version = 2;                                  ///< or 1, which Assimp reads
 
   Part root() const { return Part(json); }
 };

@@ -12,7 +12,7 @@ namespace dmpc::apps::gltf {
 void check_required(const Document& document);
 
 /// Appends a sentence, with a count, for each kind of thing that is there by an extension, or by glTF itself, and not shown as it
-/// is (apps/foreign/mesh/features.h says the same of what files of all formats have), and one that names all extensions that are
+/// is (apps/foreign/gltf/places.h says what else is not), and one that names all extensions that are
 /// not known.
 void note_extensions(const Document& document, std::vector<std::string>& notes);
 

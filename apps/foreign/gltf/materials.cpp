@@ -1,31 +1,31 @@
 #include "apps/foreign/gltf/materials.h"
 
-#include <assimp/GltfMaterial.h>
-
 #include <algorithm>
-#include <memory>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string_view>
 
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/count_note.h"
+#include "apps/foreign/mesh/surface.h"
 #include "core/base/elementary.h"
 
 namespace dmpc::apps::gltf {
 namespace {
 
+using core::Vec3d;
+
 /// A member that refers to a texture is called so: "normalTexture".
-bool is_texture(const std::string& key) { return key.size() >= 7 && key.compare(key.size() - 7, 7, "Texture") == 0; }
+bool is_texture(const std::string& key) { return key.ends_with("Texture"); }
 
-void add_number(aiMaterial& target, double value, const char* key, unsigned type, unsigned index) {
-  const auto number = static_cast<ai_real>(value);
-  target.AddProperty(&number, 1, key, type, index);
-}
-
-aiTextureMapMode edge_mode(const Part& sampler, const std::string& key) {
+core::TextureWrap edge_mode(const Part& sampler, const std::string& key) {
   const std::uint64_t mode = sampler.whole(key, 10497);
   if (mode != 10497 && mode != 33071 && mode != 33648) {
     sampler.get(key).fail("is " + std::to_string(mode) + ", expected 10497, 33071 or 33648");
   }
-  return mode == 33071 ? aiTextureMapMode_Clamp : mode == 33648 ? aiTextureMapMode_Mirror : aiTextureMapMode_Wrap;
+  return mode == 33071 ? core::TextureWrap::clamp : mode == 33648 ? core::TextureWrap::mirror : core::TextureWrap::repeat;
 }
 
 /// The transform of KHR_texture_transform: scaled, then turned, then moved.
@@ -41,16 +41,16 @@ TexturePlace transformed(const Part& transform) {
 
 /// Which coordinates a texture lies by, and how they are transformed.
 struct TextureLayout {
-  unsigned coordinates;
+  std::uint64_t coordinates = 0;
   TexturePlace place;
+
+  bool operator==(const TextureLayout&) const = default;
 };
 
 TextureLayout layout_of(const Part& use) {
   const std::uint64_t plain = use.whole("texCoord", 0);
   const auto transform = use.extension("KHR_texture_transform");
-  const std::uint64_t coordinates = transform ? transform->whole("texCoord", plain) : plain;
-  return {static_cast<unsigned>(std::min<std::uint64_t>(coordinates, AI_MAX_NUMBER_OF_TEXTURECOORDS)),
-          transform ? transformed(*transform) : TexturePlace{}};
+  return {transform ? transform->whole("texCoord", plain) : plain, transform ? transformed(*transform) : TexturePlace{}};
 }
 
 /// What is known of materials of specular and glossiness, which came before those of metal and roughness: their colour and their
@@ -70,63 +70,6 @@ Base base_of(const Part& source, const Part& empty) {
   return {base, base, "baseColorFactor", "baseColorTexture", "metallicRoughnessTexture", false};
 }
 
-class Writer {
- public:
-  Writer(const Document& document, Images& images)
-      : root_(document.root()),
-        textures_(root_.list("textures")),
-        samplers_(root_.list("samplers")),
-        image_count_(root_.list("images").size()),
-        images_(images) {}
-
-  std::unique_ptr<aiMaterial> material(const Part& source, MaterialTextures& textures);
-  /// How often a texture was named that names no picture.
-  std::uint64_t without_picture() const { return without_picture_; }
-
- private:
-  void add_texture(const Part& use, aiMaterial& target, aiTextureType type, unsigned number);
-  void add_colour_texture(const Part& use, aiMaterial& target, TexturePlace& place);
-  void add_facet_texture(const Part& use, MaterialTextures& textures);
-  const Part& texture_of(const Part& use) const { return textures_[use.required_index("index", textures_.size(), "textures")]; }
-  std::array<aiTextureMapMode, 2> edges_of(const Part& texture) const;
-  /// All but those of the colour and of what `base` says of metal, at any depth that makes sense.
-  void add_others(const Part& source, const Base& base, aiMaterial& target, unsigned& number, int level = 0);
-  std::optional<std::size_t> image_of(const Part& texture) const;
-
-  Part root_;
-  std::vector<Part> textures_, samplers_;
-  std::size_t image_count_;
-  Images& images_;
-  std::uint64_t without_picture_ = 0;
-};
-
-void add_base(const Base& base, aiMaterial& target) {
-  const std::vector<double> color = base.colours.numbers(base.color, {1, 1, 1, 1});
-  const aiColor4D colour(static_cast<ai_real>(color[0]), static_cast<ai_real>(color[1]), static_cast<ai_real>(color[2]),
-                         static_cast<ai_real>(color[3]));
-  target.AddProperty(&colour, 1, AI_MATKEY_BASE_COLOR);
-  add_number(target, color[3], AI_MATKEY_OPACITY);
-  if (base.is_glossy) {
-    add_number(target, 0, AI_MATKEY_METALLIC_FACTOR);
-    add_number(target, 1 - base.roughness.number("glossinessFactor", 1), AI_MATKEY_ROUGHNESS_FACTOR);
-  } else {
-    add_number(target, base.roughness.number("metallicFactor", 1), AI_MATKEY_METALLIC_FACTOR);
-    add_number(target, base.roughness.number("roughnessFactor", 1), AI_MATKEY_ROUGHNESS_FACTOR);
-  }
-}
-
-void add_extensions(const Part& source, aiMaterial& target) {
-  if (const auto ior = source.extension("KHR_materials_ior")) {
-    add_number(target, ior->number("ior", 1.5), AI_MATKEY_REFRACTI);
-  }
-  if (const auto transmission = source.extension("KHR_materials_transmission")) {
-    add_number(target, transmission->number("transmissionFactor", 0), AI_MATKEY_TRANSMISSION_FACTOR);
-  }
-  if (const auto coat = source.extension("KHR_materials_clearcoat")) {
-    add_number(target, coat->number("clearcoatFactor", 0), AI_MATKEY_CLEARCOAT_FACTOR);
-  }
-}
-
 std::string alpha_mode(const Part& source) {
   std::string mode = source.text("alphaMode", "OPAQUE");
   if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") {
@@ -135,71 +78,141 @@ std::string alpha_mode(const Part& source) {
   return mode;
 }
 
-void add_look(const Part& source, aiMaterial& target) {
-  const std::vector<double> light = source.numbers("emissiveFactor", {0, 0, 0});
-  const auto stronger = source.extension("KHR_materials_emissive_strength");
-  const double strength = stronger ? stronger->number("emissiveStrength", 1) : 1;
-  const auto channel = [&](std::size_t i) { return static_cast<ai_real>(light[i] * strength); };
-  const aiColor3D emission(channel(0), channel(1), channel(2));
-  target.AddProperty(&emission, 1, AI_MATKEY_COLOR_EMISSIVE);
-  const aiString mode(alpha_mode(source)), name(source.text("name", ""));
-  target.AddProperty(&mode, AI_MATKEY_GLTF_ALPHAMODE);
-  add_number(target, source.number("alphaCutoff", 0.5), AI_MATKEY_GLTF_ALPHACUTOFF);
-  target.AddProperty(&name, AI_MATKEY_NAME);
+/// Numbers of a material, of which those outside of what they may be are brought into it.
+class Factors {
+ public:
+  double share(double value) { return within(value, 1); }
+  Vec3d color(const std::vector<double>& channels, double most = 1) {
+    return {within(channels[0], most), within(channels[1], most), within(channels[2], most)};
+  }
+  bool are_beyond() const { return are_beyond_; }
+
+ private:
+  double within(double value, double most) {
+    constexpr double rounding = 1e-5;
+    are_beyond_ = are_beyond_ || value < -rounding || value > most + rounding;
+    return std::clamp(value, 0.0, most);
+  }
+
+  bool are_beyond_ = false;
+};
+
+/// How files of this kind end, by what the bytes begin with: what a document says of them need not be true.
+std::string ending_of(const std::vector<std::byte>& bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto begins = [&](std::string_view beginning) { return text.starts_with(beginning); };
+  return begins("\xff\xd8\xff")                                 ? "jpg"
+         : begins("RIFF") && text.substr(8).starts_with("WEBP") ? "webp"
+         : begins("\xabKTX")                                    ? "ktx2"
+         : begins("GIF8")                                       ? "gif"
+         : begins("BM")                                         ? "bmp"
+                                                                : "png";
 }
 
-std::optional<std::size_t> Writer::image_of(const Part& texture) const {
+class MaterialReader {
+ public:
+  MaterialReader(const Document& document, Buffers& buffers, PlacedFile& file)
+      : root_(document.root()),
+        textures_(root_.list("textures")),
+        samplers_(root_.list("samplers")),
+        images_(root_.list("images")),
+        buffers_(buffers),
+        file_(file) {}
+
+  void add(const Part& source, MaterialTraits& traits);
+  /// How often a texture was named that names no picture.
+  std::uint64_t without_picture() const { return without_picture_; }
+
+ private:
+  core::Material surface_of(const Part& source, const Base& base, MaterialTraits& traits);
+  void set_alpha(const Part& source, double own, FileMaterial& material);
+  void add_textures(const Base& base, FileMaterial& material, MaterialTraits& traits);
+  /// All but those of the colour and of what `base` says of metal, at any depth that makes sense.
+  void add_others(const Part& source, const Base& base, MaterialTraits& traits, int level = 0);
+
+  const Part& texture_of(const Part& use) const { return textures_[use.required_index("index", textures_.size(), "textures")]; }
+  std::optional<std::size_t> image_of(const Part& use);
+  std::optional<TextureUse> texture_use(const Part& use);
+  /// What a texture calls it: the name of a file, or, of one within the document, its number behind a star.
+  std::string name_of(std::size_t image);
+
+  Part root_;
+  std::vector<Part> textures_, samplers_, images_;
+  Buffers& buffers_;
+  PlacedFile& file_;
+  std::map<std::size_t, std::size_t> numbers_;  ///< of images within the document among the file's pictures
+  std::uint64_t without_picture_ = 0;
+};
+
+std::optional<std::size_t> MaterialReader::image_of(const Part& use) {
+  const Part& texture = texture_of(use);
+  std::optional<std::size_t> image = texture.index("source", images_.size(), "images");
   for (const char* const format : {"EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds", "KHR_texture_basisu"}) {
     const auto other = texture.extension(format);
     if (other && !texture.find("source")) {
-      return other->index("source", image_count_, "images");
+      image = other->index("source", images_.size(), "images");
+      break;
     }
   }
-  return texture.index("source", image_count_, "images");
+  without_picture_ += image ? 0 : 1;
+  return image;
 }
 
-void Writer::add_texture(const Part& use, aiMaterial& target, aiTextureType type, unsigned number) {
-  const auto image = image_of(texture_of(use));
-  without_picture_ += image ? 0 : 1;
-  if (image) {
-    const aiString name(images_.name_of(*image));
-    target.AddProperty(&name, AI_MATKEY_TEXTURE(type, number));
+std::string MaterialReader::name_of(std::size_t image) {
+  const Part& part = images_[image];
+  const std::string address = part.text("uri", "");
+  if (!address.empty() && !is_data(address)) {
+    return address;
+  }
+  const auto [known, is_new] = numbers_.try_emplace(image, file_.pictures.size());
+  if (is_new) {
+    MadePicture& picture = file_.pictures.emplace_back();
+    if (address.empty()) {
+      const auto view = buffers_.view(part.required_index("bufferView", buffers_.view_count(), "bufferViews")).bytes;
+      picture.file.assign(view.begin(), view.end());
+    } else {
+      picture.file = bytes_of_data(address, part);
+    }
+    if (picture.file.size() > std::numeric_limits<std::uint32_t>::max()) {
+      part.fail("is larger than 4 GiB");
+    }
+    picture.format_hint = ending_of(picture.file);
+  }
+  return "*" + std::to_string(known->second);
+}
+
+std::optional<TextureUse> MaterialReader::texture_use(const Part& use) {
+  const auto image = image_of(use);
+  if (!image) {
+    return std::nullopt;
+  }
+  TextureUse result{.path = name_of(*image), .edges = {}};
+  if (const auto sampler = texture_of(use).index("sampler", samplers_.size(), "samplers")) {
+    result.edges.s = edge_mode(samplers_[*sampler], "wrapS");
+    result.edges.t = edge_mode(samplers_[*sampler], "wrapT");
+  }
+  return result;
+}
+
+void MaterialReader::add_textures(const Base& base, FileMaterial& material, MaterialTraits& traits) {
+  const auto color = base.colours.find(base.texture), facets = base.roughness.find(base.facets);
+  const TextureLayout layout = color ? layout_of(*color) : TextureLayout{};
+  if (color) {
+    material.texture = texture_use(*color);
+    material.place = layout.place;
+  }
+  if (material.texture) {
+    traits.coordinates = layout.coordinates;
+    material.texture->edges.alpha = material.material.alpha != core::AlphaUse::none ? TextureAlpha::kept : TextureAlpha::ignored;
+    material.texture->edges.cutoff = material.material.alpha_cutoff;
+  }
+  if (facets) {
+    material.facets = texture_use(*facets);
+    material.lie_facets_there = layout_of(*facets) == layout;
   }
 }
 
-std::array<aiTextureMapMode, 2> Writer::edges_of(const Part& texture) const {
-  const auto sampler = texture.index("sampler", samplers_.size(), "samplers");
-  return {sampler ? edge_mode(samplers_[*sampler], "wrapS") : aiTextureMapMode_Wrap,
-          sampler ? edge_mode(samplers_[*sampler], "wrapT") : aiTextureMapMode_Wrap};
-}
-
-void Writer::add_colour_texture(const Part& use, aiMaterial& target, TexturePlace& place) {
-  add_texture(use, target, aiTextureType_BASE_COLOR, 0);
-  const auto edges = edges_of(texture_of(use));
-  const std::array<int, 2> modes = {edges[0], edges[1]};
-  target.AddProperty(&modes[0], 1, AI_MATKEY_MAPPINGMODE_U(aiTextureType_BASE_COLOR, 0));
-  target.AddProperty(&modes[1], 1, AI_MATKEY_MAPPINGMODE_V(aiTextureType_BASE_COLOR, 0));
-  const TextureLayout layout = layout_of(use);
-  place = layout.place;
-  const int set = static_cast<int>(layout.coordinates);
-  target.AddProperty(&set, 1, AI_MATKEY_UVWSRC(aiTextureType_BASE_COLOR, 0));
-}
-
-void Writer::add_facet_texture(const Part& use, MaterialTextures& textures) {
-  const Part& texture = texture_of(use);
-  const auto image = image_of(texture);
-  without_picture_ += image ? 0 : 1;
-  if (image) {
-    const auto edges = edges_of(texture);
-    const TextureLayout layout = layout_of(use);
-    textures.facets = TextureUse{.path = images_.name_of(*image),
-                                 .coordinates = layout.coordinates,
-                                 .edges = {.s = wrap_of(edges[0]), .t = wrap_of(edges[1])}};
-    textures.facets_place = layout.place;
-  }
-}
-
-void Writer::add_others(const Part& source, const Base& base, aiMaterial& target, unsigned& number, int level) {
+void MaterialReader::add_others(const Part& source, const Base& base, MaterialTraits& traits, int level) {
   constexpr int levels_max = 16;
   if (level > levels_max) {
     source.fail("extensions within each other more than 16 deep, expected one or two");
@@ -208,51 +221,111 @@ void Writer::add_others(const Part& source, const Base& base, aiMaterial& target
     if (key == "baseColorTexture" || key == "diffuseTexture" || key == base.facets) {
       continue;
     }
-    if (key == "emissiveTexture") {
-      add_texture(part, target, aiTextureType_EMISSIVE, 0);
-    } else if (is_texture(key)) {
-      add_texture(part, target, aiTextureType_UNKNOWN, number);
-      ++number;
-    } else if (key == "extensions" || key == "pbrMetallicRoughness" || key.substr(0, 4) == "KHR_") {
-      add_others(part, base, target, number, level + 1);
+    if (is_texture(key)) {
+      const auto image = image_of(part);
+      if (image) {
+        traits.other_textures.insert(*image);
+      }
+      traits.has_light_texture = traits.has_light_texture || (key == "emissiveTexture" && image);
+    } else if (key == "extensions" || key == "pbrMetallicRoughness" || key.starts_with("KHR_")) {
+      add_others(part, base, traits, level + 1);
     }
   }
 }
 
-std::unique_ptr<aiMaterial> Writer::material(const Part& source, MaterialTextures& textures) {
+core::Material MaterialReader::surface_of(const Part& source, const Base& base, MaterialTraits& traits) {
+  const std::vector<double> color = base.colours.numbers(base.color, {1, 1, 1, 1});
+  std::vector<double> light = source.numbers("emissiveFactor", {0, 0, 0});
+  const auto stronger = source.extension("KHR_materials_emissive_strength"), ior = source.extension("KHR_materials_ior"),
+             transmission = source.extension("KHR_materials_transmission"), coat = source.extension("KHR_materials_clearcoat");
+  for (double& channel : light) {
+    channel *= stronger ? stronger->number("emissiveStrength", 1) : 1;
+  }
+  Factors factors;
+  const double opacity = factors.share(color[3]);
+  MetallicSurface surface{.base = factors.color(color), .emission = factors.color(light, light_max), .metallic = 0};
+  if (base.is_glossy) {
+    surface.roughness = factors.share(1 - base.roughness.number("glossinessFactor", 1));
+  } else {
+    surface.metallic = factors.share(base.roughness.number("metallicFactor", 1));
+    surface.roughness = factors.share(base.roughness.number("roughnessFactor", 1));
+  }
+  surface.transmission = transmission ? factors.share(transmission->number("transmissionFactor", 0)) : 0;
+  surface.refraction_index = ior ? ior->number("ior", 1.5) : 1.5;
+  surface.opacity = alpha_mode(source) == "BLEND" ? opacity : 1;
+  traits.has_light_texture = traits.has_light_texture && surface.emission != Vec3d{};
+  surface.emission = traits.has_light_texture ? Vec3d{} : surface.emission;
+  traits.shines = surface.emission != Vec3d{};
+  traits.colors_what_shines_through =
+      surface.transmission > 0 && !(surface.base.x == surface.base.y && surface.base.y == surface.base.z);
+  traits.has_clear_coat = coat && coat->number("clearcoatFactor", 0) > 0;
+  traits.has_factor_beyond = factors.are_beyond();
+  return material_of(surface);
+}
+
+/// What a texture's alpha does, by which the material's `own` is multiplied.
+void MaterialReader::set_alpha(const Part& source, double own, FileMaterial& material) {
+  const std::string mode = alpha_mode(source);
+  const double cutoff = source.number("alphaCutoff", 0.5);
+  if (mode == "BLEND") {
+    material.material.alpha = core::AlphaUse::blend;
+  } else if (mode == "MASK" && cutoff > 0 && cutoff <= own) {
+    material.material.alpha = core::AlphaUse::cut;
+    material.material.alpha_cutoff = cutoff / own;
+  }
+  material.is_cut_away = mode == "MASK" && own < cutoff;
+}
+
+void MaterialReader::add(const Part& source, MaterialTraits& traits) {
   static const nlohmann::json nothing = nlohmann::json::object();
-  auto target = std::make_unique<aiMaterial>();
   const Base base = base_of(source, Part(nothing));
-  add_base(base, *target);
-  add_look(source, *target);
-  add_extensions(source, *target);
-  if (const auto texture = base.colours.find(base.texture)) {
-    add_colour_texture(*texture, *target, textures.color_place);
-  }
-  if (const auto texture = base.roughness.find(base.facets)) {
-    add_facet_texture(*texture, textures);
-  }
-  unsigned number = 0;
-  add_others(source, base, *target, number);
-  return target;
+  FileMaterial& material = file_.materials.emplace_back();
+  add_others(source, base, traits);
+  material.material = surface_of(source, base, traits);
+  set_alpha(source, std::clamp(base.colours.numbers(base.color, {1, 1, 1, 1})[3], 0.0, 1.0), material);
+  add_textures(base, material, traits);
 }
 
 }  // namespace
 
-std::vector<MaterialTextures> add_materials(const Document& document, Images& images, aiScene& scene,
-                                            std::vector<std::string>& notes) {
+std::vector<MaterialTraits> read_materials(const Document& document, Buffers& buffers, PlacedFile& file) {
   static const nlohmann::json nothing = nlohmann::json::object();
   std::vector<Part> sources = document.root().list("materials");
   sources.emplace_back(nothing);
-  Writer writer(document, images);
-  std::vector<MaterialTextures> textures;
-  scene.mMaterials = new aiMaterial*[sources.size()];
-  for (const Part& source : sources) {
-    scene.mMaterials[scene.mNumMaterials] = writer.material(source, textures.emplace_back()).release();
-    ++scene.mNumMaterials;
+  MaterialReader reader(document, buffers, file);
+  std::vector<MaterialTraits> traits(sources.size());
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    reader.add(sources[i], traits[i]);
   }
-  note_count(notes, "textures that name no picture, left out", writer.without_picture());
-  return textures;
+  note_count(file.notes, "textures that name no picture, left out", reader.without_picture());
+  return traits;
+}
+
+void note_losses(const std::vector<MaterialTraits>& materials, const std::vector<bool>& used, PlacedFile& file) {
+  const auto note = [&](const std::string& what, const auto& has_one) {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      count += used[i] && has_one(i) ? 1 : 0;
+    }
+    note_count(file.notes, what, count);
+  };
+  std::set<std::uint64_t> textures;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i]) {
+      textures.insert(materials[i].other_textures.begin(), materials[i].other_textures.end());
+    }
+  }
+  note_count(file.notes, "textures not used, since they are not of a surface's colour", textures.size());
+  note("materials that shine by themselves, and light other things by paths, not by --transport=whitted",
+       [&](std::size_t i) { return materials[i].shines; });
+  note("materials whose own light is a texture's, shown without it",
+       [&](std::size_t i) { return materials[i].has_light_texture; });
+  note("materials that colour what shines through them, shown without that",
+       [&](std::size_t i) { return materials[i].colors_what_shines_through; });
+  note("materials cut away altogether by their alpha, whose faces are left out",
+       [&](std::size_t i) { return file.materials[i].is_cut_away; });
+  note("materials with a clear coat, shown without it", [&](std::size_t i) { return materials[i].has_clear_coat; });
+  note("materials with factors outside 0 to 1, brought into it", [&](std::size_t i) { return materials[i].has_factor_beyond; });
 }
 
 }  // namespace dmpc::apps::gltf

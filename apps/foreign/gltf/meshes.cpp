@@ -4,7 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <memory>
+#include <optional>
+#include <string>
 
 #include "apps/edge/line/number_text.h"
 #include "core/base/expect.h"
@@ -43,113 +44,77 @@ std::size_t face_count(Mode mode, std::size_t corners) {
   return 0;
 }
 
-/// Places of a face's corners among the indices.
-struct FacePlaces {
-  std::array<std::size_t, 3> place{};
-  std::size_t count = 3;
-
-  auto begin() const { return place.begin(); }
-  auto end() const { return place.begin() + static_cast<std::ptrdiff_t>(count); }
-};
-
-/// Which indices face `i` takes, of `corners`; every second triangle of a strip is turned, so that all look to one side.
-FacePlaces places_of(Mode mode, std::size_t i, std::size_t corners) {
-  switch (mode) {
-    case Mode::points:
-      return {{i}, 1};
-    case Mode::lines:
-      return {{2 * i, 2 * i + 1}, 2};
-    case Mode::line_loop:
-    case Mode::line_strip:
-      return {{i, (i + 1) % corners}, 2};
-    case Mode::triangles:
-      return {{3 * i, 3 * i + 1, 3 * i + 2}};
-    case Mode::triangle_strip:
-      return i % 2 == 0 ? FacePlaces{{i, i + 1, i + 2}} : FacePlaces{{i + 1, i, i + 2}};
-    case Mode::triangle_fan:
-      return {{0, i + 1, i + 2}};
+/// Which indices triangle `i` takes; every second one of a strip is turned, so that all look to one side.
+std::array<std::size_t, 3> places_of(Mode mode, std::size_t i) {
+  if (mode == Mode::triangle_fan) {
+    return {0, i + 1, i + 2};
   }
-  return {{}, 0};
+  return i % 2 == 0 ? std::array{i, i + 1, i + 2} : std::array{i + 1, i, i + 2};
 }
 
-/// Beside Assimp's faces, each of which takes a piece of memory of its own. A list of triangles stays as it is.
+/// A list of triangles stays as it is.
 FaceList triangles_of(Mode mode, std::vector<std::uint32_t> indices) {
-  FaceList triangles;
   const std::size_t count = face_count(mode, indices.size());
-  triangles.ends.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    triangles.ends[i] = static_cast<std::uint32_t>(3 * (i + 1));
-  }
   if (mode == Mode::triangles) {
-    triangles.corners = std::move(indices);
-    triangles.corners.resize(3 * count);
-    return triangles;
+    indices.resize(3 * count);
+    return triangle_list(std::move(indices));
   }
-  triangles.corners.reserve(3 * count);
+  std::vector<std::uint32_t> corners;
+  corners.reserve(3 * count);
   for (std::size_t i = 0; i < count; ++i) {
-    for (const std::size_t place : places_of(mode, i, indices.size())) {
-      triangles.corners.push_back(indices[place]);
+    for (const std::size_t place : places_of(mode, i)) {
+      corners.push_back(indices[place]);
     }
   }
-  return triangles;
+  return triangle_list(std::move(corners));
 }
 
-/// Points and lines.
-void add_thin_faces(Mode mode, const std::vector<std::uint32_t>& indices, aiMesh& mesh) {
-  const std::size_t count = face_count(mode, indices.size());
-  mesh.mFaces = count > 0 ? new aiFace[count] : nullptr;
-  mesh.mNumFaces = static_cast<unsigned>(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const FacePlaces places = places_of(mode, i, indices.size());
-    aiFace& face = mesh.mFaces[i];
-    face.mIndices = new unsigned[places.count];
-    face.mNumIndices = static_cast<unsigned>(places.count);
-    std::transform(places.begin(), places.end(), face.mIndices, [&](std::size_t place) { return indices[place]; });
-  }
-}
-
-aiVector3D* vectors_of(const Values& values) {
-  auto* const vectors = new aiVector3D[values.count()];
+std::vector<core::Vec3d> vectors_of(const Values& values) {
+  std::vector<core::Vec3d> vectors;
+  vectors.reserve(values.count());
   for (std::size_t i = 0; i < values.count(); ++i) {
-    vectors[i] = {values[i][0], values[i][1], values.width > 2 ? values[i][2] : 0};
+    const auto vector = values[i];
+    vectors.push_back({double{vector[0]}, double{vector[1]}, double{vector[2]}});
   }
   return vectors;
 }
 
-aiColor4D* colors_of(const Values& values) {
-  auto* const colors = new aiColor4D[values.count()];
-  for (std::size_t i = 0; i < values.count(); ++i) {
-    const auto color = values[i];
-    colors[i] = {color[0], color[1], color[2], values.width == color_width ? color[3] : 1};
+/// None if all are white and whole.
+void add_colors(const Values& values, PolygonMesh& mesh) {
+  if (values.width == color_width) {
+    for (std::size_t i = 0; i < values.count(); ++i) {
+      mesh.alphas.push_back(double{values[i][3]});
+    }
+    if (std::ranges::all_of(mesh.alphas, [](double alpha) { return alpha >= 1; })) {
+      mesh.alphas = {};
+    }
   }
-  return colors;
+  mesh.colors = vectors_of(values);
+  if (mesh.alphas.empty() && std::ranges::all_of(mesh.colors, [](const auto& color) { return color == core::Vec3d{1, 1, 1}; })) {
+    mesh.colors = {};
+  }
 }
 
-/// glTF's t grows downwards, Assimp's upwards.
-aiVector3D* places_of_vertices(const Values& values) {
-  aiVector3D* const places = vectors_of(values);
-  for (std::size_t i = 0; i < values.count(); ++i) {
-    places[i].y = 1 - places[i].y;
+std::vector<std::array<float, 2>> places_of(const Values& values) {
+  std::vector<std::array<float, 2>> places(values.count());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    places[i] = {values[i][0], values[i][1]};
   }
   return places;
 }
 
-void add_vertices(const Primitive& source, aiMesh& mesh) {
-  mesh.mNumVertices = static_cast<unsigned>(source.attributes.at("POSITION").count());
-  for (const auto& [name, values] : source.attributes) {
-    if (name == "POSITION") {
-      mesh.mVertices = vectors_of(values);
-    } else if (name == "NORMAL") {
-      mesh.mNormals = vectors_of(values);
-    } else if (name == "COLOR_0") {
-      mesh.mColors[0] = colors_of(values);
-    } else if (name.starts_with("TEXCOORD_")) {
-      const std::size_t set = std::stoul(name.substr(name.find('_') + 1));
-      if (set < AI_MAX_NUMBER_OF_TEXTURECOORDS) {
-        mesh.mTextureCoords[set] = places_of_vertices(values);
-        mesh.mNumUVComponents[set] = 2;
-      }
+/// `coordinates`: the set of places that its material's texture lies by.
+void add_vertices(const Primitive& source, const std::optional<std::uint64_t>& coordinates, PolygonMesh& mesh) {
+  const auto with = [&](const std::string& name, const auto& take) {
+    if (const auto found = source.attributes.find(name); found != source.attributes.end()) {
+      take(found->second);
     }
+  };
+  with("POSITION", [&](const Values& values) { mesh.vertices = vectors_of(values); });
+  with("NORMAL", [&](const Values& values) { mesh.normals = vectors_of(values); });
+  with("COLOR_0", [&](const Values& values) { add_colors(values, mesh); });
+  if (coordinates) {
+    with("TEXCOORD_" + std::to_string(*coordinates), [&](const Values& values) { mesh.places = places_of(values); });
   }
 }
 
@@ -168,14 +133,6 @@ Influences influences_of(const Part& primitive, Primitive& source) {
   return influences;
 }
 
-/// What apps/foreign/mesh/features.h counts and nobody looks into: morph targets are there, or not.
-void mark_features(const Part& primitive, aiMesh& mesh) {
-  if (!primitive.list("targets").empty()) {
-    mesh.mAnimMeshes = new aiAnimMesh* [1] { new aiAnimMesh };
-    mesh.mNumAnimMeshes = 1;
-  }
-}
-
 void check_size(const Part& primitive, const Primitive& source) {
   constexpr std::size_t most = std::numeric_limits<unsigned>::max() / 3;  // each index of a strip may be in three triangles
   if (source.indices.size() > most || (!source.attributes.empty() && source.attributes.at("POSITION").count() > most)) {
@@ -183,59 +140,53 @@ void check_size(const Part& primitive, const Primitive& source) {
   }
 }
 
-class Reader {
+class PrimitiveReader {
  public:
-  Reader(const Document& document, Buffers& buffers, std::size_t material_count)
-      : buffers_(buffers), accessors_(document, buffers), material_count_(material_count) {}
+  PrimitiveReader(Buffers& buffers, Accessors& accessors, const std::vector<MaterialTraits>& materials)
+      : buffers_(buffers), accessors_(accessors), materials_(materials) {}
 
-  std::unique_ptr<aiMesh> mesh(const Part& primitive, const std::string& name, FaceList& triangles, Meshes& result) {
+  void add(const Part& primitive, const std::string& name, Meshes& result) {
     const Mode mode = mode_of(primitive);
     Primitive source = read_primitive(primitive, accessors_, buffers_);
     check_size(primitive, source);
-    auto mesh = std::make_unique<aiMesh>();
-    mesh->mName = name;
-    // The last of the scene's is that of primitives without.
-    mesh->mMaterialIndex =
-        static_cast<unsigned>(primitive.index("material", material_count_ - 1, "materials").value_or(material_count_ - 1));
+    const std::size_t last = materials_.size() - 1;
+    PrimitiveMesh read{.mesh = {.name = "mesh " + std::to_string(result.list.size()) + " '" + name + "'",
+                                .material = primitive.index("material", last, "materials").value_or(last),
+                                .is_by_vertex = true},
+                       .influences = {}};
+    read.has_targets = !primitive.list("targets").empty();
     if (!source.attributes.empty()) {
-      add_vertices(source, *mesh);
+      read.influences = influences_of(primitive, source);
+      read.has_several_places = source.attributes.contains("TEXCOORD_1");
       result.corners_left_over += mode == Mode::triangles ? source.indices.size() % 3 : 0;
       if (mode < Mode::triangles) {
-        add_thin_faces(mode, source.indices, *mesh);
+        read.thin_faces = face_count(mode, source.indices.size());
       } else {
-        triangles = triangles_of(mode, std::move(source.indices));
+        add_vertices(source, materials_[read.mesh.material].coordinates, read.mesh);
+        read.mesh.faces = triangles_of(mode, std::move(source.indices));
       }
     }
-    result.influences.push_back(source.attributes.empty() ? Influences{} : influences_of(primitive, source));
-    mark_features(primitive, *mesh);
-    return mesh;
+    result.list.push_back(std::move(read));
   }
 
  private:
   Buffers& buffers_;
-  Accessors accessors_;
-  std::size_t material_count_;
+  Accessors& accessors_;
+  const std::vector<MaterialTraits>& materials_;
 };
 
 }  // namespace
 
-Meshes add_meshes(const Document& document, Buffers& buffers, ImportedFile& file) {
-  aiScene& scene = *file.scene;
-  Reader reader(document, buffers, scene.mNumMaterials);
-  std::vector<std::unique_ptr<aiMesh>> all;
+Meshes read_meshes(const Document& document, Buffers& buffers, Accessors& accessors,
+                   const std::vector<MaterialTraits>& materials) {
+  PrimitiveReader reader(buffers, accessors, materials);
   Meshes result;
   for (const Part& source : document.root().list("meshes")) {
-    const auto first = static_cast<unsigned>(all.size());
+    const std::size_t first = result.list.size();
     for (const Part& primitive : source.list("primitives")) {
-      FaceList& triangles = file.triangles.emplace_back();
-      all.push_back(reader.mesh(primitive, source.text("name", source.where()), triangles, result));
+      reader.add(primitive, source.text("name", source.where()), result);
     }
-    result.ranges.emplace_back(first, static_cast<unsigned>(all.size()));
-  }
-  scene.mMeshes = new aiMesh*[all.size() + 1]();
-  for (auto& mesh : all) {
-    scene.mMeshes[scene.mNumMeshes] = mesh.release();
-    ++scene.mNumMeshes;
+    result.ranges.emplace_back(first, result.list.size());
   }
   return result;
 }

@@ -1,12 +1,14 @@
-// The meshes of a glTF document as Assimp's, one for each primitive.
+// The meshes of a glTF document, one for each primitive.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "apps/foreign/gltf/materials.h"
 #include "apps/foreign/gltf/primitive.h"
-#include "apps/foreign/mesh/imported_file.h"
+#include "apps/foreign/mesh/polygon_mesh.h"
 
 namespace dmpc::apps::gltf {
 
@@ -15,14 +17,23 @@ struct Influences {
   std::vector<Values> joints, weights;  ///< as many sets
 };
 
-struct Meshes {
-  std::vector<std::pair<unsigned, unsigned>> ranges;  ///< of each mesh of the document: the scene's first and one past its last
-  std::vector<Influences> influences;                 ///< of each of the scene's meshes; without sets if no skin holds it
-  std::uint64_t corners_left_over = 0;                ///< of lists whose length is no multiple of three
+struct PrimitiveMesh {
+  PolygonMesh mesh;              ///< triangles, by vertex; nothing of points and lines
+  Influences influences;         ///< without sets if no skin holds it
+  std::uint64_t thin_faces = 0;  ///< points and lines
+  bool has_several_places = false, has_targets = false;
 };
 
-/// Gives the file's scene its meshes, which refer to materials that it has. Throws core::InputError, by its place in the
-/// document.
-Meshes add_meshes(const Document& document, Buffers& buffers, ImportedFile& file);
+struct Meshes {
+  std::vector<std::pair<std::size_t, std::size_t>>
+      ranges;  ///< of each mesh of the document: its first primitive, one past its last
+  std::vector<PrimitiveMesh> list;
+  std::uint64_t corners_left_over = 0;  ///< of lists whose length is no multiple of three
+};
+
+/// With places on the textures of `materials`, of which the last is that of primitives without one. Throws core::InputError, by
+/// its place in the document.
+Meshes read_meshes(const Document& document, Buffers& buffers, Accessors& accessors,
+                   const std::vector<MaterialTraits>& materials);
 
 }  // namespace dmpc::apps::gltf

@@ -1,18 +1,41 @@
-// The tree of nodes of a glTF document as Assimp's, with cameras and lights.
+// The nodes of a glTF document's scene, where they stand, with cameras and lights.
 #pragma once
 
-#include <assimp/scene.h>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "apps/foreign/gltf/accessors.h"
 #include "apps/foreign/gltf/animation.h"
 #include "apps/foreign/gltf/meshes.h"
+#include "apps/foreign/mesh/placed_file.h"
+#include "apps/formats/resolution.h"
 
 namespace dmpc::apps::gltf {
 
-/// Gives the file's scene the nodes of the document's scene, the first if it names none; what hidden ones (KHR_node_visibility)
-/// would show is left out, and instances (EXT_mesh_gpu_instancing) are one node in many places. What `pose` says of a node takes
-/// the place of what it says itself. Throws core::InputError, by its place in the document, for nodes that are no tree, and for
-/// transforms that are none.
-void add_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, const Pose& pose, ImportedFile& file);
+/// A mesh of the document at a node.
+struct MeshUse {
+  std::string node;  ///< its name
+  std::size_t mesh = 0;
+  std::vector<Transform> places;            ///< in the world: one, but for instances
+  std::optional<Part> skin = std::nullopt;  ///< the member that names what holds it
+};
+
+struct Nodes {
+  std::map<std::size_t, Transform> worlds;  ///< of the scene's nodes, by their places in the document
+  std::vector<MeshUse> uses;                ///< in the tree's order
+  std::vector<FileView> views;              ///< in the document's order of cameras, and so are lights
+  std::vector<FileLight> lights;
+};
+
+/// Of the document's scene, the first if it names none; what hidden ones (KHR_node_visibility) would show is left out, and
+/// instances (EXT_mesh_gpu_instancing) are one use in many places. What `pose` says of a node takes the place of what it says
+/// itself. A camera's own picture has 512 pixels on its shorter side; its angle spans the vertical of a picture of `size`, its
+/// own if none is given, from edge to edge (core::View's goes between the middles of pixels). Throws core::InputError, by its
+/// place in the document, for nodes that are no tree, and for transforms that are none.
+Nodes read_nodes(const Document& document, Accessors& accessors, const Meshes& meshes, const Pose& pose,
+                 const std::optional<Resolution>& size);
 
 }  // namespace dmpc::apps::gltf

@@ -1,46 +1,55 @@
 #include "apps/foreign/gltf/reader.h"
 
-#include <assimp/commonMetaData.h>
+#include <filesystem>
+#include <memory>
 
-#include "apps/edge/line/number_text.h"
+#include "apps/foreign/gltf/counts.h"
 #include "apps/foreign/gltf/extensions.h"
 #include "apps/foreign/gltf/materials.h"
 #include "apps/foreign/gltf/nodes.h"
+#include "apps/foreign/gltf/places.h"
+#include "apps/foreign/mesh/count_note.h"
 
 namespace dmpc::apps::gltf {
 namespace {
 
-/// Those that are not played are counted by others, and never looked into.
-void add_animations(const Document& document, bool is_one_played, aiScene& scene) {
-  const std::size_t count = document.root().list("animations").size() - (is_one_played ? 1 : 0);
-  scene.mAnimations = count > 0 ? new aiAnimation*[count] : nullptr;
-  for (; scene.mNumAnimations < count; ++scene.mNumAnimations) {
-    scene.mAnimations[scene.mNumAnimations] = new aiAnimation;
-  }
+namespace fs = std::filesystem;
+
+/// glTF's numbers are floats, but for those of nodes.
+constexpr double float_rounding = 0x1p-25;
+
+PlacedFile read_document(const Document& document, const OpenNamed& open, const MeshOptions& options) {
+  PlacedFile file;
+  file.coordinate_rounding = float_rounding;
+  Buffers buffers(document, open);
+  Accessors accessors(document, buffers);
+  const std::vector<MaterialTraits> materials = read_materials(document, buffers, file);
+  Meshes meshes = read_meshes(document, buffers, accessors, materials);
+  const Pose pose = options.animation ? pose_at(*options.animation, document, accessors, file.notes) : Pose{};
+  Nodes nodes = read_nodes(document, accessors, meshes, pose, options.size);
+  file.views = std::move(nodes.views);
+  file.lights = std::move(nodes.lights);
+  place_meshes(document, accessors, nodes, std::move(meshes), materials, file);
+  const std::size_t animations = document.root().list("animations").size() - (options.animation ? 1 : 0);
+  note_count(file.notes, "animations not played", animations);
+  note_extensions(document, file.notes);
+  return file;
 }
 
 }  // namespace
 
-ImportedFile read_gltf(const Document& document, const OpenNamed& open, const std::optional<AnimationMoment>& animation) {
+PlacedFile read_gltf(const std::string& path, const MeshOptions& options, SceneFiles& files) {
+  const std::unique_ptr<FileBytes> bytes = files.open(path);
+  const Document document = parse_document(bytes->bytes());
   check_required(document);
-  ImportedFile file;
-  file.scene = std::make_unique<aiScene>();
-  file.scene->mMetaData = aiMetadata::Alloc(1);
-  file.scene->mMetaData->Set(0, AI_METADATA_SOURCE_FORMAT, aiString(gltf_source_format));
-  Buffers buffers(document, open);
-  Accessors accessors(document, buffers);
-  Images images(document, buffers);
-  file.textures = add_materials(document, images, *file.scene, file.notes);
-  const Meshes meshes = add_meshes(document, buffers, file);
-  const Pose pose = animation ? pose_at(*animation, document, accessors, file.notes) : Pose{};
-  add_nodes(document, accessors, meshes, pose, file);
-  images.give_to(*file.scene);
-  add_animations(document, animation.has_value(), *file.scene);
-  note_extensions(document, file.notes);
-  if (meshes.corners_left_over > 0) {
-    file.notes.push_back("corners left over at the ends of lists of triangles, left out: " + grouped(meshes.corners_left_over));
-  }
-  return file;
+  files.expect(counts_of(document, bytes->bytes().size(), options.copies));
+  const OpenNamed open = [&](const std::string& name) {
+    const fs::path folder = fs::path(path).parent_path();
+    const auto found = files.meant(folder, name);
+    const std::unique_ptr<FileBytes> file = files.open((found.empty() ? folder / name : found.front()).string());
+    return std::vector<std::byte>(file->bytes().begin(), file->bytes().end());
+  };
+  return read_document(document, open, options);
 }
 
 }  // namespace dmpc::apps::gltf

@@ -148,7 +148,8 @@ void GeometryWriter::add_objects(PolygonMesh mesh, core::Material material) {
   check_faces(mesh.faces, mesh.name);
   check_vertices(mesh);
   if (smooth_degrees_) {
-    mesh.normals = smooth_normals(mesh.vertices, mesh.faces, *smooth_degrees_);
+    smooth_ = smooth_normals(mesh.vertices, mesh.faces, *smooth_degrees_);
+    mesh.normals.clear();
   }
   if (mesh.places.empty()) {
     unplaced_ += material.texture == core::Material::no_texture ? 0 : 1;
@@ -166,7 +167,7 @@ void GeometryWriter::add_objects(PolygonMesh mesh, core::Material material) {
   hides_colors_ = false;
   unseen_ += shows_nothing(material) ? 1 : 0;
   builder_.material(material);
-  const bool is_plain = mesh.normals.empty() && mesh.places.empty() && mesh.colors.empty();
+  const bool is_plain = !smooth_degrees_ && mesh.normals.empty() && mesh.places.empty() && mesh.colors.empty();
   std::size_t first = 0;
   for (const std::uint32_t end : mesh.faces.ends) {
     if (is_plain && (has_area_ || is_shared_)) {
@@ -213,18 +214,19 @@ void GeometryWriter::keep_vertices(std::vector<Vec3d> points, std::vector<std::u
 /// Gives a face the material of its colour, if that is one, and so few have others that each may have its own; else the mesh's.
 bool GeometryWriter::set_one_color(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end) {
   const bool is_opaque = mesh.alphas.empty() || material.alpha == core::AlphaUse::none;
+  const Vec3d& one = mesh.colors[mesh.of_corner(first)];
   for (std::size_t i = first; i < end; ++i) {
-    if (!(mesh.colors[i] == mesh.colors[first]) || !(is_opaque || mesh.alphas[i] >= 1)) {
+    if (!(mesh.colors[mesh.of_corner(i)] == one) || !(is_opaque || mesh.alphas[mesh.of_corner(i)] >= 1)) {
       builder_.material(material);
       return false;
     }
   }
   core::Material face = material;
-  const std::array<double, 3> color{mesh.colors[first].x, mesh.colors[first].y, mesh.colors[first].z};
+  const std::array<double, 3> color{one.x, one.y, one.z};
   const bool is_one =
       face_colors_.contains(color) || (face_colors_.size() < face_colors_max && face_colors_.insert(color).second);
   if (is_one) {
-    face.color = face.color * clamped(mesh.colors[first]);
+    face.color = face.color * clamped(one);
     face.alpha = mesh.places.empty() ? core::AlphaUse::none : face.alpha;
     face.alpha_cutoff = mesh.places.empty() ? 0 : face.alpha_cutoff;
   }
@@ -239,9 +241,10 @@ void GeometryWriter::add_face(const PolygonMesh& mesh, const core::Material& mat
   }
   has_area_ = has_area_ || (!is_shared_ && spans_an_area(face_vertices_));
   face_normals_.clear();
-  if (!mesh.normals.empty()) {
-    face_normals_.assign(mesh.normals.begin() + static_cast<std::ptrdiff_t>(first),
-                         mesh.normals.begin() + static_cast<std::ptrdiff_t>(end));
+  if (smooth_degrees_ || !mesh.normals.empty()) {
+    for (std::size_t i = first; i < end; ++i) {
+      face_normals_.push_back(smooth_degrees_ ? smooth_[i] : mesh.normals[mesh.of_corner(i)]);
+    }
     if (!is_shared_ && core::are_the_faces_own(face_normals_, face_vertices_)) {  // what the shared ones say the place decides
       face_normals_.clear();
     }
@@ -268,9 +271,10 @@ void GeometryWriter::add_corners(const PolygonMesh& mesh, const core::Material& 
   face_corners_.clear();
   for (std::size_t i = first; i < end; ++i) {
     const Vec3d normal = face_normals_.empty() ? Vec3d{} : face_normals_[i - first];
-    const double alpha = mesh.alphas.empty() || material.alpha == core::AlphaUse::none ? 1 : mesh.alphas[i];
-    face_corners_.push_back(mesh.places.empty() ? core::colored_corner(normal, mesh.colors[i], alpha)
-                                                : core::TexturedCorner{normal, mesh.places[i]});
+    const std::size_t at = mesh.of_corner(i);
+    const double alpha = mesh.alphas.empty() || material.alpha == core::AlphaUse::none ? 1 : mesh.alphas[at];
+    face_corners_.push_back(mesh.places.empty() ? core::colored_corner(normal, mesh.colors[at], alpha)
+                                                : core::TexturedCorner{normal, mesh.places[at]});
   }
   builder_.textured(face_corners_.size(), face_corners_);
 }

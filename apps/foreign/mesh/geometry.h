@@ -28,7 +28,7 @@ struct GeometrySize {
   GeometrySize& operator+=(const GeometrySize& other) { return core::add_counts(*this, other); }
 };
 GeometrySize size_of_face(std::uint64_t corners);
-/// Of faces that all have so many.
+/// Of faces of three or more corners.
 GeometrySize size_of(const FaceList& faces);
 /// Throws core::RoomError if a database, or the indices of a scene, do not reach so far.
 void check_size(const GeometrySize& size);
@@ -100,6 +100,7 @@ class GeometryWriter {
   std::uint64_t unplaced_ = 0, unseen_ = 0, meshes_without_colors_ = 0;
   std::set<std::array<double, 3>> face_colors_;  ///< of faces of one colour
   std::vector<core::Vec3d> face_vertices_, face_normals_;
+  std::vector<core::Vec3d> smooth_;  ///< normals that were reckoned anew, a corner of the mesh each
   std::vector<core::TexturedCorner> face_corners_;
 };
 

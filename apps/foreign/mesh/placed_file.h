@@ -1,24 +1,42 @@
-// What a reader of our own has of a file that holds a whole scene: meshes and spheres in places, lights, a sky and a camera.
+// What a reader has of a file: meshes and spheres in places, materials, lights, skies and cameras.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/foreign/mesh/made_picture.h"
-#include "apps/foreign/mesh/polygon_file.h"
+#include "apps/foreign/mesh/polygon_mesh.h"
 #include "apps/foreign/mesh/texture_place.h"
 #include "apps/foreign/mesh/transform.h"
+#include "apps/picture/texture_file.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
 
+/// Where a material says that its colour comes from.
+struct TextureUse {
+  std::string path;  ///< as the file has it; of one within the file its number behind a star
+  TextureEdges edges{.alpha = TextureAlpha::said};
+};
+
+/// A material as one of ours, but for its textures, which are still to be read.
+struct FileMaterial {
+  core::Material material;
+  std::optional<TextureUse> texture = std::nullopt;  ///< that `material`'s colour is multiplied by
+  TexturePlace place{};                              ///< on that
+  std::optional<TextureUse> facets = std::nullopt;   ///< of metal and roughness: what glTF's metallicRoughnessTexture says
+  bool lie_facets_there = false;                     ///< where `texture` does
+  bool is_cut_away = false;                          ///< nothing of the surface is there
+};
+
 /// A mesh, or a sphere, where it is placed.
 struct ShapePlace {
   std::uint32_t shape = 0;  ///< index into PlacedFile::shapes
-  Transform world;          ///< from the shape's own coordinates
+  Transform world{};        ///< from the shape's own coordinates
 };
 
 /// In its own coordinates.
@@ -30,17 +48,16 @@ struct PlacedShape {
   std::uint64_t uses = 0;              ///< how many places it has
 };
 
-struct PlacedMaterial {
-  FileMaterial surface;
-  TexturePlace place;  ///< on its texture
+struct FileView {
+  std::string name;
+  std::optional<core::View> view;  ///< nothing if it has no perspective
 };
 
 enum class FileLightKind : std::uint8_t { point, spot, distant };
 
-/// As physics has it: a point's intensity falls off with the square of the distance.
 struct FileLight {
   FileLightKind kind{};
-  core::Vec3d position;   ///< of a distant one: the way that its light goes
+  core::Vec3d position;   ///< of a distant one: the way that its light goes, of unit length if it goes anywhere
   core::Vec3d intensity;  ///< of a distant one: what a surface gets that faces it
 };
 
@@ -52,17 +69,26 @@ struct FileSky {
 };
 
 struct PlacedFile {
-  std::vector<PlacedMaterial> materials;
-  std::vector<MadePicture> pictures;  ///< what a TextureUse calls "*0", "*1", ...
+  std::vector<FileMaterial> materials;  ///< at least one if there is a shape
+  std::vector<MadePicture> pictures;    ///< what a TextureUse calls "*0", "*1", ...
   std::vector<PlacedShape> shapes;
   std::vector<ShapePlace> places;  ///< in the file's order
+  std::vector<FileView> views;     ///< in the file's order, of which the first that makes a picture is taken
   std::vector<FileLight> lights;
-  core::Vec3d background;      ///< light from everywhere
-  std::vector<FileSky> skies;  ///< beside that
-  std::optional<core::View> view;
+  /// Its lights are all that there is, and as physics has them: a point's intensity falls off with the square of the distance.
+  /// Else those of other files do not fall off, and ours take the place of none.
+  bool is_lit_whole = false;
+  core::Vec3d background;            ///< of what is lit whole: light from everywhere
+  std::vector<FileSky> skies;        ///< beside that
   std::vector<std::string> notes;    ///< what of the file is not shown as it is, a sentence each
   std::vector<std::string> missing;  ///< sentences: which files it refers to cannot be had, in order, each once
   double coordinate_rounding = 0;    ///< as core::Scene's
+
+  /// Adds a mesh that stands where it is.
+  void add(PolygonMesh mesh) {
+    places.push_back({static_cast<std::uint32_t>(shapes.size())});
+    shapes.push_back({.mesh = std::move(mesh), .sphere = {}, .back = {}, .uses = 1});
+  }
 };
 
 }  // namespace dmpc::apps

@@ -1,10 +1,12 @@
 // A mesh of polygons, by whatever reader.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/vec.h"
@@ -17,15 +19,44 @@ struct FaceList {
   std::vector<std::uint32_t> ends;     ///< of each face: one past its last corner
 };
 
+/// Three corners a face.
+inline FaceList triangle_list(std::vector<std::uint32_t> corners) {
+  FaceList faces{.corners = std::move(corners), .ends = {}};
+  faces.ends.resize(faces.corners.size() / 3);
+  for (std::size_t i = 0; i < faces.ends.size(); ++i) {
+    faces.ends[i] = static_cast<std::uint32_t>(3 * (i + 1));
+  }
+  return faces;
+}
+
 struct PolygonMesh {
   std::string name;                          ///< "mesh 3 'wheel'", for messages
-  std::size_t material = 0;                  ///< index into a file's materials
-  std::vector<core::Vec3d> vertices;         ///< in the world
-  FaceList faces;                            ///< each of at least 3 corners
-  std::vector<core::Vec3d> normals;          ///< a corner each, of any length, or none; where all of a face are 0 it is flat
-  std::vector<std::array<float, 2>> places;  ///< on the texture, t downwards: a corner each, or none
-  std::vector<core::Vec3d> colors;           ///< linear, 0 to 1, by which the material's is multiplied: a corner each, or none
-  std::vector<double> alphas;                ///< of `colors`, 0 to 1: a corner each, or none where all are 1
+  std::size_t material = 0;                  ///< index into PlacedFile::materials
+  std::vector<core::Vec3d> vertices;         ///< in coordinates of its own
+  FaceList faces;                            ///< each of at least 3 corners, of vertices that exist
+  bool is_by_vertex = false;                 ///< what follows is each vertex's, not each corner's
+  std::vector<core::Vec3d> normals;          ///< of any length, or none; where all of a face are 0 it is flat
+  std::vector<std::array<float, 2>> places;  ///< on the texture, t downwards, or none
+  std::vector<core::Vec3d> colors;           ///< linear, 0 to 1, by which the material's is multiplied, or none
+  std::vector<double> alphas;                ///< of `colors`, 0 to 1, or none where all are 1
+
+  /// The index of what a corner has among normals, places, colors and alphas.
+  std::size_t of_corner(std::size_t corner) const { return is_by_vertex ? faces.corners[corner] : corner; }
+  /// Makes a face look to the other side.
+  void turn(std::size_t first_corner, std::size_t end) {
+    const auto reverse = [&](auto& list) {
+      if (!list.empty()) {
+        std::reverse(list.begin() + static_cast<std::ptrdiff_t>(first_corner), list.begin() + static_cast<std::ptrdiff_t>(end));
+      }
+    };
+    reverse(faces.corners);
+    if (!is_by_vertex) {
+      reverse(normals);
+      reverse(places);
+      reverse(colors);
+      reverse(alphas);
+    }
+  }
 };
 
 }  // namespace dmpc::apps

@@ -18,27 +18,21 @@ struct SurfacePoint {
 
 /// A grid over u and v, both from 0 to 1; faces look to where u, then v turn counter-clockwise.
 PolygonMesh grid_mesh(int columns, int rows, const std::function<SurfacePoint(double u, double v)>& at) {
-  PolygonMesh mesh;
-  std::vector<SurfacePoint> points;
+  PolygonMesh mesh{.name = {}, .is_by_vertex = true};
   for (int row = 0; row <= rows; ++row) {
     for (int column = 0; column <= columns; ++column) {
-      points.push_back(at(static_cast<double>(column) / columns, static_cast<double>(row) / rows));
-      mesh.vertices.push_back(points.back().point);
+      const SurfacePoint surface = at(static_cast<double>(column) / columns, static_cast<double>(row) / rows);
+      mesh.vertices.push_back(surface.point);
+      mesh.normals.push_back(surface.normal);
+      mesh.places.push_back(
+          {static_cast<float>(column) / static_cast<float>(columns), 1 - static_cast<float>(row) / static_cast<float>(rows)});
     }
   }
-  const auto add = [&](int column, int row) {
-    const auto vertex = static_cast<std::uint32_t>(row * (columns + 1) + column);
-    mesh.faces.corners.push_back(vertex);
-    mesh.normals.push_back(points[vertex].normal);
-    mesh.places.push_back(
-        {static_cast<float>(column) / static_cast<float>(columns), 1 - static_cast<float>(row) / static_cast<float>(rows)});
-  };
+  const auto vertex = [&](int column, int row) { return static_cast<std::uint32_t>(row * (columns + 1) + column); };
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      add(column, row);
-      add(column + 1, row);
-      add(column + 1, row + 1);
-      add(column, row + 1);
+      mesh.faces.corners.insert(mesh.faces.corners.end(), {vertex(column, row), vertex(column + 1, row),
+                                                           vertex(column + 1, row + 1), vertex(column, row + 1)});
       mesh.faces.ends.push_back(static_cast<std::uint32_t>(mesh.faces.corners.size()));
     }
   }

@@ -1,8 +1,6 @@
 // The textures of a mesh file's materials.
 #pragma once
 
-#include <assimp/scene.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -12,38 +10,20 @@
 #include <string>
 #include <vector>
 
-#include "apps/foreign/mesh/made_picture.h"
+#include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/mesh/scene_files.h"
-#include "apps/picture/texture_file.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::apps {
 
-/// Where a material says that its colour comes from.
-struct TextureUse {
-  std::string path;          ///< as the file has it; of one within the file its number behind a star, or its name
-  unsigned coordinates = 0;  ///< which of a mesh's texture coordinates
-  TextureEdges edges;
-};
-
-core::TextureWrap wrap_of(aiTextureMapMode mode);
-
-/// The base colour's (glTF), else that of diffuse light; nothing if the material has neither, or one that is no picture laid out
-/// by coordinates.
-std::optional<TextureUse> colour_texture(const aiMaterial& source);
-
 /// Reads each texture once, from beside the mesh file or from within it.
 class TextureReader {
  public:
-  /// `file` is what lies at `path`, if Assimp's types hold it: it may have textures within. It and `files` outlive the reader.
-  /// `textures` get names alone.
-  TextureReader(const aiScene* file, const std::filesystem::path& path, SceneFiles& files, std::vector<core::Texture>& textures)
-      : file_(file), path_(path), files_(files), textures_(textures) {}
-
-  /// Of a file that holds `pictures` itself, which its materials call "*0", "*1", ... They outlive the reader.
+  /// Of a file at `path` that holds `pictures` itself, which its materials call "*0", "*1", ... These and `files` outlive the
+  /// reader. `textures` get names alone.
   TextureReader(std::span<const MadePicture> pictures, const std::filesystem::path& path, SceneFiles& files,
                 std::vector<core::Texture>& textures)
-      : file_(nullptr), pictures_(pictures), path_(path), files_(files), textures_(textures) {}
+      : pictures_(pictures), path_(path), files_(files), textures_(textures) {}
 
   /// Its place among the scene's textures; nothing if it cannot be had, which missing() tells.
   std::optional<std::uint32_t> find(const TextureUse& use);
@@ -66,7 +46,6 @@ class TextureReader {
   /// The one that the file holds itself.
   const MadePicture* made(const std::string& name) const;
 
-  const aiScene* file_;
   std::span<const MadePicture> pictures_;
   std::filesystem::path path_;
   SceneFiles& files_;

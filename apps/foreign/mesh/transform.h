@@ -1,21 +1,21 @@
 // From a node's coordinates to the world's.
 #pragma once
 
-#include <assimp/matrix4x4.h>
-#include <assimp/vector3.h>
-
-#include "core/base/vec.h"
 #include "core/scene/transform.h"
 
 namespace dmpc::apps {
 
 using core::Transform;
 
-inline core::Vec3d to_vec(const aiVector3D& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
-
-/// Multiplies by `factor`.
-Transform scaling(double factor);
-/// First `local`, then `world`.
-Transform operator*(const Transform& world, const aiMatrix4x4& local);
+/// First `inner`, then `outer`.
+inline Transform composed(const Transform& outer, const Transform& inner) {
+  Transform product;
+  for (std::size_t row = 0; row < 3; ++row) {
+    const core::Vec3d& by = outer.rows[row];
+    product.rows[row] = inner.rows[0] * by.x + inner.rows[1] * by.y + inner.rows[2] * by.z;
+  }
+  product.shift = outer.point(inner.shift);
+  return product;
+}
 
 }  // namespace dmpc::apps

@@ -115,11 +115,12 @@ MtlMaterial Resolver::colored(MtlMaterial material) const {
 }
 
 std::uint32_t Resolver::add(const MtlMaterial& source) {
-  FileMaterial material{.material = shown_material(colored(source)), .texture = std::nullopt};
+  FileMaterial material{.material = shown_material(colored(source))};
   MaterialUse use{.name = source.name.empty() ? "what has no material" : "what has material '" + clipped(source.name, 60) + "'",
                   .texture = std::nullopt};
   if (source.texture) {
     material.texture = TextureUse{.path = source.texture->name, .edges = source.texture->edges};
+    material.texture->edges.alpha = TextureAlpha::said;
     use.texture = source.texture->place;
   }
   result_.list.push_back(std::move(material));

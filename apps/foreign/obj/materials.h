@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/foreign/mesh/polygon_file.h"
+#include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/obj/geometry.h"
 #include "apps/foreign/obj/libraries.h"
 #include "apps/foreign/obj/meshes.h"

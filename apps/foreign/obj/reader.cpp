@@ -27,8 +27,8 @@ void append(std::vector<std::string> more, std::vector<std::string>& all) {
 
 }  // namespace
 
-PolygonFile read_obj(const std::string& path, SceneFiles& files) {
-  PolygonFile result;
+PlacedFile read_obj(const std::string& path, SceneFiles& files) {
+  PlacedFile result;
   obj::Geometry geometry = read_geometry(path, files);
   obj::Libraries libraries(geometry.material_names, path, files);
   for (const std::string& names : geometry.libraries) {
@@ -41,7 +41,9 @@ PolygonFile read_obj(const std::string& path, SceneFiles& files) {
   append(std::move(materials.notes), result.notes);
   result.materials = std::move(materials.list);
   result.missing = std::move(libraries.missing);
-  result.meshes = obj::meshes_of(std::move(geometry), materials.of_runs, materials.uses);
+  for (PolygonMesh& mesh : obj::meshes_of(std::move(geometry), materials.of_runs, materials.uses)) {
+    result.add(std::move(mesh));
+  }
   return result;
 }
 

@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "apps/foreign/mesh/polygon_file.h"
+#include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/mesh/scene_files.h"
 
 namespace dmpc::apps {
 
 /// All faces, with materials from the files that it names. Throws core::InputError, with the line, for what it may not say,
 /// core::RoomError for more than indices reach.
-PolygonFile read_obj(const std::string& path, SceneFiles& files);
+PlacedFile read_obj(const std::string& path, SceneFiles& files);
 
 }  // namespace dmpc::apps

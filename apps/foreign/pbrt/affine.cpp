@@ -8,16 +8,6 @@ namespace dmpc::apps::pbrt {
 
 using core::Vec3d;
 
-Transform composed(const Transform& outer, const Transform& inner) {
-  Transform product;
-  for (std::size_t row = 0; row < 3; ++row) {
-    const Vec3d& by = outer.rows[row];
-    product.rows[row] = inner.rows[0] * by.x + inner.rows[1] * by.y + inner.rows[2] * by.z;
-  }
-  product.shift = outer.point(inner.shift);
-  return product;
-}
-
 std::optional<Transform> inverse_of(const Transform& map) {
   const auto& [a, b, c] = map.rows;
   const Vec3d bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);

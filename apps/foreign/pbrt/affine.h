@@ -8,8 +8,6 @@
 
 namespace dmpc::apps::pbrt {
 
-/// First `inner`, then `outer`.
-Transform composed(const Transform& outer, const Transform& inner);
 /// Nothing of what presses space flat, or whose numbers are beyond what doubles hold.
 std::optional<Transform> inverse_of(const Transform& map);
 

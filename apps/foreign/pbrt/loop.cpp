@@ -177,14 +177,11 @@ PolygonMesh at_the_limit(Mesh mesh) {
     const Ring ring = surface.ring(vertex);
     normals.push_back(ring.around.empty() ? Vec3d{} : ring.is_closed ? normal_at(limit, ring) : mean_normal(limit, vertex, ring));
   }
-  PolygonMesh result{.name = {}, .vertices = std::move(limit)};
-  for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
-    result.normals.push_back(normals[mesh.corners[i]]);
-    if (i % 3 == 2) {
-      result.faces.ends.push_back(static_cast<std::uint32_t>(i + 1));
-    }
-  }
-  result.faces.corners = std::move(mesh.corners);
+  PolygonMesh result{.name = {},
+                     .vertices = std::move(limit),
+                     .faces = triangle_list(std::move(mesh.corners)),
+                     .is_by_vertex = true,
+                     .normals = std::move(normals)};
   return result;
 }
 

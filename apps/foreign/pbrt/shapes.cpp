@@ -90,26 +90,16 @@ Corners corners_of(const Parameters& parameters, std::size_t of_a_face) {
   return corners;
 }
 
-void turn(PolygonMesh& mesh, std::size_t first, std::size_t end) {
-  const auto reverse = [&](auto& list) {
-    if (!list.empty()) {
-      std::reverse(list.begin() + static_cast<std::ptrdiff_t>(first), list.begin() + static_cast<std::ptrdiff_t>(end));
-    }
-  };
-  reverse(mesh.faces.corners);
-  reverse(mesh.normals);
-  reverse(mesh.places);
-}
-
 /// Faces with normals look to where these do, whichever way their corners go round.
 void turn_to_normals(PolygonMesh& mesh) {
   std::size_t first = 0;
   for (const std::uint32_t end : mesh.faces.ends) {
     if (!mesh.normals.empty()) {
       const auto corner = [&](std::size_t i) { return mesh.vertices[mesh.faces.corners[first + i]]; };
-      const Vec3d normal = mesh.normals[first] + mesh.normals[first + 1] + mesh.normals[first + 2];
+      const auto normal_of = [&](std::size_t i) { return mesh.normals[mesh.of_corner(first + i)]; };
+      const Vec3d normal = normal_of(0) + normal_of(1) + normal_of(2);
       if (dot(cross(corner(1) - corner(0), corner(2) - corner(0)), normal) < 0) {
-        turn(mesh, first, end);
+        mesh.turn(first, end);
       }
     }
     first = end;
@@ -128,15 +118,15 @@ void add_corner(const Corners& corners, std::uint32_t vertex, PolygonMesh& mesh)
 
 PolygonMesh triangle_mesh(const Parameters& parameters) {
   Corners corners = corners_of(parameters, 3);
-  PolygonMesh mesh;
-  mesh.faces.corners.reserve(corners.indices.size());
-  for (std::size_t i = 0; i < corners.indices.size(); ++i) {
-    add_corner(corners, corners.indices[i], mesh);
-    if (i % 3 == 2) {
-      mesh.faces.ends.push_back(static_cast<std::uint32_t>(i + 1));
-    }
+  PolygonMesh mesh{.name = {},
+                   .vertices = std::move(corners.points),
+                   .faces = triangle_list(std::move(corners.indices)),
+                   .is_by_vertex = true,
+                   .normals = std::move(corners.normals),
+                   .places = std::move(corners.places)};
+  for (PlaceOnPicture& place : mesh.places) {
+    place[1] = 1 - place[1];
   }
-  mesh.vertices = std::move(corners.points);
   turn_to_normals(mesh);
   return mesh;
 }

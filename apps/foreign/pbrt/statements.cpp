@@ -7,6 +7,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/pbrt/affine.h"
+#include "apps/foreign/pbrt/reader.h"
 #include "apps/foreign/pbrt/shapes.h"
 #include "apps/foreign/text/line_words.h"
 #include "core/scene/kept_meshes.h"
@@ -105,7 +106,10 @@ PlacedFile Statements::read(const std::optional<Resolution>& size) {
   const Camera camera = camera_.value_or(Camera{});
   const bool is_turned = sees_left_handed(camera);
   const Transform turn = is_turned ? scaling(Vec3d{-1, 1, 1}) : Transform{};
-  file_.view = view_of(camera, film_, size, turn);
+  if (const auto view = view_of(camera, film_, size, turn)) {
+    file_.views.push_back({.name = "", .view = view});
+  }
+  file_.is_lit_whole = true;
   turn_round(turn);
   file_.coordinate_rounding = float_rounding;
   if (is_turned) {
@@ -541,6 +545,10 @@ void Statements::drop_undrawn() {
   const std::size_t before = file_.places.size();
   std::erase_if(file_.places, is_undrawn);
   notes_.count("shapes that only part media from each other, or that alpha takes away, left out", before - file_.places.size());
+}
+
+PlacedFile read_pbrt(const std::string& path, const MeshOptions& options, SceneFiles& files) {
+  return Statements(path, files, options.copies).read(options.size);
 }
 
 }  // namespace dmpc::apps::pbrt

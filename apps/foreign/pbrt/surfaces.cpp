@@ -218,9 +218,12 @@ void Surfaces::settle(const Tokens& tokens) {
   }
 }
 
-PlacedMaterial Surfaces::material_of(const Surface& surface, const Vec3d& emission, double opacity) {
-  PlacedMaterial result{.surface = {.material = {}, .texture = surface.color.picture}, .place = surface.color.place};
-  core::Material& material = result.surface.material;
+FileMaterial Surfaces::material_of(const Surface& surface, const Vec3d& emission, double opacity) {
+  FileMaterial result{.texture = surface.color.picture, .place = surface.color.place};
+  if (result.texture) {
+    result.texture->edges.alpha = TextureAlpha::said;
+  }
+  core::Material& material = result.material;
   if (!surface.has_facets) {
     material = apps::material_of(PhongSurface{.diffuse = surface.is_drawn ? clamped(surface.color.color) : Vec3d{},
                                               .specular = {},

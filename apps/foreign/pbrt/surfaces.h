@@ -40,7 +40,7 @@ class Surfaces {
   void settle(const Tokens& tokens);
   /// After settle().
   const Surface& at(std::uint32_t number) const { return *slots_[number].surface; }
-  static PlacedMaterial material_of(const Surface& surface, const core::Vec3d& emission, double opacity);
+  static FileMaterial material_of(const Surface& surface, const core::Vec3d& emission, double opacity);
 
  private:
   struct Mixture {

@@ -18,7 +18,7 @@ std::uint32_t texel_of(const Vec3d& color) { return core::encoded(core::TexelFor
 
 MadePicture checks(const Vec3d& first, const Vec3d& second) {
   constexpr std::uint32_t side = squares * square_texels;
-  MadePicture picture{.width = side, .height = side, .texels = {}};
+  MadePicture picture{.width = side, .height = side, .texels = {}, .file = {}, .format_hint = {}};
   for (std::uint32_t y = 0; y < side; ++y) {
     for (std::uint32_t x = 0; x < side; ++x) {
       const bool is_first = (x / square_texels + (side - 1 - y) / square_texels) % 2 == 0;

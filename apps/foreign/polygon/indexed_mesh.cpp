@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -10,7 +11,6 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/geometry.h"
-#include "apps/foreign/mesh/without_area.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -23,7 +23,7 @@ constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 Vec3d color_vec(const Color& color) { return {double{color[0]}, double{color[1]}, double{color[2]}}; }
 
 /// For each face the material that is its own times its colour's; no_index, and no new material, if there are too many.
-std::optional<std::vector<std::uint32_t>> coloured_materials(const IndexedMesh& mesh, PolygonFile& file) {
+std::optional<std::vector<std::uint32_t>> coloured_materials(const IndexedMesh& mesh, PlacedFile& file) {
   std::map<std::pair<std::uint32_t, Color>, std::uint32_t> known;
   std::vector<std::uint32_t> materials;
   const auto first = static_cast<std::uint32_t>(file.materials.size());
@@ -50,11 +50,6 @@ class Part {
  public:
   explicit Part(const IndexedMesh& mesh) : mesh_(mesh) {}
 
-  /// Whether corners have anything but their vertices.
-  bool has_corners() const {
-    return !(mesh_.normals.empty() && mesh_.places.empty() && mesh_.corner_places.empty() && mesh_.colors.empty() &&
-             mesh_.face_colors.empty());
-  }
   /// What corners of the face have, but for their vertices.
   void add_corners(std::size_t face, PolygonMesh& part) const;
   /// The corners, among the part's own vertices.
@@ -106,20 +101,29 @@ void Part::end(std::span<const std::uint32_t> faces) {
   }
 }
 
-void reserve_corners(const IndexedMesh& mesh, PolygonMesh& whole) {
+/// What each corner has, and not each vertex.
+void give_corners(const IndexedMesh& mesh, PolygonMesh& whole) {
   const std::size_t count = mesh.faces.corners.size();
   whole.normals.reserve(mesh.normals.empty() ? 0 : count);
   whole.places.reserve(mesh.places.empty() && mesh.corner_places.empty() ? 0 : count);
   whole.colors.reserve(mesh.colors.empty() && mesh.face_colors.empty() ? 0 : count);
+  const Part part(mesh);
+  for (std::size_t face = 0; face < mesh.faces.ends.size(); ++face) {
+    part.add_corners(face, whole);
+  }
 }
 
-/// All of it, without a second copy of vertices and faces.
+/// All of it, without a second copy of what it has.
 PolygonMesh whole_of(IndexedMesh mesh, std::size_t material) {
   PolygonMesh whole{.name = mesh.name, .material = material};
-  reserve_corners(mesh, whole);
-  const Part part(mesh);
-  for (std::size_t face = 0; part.has_corners() && face < mesh.faces.ends.size(); ++face) {
-    part.add_corners(face, whole);
+  whole.is_by_vertex = mesh.corner_places.empty() && mesh.face_colors.empty();
+  if (whole.is_by_vertex) {
+    whole.normals = std::move(mesh.normals);
+    whole.places = std::move(mesh.places);
+    whole.colors.reserve(mesh.colors.size());
+    std::transform(mesh.colors.begin(), mesh.colors.end(), std::back_inserter(whole.colors), color_vec);
+  } else {
+    give_corners(mesh, whole);
   }
   whole.vertices = std::move(mesh.vertices);
   whole.faces = std::move(mesh.faces);
@@ -134,7 +138,7 @@ std::vector<std::uint32_t> sorted_faces(const std::vector<std::uint32_t>& materi
   return faces;
 }
 
-void add_parts(const IndexedMesh& mesh, PolygonFile& file) {
+void add_parts(const IndexedMesh& mesh, PlacedFile& file) {
   const std::vector<std::uint32_t> faces = sorted_faces(mesh.face_materials);
   Part source(mesh);
   for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
@@ -144,7 +148,7 @@ void add_parts(const IndexedMesh& mesh, PolygonFile& file) {
       source.add_face(faces[end], part);
     }
     source.end(std::span(faces).subspan(begin, end - begin));
-    file.meshes.push_back(std::move(part));
+    file.add(std::move(part));
   }
 }
 
@@ -158,7 +162,7 @@ void IndexedMesh::add_face(std::span<const std::uint32_t> corners) {
   faces.ends.push_back(static_cast<std::uint32_t>(faces.corners.size()));
 }
 
-void add_meshes(IndexedMesh mesh, PolygonFile& file) {
+void add_meshes(IndexedMesh mesh, PlacedFile& file) {
   if (mesh.faces.ends.empty()) {
     return;
   }
@@ -172,15 +176,9 @@ void add_meshes(IndexedMesh mesh, PolygonFile& file) {
   const auto is_other = [&](std::uint32_t material) { return material != materials.front(); };
   if (materials.empty() || std::none_of(materials.begin(), materials.end(), is_other)) {
     const std::size_t material = materials.empty() ? 0 : materials.front();
-    file.meshes.push_back(whole_of(std::move(mesh), material));
+    file.add(whole_of(std::move(mesh), material));
   } else {
     add_parts(mesh, file);
-  }
-}
-
-void check_has_faces(const PolygonFile& file) {
-  if (file.meshes.empty()) {
-    refuse_without_area("there is no mesh in it, and so no triangle that has an area", file.notes);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/foreign/mesh/polygon_file.h"
+#include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/mesh/polygon_mesh.h"
 #include "apps/foreign/polygon/screen_colour.h"
 #include "core/base/vec.h"
@@ -35,9 +35,6 @@ struct IndexedMesh {
 /// Adds a mesh for each material that it has. Where faces have at most face_colors_max colours, each becomes a material, which
 /// has the faces' one colour to the last bit; where they have more, corners have the colours. The first of the file's materials
 /// is there.
-void add_meshes(IndexedMesh mesh, PolygonFile& file);
-
-/// Throws core::InputError if it has no face.
-void check_has_faces(const PolygonFile& file);
+void add_meshes(IndexedMesh mesh, PlacedFile& file);
 
 }  // namespace dmpc::apps

@@ -33,7 +33,7 @@ class OffReader {
   OffReader(std::string_view text, ReadingProgress& progress)
       : text_(text), words_(text, 1, '#'), progress_(progress), bytes_(text.size()) {}
 
-  PolygonFile read();
+  PlacedFile read();
 
  private:
   void read_header();
@@ -245,7 +245,7 @@ void OffReader::expect_mesh() {
                                      bytes_));
 }
 
-PolygonFile OffReader::read() {
+PlacedFile OffReader::read() {
   read_header();
   expect_mesh();
   mesh_.vertices.reserve(std::min(vertices_, room()));
@@ -258,7 +258,7 @@ PolygonFile OffReader::read() {
     read_face(i);
     progress_.show(words_.position());
   }
-  PolygonFile file;
+  PlacedFile file;
   const auto note = [&file](const std::string& what, std::uint64_t count) { note_count(file.notes, what, count); };
   note("points and lines left out", thin_);
   note("colours by their number in a map, which are not shown", from_map_);
@@ -278,7 +278,7 @@ PolygonFile OffReader::read() {
 
 }  // namespace
 
-PolygonFile read_off(const std::string& path, SceneFiles& files) {
+PlacedFile read_off(const std::string& path, SceneFiles& files) {
   return read_whole(path, files, [](std::string_view file, ReadingProgress& progress) {
     return OffReader(without_mark(file), progress).read();
   });

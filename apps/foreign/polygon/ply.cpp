@@ -56,7 +56,7 @@ class PlyReader {
   PlyReader(std::string_view file, ReadingProgress& progress)
       : progress_(progress), header_(read_ply_header(file)), values_(ply_values(header_, file)), surfaces_(header_.textures) {}
 
-  PolygonFile read();
+  PlacedFile read();
   PolygonMesh read_shape(std::vector<std::string>& notes);
   const PlyHeader& header() const { return header_; }
 
@@ -405,18 +405,18 @@ PolygonMesh PlyReader::read_shape(std::vector<std::string>& notes) {
   mesh_.colors = {};
   mesh_.face_colors = {};
   mesh_.face_materials = {};
-  PolygonFile file;
+  PlacedFile file;
   add_meshes(std::move(mesh_), file);
-  return file.meshes.empty() ? PolygonMesh{} : std::move(file.meshes.front());
+  return file.shapes.empty() ? PolygonMesh{} : std::move(file.shapes.front().mesh);
 }
 
-PolygonFile PlyReader::read() {
+PlacedFile PlyReader::read() {
   read_elements();
   note_all();
   finish_colors();
-  PolygonFile file{.materials = surfaces_.materials(!mesh_.colors.empty() || !mesh_.face_colors.empty()),
-                   .notes = std::move(header_.notes),
-                   .coordinate_rounding = coordinate_rounding_};
+  PlacedFile file{.materials = surfaces_.materials(!mesh_.colors.empty() || !mesh_.face_colors.empty()),
+                  .notes = std::move(header_.notes),
+                  .coordinate_rounding = coordinate_rounding_};
   file.notes.insert(file.notes.end(), notes_.begin(), notes_.end());
   for (FileMaterial& material : file.materials) {
     material.texture = is_textured() ? material.texture : std::nullopt;  // which nobody looks for where it is not shown
@@ -427,7 +427,7 @@ PolygonFile PlyReader::read() {
 
 }  // namespace
 
-PolygonFile read_ply(const std::string& path, SceneFiles& files) {
+PlacedFile read_ply(const std::string& path, SceneFiles& files) {
   return read_whole(path, files, [](std::string_view file, ReadingProgress& progress) {
     PlyReader reader(without_mark(file), progress);
     progress.expect(counts_of_ply(reader.header(), without_mark(file)));

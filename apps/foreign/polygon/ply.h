@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/foreign/mesh/polygon_file.h"
+#include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/mesh/scene_files.h"
 
 namespace dmpc::apps {
@@ -14,7 +14,7 @@ namespace dmpc::apps {
 /// textures (`comment TextureFile`, `texnumber`), places on these and colours; strips of triangles (`tristrips`) are faces, too.
 /// Elements and properties come in any order. Numbers in text are read as doubles, whatever type they have. Throws
 /// core::InputError, with the line or byte.
-PolygonFile read_ply(const std::string& path, SceneFiles& files);
+PlacedFile read_ply(const std::string& path, SceneFiles& files);
 
 /// The shape alone of such a file, as a mesh without a material, with normals and places on a texture if the file has them.
 /// `notes` gets sentences about what of the shape is not shown.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/foreign/mesh/polygon_file.h"
+#include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/polygon/ply_row.h"
 
 namespace dmpc::apps {

@@ -28,7 +28,7 @@ bool is_text(std::string_view file) {
 
 }  // namespace
 
-PolygonFile read_stl(const std::string& path, SceneFiles& files) {
+PlacedFile read_stl(const std::string& path, SceneFiles& files) {
   return read_whole(path, files, [](std::string_view file, ReadingProgress& progress) {
     return is_text(file) ? read_stl_text(without_mark(file), progress) : read_stl_binary(file, progress);
   });

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/foreign/mesh/polygon_file.h"
+#include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/mesh/scene_files.h"
 
 namespace dmpc::apps {
@@ -12,6 +12,6 @@ namespace dmpc::apps {
 /// its first word, `solid`, in letters of any case, by having no zero byte, and by not being as long as its count says, since
 /// files in binary begin with that word, too. Colours of the whole (COLOR=) and of facets are shown. Throws core::InputError,
 /// with the line or facet.
-PolygonFile read_stl(const std::string& path, SceneFiles& files);
+PlacedFile read_stl(const std::string& path, SceneFiles& files);
 
 }  // namespace dmpc::apps

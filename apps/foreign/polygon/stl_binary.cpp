@@ -33,7 +33,7 @@ class StlBinaryReader {
   StlBinaryReader(std::string_view file, ReadingProgress& progress)
       : file_(file), progress_(progress), whole_color_(color_in(file.substr(0, header_bytes))) {}
 
-  PolygonFile read();
+  PlacedFile read();
 
  private:
   /// What the header says of the whole.
@@ -119,7 +119,7 @@ void StlBinaryReader::read_facet(std::size_t facet) {
   }
 }
 
-PolygonFile StlBinaryReader::read() {
+PlacedFile StlBinaryReader::read() {
   const std::size_t count = count_facets();
   progress_.expect(counts_of_facets(count, file_.size()));
   mesh_.vertices.reserve(3 * count);
@@ -137,7 +137,7 @@ PolygonFile StlBinaryReader::read() {
   } else if (whole_color_) {
     material.color = {double{(*whole_color_)[0]}, double{(*whole_color_)[1]}, double{(*whole_color_)[2]}};
   }
-  PolygonFile file{.materials = {{material, {}}}, .notes = std::move(notes_), .coordinate_rounding = 0x1p-25};
+  PlacedFile file{.materials = {{material, {}}}, .notes = std::move(notes_), .coordinate_rounding = 0x1p-25};
   add_meshes(std::move(mesh_), file);
   return file;
 }
@@ -149,6 +149,6 @@ bool is_whole_stl_binary(std::string_view file) {
          file.size() == facets_begin + facet_bytes * std::size_t{value_at<std::uint32_t>(file, header_bytes)};
 }
 
-PolygonFile read_stl_binary(std::string_view file, ReadingProgress& progress) { return StlBinaryReader(file, progress).read(); }
+PlacedFile read_stl_binary(std::string_view file, ReadingProgress& progress) { return StlBinaryReader(file, progress).read(); }
 
 }  // namespace dmpc::apps

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "apps/foreign/mesh/polygon_file.h"
+#include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/polygon/reading_progress.h"
 
 namespace dmpc::apps {
@@ -15,6 +15,6 @@ bool is_whole_stl_binary(std::string_view file);
 /// colour of all facets whose attribute is 0 or has its highest bit; others have their own: 5 bits of red, from the lowest, of
 /// green and of blue. Without it attributes with the highest bit are colours (VisCAM): 5 bits of blue, green and red. Throws
 /// core::InputError.
-PolygonFile read_stl_binary(std::string_view file, ReadingProgress& progress);
+PlacedFile read_stl_binary(std::string_view file, ReadingProgress& progress);
 
 }  // namespace dmpc::apps

@@ -26,10 +26,10 @@ class StlTextReader {
  public:
   StlTextReader(std::string_view text, ReadingProgress& progress) : text_(text), words_(text), progress_(progress) {}
 
-  PolygonFile read();
+  PlacedFile read();
 
  private:
-  void read_solid(PolygonFile& file);
+  void read_solid(PlacedFile& file);
   void read_facet(IndexedMesh& mesh);
   /// The next word, which has to be this one.
   void take(std::string_view word) { expect(words_.next(), word); }
@@ -41,10 +41,10 @@ class StlTextReader {
   std::size_t solids_ = 0;
 };
 
-PolygonFile StlTextReader::read() {
+PlacedFile StlTextReader::read() {
   constexpr std::size_t words_a_facet = 21;
   progress_.expect(counts_of_facets(count_words(text_) / words_a_facet, text_.size()));
-  PolygonFile file{.materials = {{plain_material(), {}}}};
+  PlacedFile file{.materials = {{plain_material(), {}}}};
   for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
     if (solids_ > 0 && !is_same(word, "solid")) {
       file.notes.emplace_back("what follows the last solid is left out");
@@ -56,7 +56,7 @@ PolygonFile StlTextReader::read() {
   return file;
 }
 
-void StlTextReader::read_solid(PolygonFile& file) {
+void StlTextReader::read_solid(PlacedFile& file) {
   const std::string name = clipped(words_.rest_of_line(), 100);
   IndexedMesh mesh{.name = "solid " + std::to_string(++solids_) + (name.empty() ? "" : " '" + name + "'")};
   for (std::string_view word = words_.next(); !is_same(word, "endsolid"); word = words_.next()) {
@@ -98,6 +98,6 @@ void StlTextReader::expect(std::string_view found, std::string_view word) const 
 
 }  // namespace
 
-PolygonFile read_stl_text(std::string_view text, ReadingProgress& progress) { return StlTextReader(text, progress).read(); }
+PlacedFile read_stl_text(std::string_view text, ReadingProgress& progress) { return StlTextReader(text, progress).read(); }
 
 }  // namespace dmpc::apps

@@ -10,15 +10,13 @@
 
 namespace dmpc::apps {
 
-/// What read(bytes as text, progress) makes of the file. Throws core::InputError if it cannot be opened, or has no face.
+/// What read(bytes as text, progress) makes of the file. Throws core::InputError if it cannot be opened.
 template <class Read>
-PolygonFile read_whole(const std::string& path, SceneFiles& files, const Read& read) {
+PlacedFile read_whole(const std::string& path, SceneFiles& files, const Read& read) {
   const std::unique_ptr<FileBytes> bytes = files.open(path);
   const std::string_view file = text_of(*bytes);
   ReadingProgress progress(files, file.size());
-  PolygonFile result = read(file, progress);
-  check_has_faces(result);
-  return result;
+  return read(file, progress);
 }
 
 }  // namespace dmpc::apps

@@ -243,14 +243,14 @@ TEST_CASE("a coordinate that is not finite is refused, with its mesh and vertex"
   CHECK(contains(complaint("a.gltf", gltf.text()), "beyond 1e30"));
 }
 
-TEST_CASE("an index of a vertex that does not exist is refused where Assimp lets it pass") {
+TEST_CASE("an index of a vertex that does not exist is refused") {
   std::string text = tests::triangle_ply;
   text.replace(text.find("3 0 1 2"), 7, "3 0 1 9");
   CHECK(contains(complaint("a.ply", text), "face 0 has a vertex that does not exist"));
 }
 
 TEST_CASE("a transform that is not finite is refused, with its node") {
-  const Gltf gltf{.nodes = R"([{"mesh":0,"name":"press","scale":[1e300,1,1]}])"};
+  const Gltf gltf{.nodes = R"([{"mesh":0,"name":"press","scale":[1e200,1e200,1]}])"};
   CHECK(contains(complaint("a.gltf", gltf.text()), "'press' is not finite"));
 }
 

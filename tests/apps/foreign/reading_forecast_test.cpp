@@ -173,30 +173,6 @@ TEST_CASE("a forecast has each face and corner of a file, in text and in binary"
   }
 }
 
-TEST_CASE("of lines and points of glTF a forecast has a face of Assimp's each, and no triangles") {
-  const auto forecast_of_mode = [](const std::string& mode, int indices) {
-    tests::GltfDocument document;
-    const std::size_t positions = document.accessor(document.view(tests::bytes_of(tests::triangle_corners)), 5126, 3, "VEC3");
-    const auto primitive = [&](const std::string& rest) {
-      return R"({"attributes":{"POSITION":)" + std::to_string(positions) + "}" + rest + "}";
-    };
-    std::string list(2 * static_cast<std::size_t>(indices), '\0');
-    const std::size_t places = document.accessor(document.view(list), 5123, static_cast<std::size_t>(indices), "SCALAR");
-    return *tests::read_mesh(
-                "a.gltf",
-                document.text(primitive("") + "," + primitive(R"(,"mode":)" + mode + R"(,"indices":)" + std::to_string(places)),
-                              ""))
-                .forecast;
-  };
-  constexpr std::uint64_t face_bytes = 48;
-  for (const auto& [mode, faces] : {std::pair{"0", 30'000U}, {"1", 15'000U}, {"3", 30'000U}}) {
-    CAPTURE(mode);
-    const auto few = forecast_of_mode(mode, 2), many = forecast_of_mode(mode, 30'002);
-    CHECK(many.reader_bytes - few.reader_bytes >= face_bytes * faces);
-    CHECK(many.transfer_bytes == few.transfer_bytes);
-  }
-}
-
 TEST_CASE("of what stands in several places a forecast has all of them, as nodes or as instances of one") {
   const auto forecast_with = [](int nodes, int instances) {
     tests::GltfDocument document;

@@ -4,9 +4,13 @@
 
 #include "apps/formats/mesh_file.h"
 #include "core/base/expect.h"
+#include "tests/support/text.h"
 
-namespace dmpc::apps {
+namespace dmpc::apps::other_formats_test {
+
 namespace {
+
+using tests::contains;
 
 std::string complaint(const std::string& path) {
   try {
@@ -17,6 +21,8 @@ std::string complaint(const std::string& path) {
   return "";
 }
 
+}  // namespace
+
 TEST_CASE("a file of another format is refused with the line that converts it") {
   CHECK(complaint("models/Chair.LWO") ==
         "models/Chair.LWO: LWO is not read: have Assimp (Debian's assimp-utils) make glTF of it, and look at the result:\n"
@@ -25,12 +31,12 @@ TEST_CASE("a file of another format is refused with the line that converts it") 
 }
 
 TEST_CASE("FBX, Collada and Blender's own are converted by Blender, whatever their files are called") {
-  CHECK(complaint("it's OUT IN.fbx")
-            .ends_with("bpy.ops.import_scene.fbx(filepath=sys.argv[-2]); bpy.ops.export_scene.gltf(filepath=sys.argv[-1])\" -- "
-                       "'it'\\''s OUT IN.fbx' 'it'\\''s OUT IN.glb'"));
-  CHECK(complaint("a.dae").find("blender --background --python-expr \"import bpy, sys; ") != std::string::npos);
-  CHECK(complaint("a.dae").find("bpy.ops.wm.collada_import(filepath=") != std::string::npos);
-  CHECK(complaint("a.blend").find("\n  blender --background 'a.blend' --python-expr") != std::string::npos);
+  CHECK(contains(complaint("it's IMPORT OUT IN.fbx"), "bpy.ops.import_scene.fbx(filepath=sys.argv[-2]); "));
+  CHECK(complaint("it's IMPORT OUT IN.fbx")
+            .ends_with("export_lights=True)\" -- 'it'\\''s IMPORT OUT IN.fbx' 'it'\\''s IMPORT OUT IN.glb'"));
+  CHECK(contains(complaint("a.dae"), "\n  blender --background --factory-startup --python-expr \"import bpy, sys; "));
+  CHECK(contains(complaint("a.dae"), "bpy.ops.wm.collada_import(filepath="));
+  CHECK(contains(complaint("IMPORT.blend"), "\n  blender --background --factory-startup 'IMPORT.blend' --python-expr"));
 }
 
 TEST_CASE("files of other formats are mesh files by their ending, and those of ours are none of others") {
@@ -45,5 +51,4 @@ TEST_CASE("files of other formats are mesh files by their ending, and those of o
   CHECK_FALSE(is_other_format("fbx"));
 }
 
-}  // namespace
-}  // namespace dmpc::apps
+}  // namespace dmpc::apps::other_formats_test

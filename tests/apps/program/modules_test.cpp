@@ -107,7 +107,7 @@ TEST_CASE("what renders nothing, and a render to a picture of any kind, load nei
                                              render_of(folder / "a.png", "--heatmap=rays:" + (folder / "h.png").string())}) {
     CAPTURE(arguments[0]);
     const std::string loaded = loaded_by(arguments);
-    for (const std::string library : {"OpenImageIO", "embree", "assimp", "libmpi", "httplib", "libssl", "dmpc_"}) {
+    for (const std::string library : {"OpenImageIO", "embree", "libmpi", "httplib", "libssl", "dmpc_"}) {
       CHECK_FALSE_MESSAGE(contains(loaded, library), library);
     }
   }
@@ -127,11 +127,11 @@ TEST_CASE("each program that reads or writes for dmpc is linked with the librari
   };
   const std::string of_meshes = libraries_of("dmpc_mesh_reader"), of_pictures = libraries_of("dmpc_picture_reader"),
                     of_plain = libraries_of("dmpc_plain_picture_reader"), of_writer = libraries_of("dmpc_picture_writer");
-  CHECK((contains(of_meshes, "libassimp") && !contains(of_meshes, "OpenImageIO") && !contains(of_meshes, "embree")));
-  CHECK((contains(of_pictures, "libOpenImageIO") && !contains(of_pictures, "assimp") && !contains(of_pictures, "embree")));
+  CHECK((contains(of_meshes, "libdraco") && !contains(of_meshes, "OpenImageIO") && !contains(of_meshes, "embree")));
+  CHECK((contains(of_pictures, "libOpenImageIO") && !contains(of_pictures, "draco") && !contains(of_pictures, "embree")));
   CHECK((contains(of_plain, "libpng") && contains(of_plain, "libjpeg") && !contains(of_plain, "OpenImageIO") &&
-         !contains(of_plain, "assimp") && !contains(of_plain, "embree")));
-  CHECK((contains(of_writer, "libOpenImageIO") && !contains(of_writer, "assimp") && !contains(of_writer, "embree")));
+         !contains(of_plain, "draco") && !contains(of_plain, "embree")));
+  CHECK((contains(of_writer, "libOpenImageIO") && !contains(of_writer, "draco") && !contains(of_writer, "embree")));
 }
 
 TEST_CASE("a module that is missing is said with its places, before anything is rendered") {

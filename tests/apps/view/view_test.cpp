@@ -120,12 +120,10 @@ TEST_CASE("from very far away, too, the command makes the picture to the last bi
 
 TEST_CASE("a mesh with a camera of its own, and no light, is lit as the command lights it") {
   const TemporaryFolder folder;
-  const std::string lens = "<xfov>50</xfov><aspect_ratio>1</aspect_ratio><znear>0.1</znear><zfar>9</zfar>";
-  write_text(folder / "a mesh.dae", collada("<lambert/>",
-                                            R"(<library_cameras><camera id="c"><optics><technique_common><perspective>)" + lens +
-                                                R"(</perspective></technique_common></optics></camera></library_cameras>)",
-                                            R"(<node id="n"><translate>1 0 2</translate><instance_camera url="#c"/></node>)"));
-  Viewed viewed((folder / "a mesh.dae").string(), {"--resolution=16x16", "--transport=whitted", "--samples=4"});
+  tests::Gltf gltf{.nodes = R"([{"mesh":0},{"camera":0,"translation":[1,0,2]}])", .roots = "[0,1]"};
+  gltf.more = R"("cameras":[{"type":"perspective","perspective":{"yfov":0.9,"znear":0.1}}])";
+  write_text(folder / "a mesh.gltf", gltf.text());
+  Viewed viewed((folder / "a mesh.gltf").string(), {"--resolution=16x16", "--transport=whitted", "--samples=4"});
   const std::string own = viewed.resting_picture();
   CHECK(film_by(Viewed::value(own, "command")) == Viewed::value(own, "film"));
   viewed.wish("2,1,3/0.5,0,0/0,1,0/45", false);

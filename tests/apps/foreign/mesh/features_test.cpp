@@ -1,4 +1,4 @@
-#include "apps/foreign/mesh/features.h"
+// What a mesh file has and a picture of ours does not show.
 
 #include <doctest/doctest.h>
 
@@ -30,9 +30,7 @@ Notes notes_of_text(const std::string& name, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("of a plain mesh nothing but the view is said, and who read it where we do not") {
-  CHECK(notes_of_text("a.gltf", tests::Gltf{}.text()).size() == 1);
-}
+TEST_CASE("of a plain mesh nothing but the view is said") { CHECK(notes_of_text("a.gltf", tests::Gltf{}.text()).size() == 1); }
 
 TEST_CASE("a texture whose mesh has no places on it is said") {
   const tests::TemporaryFolder folder;

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "apps/foreign/mesh/placed_mesh.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::geometry_test {
@@ -147,11 +146,28 @@ TEST_CASE("sizes add up") {
   CHECK(size.corners == 7);
 }
 
-TEST_CASE("a mesh is called by its number, and its name if it has one") {
-  aiMesh mesh;
-  CHECK(name_of(mesh, 3) == "mesh 3");
-  mesh.mName = "wheel";
-  CHECK(name_of(mesh, 3) == "mesh 3 'wheel'");
+TEST_CASE("what vertices have makes the scene that it makes where each corner has it") {
+  PolygonMesh by_vertex{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, .faces = {{0, 1, 2, 0, 2, 3}, {3, 6}}};
+  by_vertex.is_by_vertex = true;
+  by_vertex.normals = {{0, 0, 1}, {0, 1, 1}, {1, 0, 1}, {1, 1, 1}};
+  by_vertex.places = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+  PolygonMesh by_corner{.vertices = by_vertex.vertices, .faces = by_vertex.faces};
+  for (const std::uint32_t vertex : by_vertex.faces.corners) {
+    by_corner.normals.push_back(by_vertex.normals[vertex]);
+    by_corner.places.push_back(by_vertex.places[vertex]);
+  }
+  by_vertex.turn(3, 6);
+  by_corner.turn(3, 6);
+  core::Scene first{.textures = {{.name = "leaf", .levels = {}}}}, second = first;
+  IndexedVertices vertices, others;
+  GeometryWriter(first, vertices, std::nullopt).add(by_vertex, {.texture = 0});
+  GeometryWriter(second, others, std::nullopt).add(by_corner, {.texture = 0});
+  REQUIRE(first.corners.size() == 6);
+  for (std::size_t i = 0; i < 6; ++i) {
+    CHECK(first.corners[i].normal == second.corners[i].normal);
+    CHECK(first.corners[i].place == second.corners[i].place);
+  }
+  CHECK(first.corners[3].place == std::array<float, 2>{0, 0});
 }
 
 }  // namespace dmpc::apps::geometry_test

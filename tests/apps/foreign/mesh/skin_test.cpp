@@ -1,4 +1,4 @@
-#include "apps/foreign/mesh/skin.h"
+#include "apps/foreign/gltf/places.h"
 
 #include <doctest/doctest.h>
 
@@ -111,7 +111,7 @@ TEST_CASE("a skin that does not hold together is refused, with its place") {
   CHECK(complaint(rig).empty());  // a joint that holds nothing may be any
   rig.weights[0] = -1;
   rig.joints[0] = 0;
-  CHECK(contains(complaint(rig), "holds vertex 0, which does not exist, or with a weight that is below 0"));
+  CHECK(contains(complaint(rig), "skins[0]: vertex 0 is held with a weight that is below 0"));
   rig = Rig{.binds = "1"};
   CHECK(contains(complaint(rig), "has 1 matrices, expected one for each of 2 joints"));
   CHECK(contains(complaint(Rig{.skins = R"([{"joints":[9]}])"}), "refers to nodes[9]"));
