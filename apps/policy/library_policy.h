@@ -10,8 +10,8 @@
 namespace dmpc::apps {
 
 /// Opens the library at `path` and tells `answer` its policy's name, then the faults of each cache. Once in a process. Throws
-/// core::InputError: the file may not be opened (apps/edge/system/trusted_path.h), is no library, has no policy or that of another version,
-/// or the policy complains, throws, or names a frame that there is not.
+/// core::InputError: the file may not be opened (apps/edge/system/trusted_path.h), is no library, has no policy or that of
+/// another version, or the policy complains, throws, or names a frame that there is not.
 void answer_by_library(const std::string& path, const PolicyRequest& request,
                        const std::function<void(const std::string& line)>& answer);
 

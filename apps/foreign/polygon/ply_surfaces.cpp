@@ -28,12 +28,13 @@ core::Vec3d color_of(const PlyRow& row, PlyRole red, PlyRole green, PlyRole blue
 
 void PlySurfaces::add_material(const PlyRow& row) {
   using enum PlyRole;
-  materials_.push_back(apps::material_of(PhongSurface{.diffuse = color_of(row, red, green, blue),
-                                                      .specular = color_of(row, specular_red, specular_green, specular_blue),
-                                                      .shine = row.has(shine) ? row[shine] : 0,
-                                                      .refraction_index = 1,
-                                                      .opacity = row.has(opacity) ? std::clamp(share_of(row, opacity), 0.0, 1.0) : 1,
-                                                      .illumination = std::nullopt}));
+  materials_.push_back(
+      apps::material_of(PhongSurface{.diffuse = color_of(row, red, green, blue),
+                                     .specular = color_of(row, specular_red, specular_green, specular_blue),
+                                     .shine = row.has(shine) ? row[shine] : 0,
+                                     .refraction_index = 1,
+                                     .opacity = row.has(opacity) ? std::clamp(share_of(row, opacity), 0.0, 1.0) : 1,
+                                     .illumination = std::nullopt}));
 }
 
 std::uint32_t PlySurfaces::find(std::uint32_t material, std::optional<std::uint32_t> texture) {

@@ -46,7 +46,6 @@ TEST_CASE("heat maps may be asked for several times, of every kind") {
   CHECK(kinds_of(requests).size() == 10);
 }
 
-
 TEST_CASE("there may be 32 heat maps and no more") {
   std::vector<std::string> arguments;
   for (std::size_t i = 0; i < heat_requests_max; ++i) {

@@ -177,8 +177,7 @@ TEST_CASE("MTL: Pr or Pm makes tiny mirrors, rough and no metal unless said, who
 }
 
 TEST_CASE("formats that say nothing of metal and roughness have no tiny mirrors") {
-  for (const auto& [name, text] : {std::pair{"a.ply", tests::triangle_ply},
-                                   {"a.obj", tests::triangle_obj}}) {
+  for (const auto& [name, text] : {std::pair{"a.ply", tests::triangle_ply}, {"a.obj", tests::triangle_obj}}) {
     CAPTURE(name);
     const tests::TemporaryFolder folder;
     tests::write_text(folder / name, text);
