@@ -148,7 +148,7 @@ void CacheStudy::measure(StudyRuns& runs, Table& table) const {
       references_of(recorded), recorded.pages().references,
       cache_pages.empty() ? geometric_sizes(page_count - page_count / node_count, standard_size_count) : cache_pages, policies,
       {.check = [&runs] { runs.check(); }});
-  recorded = {.film = core::Film(1, 1)};  // the references take much memory
+  recorded = svm::Report{{{.film = core::Film(1, 1)}}};  // the references take much memory
   if (machine) {
     add_timed_rows(*this, curves, page_count, runs, table);
   } else {

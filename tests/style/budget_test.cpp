@@ -1,0 +1,117 @@
+// How many lines each library and its tests may have: who adds some raises a number here, and says why in the commit, or takes
+// others out.
+
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "tests/style/sources.h"
+#include "tests/support/documents.h"
+
+namespace dmpc::tests::budget_test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with all below it that no other row names.
+struct Row {
+  std::string folder;
+  std::size_t lines_max;
+};
+using Rows = std::vector<Row>;
+
+// What was there on 2026-11-28, and 3 %.
+const Rows sources = {
+    {"apps", 23'090},           {"apps/computer", 5'800},   {"apps/edge", 15'400},
+    {"apps/foreign", 14'830},   {"apps/lab", 2'320},        {"apps/lab/bench", 9'990},
+    {"apps/lab/oracle", 5'060}, {"apps/lab/study", 10'150}, {"apps/main", 230},
+    {"apps/manual", 310},       {"apps/modules", 670},      {"apps/policy", 650},
+    {"core", 28'870},           {"core/base", 1'560},       {"dataflow", 9'100},
+    {"nodes", 10'010},          {"nodes/pictures", 490},    {"svm", 3'380},
+    {"svm/forest", 630},        {"svm/pages", 3'740},
+};
+const Rows tests = {
+    {"tests", 6'060},           {"tests/apps", 16'200},        {"tests/apps/computer", 2'210},
+    {"tests/apps/edge", 6'250}, {"tests/apps/foreign", 5'920}, {"tests/apps/lab", 11'620},
+    {"tests/core", 18'040},     {"tests/dataflow", 8'100},     {"tests/nodes", 8'890},
+    {"tests/support", 5'000},   {"tests/svm", 5'560},          {"tests/whole", 4'380},
+};
+
+/// Of all sources together, whatever the rows add up to.
+constexpr std::size_t sources_max = 142'000;
+
+/// The row of a file: the longest folder that it lies in.
+const Row* row_of(const std::string& file, const Rows& rows) {
+  const Row* found = nullptr;
+  for (const Row& row : rows) {
+    if (file.rfind(row.folder + "/", 0) == 0 && (found == nullptr || row.folder.size() > found->folder.size())) {
+      found = &row;
+    }
+  }
+  return found;
+}
+
+std::string said_of(const std::string& folder, std::size_t lines, std::size_t lines_max) {
+  return folder + " has " + std::to_string(lines) + " lines, and its budget is " + std::to_string(lines_max) +
+         ": take something out, or raise the number in tests/style/budget_test.cpp and say why in the commit";
+}
+
+/// A fault for each folder of too many lines and each file that no row has.
+Faults faults_of(const std::map<std::string, std::size_t>& lines_of_files, const Rows& rows) {
+  std::map<std::string, std::size_t> lines;
+  Faults faults;
+  for (const auto& [file, count] : lines_of_files) {
+    if (const Row* row = row_of(file, rows)) {
+      lines[row->folder] += count;
+    } else {
+      faults.push_back(file + " lies in no folder that has a budget: give it one in tests/style/budget_test.cpp");
+    }
+  }
+  for (const Row& row : rows) {
+    if (lines[row.folder] > row.lines_max) {
+      faults.push_back(said_of(row.folder, lines[row.folder], row.lines_max));
+    }
+  }
+  return faults;
+}
+
+std::map<std::string, std::size_t> count_below(const std::vector<std::string>& folders) {
+  const fs::path root = DMPC_SOURCE_DIR;
+  std::map<std::string, std::size_t> counts;
+  for (const std::string& folder : folders) {
+    for (const std::string& file : sources_below(root, folder)) {
+      counts[file] = lines_of(root / file).size();
+    }
+  }
+  return counts;
+}
+
+const std::vector<std::string> layers = {"core", "nodes", "svm", "dataflow", "apps"};
+
+}  // namespace
+
+TEST_CASE("no library has more lines than its budget") { CHECK(faults_of(count_below(layers), sources) == Faults{}); }
+
+TEST_CASE("no library's tests have more lines than their budget") { CHECK(faults_of(count_below({"tests"}), tests) == Faults{}); }
+
+TEST_CASE("all sources together have at most 142,000 lines") {
+  const auto counts = count_below(layers);
+  const auto add = [](std::size_t sum, const auto& file) { return sum + file.second; };
+  CHECK(std::accumulate(counts.begin(), counts.end(), std::size_t{0}, add) <= sources_max);
+}
+
+TEST_CASE("a line too many is told with its folder, and a file without a budget by its name") {
+  const Rows rows = {{"core", 3}, {"core/base", 2}};
+  CHECK(faults_of({{"core/a.h", 3}, {"core/base/b.h", 2}}, rows) == Faults{});
+  CHECK(faults_of({{"core/a.h", 1}, {"core/base/b.h", 3}}, rows) == Faults{said_of("core/base", 3, 2)});
+  CHECK(faults_of({{"core/a.h", 4}}, rows) == Faults{said_of("core", 4, 3)});
+  CHECK(faults_of({{"corer/a.h", 1}}, rows).size() == 1);
+}
+
+}  // namespace dmpc::tests::budget_test
