@@ -1,16 +1,17 @@
 #include "apps/foreign/mesh_reader.h"
 
 #include <array>
+#include <filesystem>
 #include <string_view>
 
 #include "apps/foreign/gltf/reader.h"
-#include "apps/foreign/mesh/file_ending.h"
 #include "apps/foreign/obj/reader.h"
 #include "apps/foreign/pbrt/reader.h"
 #include "apps/foreign/placed_scene.h"
 #include "apps/foreign/polygon/off.h"
 #include "apps/foreign/polygon/ply.h"
 #include "apps/foreign/polygon/stl.h"
+#include "apps/foreign/text/small_letters.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
 
@@ -31,14 +32,14 @@ struct MeshFormat {
 };
 
 constexpr std::array mesh_formats{
-    MeshFormat{"glb", gltf::read_gltf},           MeshFormat{"gltf", gltf::read_gltf},
-    MeshFormat{"obj", without_options<read_obj>}, MeshFormat{"off", without_options<read_off>},
-    MeshFormat{"pbrt", pbrt::read_pbrt},          MeshFormat{"gz", pbrt::read_pbrt},
-    MeshFormat{"ply", without_options<read_ply>}, MeshFormat{"stl", without_options<read_stl>},
+    MeshFormat{".glb", gltf::read_gltf},           MeshFormat{".gltf", gltf::read_gltf},
+    MeshFormat{".obj", without_options<read_obj>}, MeshFormat{".off", without_options<read_off>},
+    MeshFormat{".pbrt", pbrt::read_pbrt},          MeshFormat{".gz", pbrt::read_pbrt},
+    MeshFormat{".ply", without_options<read_ply>}, MeshFormat{".stl", without_options<read_stl>},
 };
 
 PlacedFile read(const std::string& path, const MeshOptions& options, SceneFiles& files) {
-  const std::string ending = ending_of(path);
+  const std::string ending = in_small_letters(std::filesystem::path(path).extension().string());
   for (const MeshFormat& format : mesh_formats) {
     if (ending == format.ending) {
       return format.reader(path, options, files);

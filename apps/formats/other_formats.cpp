@@ -64,9 +64,8 @@ constexpr std::array other_formats{
     OtherFormat{"usda", "USD", blender, "wm.usd_import"},
     OtherFormat{"usdc", "USD", blender, "wm.usd_import"},
     OtherFormat{"usdz", "USD", blender, "wm.usd_import"},
-    OtherFormat{"wrl", "VRML", blender, "import_scene.x3d"},
     OtherFormat{"x", "DirectX", assimp},
-    OtherFormat{"x3d", "X3D", blender, "import_scene.x3d"},
+    OtherFormat{"x3d", "X3D", assimp},
 };
 
 const OtherFormat* format_of_path(const std::string& path) {

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "apps/foreign/mesh/made_picture.h"
 #include "apps/foreign/mesh/polygon_mesh.h"
 #include "apps/foreign/mesh/texture_place.h"
 #include "apps/foreign/mesh/transform.h"
@@ -16,6 +16,14 @@
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {
+
+/// A picture that a file holds itself: texels, or a picture's file.
+struct MadePicture {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint32_t> texels;  ///< sRGB, red in the lowest byte
+  std::vector<std::byte> file;
+  std::string format_hint;  ///< how such files end
+};
 
 /// Where a material says that its colour comes from.
 struct TextureUse {

@@ -12,11 +12,13 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "apps/formats/mesh_file.h"
 #include "core/base/expect.h"
+#include "tests/fuzz/input_files.h"
 #include "tests/support/packed_gltf.h"
 #include "tests/support/read_mesh.h"
 #include "tests/support/temporary_folder.h"
@@ -112,9 +114,8 @@ void check_same(const Scene& scene, const Scene& plain) {
 /// Reads from memory; empty unless it is refused as bad input.
 std::string complaint_of_bytes(const std::string& bytes) {
   try {
-    const auto* const first = reinterpret_cast<const std::byte*>(bytes.data());
-    const apps::gltf::Document document = apps::gltf::parse_document({first, bytes.size()});
-    read_gltf(document, [](const std::string& name) -> std::vector<std::byte> { throw core::InputError(name + " is missing"); });
+    fuzz::InputFiles files("a.gltf", std::as_bytes(std::span(bytes)));
+    apps::gltf::read_gltf("a.gltf", {}, files);
   } catch (const core::InputError& error) {
     return error.what();
   }

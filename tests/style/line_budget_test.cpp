@@ -13,7 +13,7 @@
 #include "tests/style/sources.h"
 #include "tests/support/documents.h"
 
-namespace dmpc::tests::budget_test {
+namespace dmpc::tests::line_budget_test {
 
 namespace {
 
@@ -59,7 +59,7 @@ const Row* row_of(const std::string& file, const Rows& rows) {
 
 std::string said_of(const std::string& folder, std::size_t lines, std::size_t lines_max) {
   return folder + " has " + std::to_string(lines) + " lines, and its budget is " + std::to_string(lines_max) +
-         ": take something out, or raise the number in tests/style/budget_test.cpp and say why in the commit";
+         ": take something out, or raise the number in tests/style/line_budget_test.cpp and say why in the commit";
 }
 
 /// A fault for each folder of too many lines and each file that no row has.
@@ -70,7 +70,7 @@ Faults faults_of(const std::map<std::string, std::size_t>& lines_of_files, const
     if (const Row* row = row_of(file, rows)) {
       lines[row->folder] += count;
     } else {
-      faults.push_back(file + " lies in no folder that has a budget: give it one in tests/style/budget_test.cpp");
+      faults.push_back(file + " lies in no folder that has a budget: give it one in tests/style/line_budget_test.cpp");
     }
   }
   for (const Row& row : rows) {
@@ -114,4 +114,4 @@ TEST_CASE("a line too many is told with its folder, and a file without a budget 
   CHECK(faults_of({{"corer/a.h", 1}}, rows).size() == 1);
 }
 
-}  // namespace dmpc::tests::budget_test
+}  // namespace dmpc::tests::line_budget_test
