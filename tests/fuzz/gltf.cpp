@@ -33,7 +33,7 @@ bool is_of_interest(Bytes input) {
         return false;
       }
     }
-    return document.version == 2;
+    return true;
   } catch (const core::InputError&) {
     return true;
   }

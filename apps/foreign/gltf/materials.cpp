@@ -280,6 +280,7 @@ void MaterialReader::add(const Part& source, MaterialTraits& traits) {
   static const nlohmann::json nothing = nlohmann::json::object();
   const Base base = base_of(source, Part(nothing));
   FileMaterial& material = file_.materials.emplace_back();
+  source.text("name", "");  // which nobody shows, and which is no name if it is no text
   add_others(source, base, traits);
   material.material = surface_of(source, base, traits);
   set_alpha(source, std::clamp(base.colours.numbers(base.color, {1, 1, 1, 1})[3], 0.0, 1.0), material);

@@ -77,7 +77,7 @@ class Tree {
   std::multimap<std::size_t, Standing> cameras, lights;  ///< by their places in the document
 
  private:
-  void add_shown(const Part& source, const Transform& world);
+  void add_shown(const Part& source, const std::string& name, const Transform& world);
   std::vector<Transform> instances(const Part& instancing, const Transform& world);
 
   std::vector<Part> nodes_;
@@ -120,8 +120,7 @@ std::vector<Transform> Tree::instances(const Part& instancing, const Transform& 
 }
 
 /// The mesh, the camera and the light of a node.
-void Tree::add_shown(const Part& source, const Transform& world) {
-  const std::string name = source.text("name", source.where());
+void Tree::add_shown(const Part& source, const std::string& name, const Transform& world) {
   if (const auto mesh = source.index("mesh", meshes_.ranges.size(), "meshes")) {
     const auto instancing = source.extension("EXT_mesh_gpu_instancing");
     const auto skin = source.find("skin");
@@ -149,9 +148,10 @@ void Tree::add(const Part& where, const Transform& parent, int level, bool is_be
                                   : "nodes that are recursive or shared: nodes[" + std::to_string(index) +
                                         "] hangs below two nodes, or below itself, and nodes must be a tree");
   }
+  const std::string name = source.text("name", source.where());
   const bool hides = is_below_hidden || is_hidden(source);
   if (!hides) {
-    add_shown(source, world);
+    add_shown(source, name, world);
   }
   for (const Part& child : source.list("children")) {
     add(child, world, level + 1, hides);
@@ -243,6 +243,7 @@ Nodes read_nodes(const Document& document, Accessors& accessors, const Meshes& m
     root.fail("has no scene, so that nothing says what is to be shown");
   }
   const Part& shown = scenes[root.index("scene", scenes.size(), "scenes").value_or(0)];
+  shown.text("name", "");  // which nobody shows, and which is no name if it is no text
   Tree tree(document, accessors, meshes, pose);
   for (const Part& where : shown.list("nodes")) {
     tree.add(where, {}, 0, false);

@@ -32,12 +32,12 @@ const std::map<std::string, std::string> refused = {
     {"PLY/points.ply", "no triangle"},                      // vertices alone
     {"PLY/pond.0.ply", "it ends within element 'vertex' 70049 of 70051"},
     {"glTF/BoxTextured-glTF-Binary/BoxTextured.glb", "of another version"},  // glTF 1 in binary
-    {"glTF/BoxTextured-glTF-Embedded/BoxTextured.gltf", "asset.version: the version is '1'"},
-    {"glTF/BoxTextured-glTF-MaterialsCommon/BoxTextured.gltf", "asset.version: the version is '1'"},
-    {"glTF/BoxTextured-glTF/BoxTextured.gltf", "asset.version: the version is '1'"},
-    {"glTF/CesiumMilkTruck/CesiumMilkTruck.gltf", "asset.version: the version is '1'"},
-    {"glTF/IncorrectVertexArrays/Cube_v1.gltf", "asset.version: the version is '1'"},
-    {"glTF/TwoBoxes/TwoBoxes.gltf", "asset.version: the version is '1'"},
+    {"glTF/BoxTextured-glTF-Embedded/BoxTextured.gltf", "asset.version: the version is '1"},
+    {"glTF/BoxTextured-glTF-MaterialsCommon/BoxTextured.gltf", "asset.version: the version is '1"},
+    {"glTF/BoxTextured-glTF/BoxTextured.gltf", "asset.version: the version is '1"},
+    {"glTF/CesiumMilkTruck/CesiumMilkTruck.gltf", "asset.version: the version is '1"},
+    {"glTF/IncorrectVertexArrays/Cube_v1.gltf", "asset.version: the version is '1"},
+    {"glTF/TwoBoxes/TwoBoxes.gltf", "asset.version: the version is '1"},
     {"glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "not a number, infinite"},
     {"glTF2/IndexOutOfRange/AllIndicesOutOfRange.gltf", "does not exist: there are 24"},
     {"glTF2/BoxTextured-glTF-techniqueWebGL/BoxTextured.gltf", "requires what is not shown here: KHR_technique_webgl"},

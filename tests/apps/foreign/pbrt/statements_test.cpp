@@ -89,7 +89,7 @@ TEST_CASE("an object stands wherever it is named, its own transform behind the i
   REQUIRE(file.scene.objects.size() == 2);
   CHECK(file.scene.vertices[0] == Vec3d{2, 0, 0});
   CHECK(file.scene.vertices[3] == Vec3d{1, 0, 0});
-  CHECK(notes(file, "1 shape stands in 2 places"));
+  CHECK(notes(file, "1 mesh stands in 2 places: 1 triangles become 2"));
   CHECK(tests::contains(pbrt_refusal("ObjectInstance \"o\""), "no object \"o\" is there"));
   CHECK(tests::contains(pbrt_refusal("ObjectBegin \"o\" ObjectInstance \"o\""), "stands within an object"));
   CHECK(tests::contains(pbrt_refusal("ObjectBegin \"o\" ObjectBegin \"p\""), "within another object"));
