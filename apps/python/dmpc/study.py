@@ -24,12 +24,11 @@ def balance(
     "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox:
     Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines",
     "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None =
-    None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms",
-    "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] |
-    None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None =
-    None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,
-    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text | None = None, plots: Text |
-    None = None
+    None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions",
+    "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None,
+    bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None,
+    light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure:
+    Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How evenly the work of rays that travel is shared out."""
     return studying.study("balance", ["scene"], locals())
@@ -42,11 +41,11 @@ def traffic(
     | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available",
     "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None =
     None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality:
-    Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms", "empty-regions",
-    "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None,
-    bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None,
-    light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure:
-    Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text | None = None, plots: Text | None = None
+    Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles",
+    "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None,
+    sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None,
+    page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents",
+    "voxels"] | None = None, voxels: Text | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """What travels when rays do, beside what travels when pages do."""
     return studying.study("traffic", ["scene"], locals())
@@ -60,11 +59,11 @@ def cache(
     files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None = None, resolution:
     Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text | None = None, error:
     Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None,
-    no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] |
-    Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
-    Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size:
-    Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None
-    = None, voxels: Text | None = None, report: Text | None = None, plots: Text | None = None
+    no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] |
+    None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None,
+    occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None,
+    record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text
+    | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How often pages are missed with caches of every size and policy."""
     return studying.study("cache", ["scene"], locals())
@@ -84,8 +83,8 @@ def speedup(
     | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None = None, sandbox: Literal["available", "required"] | None =
     None, resolution: Text | None = None, depth: int | None = None, convention: Literal["haines", "paper"] | None = None, samples: Text |
     None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"]
-    | None = None, no_skip: Literal["empty-space", "any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes",
-    "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
+    | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] |
+    Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
     Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size:
     Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None
     = None, voxels: Text | None = None, report: Text | None = None, plots: Text | None = None
@@ -102,12 +101,12 @@ def systems(
     = None, missing: Literal["error", "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] | None =
     None, sandbox: Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None, convention:
     Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None,
-    cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit", "unlit",
-    "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport:
-    Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None
-    = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial",
-    "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text |
-    None = None, plots: Text | None = None
+    cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms",
+    "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] |
+    None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None =
+    None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,
+    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text | None = None, plots: Text |
+    None = None
 ) -> pandas.DataFrame:
     """The systems that the 1994 article classifies, side by side on one machine."""
     return studying.study("systems", ["scene"], locals())
@@ -121,12 +120,12 @@ def frames(
     | None = None, missing: Literal["error", "plain"] | Sequence[Text] | None = None, files: Literal["below", "anywhere"] | Sequence[Text] |
     None = None, sandbox: Literal["available", "required"] | None = None, resolution: Text | None = None, depth: int | None = None,
     convention: Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None =
-    None, cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["empty-space", "any-hit",
-    "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport:
-    Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None
-    = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial",
-    "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text |
-    None = None, plots: Text | None = None
+    None, cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms",
+    "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] |
+    None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None =
+    None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,
+    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text | None = None, plots: Text |
+    None = None
 ) -> pandas.DataFrame:
     """What frames of a moving camera fetch and send, with caches warm and cold."""
     return studying.study("frames", ["scene"], locals())
