@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <stdexcept>
@@ -34,11 +35,13 @@ std::string complaint_of(const std::function<void()>& act) {
 }
 
 TEST_CASE("work returns what it comes to, on another thread, while this one looks after something") {
-  int looks = 0;
+  std::atomic<int> looks = 0;
   const std::thread::id here = std::this_thread::get_id();
   const std::thread::id there = Errands().while_working(
-      [] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      [&] {
+        for (int waited = 0; looks == 0 && waited < 60'000; ++waited) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
         return std::this_thread::get_id();
       },
       [&] {
