@@ -197,7 +197,7 @@ const Refusal pairs[] = {
     {"render --ray-places=4", "--ray-places goes with --strategy=dataflow: "},
     {"render --tested-objects=4", "--tested-objects goes with --strategy=dataflow: "},
     {"render --no-backpressure", "--no-backpressure goes with --strategy=dataflow: "},
-    {"render --strategy=replicated --ray-queue=5 --tested-objects=2", "--tested-objects goes with"},  // the fewest have it
+    {"render --strategy=replicated --ray-queue=5 --tested-objects=2", "--ray-queue goes with"},  // the first of them in help
     {"render --ray-queue=5 --no-backpressure", "--ray-queue goes with"},
     {"dataflow --in-flight=2 --cache-pages=3", "--cache-pages goes with"},
     {"render --system=svm --structure=extents", "--structure=extents does not go with --system=svm"},
