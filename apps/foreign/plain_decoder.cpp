@@ -95,8 +95,8 @@ class OpenedPlain final : public OpenedPicture {
 };
 
 /// By plain_formats.
-constexpr std::array<decltype(&png_picture), plain_formats.size()> readers = {png_picture, jpeg_picture, exr_picture};
-static_assert(readers.back() != nullptr, "each plain format has a reader");
+constexpr std::array readers{&png_picture, &jpeg_picture, &exr_picture};
+static_assert(readers.size() == plain_formats.size(), "each plain format has a reader");
 
 std::optional<RawPicture> plain_picture(const EncodedPicture& picture) {
   const auto format = std::ranges::find(plain_formats, picture.format) - plain_formats.begin();
