@@ -77,10 +77,10 @@ Texts all_options() {
 /// Those of our scripts, of CMake and of what else documents have the reader type.
 bool is_foreign(const std::string& option) {
   static const Texts foreign = {
-      "--preset", "--prefix", "--install", "--component", "--build",         "--test-case", "--format", "--tidy",
-      "--only",   "--seeds",  "--calls",   "--minutes",   "--replay",        "--shrink",    "--keep",   "--clang",
-      "--mpi",    "--lanes",  "--places",  "--faults",    "--mca",           "--program",   "--mpirun", "--heat",
-      "--size",   "--all",    "--part",    "--excerpts",  "--oversubscribe", "--children",  "--pieces", "--bytes"};
+      "--preset",   "--prefix",        "--install",  "--component", "--build",  "--test-case", "--format", "--tidy", "--only",
+      "--seeds",    "--calls",         "--minutes",  "--replay",    "--shrink", "--keep",      "--clang",  "--mpi",  "--lanes",
+      "--places",   "--faults",        "--mca",      "--program",   "--mpirun", "--heat",      "--size",   "--all",  "--part",
+      "--excerpts", "--oversubscribe", "--children", "--pieces",    "--bytes",  "--check"};
   return std::find(foreign.begin(), foreign.end(), option) != foreign.end();
 }
 
