@@ -6,17 +6,13 @@
 
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 
 namespace dmpc::tests {
 
 /// The message of the UsageError; empty if the words are taken.
 inline std::string usage_complaint(const std::vector<std::string>& words) {
-  try {
-    apps::parse_command_line(words);
-  } catch (const core::UsageError& error) {
-    return error.what();
-  }
-  return "";
+  return complaint_of<core::UsageError>([&] { apps::parse_command_line(words); });
 }
 
 /// The complaint about `dmpc render teapot-12 -o a.png` and more, on 6 nodes.
