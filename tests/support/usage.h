@@ -1,22 +1,26 @@
-// What the command line says of words that it does not take.
+// What the command line makes of words, and says of those that it does not take.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "apps/main/commands.h"
+#include "apps/run/render_options.h"
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 
 namespace dmpc::tests {
 
 /// The message of the UsageError; empty if the words are taken.
 inline std::string usage_complaint(const std::vector<std::string>& words) {
-  try {
-    apps::parse_command_line(words);
-  } catch (const core::UsageError& error) {
-    return error.what();
-  }
-  return "";
+  return complaint_of<core::UsageError>([&] { apps::parse_command_line(words); });
+}
+
+/// What `dmpc render teapot-12 -o a.png` and more sets.
+inline apps::RenderOptions typed_render(const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = {"render", "teapot-12", "-o", "a.png"};
+  words.insert(words.end(), more.begin(), more.end());
+  return apps::parse_command_line(words).options<apps::RenderOptions>();
 }
 
 /// The complaint about `dmpc render teapot-12 -o a.png` and more, on 6 nodes.

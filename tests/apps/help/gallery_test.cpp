@@ -15,6 +15,7 @@
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
+#include "tests/support/complaint.h"
 #include "tests/support/documents.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
@@ -42,12 +43,7 @@ Image of_color(const core::Color& color) {
 
 std::string complaint(const fs::path& folder) {
   Interrupt interrupt;
-  try {
-    write_gallery(folder, interrupt);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { write_gallery(folder, interrupt); });
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "nodes/size_text.h"
 #include "svm/plan.h"
 #include "tests/apps/show/rendered.h"
+#include "tests/support/complaint.h"
 #include "tests/support/painted_square.h"
 
 namespace dmpc::apps::forecast_test {
@@ -28,12 +29,7 @@ const MemoryForecast& part_of(const ComputerForecast& forecast, Strategy strateg
 /// Why a render is refused, if it is for want of room.
 std::string refusal(RenderOptions options, std::size_t node_memory_bytes) {
   options.computer.node_memory_bytes = node_memory_bytes;
-  try {
-    Rendered rendered(options);
-  } catch (const core::RoomError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of<core::RoomError>([&] { const Rendered rendered(options); });
 }
 
 constexpr Strategy all_strategies[] = {Strategy::svm, Strategy::replicated, Strategy::dataflow};

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <initializer_list>
 #include <set>
 #include <sstream>
 
@@ -66,48 +67,37 @@ std::string in_order(const std::string& offered) {
 
 }  // namespace
 
-TEST_CASE("bash completes commands, and commands of commands") {
+TEST_CASE("bash completes commands, options, their values and arguments") {
+  struct Completion {
+    const char *words, *offered;
+  };
   const Desk desk(bash_completion(program()));
-  CHECK(desk.by_bash("dmpc ") == "paint mix");
-  CHECK(desk.by_bash("dmpc pa") == "paint");
-  CHECK(desk.by_bash("dmpc mix ") == "oil water");
-  CHECK(desk.by_bash("dmpc mix o") == "oil");
-  CHECK(desk.by_bash("dmpc nonsense").empty());
-}
-
-TEST_CASE("bash completes the options of the command given") {
-  const Desk desk(bash_completion(program()));
-  CHECK(desk.by_bash("dmpc paint --") == "--help --colour= --spare= --coats= --wet --frame=");
-  CHECK(desk.by_bash("dmpc mix oil --w") == "--wet");
-  CHECK(desk.by_bash("dmpc mix water --w").empty());
-}
-
-TEST_CASE("bash completes a value behind an option, with or without a sign of equality") {
-  const Desk desk(bash_completion(program()));
-  CHECK(desk.by_bash("dmpc paint --colour = ") == "red green dusk");
-  CHECK(desk.by_bash("dmpc paint --colour =") == "red green dusk");
-  CHECK(desk.by_bash("dmpc paint --colour = g") == "green");
-  CHECK(desk.by_bash("dmpc paint --colour g") == "green");
-  CHECK(desk.by_bash("dmpc paint --coats = ").empty());
-}
-
-TEST_CASE("bash completes the last word of a list") {
-  const Desk desk(bash_completion(program()));
-  CHECK(desk.by_bash("dmpc paint --spare = door,s") == "door,sill");
-}
-
-TEST_CASE("bash completes arguments by words and files, whatever options stand before") {
-  const Desk desk(bash_completion(program()));
-  CHECK(desk.by_bash("dmpc paint ho") == "house horse hoard.nff");
-  CHECK(desk.by_bash("dmpc paint --coats 3 --wet hou") == "house");
+  for (const Completion& row : std::initializer_list<Completion>{
+           {"dmpc ", "paint mix"},
+           {"dmpc pa", "paint"},
+           {"dmpc mix ", "oil water"},
+           {"dmpc mix o", "oil"},
+           {"dmpc nonsense", ""},
+           // the options of the command given
+           {"dmpc paint --", "--help --colour= --spare= --coats= --wet --frame="},
+           {"dmpc mix oil --w", "--wet"},
+           {"dmpc mix water --w", ""},
+           // a value behind an option, with or without a sign of equality; the last word of a list
+           {"dmpc paint --colour = ", "red green dusk"},
+           {"dmpc paint --colour =", "red green dusk"},
+           {"dmpc paint --colour = g", "green"},
+           {"dmpc paint --colour g", "green"},
+           {"dmpc paint --coats = ", ""},
+           {"dmpc paint --spare = door,s", "door,sill"},
+           // arguments by words, by files that can be one and by folders, whatever options stand before
+           {"dmpc paint ho", "house horse hoard.nff"},
+           {"dmpc paint --coats 3 --wet hou", "house"},
+           {"dmpc mix water ho", ""},
+           {"dmpc paint hoa", "hoard.nff"},
+           {"dmpc paint st", "stable"}}) {
+    CHECK_MESSAGE(desk.by_bash(row.words) == row.offered, row.words);
+  }
   CHECK(in_order(desk.by_bash("dmpc mix water -o ho")) == "hoard.nff hoard.png");
-  CHECK(desk.by_bash("dmpc mix water ho").empty());
-}
-
-TEST_CASE("bash completes an argument by files that can be one, and by folders") {
-  const Desk desk(bash_completion(program()));
-  CHECK(desk.by_bash("dmpc paint hoa") == "hoard.nff");
-  CHECK(desk.by_bash("dmpc paint st") == "stable");
 }
 
 TEST_CASE("bash completes a word, and behind its colon a file") {
@@ -116,11 +106,6 @@ TEST_CASE("bash completes a word, and behind its colon a file") {
   CHECK(in_order(desk.by_bash("dmpc paint --frame = oak : ho")) == "hoard.nff hoard.png");
   CHECK(in_order(desk.by_bash("dmpc paint --frame = oak :")) == "hoard.nff hoard.png script stable");
   CHECK(desk.by_bash("dmpc paint --frame = ash : ho").empty());
-}
-
-TEST_CASE("bash completes a value that has a sign") {
-  const Desk desk(bash_completion(describe_command_line()));
-  CHECK(desk.by_bash("dmpc render --up = -") == "-x -y -z");
 }
 
 TEST_CASE("bash knows all of dmpc's commands and options") {
@@ -136,6 +121,7 @@ TEST_CASE("bash knows all of dmpc's commands and options") {
     }
   }
   CHECK(desk.by_bash("dmpc render tea") == "teapot-12");
+  CHECK(desk.by_bash("dmpc render --up = -") == "-x -y -z");  // a value that has a sign
   CHECK(desk.by_bash("dmpc study paper -o ") == "stable");
   CHECK(desk.by_bash("dmpc machine ips") == "ipsc2 ipsc860");
 }

@@ -12,6 +12,7 @@
 #include "apps/edge/manual/leaves.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/documents.h"
 
 namespace dmpc::apps::manual_documents_test {
@@ -52,14 +53,7 @@ Texts typed_words(const std::string& line) {
 /// Why the program would not take a line; empty if it does.
 std::string complaint_about(const std::string& line) {
   const Texts words = typed_words(line);
-  try {
-    if (!words.empty()) {
-      parse_command_line(words);
-    }
-    return "";
-  } catch (const core::UsageError& error) {
-    return error.what();
-  }
+  return words.empty() ? "" : tests::complaint_of<core::UsageError>([&] { parse_command_line(words); });
 }
 
 /// Every option that some command has, "--nodes".

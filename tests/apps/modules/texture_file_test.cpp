@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
-#include <sstream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,13 +39,6 @@ std::string write(const std::filesystem::path& path, int width, int height, int 
   REQUIRE(output->write_image(type, values.data()));
   REQUIRE(output->close());
   return path.string();
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream bytes;
-  bytes << file.rdbuf();
-  return bytes.str();
 }
 
 core::Color color_at(const Texture& texture, std::size_t texel) {
@@ -166,7 +158,7 @@ TEST_CASE("so they are of a WebP, lossy or not") {
   for (int i = 0; i < 16 * 16; ++i) {
     texels.insert(texels.end(), {200, 100, 50, static_cast<std::uint8_t>(i)});
   }
-  const std::string lossy = text_of(write(folder / "b.webp", 16, 16, 4, OIIO::TypeDesc::UINT8, texels));
+  const std::string lossy = file_text(write(folder / "b.webp", 16, 16, 4, OIIO::TypeDesc::UINT8, texels));
   const std::size_t colours = lossy.find("VP8 ");
   REQUIRE(lossy.find("ALPH") < colours);
   std::string alone = "RIFF" + bytes_of(static_cast<std::uint32_t>(lossy.size() - colours + 4)) + "WEBP" + lossy.substr(colours);
@@ -204,7 +196,7 @@ TEST_CASE("what a picture says of gamma and profiles does not count") {
   const TemporaryFolder folder;
   const std::vector<std::uint8_t> gray{128, 128, 128};
   const std::string plain = write(folder / "a.png", 1, 1, 3, OIIO::TypeDesc::UINT8, gray);
-  std::string text = text_of(plain);  // a chunk gAMA of 1.0 behind IHDR, which ends with byte 33
+  std::string text = file_text(plain);  // a chunk gAMA of 1.0 behind IHDR, which ends with byte 33
   text.insert(33, std::string("\0\0\0\4gAMA\0\1\x86\xa0\x31\xe8\x96\x5f", 16));
   write_text(folder / "gamma.png", text);
   const Texture texture = read_texture(folder / "gamma.png", {});
@@ -229,9 +221,7 @@ TEST_CASE("a picture in memory is read like one in a file, whatever its format")
     CAPTURE(format);
     const std::vector<std::uint8_t> bytes(3 * 16 * 16, 200);
     const std::string path = write(folder / ("a." + format), 16, 16, 3, OIIO::TypeDesc::UINT8, bytes);
-    std::ostringstream content;
-    content << std::ifstream(path, std::ios::binary).rdbuf();
-    const std::string file = content.str();
+    const std::string file = file_text(path);
     const Texture texture = read_texture(std::as_bytes(std::span(file)), "model.glb, texture 3", format, {});
     CHECK(texture.name == "model.glb, texture 3");
     CHECK(texture.levels[0].texels == read_texture(path, {}).levels[0].texels);
@@ -241,7 +231,7 @@ TEST_CASE("a picture in memory is read like one in a file, whatever its format")
 TEST_CASE("what is no picture is refused by its name") {
   const TemporaryFolder folder;
   CHECK_THROWS_AS(read_texture(folder / "none.png", {}), core::InputError);
-  std::ofstream(folder / "text.png") << "no picture";
+  write_text(folder / "text.png", "no picture");
   CHECK_THROWS_AS(read_texture(folder / "text.png", {}), core::InputError);
   const std::string nothing;
   CHECK_THROWS_WITH_AS(read_texture(std::as_bytes(std::span(nothing)), "model.glb, texture 0", "", {}),

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -37,12 +38,7 @@ struct SmallPicture {
 };
 
 std::string file_complaint(const std::filesystem::path& path, const PictureIdentity& of = identity) {
-  try {
-    read_checkpoint(path, of);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { read_checkpoint(path, of); });
 }
 
 }  // namespace

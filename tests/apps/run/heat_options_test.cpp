@@ -5,9 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/main/commands.h"
-#include "apps/run/render_options.h"
-#include "core/base/expect.h"
 #include "core/picture/heat_kind.h"
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
@@ -17,25 +14,16 @@ namespace dmpc::apps::heat_options_test {
 using core::HeatKind;
 using tests::contains;
 using tests::render_usage_complaint;
-
-namespace {
-
-RenderOptions render(const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return parse_command_line(arguments).options<RenderOptions>();
-}
-
-}  // namespace
+using tests::typed_render;
 
 TEST_CASE("heat maps may be asked for several times, of every kind") {
-  CHECK(render({}).heat_maps.empty());
+  CHECK(typed_render().heat_maps.empty());
   std::vector<std::string> arguments;
   for (const std::string_view kind : core::heat_kind_names) {
     arguments.push_back("--heatmap=" + std::string(kind) + ":" + std::string(kind) + ".png");
   }
   arguments.push_back("--heatmap=rays:C:a b.exr");
-  const std::vector<HeatRequest> requests = render(arguments).heat_maps;
+  const std::vector<HeatRequest> requests = typed_render(arguments).heat_maps;
   REQUIRE(requests.size() == 10);
   CHECK(requests[0].kind == HeatKind::faults);
   CHECK(requests[7].kind == HeatKind::samples);
@@ -51,7 +39,7 @@ TEST_CASE("there may be 32 heat maps and no more") {
   for (std::size_t i = 0; i < heat_requests_max; ++i) {
     arguments.push_back("--heatmap=rays:" + std::to_string(i) + ".png");
   }
-  CHECK(render(arguments).heat_maps.size() == 32);
+  CHECK(typed_render(arguments).heat_maps.size() == 32);
   arguments.push_back("--heatmap=rays:last.png");
   CHECK(contains(render_usage_complaint(arguments), "given 33 times"));
 }

@@ -5,9 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/main/commands.h"
-#include "apps/run/render_options.h"
-#include "core/base/expect.h"
 #include "nodes/watch/trace.h"
 #include "tests/support/text.h"
 #include "tests/support/usage.h"
@@ -19,21 +16,15 @@ using tests::render_usage_complaint;
 
 namespace {
 
-RenderOptions traced_render(const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return parse_command_line(arguments).options<RenderOptions>();
-}
-
 nodes::TraceChoice choice(std::vector<std::string> more) {
   more.push_back("--trace=a.pftrace");
-  return trace_choice(traced_render(more).trace);
+  return trace_choice(tests::typed_render(more).trace);
 }
 
 }  // namespace
 
 TEST_CASE("without its option nothing is recorded, with it everything") {
-  CHECK_FALSE(traced_render({}).trace.path);
+  CHECK_FALSE(tests::typed_render().trace.path);
   const nodes::TraceChoice all = choice({});
   CHECK(all.from_ns == 0);
   CHECK(all.to_ns == nodes::TraceChoice().to_ns);
@@ -58,7 +49,6 @@ TEST_CASE("a trace is Perfetto's, and who asks for another's is told what conver
     CHECK_MESSAGE(contains(render_usage_complaint({"--trace=in/" + wrong}), ": traceconv json a.b.pftrace a.b.json"), wrong);
   }
   CHECK(contains(render_usage_complaint({"--trace=a.pftrace.gz"}), "gzip packs it"));
-  CHECK(contains(render_usage_complaint({"--trace-window=0,1"}), "give --trace=FILE"));
 }
 
 }  // namespace dmpc::apps::trace_options_test

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps::camera_path_test {
@@ -29,12 +30,8 @@ Keyframe key(std::uint64_t frame, const Vec3d& from) { return {frame, {.from = f
 std::string complaint(const std::string& text) {
   const TemporaryFolder folder;
   write_text(folder / "p", text);
-  try {
-    static_cast<void>(read_camera_path(folder / "p"));
-  } catch (const core::InputError& error) {
-    return std::string(error.what()).substr((folder / "p").string().size());
-  }
-  return "";
+  const std::string path = folder / "p", said = tests::complaint_of([&] { static_cast<void>(read_camera_path(path)); });
+  return said.empty() ? "" : said.substr(path.size());
 }
 
 }  // namespace

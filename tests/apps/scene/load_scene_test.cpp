@@ -9,6 +9,7 @@
 
 #include "apps/picture/image_file.h"
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -18,12 +19,7 @@ namespace dmpc::apps::load_scene_test {
 namespace {
 
 std::string scene_complaint(const std::string& scene) {
-  try {
-    load_scene(scene);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { load_scene(scene); });
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "apps/picture/image_file.h"
 #include "apps/picture/picture_reader.h"
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/sky_pictures.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -21,6 +22,12 @@ using tests::contains;
 
 namespace {
 
+/// What reading a sky from `path` says.
+std::string sky_complaint(const std::string& path) {
+  core::Scene scene;
+  return tests::complaint_of([&] { read_sky(path, Sandbox::available, scene); });
+}
+
 /// As a file of the format that the name ends in.
 struct File {
   File(const std::string& name, int width, int height, std::vector<float> rgb) : path((folder.path() / name).string()) {
@@ -29,15 +36,7 @@ struct File {
     write_image(path, image);
   }
 
-  std::string complaint() const {
-    core::Scene scene;
-    try {
-      read_sky(path, Sandbox::available, scene);
-    } catch (const core::InputError& error) {
-      return error.what();
-    }
-    return "";
-  }
+  std::string complaint() const { return sky_complaint(path); }
 
   tests::TemporaryFolder folder;
   std::string path;
@@ -93,29 +92,16 @@ TEST_CASE("numbers that are no light are told with file, pixel, channel and valu
 }
 
 TEST_CASE("what is no file, or no picture, is an error that names the option") {
-  core::Scene scene;
-  const auto complaint = [&](const std::string& path) {
-    try {
-      read_sky(path, Sandbox::available, scene);
-    } catch (const core::InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  CHECK(contains(complaint("/nowhere/a.hdr"), "--sky=/nowhere/a.hdr: "));
-  CHECK(contains(complaint("/nowhere/a.hdr"), "expected a picture's file, or a colour such as 1,1,1"));
-  CHECK(contains(complaint("/"), "--sky=/: "));
+  CHECK(contains(sky_complaint("/nowhere/a.hdr"), "--sky=/nowhere/a.hdr: "));
+  CHECK(contains(sky_complaint("/nowhere/a.hdr"), "expected a picture's file, or a colour such as 1,1,1"));
+  CHECK(contains(sky_complaint("/"), "--sky=/: "));
 }
 
 TEST_CASE("a sky that is too large for a scene, or for this computer, is refused before there is room for it") {
   const File file("a.png", 64, 32, std::vector<float>(64 * 32 * 3, 0.5F));
   PictureReader reader({.texture_bytes_max = 1000});
-  CHECK_THROWS_AS(reader.read_sky(open_picture(file.path)), core::RoomError);
-  try {
-    PictureReader({.texture_bytes_max = 1000}).read_sky(open_picture(file.path));
-  } catch (const core::RoomError& error) {
-    CHECK(contains(error.what(), "a sky of 64x32 texels takes"));
-  }
+  CHECK_THROWS_WITH_AS(reader.read_sky(open_picture(file.path)), doctest::Contains("a sky of 64x32 texels takes"),
+                       core::RoomError);
 }
 
 }  // namespace dmpc::apps::sky_file_test

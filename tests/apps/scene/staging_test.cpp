@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/main/commands.h"
-#include "apps/run/render_options.h"
 #include "core/base/expect.h"
 #include "tests/support/text.h"
+#include "tests/support/usage.h"
 
 namespace dmpc::apps::staging_test {
 
@@ -19,11 +18,7 @@ using doctest::Contains;
 
 namespace {
 
-Staging staged(std::initializer_list<std::string> options) {
-  std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
-  arguments.insert(arguments.end(), options);
-  return parse_command_line(arguments).options<RenderOptions>().picture.staging;
-}
+Staging staged(std::initializer_list<std::string> options) { return tests::typed_render(options).picture.staging; }
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/text.h"
 
 namespace dmpc::apps::wishes_test {
@@ -14,12 +15,7 @@ namespace {
 
 /// The sentence by which it is refused; empty if it is a wish.
 std::string refusal(const std::string& json) {
-  try {
-    wish_in(json);
-  } catch (const core::UsageError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of<core::UsageError>([&] { wish_in(json); });
 }
 
 std::string wish_for(const std::string& camera) { return R"({"camera": ")" + camera + R"(", "moving": false})"; }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 
 namespace dmpc::apps::command_line_test {
 
@@ -45,12 +46,7 @@ struct Line {
     return line.parse(std::vector<std::string>(words));
   }
   std::string complaint(std::initializer_list<std::string> words) {
-    try {
-      parse(words);
-    } catch (const core::UsageError& error) {
-      return error.what();
-    }
-    return "";
+    return tests::complaint_of<core::UsageError>([&] { parse(words); });
   }
 
   Said said;

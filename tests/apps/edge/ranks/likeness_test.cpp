@@ -7,6 +7,7 @@
 
 #include "apps/render/self_test.h"
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 
 namespace dmpc::tests::likeness_test {
 
@@ -22,12 +23,7 @@ std::string complaint_of(const std::vector<Likeness>& likenesses) {
   for (const Likeness& likeness : likenesses) {
     texts.push_back(apps::text_of(likeness));
   }
-  try {
-    apps::expect_alike(texts, names);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { apps::expect_alike(texts, names); });
 }
 
 const Likeness usual = {{"version of dmpc", "0.1.0"}, {"byte order", "little"}};

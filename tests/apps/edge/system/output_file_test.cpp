@@ -31,13 +31,6 @@ void write_whole(const std::filesystem::path& path, std::string_view text) {
 
 }  // namespace
 
-TEST_CASE("a written file has its name and nothing else is left in the folder") {
-  const TemporaryFolder folder;
-  write_whole(folder / "a.json", "{}");
-  CHECK(file_text(folder / "a.json") == "{}");
-  CHECK(folder.entry_count() == 1);
-}
-
 TEST_CASE("a file that is not committed leaves nothing behind") {
   const TemporaryFolder folder;
   {

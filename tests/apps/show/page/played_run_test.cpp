@@ -16,6 +16,7 @@
 #include "core/base/expect.h"
 #include "tests/apps/show/page/numbers_in.h"
 #include "tests/apps/show/watched.h"
+#include "tests/support/complaint.h"
 #include "tests/support/text.h"
 
 namespace dmpc::apps::html::played_run_test {
@@ -42,12 +43,7 @@ std::string page_with(std::string data) {
 
 /// What is said of a page that is refused; empty if it is not.
 std::string refusal(const std::string& page) {
-  try {
-    played_run(page, "a.html");
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { played_run(page, "a.html"); });
 }
 
 }  // namespace

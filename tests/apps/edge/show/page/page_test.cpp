@@ -11,16 +11,9 @@
 namespace dmpc::apps::html::page_page_test {
 
 using tests::contains;
+using tests::count;
 
 namespace {
-
-std::size_t count_of(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++count;
-  }
-  return count;
-}
 
 /// A page to which something was added.
 template <class Add>
@@ -59,7 +52,7 @@ TEST_CASE("a page asks for nothing from elsewhere") {
   CHECK_FALSE(contains(text, "http:"));
   CHECK_FALSE(contains(text, "https:"));
   CHECK_FALSE(contains(text, "<link"));
-  CHECK(count_of(text, "src=\"") == count_of(text, "src=\"data:image/"));
+  CHECK(count(text, "src=\"") == count(text, "src=\"data:image/"));
 }
 
 TEST_CASE("a page's policy knows its own style and script by their digests, and has nothing else run") {
@@ -118,7 +111,7 @@ TEST_CASE("a table that is named by its section is not named again") {
     page.begin_section("Other");
     page.add_table(table_of(1));
   });
-  CHECK(count_of(text, "<caption>") == 1);
+  CHECK(count(text, "<caption>") == 1);
 }
 
 TEST_CASE("long tables are folded") {
@@ -139,7 +132,7 @@ TEST_CASE("elements that are opened are closed") {
   });
   for (const std::string name :
        {"main", "nav", "dl", "div", "figure", "table", "details", "summary", "thead", "tbody", "tr", "style", "pre", "a", "p"}) {
-    CHECK_MESSAGE(count_of(text, "<" + name + " ") + count_of(text, "<" + name + ">") == count_of(text, "</" + name + ">"), name);
+    CHECK_MESSAGE(count(text, "<" + name + " ") + count(text, "<" + name + ">") == count(text, "</" + name + ">"), name);
   }
 }
 
