@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -79,6 +78,8 @@ TEST_CASE("what is printed of a machine reads back as the same") {
 TEST_CASE("a machine file is of a format that it may leave out, and of no other") {
   CHECK(contains(plain_text(), "\"format\": 1,"));
   CHECK(machine_complaint_with("\"format\": 1,", "").empty());
+  CHECK(machine_complaint_with("\"format\": 1,", "\"format\": 2,") ==
+        "m.json: format: expected 1, for files of this dmpc, got 2");
 }
 
 TEST_CASE("a machine file from before questions had a price has them charged as a ray, half at either end") {
@@ -93,6 +94,7 @@ TEST_CASE("a machine file from before questions had a price has them charged as 
   const nodes::Machine was = parse_machine(older, "m.json").machine, is = parse_machine(text, "m.json").machine;
   CHECK(price(was, core::Charge::question_setup) == price(is, core::Charge::ray_setup) / 2);
   CHECK(price(is, core::Charge::question_setup) < price(is, core::Charge::ray_setup));
+  CHECK(machine_complaint_with("\"ray_setup\"", "\"ray_set_up\"").find("unknown key") != std::string::npos);
 }
 
 TEST_CASE("every figure reaches its own field") {
@@ -129,42 +131,46 @@ TEST_CASE("a machine on which all is free and one on which all takes as long as 
   CHECK(machine_complaint_with("\"name\": \"ipsc2\"", "\"name\": \"" + std::string(64, 'x') + "\"") == "");
 }
 
-TEST_CASE("what is wrong in a machine file is named with what was expected") {
-  struct Row {
-    const char *from, *to, *complaint;
-  };
-  for (const Row& row : std::initializer_list<Row>{
-           {"\"format\": 1,", "\"format\": 2,", "m.json: format: expected 1, for files of this dmpc, got 2"},
-           {"hop_ns", "hop_us", "m.json: \"hop_us\": unknown key, expected name, topology, "},
-           {"latency_ns", "delay", "m.json: short_message.\"delay\": unknown key, expected send_ns, "},
-           {"\"ray_setup\"", "\"ray_set_up\"", "unknown key"},
-           {"{}", "{\"nonsense\": \"a book\"}", "sources.\"nonsense\": unknown key"},
-           {"\"has_memory_port\": false", "\"sources\": {}", "m.json: \"sources\": this key is given twice"},
-           {"\"hop_ns\"", "\"service_ns\": 1, \"hop_ns\"", "m.json: \"service_ns\": this key is given twice"},
-           {"\"byte_ps\": 200000", "\"byte_ps\": 1000000001", "short_message.byte_ps: expected a whole number"},
-           {"\"home_lookup\": 0", "\"home_lookup\": 100000000001", "operation_ps.home_lookup: expected"},
-           {"\"short_bytes_max\": 100", "\"short_bytes_max\": 1000000001", "short_bytes_max: expected"},
-           {"true", "1", "m.json: has_contention: expected true or false, got 1"},
-           {"false", "\"no\"", "m.json: has_memory_port: expected true or false, got \"no\""},
-           {"\"hypercube\"", "3", "m.json: topology: expected a text, got 3"},
-           {"\"hypercube\"", "\"ring\"", "m.json: topology: there is no topology \"ring\": use one of "},
-           {"\"circuit\"", "1", "m.json: switching: expected a text, got 1"},
-           {"\"circuit\"", "\"wormhole\"", "m.json: switching: there is no switching \"wormhole\": use circuit or packet"},
-           {"\"ipsc2\"", "2", "m.json: name: expected a text, got 2"},
-           {"\"ipsc2\"", "\"\"", "m.json: name: expected 1 to 64 characters that can be printed, got "},
-           {"\"ipsc2\"", "\"a\\nb\"", "m.json: name: expected 1 to 64 characters that can be printed, got "},
-           {"{}", "{\"hop_ns\": 3}", "sources.hop_ns: expected a text, got 3"},
-           {"\"sources\": {}", "\"sources\": []", "sources: expected an object, got []"},
-           {"10300", "1e999", "m.json: a number is out of all range"}}) {
-    CHECK_MESSAGE(contains(machine_complaint_with(row.from, row.to), row.complaint), row.to);
-  }
-  CHECK(contains(machine_complaint_with("\"ipsc2\"", "\"" + std::string(65, 'x') + "\""), "m.json: name: expected 1 to 64 "));
+TEST_CASE("a key that is unknown, missing or there twice is named") {
+  CHECK(contains(machine_complaint_with("hop_ns", "hop_us"), "m.json: \"hop_us\": unknown key, expected name, topology, "));
+  CHECK(contains(machine_complaint_with("latency_ns", "delay"),
+                 "m.json: short_message.\"delay\": unknown key, expected send_ns, "));
+  CHECK(contains(machine_complaint_with("\"sources\": {}", "\"sources\": {\"nonsense\": \"a book\"}"),
+                 "sources.\"nonsense\": unknown key"));
+  CHECK(machine_complaint_with("\"service_ns\": 200000,", "") == "m.json: service_ns: this key is missing");
+  CHECK(contains(machine_complaint_with("\"send_ns\": 160000,", ""), "m.json: short_message.send_ns: this key is missing"));
   CHECK(contains(machine_complaint("{}"), "m.json: name: this key is missing"));
+  CHECK(contains(machine_complaint_with("\"has_memory_port\": false", "\"sources\": {}"),
+                 "m.json: \"sources\": this key is given twice"));
+  CHECK(contains(machine_complaint_with("\"hop_ns\"", "\"service_ns\": 1, \"hop_ns\""),
+                 "m.json: \"service_ns\": this key is given twice"));
+}
+
+TEST_CASE("a value of the wrong type or out of range is named with what was expected") {
   for (const std::string wrong :
        {"-1", "1.5", "1e3", "\"1\"", "true", "null", "[1]", "{}", "1000000001", "18446744073709551616"}) {
     CAPTURE(wrong);
     CHECK(contains(machine_complaint_with("10300", wrong), "m.json: hop_ns: expected a whole number from 0 to 1000000000, got "));
   }
+  CHECK(contains(machine_complaint_with("\"byte_ps\": 200000", "\"byte_ps\": 1000000001"),
+                 "short_message.byte_ps: expected a whole number"));
+  CHECK(contains(machine_complaint_with("\"home_lookup\": 0", "\"home_lookup\": 100000000001"),
+                 "operation_ps.home_lookup: expected"));
+  CHECK(contains(machine_complaint_with("\"short_bytes_max\": 100", "\"short_bytes_max\": 1000000001"),
+                 "short_bytes_max: expected"));
+  CHECK(contains(machine_complaint_with("true", "1"), "m.json: has_contention: expected true or false, got 1"));
+  CHECK(contains(machine_complaint_with("false", "\"no\""), "m.json: has_memory_port: expected true or false, got \"no\""));
+  CHECK(contains(machine_complaint_with("\"hypercube\"", "3"), "m.json: topology: expected a text, got 3"));
+  CHECK(contains(machine_complaint_with("\"hypercube\"", "\"ring\""),
+                 "m.json: topology: there is no topology \"ring\": use one of "));
+  CHECK(contains(machine_complaint_with("\"ipsc2\"", "2"), "m.json: name: expected a text, got 2"));
+  for (const std::string& wrong : {std::string(), std::string(65, 'x'), std::string("a\\nb")}) {
+    CHECK(contains(machine_complaint_with("\"ipsc2\"", "\"" + wrong + "\""),
+                   "m.json: name: expected 1 to 64 characters that can be printed, got "));
+  }
+  CHECK(contains(machine_complaint_with("\"sources\": {}", "\"sources\": {\"hop_ns\": 3}"),
+                 "sources.hop_ns: expected a text, got 3"));
+  CHECK(contains(machine_complaint_with("\"sources\": {}", "\"sources\": []"), "sources: expected an object, got []"));
 }
 
 TEST_CASE("uplinks are a fat tree's, from 1 to 4") {
@@ -180,6 +186,13 @@ TEST_CASE("uplinks are a fat tree's, from 1 to 4") {
                  "m.json: uplinks: expected 1, for only the switches of a fat-tree have more, got 2"));
 }
 
+TEST_CASE("another switching than the two is refused, with both named") {
+  CHECK(contains(machine_complaint_with("\"circuit\"", "\"wormhole\""),
+                 "m.json: switching: there is no switching \"wormhole\": use circuit or packet"));
+  CHECK(contains(machine_complaint_with("\"circuit\"", "1"), "m.json: switching: expected a text, got 1"));
+  CHECK(machine_complaint_with("\"switching\": \"circuit\",", "") == "m.json: switching: this key is missing");
+}
+
 TEST_CASE("memory ports without contention are refused, both named") {
   const std::string ported = with(plain_text(), "\"has_memory_port\": false", "\"has_memory_port\": true");
   CHECK(machine_complaint(ported) == "");
@@ -193,6 +206,7 @@ TEST_CASE("what is no JSON is named with its place") {
   CHECK(contains(machine_complaint("{\n  \"name\": \"a\",,"), "m.json:2:15: this is no JSON"));
   CHECK(contains(machine_complaint("{\"name\": \"\xff\"}"), "m.json:1:11: this is no JSON"));
   CHECK(contains(machine_complaint(plain_text() + "x"), "this is no JSON"));
+  CHECK(contains(machine_complaint_with("10300", "1e999"), "m.json: a number is out of all range"));
   for (const std::string other : {"3", "[]", "null", "\"ipsc2\""}) {
     CHECK(contains(machine_complaint(other), "m.json: expected an object of a machine's figures"));
   }
