@@ -1,4 +1,4 @@
-// Whether what programs declare can be: names of their own, not too many of them, prices.
+// Whether what programs declare can be: names of their own, not too many of them, prices; and how such names are shown.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,9 @@
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
+
+/// In quotes, so that it is no other column's.
+inline std::string own_name(const std::string& name) { return "'" + name + "'"; }
 
 /// Throws core::UsageError for a need without a name of its own, in one line. `what` they are, in the plural.
 template <class Need>

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "apps/computer/bounded_charge.h"
-#include "apps/computer/own_name.h"
+#include "apps/computer/declared.h"
 
 namespace dmpc::apps {
 namespace {

@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "apps/computer/options.h"
+#include "apps/edge/help/glossary.h"
 #include "apps/edge/show/page/losses.h"
 #include "apps/edge/show/page/origin.h"
 #include "apps/edge/show/page/page.h"
@@ -18,6 +20,12 @@
 #include "nodes/ranks/rank_figures.h"
 
 namespace dmpc::apps::html {
+
+/// Pairs of more nodes cannot be told apart, and they would make a page of tens of megabytes.
+inline constexpr std::uint32_t readable_nodes_max = 256;
+
+/// By alphabet. Thread-safe.
+std::span<const GlossaryEntry> page_words();
 
 /// Whose page it is: that of the program `name`.
 PageSpeaker speaker(const std::string& name);

@@ -13,7 +13,7 @@
 
 #include "apps/computer/program_call.h"
 #include "apps/edge/line/exit_status.h"
-#include "apps/edge/line/fitted_help.h"
+#include "apps/edge/line/help_text.h"
 #include "apps/edge/line/shown_text.h"
 #include "apps/edge/ranks/launcher.h"
 #include "apps/edge/ranks/rank_group.h"

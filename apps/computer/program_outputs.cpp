@@ -3,19 +3,216 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "apps/computer/program_page.h"
-#include "apps/computer/task_heat_file.h"
+#include "apps/computer/page_parts.h"
+#include "apps/computer/program_tables.h"
+#include "apps/computer/program_work.h"
+#include "apps/computer/record.h"
+#include "apps/edge/line/amount.h"
+#include "apps/edge/line/number_text.h"
 #include "apps/edge/machine/machines.h"
+#include "apps/edge/show/page/node_bands.h"
+#include "apps/edge/show/page/view_conclusions.h"
 #include "apps/edge/show/references/reference_file.h"
 #include "apps/edge/system/attempts.h"
 #include "apps/edge/system/scratch_folder.h"
+#include "apps/edge/table/table.h"
+#include "core/base/expect.h"
+#include "nodes/size_text.h"
 
 namespace dmpc::apps {
+namespace html {
 namespace {
+
+void append_task_facts(Facts& facts, const ProgramRecord& record) {
+  const svm::TaskOptions& tasks = record.options.tasks;
+  const std::string replaced = ", replaced by " + std::string(name_of(tasks.replacement));
+  facts.emplace_back("Tasks", grouped(record.tasks.task_count) + " in " + counted(record.tasks.run_count, "run"));
+  facts.emplace_back("Data", counted(record.tasks.page_count, "page") + " of " + nodes::size_text(tasks.page_size_bytes));
+  facts.emplace_back("Cache of a node", counted(record.tasks.cache_pages, "page") + replaced);
+  facts.emplace_back("Tasks in flight on a node", "up to " + grouped(tasks.in_flight));
+  facts.emplace_back("Memory of the fullest node", bytes_text(record.sum().memory.total()));
+}
+
+Facts facts_of(const ProgramRecord& record) {
+  Facts facts = computer_facts(record.options);
+  const bool has_pages = record.vocabulary.has_pages();
+  if (has_pages) {
+    append_task_facts(facts, record);
+  } else {
+    const nodes::Traffic all = sent(record);
+    facts.emplace_back("Packets sent", grouped(all.packets) + ", " + amount_text(static_cast<double>(all.bytes), "bytes"));
+  }
+  facts.emplace_back(has_pages ? "They took" : "It took", seconds_text(record.wall_seconds) + " by the wall clock");
+  if (record.virtual_ns) {
+    facts.emplace_back("Virtual time", amount_text(static_cast<double>(*record.virtual_ns), "ns"));
+  }
+  return facts;
+}
+
+void add_pairs(Page& page, const ProgramRecord& record) {
+  if (const auto& pairs = record.pairs; pairs && record.node_count() > 1) {
+    page.add_map(pair_map(pairs->packets, "Who sent packets to whom", "node that sends", "node that receives", "packets"), "");
+    NumberMap bytes = pair_map(pairs->bytes, "Who sent bytes to whom", "node that sends", "node that receives", "");
+    bytes.unit = "bytes";
+    page.add_map(bytes, "");
+  }
+}
+
+void add_links(Page& page, const nodes::VirtualReport& network) {
+  page.add_text(way_text(network.links));
+  const Table table = link_table(network);
+  page.add_plot(link_plot(), table);
+  page.add_table(table);
+}
+
+void add_packets(Page& page, const ProgramRecord& record) {
+  page.begin_section("Packets");
+  const std::vector<PacketKindTraffic> packets = packets_of(record);
+  page.add_conclusion(traffic_conclusion(packets, record.network ? &*record.network : nullptr));
+  if (sent(record).packets > 0) {
+    page.add_table(packet_table(packets));
+    add_pairs(page, record);
+    if (record.network) {
+      add_links(page, *record.network);
+    }
+  }
+  add_ranks(page, record.ranks);
+}
+
+void add_nodes(Page& page, const ProgramRecord& record) {
+  page.begin_section("Nodes");
+  const bool has_pages = record.vocabulary.has_pages();
+  if (!has_pages) {
+    page.add_conclusion(node_conclusion(record));
+  }
+  const Table table = node_table(record);
+  if (!has_pages || record.sum().pages.faults > 0) {
+    add_node_plot(page, node_plot(record), table);
+  }
+  page.add_table(table);
+}
+
+void add_memory(Page& page, const ProgramRecord& record) {
+  page.begin_section("Memory");
+  page.add_conclusion(memory_conclusion(record));
+  const Table table = memory_table(record);
+  add_node_plot(page, memory_plot(record), table);
+  page.add_table(table);
+}
+
+/// Says which run was watched; nothing if there was only one.
+std::string remark_on_runs(const ProgramRecord& record) {
+  return record.tasks.run_count <= 1 ? "" : "Of the last of " + counted(record.tasks.run_count, "run") + ".";
+}
+
+void begin_watched(Page& page, const ProgramRecord& record, const std::string& heading, const std::string& conclusion) {
+  page.begin_section(heading);
+  page.add_conclusion(conclusion);
+  if (const std::string remark = remark_on_runs(record); !remark.empty()) {
+    page.add_text(remark);
+  }
+}
+
+void add_heat(Page& page, const ProgramRecord& record) {
+  page.begin_section("What each task took");
+  for (const TaskHeatKind kind : heat_kinds_of(record)) {
+    page.add_conclusion(heat_conclusion(record, kind));
+  }
+  if (const std::string remark = remark_on_runs(record); !remark.empty()) {
+    page.add_text(remark);
+  }
+  for (const TaskHeatKind kind : heat_kinds_of(record)) {
+    page.add_map(heat_map(record, kind),
+                 "Each row is a node, with its tasks in order: the lighter, the more a task of that place took on average.");
+  }
+  page.add_table(hottest_tasks(record));
+}
+
+void add_misses(Page& page, const ProgramRecord& record) {
+  const MissEstimate& misses = *record.view->misses;
+  begin_watched(page, record, "Other caches", cache_conclusion(misses, record.tasks.cache_pages, record.tasks.page_count));
+  const svm::PageCounters& pages = record.tasks.last_pages;
+  const Table table = miss_table(misses, record.tasks.page_count, pages.references, record.tasks.cache_pages, pages.faults);
+  page.add_plot(miss_plot(), table);
+  page.add_table(table);
+}
+
+void add_fetches(Page& page, const ProgramRecord& record) {
+  const svm::Fetches& fetches = *record.view->fetches;
+  begin_watched(page, record, "Fetching a page", fetch_conclusion(fetches));
+  const Table table = fetch_table(fetches);
+  page.add_plot(fetch_plot(fetches), table);
+  page.add_table(table);
+  page.add_table(fetch_part_table(fetches));
+}
+
+void add_pages(Page& page, const ProgramRecord& record) {
+  const svm::Fetches& fetches = *record.view->fetches;
+  begin_watched(page, record, "Pages", page_conclusion(record.tasks.last_pages, fetches));
+  if (record.tasks.last_pages.faults == 0) {
+    return;
+  }
+  if (record.nodes.size() <= readable_nodes_max) {
+    page.add_map(pair_map(fetches.by_pair, "Who fetched pages from whom", "node that asks", "home of the page", "fetches"), "");
+  }
+  page.add_plot(page_share_plot(), page_share_table(fetches));
+  page.add_table(page_table(fetches));
+  add_fetches(page, record);
+  add_misses(page, record);
+}
+
+Facts results_of(const ProgramRecord& record) { return record.run_hash ? Facts{{"run", hash_text(*record.run_hash)}} : Facts(); }
+
+/// The whole document. Of tasks, counters are of all runs together, and what was watched is of the last one. Requires a record
+/// with a view. Throws core::InputError if no temporary file can be written.
+void write_program_page(const ProgramRecord& record, std::ostream& output) {
+  core::expect(record.view.has_value(), "a page that is written was looked on for");
+  const bool has_pages = record.vocabulary.has_pages();
+  const Origin origin = program_origin(record.name);
+  Page page("Run of " + record.name, std::cerr, speaker(record.name));
+  begin_page(page, origin, facts_of(record), record.result, record.node_count());
+  if (record.tasks.run_count > 1) {
+    page.add_text("Times and counters are of all " + counted(record.tasks.run_count, "run") +
+                  " together, where it does not say otherwise.");
+  }
+  add_losses(page, losses_of(record));
+  add_steps(page, record.view->steps, program_work(record.vocabulary).names, remark_on_runs(record));
+  if (has_pages) {
+    add_heat(page, record);
+    add_pages(page, record);
+  }
+  add_packets(page, record);
+  add_operations(page, operations_of(record), record.options.computer.model());
+  add_nodes(page, record);
+  if (!has_pages) {
+    add_memory(page, record);
+  }
+  page.add_origin(origin, results_of(record));
+  output << page.text();
+}
+
+}  // namespace
+}  // namespace html
+
+namespace {
+
+std::string heat_line(const ProgramRecord& record, std::size_t task) {
+  const svm::TaskTaken& taken = record.tasks.heat[task];
+  std::string line = std::to_string(task);
+  for (const std::uint64_t number : {std::uint64_t{taken.node}, taken.steps, taken.references, taken.faults}) {
+    line += "," + std::to_string(number);
+  }
+  for (const NamedOperation& operation : record.vocabulary.operations) {
+    line += "," + std::to_string(taken.charges.count[operation.charge]);
+  }
+  const nodes::Machine* const machine = record.options.computer.model();
+  return line + "," + (machine == nullptr ? "" : std::to_string(machine->price_ps(taken.charges))) + "\n";
+}
 
 void write_stats(const ProgramRecord& record, std::ostream& output) { output << stats_json(record); }
 
@@ -36,6 +233,17 @@ void print_result(const ProgramRecord& record) {
 }
 
 }  // namespace
+
+void write_task_heat(const ProgramRecord& record, std::ostream& output) {
+  output << "task,node,steps,pages.references,pages.faults";
+  for (const NamedOperation& operation : record.vocabulary.operations) {
+    output << "," << csv_text("operations." + operation.name);
+  }
+  output << ",computing_ps\n";
+  for (std::size_t task = 0; task < record.tasks.heat.size(); ++task) {
+    output << heat_line(record, task);
+  }
+}
 
 ProgramOutputs outputs_of(const ProgramOptions& options) {
   ProgramOutputs outputs;

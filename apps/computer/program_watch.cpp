@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "apps/computer/page_parts.h"
 #include "apps/computer/program_work.h"
-#include "apps/computer/readable_nodes.h"
 #include "apps/edge/run/miss_estimate.h"
 #include "nodes/flat_bytes.h"
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "apps/computer/own_name.h"
+#include "apps/computer/declared.h"
 #include "core/trace/charge.h"
 
 namespace dmpc::apps {

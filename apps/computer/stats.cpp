@@ -5,7 +5,6 @@
 #include "apps/edge/line/json_format.h"
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/show/stats/counters_json.h"
-#include "apps/edge/show/stats/ranks.h"
 
 namespace dmpc::apps {
 namespace {

@@ -9,7 +9,7 @@
 #include "apps/edge/system/progress.h"
 #include "apps/picture/film_image.h"
 #include "apps/picture/glyphs.h"
-#include "apps/picture/inset.h"
+#include "apps/picture/image_file.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
@@ -17,8 +17,18 @@
 #include "core/families/scenes.h"
 
 namespace dmpc::apps {
-
 namespace {
+
+/// Puts `part` into `image`, its upper left pixel there. Requires room for all of it.
+void inset(Image& image, int left, int top, const Image& part) {
+  core::expect(left >= 0 && top >= 0 && left + part.width <= image.width && top + part.height <= image.height,
+               "a picture lies whole within another");
+  const auto row_floats = static_cast<std::ptrdiff_t>(part.width) * 3;
+  for (int y = 0; y < part.height; ++y) {
+    const std::ptrdiff_t to = (static_cast<std::ptrdiff_t>(top + y) * image.width + left) * 3;
+    std::copy_n(part.rgb.begin() + y * row_floats, row_floats, image.rgb.begin() + to);
+  }
+}
 
 namespace fs = std::filesystem;
 

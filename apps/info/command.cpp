@@ -14,7 +14,6 @@
 #include "apps/info/record.h"
 #include "apps/info/text.h"
 #include "apps/run/instance_options.h"
-#include "apps/run/region_options.h"
 #include "apps/run/strategy_options.h"
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"

@@ -5,7 +5,7 @@
 
 #include "apps/edge/line/json_format.h"
 #include "apps/info/record.h"
-#include "apps/run/region_options.h"
+#include "apps/run/strategy_options.h"
 #include "apps/scene/staging.h"
 
 namespace dmpc::apps {

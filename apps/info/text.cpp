@@ -6,7 +6,7 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/edge/table/table.h"
 #include "apps/info/record.h"
-#include "apps/run/region_options.h"
+#include "apps/run/strategy_options.h"
 #include "apps/scene/staging.h"
 #include "apps/scene/subject.h"
 #include "nodes/size_text.h"

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -12,16 +13,108 @@
 #include "apps/edge/system/shortage.h"
 #include "apps/picture/exr_file.h"
 #include "apps/picture/picture_reader.h"
-#include "apps/picture/picture_writer.h"
 #include "apps/picture/png_file.h"
+#include "apps/reader/process.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
 
 namespace dmpc::apps {
-
 namespace fs = std::filesystem;
 
 namespace {
+
+/// A picture of three channels, floats or bytes, row by row from the top left, on its way into a file.
+struct PictureValues {
+  int width = 0, height = 0;
+  bool are_floats = false;  ///< linear light, else bytes on the sRGB curve
+  std::span<const std::byte> values;
+};
+
+/// Its process, dmpc_picture_writer, starts at the first call and waits until the end, so that a picture that is done has a
+/// writer: where it has died another is started. Both throw core::InternalError or
+/// InstallationError where there is none, and core::RoomError where this computer has no room for it. Not
+/// thread-safe.
+class PictureWriter {
+ public:
+  PictureWriter();
+
+  /// Whether there is a writer for files whose names end so (".tif").
+  bool writes(const std::string& extension);
+  /// The file that would be written under this name. Throws core::InputError, a sentence that goes on "PATH: ...", if there is
+  /// none.
+  std::string file_of(const std::string& name, const PictureValues& picture);
+
+ private:
+  template <class Ask>
+  auto ask(const Ask& ask_process);
+
+  ReadingBudget budget_;
+  std::optional<ReaderProcess> process_;
+};
+
+/// What it gets is ours: as much time as the largest picture takes on a busy computer, and no sandbox.
+constexpr ReaderLimits limits{.seconds = 1'000'000, .sandbox = Sandbox::none};
+
+std::string received_file(ReaderProcess& process) {
+  std::string file;
+  for (;;) {
+    const Message message = process.receive();
+    switch (message.saying) {
+      case Saying::bytes:
+        file += message.bytes;
+        break;
+      case Saying::done:
+        return file;
+      case Saying::bad_input:
+        throw core::InputError("cannot be written: " + Unpacker(message.bytes).take_text());
+      default:
+        throw Nonsense("its writer says nonsense");
+    }
+  }
+}
+
+PictureWriter::PictureWriter() : budget_(limits) {}
+
+template <class Ask>
+auto PictureWriter::ask(const Ask& ask_process) {
+  for (bool is_new = !process_.has_value();; is_new = true) {
+    try {
+      if (is_new) {
+        process_.reset();
+        process_.emplace("dmpc_picture_writer", 0, budget_);
+      }
+      return ask_process(*process_);
+    } catch (const ReaderDeath& death) {
+      if (is_new) {
+        process_.reset();
+        throw core::InputError(std::string("cannot be written: dmpc_picture_writer ") + death.what());
+      }
+    }
+  }
+}
+
+bool PictureWriter::writes(const std::string& extension) {
+  return ask([&](ReaderProcess& process) {
+    process.send(Saying::writes, Packer().add_text(extension));
+    return process.receive().saying == Saying::yes;
+  });
+}
+
+std::string PictureWriter::file_of(const std::string& name, const PictureValues& picture) {
+  return ask([&](ReaderProcess& process) {
+    const Packer fields =
+        Packer().add_text(name).add(picture.width).add(picture.height).add(static_cast<std::uint8_t>(picture.are_floats));
+    process.send(Saying::write_picture, fields);
+    process.send_bytes(picture.values);
+    return received_file(process);
+  });
+}
+
+/// The one of this process.
+PictureWriter& picture_writer() {
+  static PictureWriter writer;
+  return writer;
+}
 
 std::string lower_extension(const fs::path& path) {
   std::string extension = path.extension().string();

@@ -15,12 +15,15 @@
 #include "apps/edge/system/companion_path.h"
 #include "apps/edge/system/memory_file.h"
 #include "apps/edge/system/trusted_path.h"
-#include "apps/policy/policy_driver.h"
 #include "apps/policy/request.h"
 #include "core/base/expect.h"
 #include "svm/pages/replacement.h"
 
 namespace dmpc::apps {
+
+/// apps/python/dmpc/policies.py, which python3 is started with: made a text when dmpc is built.
+extern const char* const policy_driver;
+
 namespace {
 
 constexpr std::string_view python = "python:";

@@ -1,21 +1,190 @@
 // The program dmpc_policy_host: feeds caches by a replacement policy from a shared library, which may crash, for dmpc, which
 // starts it.
 
+#include <dmpc/policy.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <string>
+#include <string_view>
 
-#include "apps/policy/library_policy.h"
+#include "apps/edge/system/module.h"
+#include "apps/edge/system/trusted_path.h"
+#include "apps/policy/request.h"
 #include "core/base/expect.h"
+#include "svm/pages/replacement.h"
+#include "svm/pages/watch/optimum.h"
 
 namespace dmpc::apps {
 namespace {
+
+/// The call that is under way, where whoever tells of a crash finds it.
+struct UnderWay {
+  const char* call = "";
+  bool has_page = false;
+  std::uint32_t page = 0, frame_count = 0, node = 0;
+  std::uint64_t fault = 0;
+};
+UnderWay under_way;
+
+const PolicyTable* table = nullptr;
+
+/// Puts words and numbers one after the other, without memory of its own.
+class Phrase {
+ public:
+  Phrase& operator<<(std::string_view words) {
+    const std::size_t count = std::min(words.size(), room());
+    at_ = std::copy_n(words.begin(), count, at_);
+    return *this;
+  }
+  Phrase& operator<<(std::uint64_t number) {
+    at_ = std::to_chars(at_, at_ + room(), number).ptr;
+    return *this;
+  }
+  const char* text() {
+    *at_ = '\0';
+    return text_.data();
+  }
+  void begin() { at_ = text_.data(); }
+
+ private:
+  std::size_t room() const { return static_cast<std::size_t>(text_.data() + text_.size() - 1 - at_); }
+  std::array<char, 256> text_{};
+  char* at_ = text_.data();
+};
+
+/// In which call of the policy the process is, "victim(page 7) of fault 12, with 3 frames of node 0", or "". For who tells of a
+/// crash: takes no memory. Until the next call.
+const char* policy_call_under_way() {
+  static Phrase phrase;
+  phrase.begin();
+  phrase << under_way.call;
+  if (under_way.has_page) {
+    phrase << "(page " << under_way.page << ") of fault " << under_way.fault;
+  }
+  if (under_way.frame_count > 0) {
+    phrase << ", with " << under_way.frame_count << " frames of node " << under_way.node;
+  }
+  return *under_way.call == '\0' ? "" : phrase.text();
+}
+
+/// Throws what the policy complains of, or lets pass what it throws though it should not.
+template <class Call>
+void call(const char* name, const Call& made) {
+  under_way.call = name;
+  const char* complaint = nullptr;
+  std::string thrown;
+  try {
+    complaint = made();
+  } catch (const std::exception& error) {  // it was not made by DMPC_POLICY
+    thrown = error.what();
+    complaint = thrown.c_str();
+  } catch (...) {
+    complaint = "it threw what is no std::exception";
+  }
+  if (complaint != nullptr) {
+    throw core::InputError(std::string(policy_call_under_way()) + ": " + complaint);
+  }
+  under_way.call = "";
+}
+
+class LibraryPolicy final : public svm::ReplacementPolicy {
+ public:
+  explicit LibraryPolicy(const svm::PolicySite& site) {
+    under_way = {.frame_count = site.frame_count(), .node = site.seed, .fault = 1};
+    call("make()", [&] { return table->make(site.frame_count(), site.seed, &policy_); });
+  }
+  ~LibraryPolicy() override {
+    under_way.call = "drop()";
+    under_way.has_page = false;
+    table->drop(policy_);
+    under_way.call = "";
+  }
+  LibraryPolicy(const LibraryPolicy&) = delete;
+  LibraryPolicy& operator=(const LibraryPolicy&) = delete;
+
+  void hit(svm::PageId page, std::uint32_t frame) override {
+    about(page);
+    call("hit", [&] { return table->hit(policy_, index_of(page), frame); });
+  }
+  void insert(svm::PageId page, std::uint32_t frame) override {
+    about(page);
+    call("insert", [&] { return table->insert(policy_, index_of(page), frame); });
+    ++under_way.fault;
+  }
+  std::uint32_t victim(svm::PageId incoming) override {
+    about(incoming);
+    std::uint32_t frame = under_way.frame_count;
+    call("victim", [&] { return table->victim(policy_, index_of(incoming), &frame); });
+    if (frame >= under_way.frame_count) {
+      under_way.call = "victim";
+      throw core::InputError(std::string(policy_call_under_way()) + ": it says frame " + std::to_string(frame) +
+                             ", expected one from 0 to " + std::to_string(under_way.frame_count - 1));
+    }
+    return frame;
+  }
+
+ private:
+  static void about(svm::PageId page) {
+    under_way.has_page = true;
+    under_way.page = index_of(page);
+  }
+  void* policy_ = nullptr;
+};
+
+/// Throws core::InputError unless it is a policy of this version.
+const PolicyTable* table_in(const std::string& path) {
+  const Descriptor file = open_trusted(path);
+  under_way.call = "the library's start";
+  std::string complaint;
+  void* const library = open_library("/proc/self/fd/" + std::to_string(file.number()), &complaint);
+  under_way.call = "";
+  if (library == nullptr) {
+    throw core::InputError("it cannot be opened as a shared library: " + complaint);
+  }
+  const auto* const found = static_cast<const PolicyTable*>(exported_by(library, "dmpc_policy"));
+  if (found == nullptr) {
+    throw core::InputError(
+        "it has no policy: expected the symbol dmpc_policy, as the line DMPC_POLICY(Class, \"name\") of "
+        "<dmpc/policy.h> makes it");
+  }
+  if (found->version != policy_version) {
+    throw core::InputError("its policy has version " + std::to_string(found->version) + " of the interface, expected " +
+                           std::to_string(policy_version) + ": compile it with the <dmpc/policy.h> of this dmpc");
+  }
+  if (found->name == nullptr || found->make == nullptr || found->hit == nullptr || found->insert == nullptr ||
+      found->victim == nullptr || found->drop == nullptr) {
+    throw core::InputError("its policy lacks a name or a function: expected make, hit, insert, victim and drop");
+  }
+  return found;
+}
+
+nodes::MemoryPlan nothing(std::uint32_t /*frame_count*/) { return {}; }
+
+std::unique_ptr<svm::ReplacementPolicy> made(const svm::PolicySite& site) { return std::make_unique<LibraryPolicy>(site); }
+
+/// Opens the library at `path` and tells `answer` its policy's name, then the faults of each cache. Once in a process. Throws
+/// core::InputError: the file may not be opened (apps/edge/system/trusted_path.h), is no library, has no policy or that of
+/// another version, or the policy complains, throws, or names a frame that there is not.
+void answer_by_library(const std::string& path, const PolicyRequest& request,
+                       const std::function<void(const std::string& line)>& answer) {
+  table = table_in(path);
+  answer(table->name);
+  const svm::Replacement policy = svm::add_policy({"of a library", "what a library decides", true, nothing, made});
+  for (const std::uint32_t cache_pages : request.cache_pages) {
+    answer(std::to_string(svm::policy_misses(policy, request.references, cache_pages, request.node)));
+  }
+}
 
 bool is_done = false;
 
@@ -70,6 +239,7 @@ void answer_to(int output, const std::string& path) {
 }
 
 }  // namespace
+
 }  // namespace dmpc::apps
 
 int main(int count, char** values) {

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "apps/edge/help/glossary.h"
-#include "apps/edge/line/fitted_help.h"
+#include "apps/edge/line/help_text.h"
 #include "apps/edge/line/typed_line.h"
 #include "apps/edge/line/words.h"
 #include "apps/edge/machine/machines.h"

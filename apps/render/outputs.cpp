@@ -9,7 +9,7 @@
 #include "apps/edge/system/scratch_folder.h"
 #include "apps/picture/image_file.h"
 #include "apps/scene/load_scene.h"
-#include "apps/show/heat/files.h"
+#include "apps/show/heat/picture.h"
 #include "apps/show/page/render_page.h"
 #include "apps/show/stats/stats.h"
 #include "apps/show/trace/file.h"

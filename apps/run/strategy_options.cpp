@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 #include <vector>
 
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/machine/machines.h"
 #include "apps/edge/run/option_words.h"
-#include "apps/run/region_options.h"
 #include "apps/run/strategy_rows.h"
 #include "core/base/expect.h"
 #include "svm/forest/strategy.h"
 
 namespace dmpc::apps {
-
 namespace {
 
 using core::UsageError;
@@ -63,6 +62,29 @@ std::string joined_by_or(const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+const char* name_of(dataflow::Balance balance) {
+  using dataflow::Balance;
+  return balance == Balance::subsampled   ? "subsampled"
+         : balance == Balance::equal_size ? "equal-size"
+         : balance == Balance::scattered  ? "scattered"
+                                          : "moving";
+}
+
+const char* name_of(dataflow::CutOrder order) { return order == dataflow::CutOrder::longer_axis ? "longer-side" : "alternating"; }
+
+void check_regions(const OptionSet& options, const dataflow::BalanceOptions& balance) {
+  using dataflow::Balance;
+  if (options.is_given("--regions") && !balance.has_several_regions()) {
+    throw core::UsageError("--regions goes with --balance=scattered or moving: else a node has one region");
+  }
+  if (balance.balance == Balance::moving && balance.regions_a_node < 2) {
+    throw core::UsageError("--balance=moving needs --regions=K, from 2 units a node on, such as 16");
+  }
+  if (options.is_given("--cuts") && balance.balance == Balance::scattered) {
+    throw core::UsageError("--cuts does not go with --balance=scattered: a lattice is not cut box by box");
+  }
+}
 
 const char* name_of(Strategy strategy) { return kind_of(strategy).name; }
 

@@ -11,11 +11,20 @@
 #include "apps/scene/database_options.h"
 #include "core/base/refusal.h"
 #include "dataflow/ray_options.h"
+#include "dataflow/regions/balance.h"
+#include "dataflow/regions/bsp.h"
 #include "nodes/computer_request.h"
 #include "nodes/ranks/nap.h"
 #include "svm/page_options.h"
 
 namespace dmpc::apps {
+
+/// As the command line calls it.
+const char* name_of(dataflow::Balance balance);
+/// As the command line calls it.
+const char* name_of(dataflow::CutOrder order);
+/// For OptionSet::check_in_the_end(), of all these options: throws core::UsageError for those that do not go with the balance.
+void check_regions(const OptionSet& options, const dataflow::BalanceOptions& balance);
 
 /// svm: pages travel. replicated: nothing does, every node holds the whole scene. dataflow: rays travel. forest: questions about
 /// rays do, and answers.

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "apps/edge/line/option_values.h"
-#include "apps/run/region_options.h"
+#include "apps/run/strategy_options.h"
 #include "core/database/database.h"
 #include "dataflow/packets.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "apps/run/region_options.h"
+#include "apps/run/strategy_options.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -17,7 +17,7 @@ const char* name_of(core::RecordOrder order);
 
 /// As the command line calls it.
 const char* name_of(core::Structure structure);
-/// As the command line calls it, by one of its names if it has one.
+/// As the command line calls it: there are no rules but its two.
 std::string text_of(const core::VoxelRule& rule);
 
 /// A mesh that stands in several places has a copy in each or is kept once. automatic: kept where that leaves less than half of
@@ -42,9 +42,6 @@ const std::vector<DatabaseRow>& database_rows();
 /// Declares them.
 void add_options(OptionSet options, DatabaseOptions& database);
 
-/// "usual", "article", "8" or "14:64": voxels a primitive and, behind a colon, N of the N^3 that there are at most. Throws
-/// core::UsageError.
-core::VoxelRule parse_voxels(const std::string& text);
 /// For OptionSet::check_in_the_end(): throws core::UsageError where there is a rule for voxels and another structure.
 void check_voxels(const OptionSet& options, const core::BuildOptions& build);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "apps/edge/line/help_text.h"
-#include "apps/edge/line/lines.h"
 #include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/typed_line.h"
 #include "apps/edge/line/unknown_option.h"

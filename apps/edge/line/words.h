@@ -1,13 +1,33 @@
-// Lists on the command line: words with commas, or another mark, between.
+// Texts as lines and as words; lists on the command line, with commas or another mark between.
 #pragma once
 
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
+
+/// The lines of a text without their ends; what follows the last end is a line unless it is empty.
+inline std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  std::istringstream stream{std::string(text)};
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+/// All of the words, with `between` between them.
+inline std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : between) + word;
+  }
+  return text;
+}
 
 /// The words between marks: one at least, perhaps empty.
 inline std::vector<std::string> words_between(const std::string& text, char mark) {

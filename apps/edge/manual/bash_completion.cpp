@@ -1,6 +1,6 @@
 #include "apps/edge/manual/completion.h"
 
-#include "apps/edge/line/lines.h"
+#include "apps/edge/line/words.h"
 
 namespace dmpc::apps {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "apps/edge/line/exit_status.h"
-#include "apps/edge/line/lines.h"
 #include "apps/edge/line/typed_line.h"
+#include "apps/edge/line/words.h"
 #include "apps/edge/manual/leaves.h"
 #include "apps/edge/manual/roff.h"
 

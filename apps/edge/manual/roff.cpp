@@ -4,7 +4,7 @@
 #include <sstream>
 #include <vector>
 
-#include "apps/edge/line/lines.h"
+#include "apps/edge/line/words.h"
 
 namespace dmpc::apps {
 

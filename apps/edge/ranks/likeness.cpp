@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "apps/edge/line/lines.h"
+#include "apps/edge/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -5,13 +5,37 @@
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
+#include <ostream>
+#include <streambuf>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "apps/edge/system/file_stream.h"
+#include "apps/edge/system/files.h"
 #include "apps/edge/system/interrupt.h"
 
 namespace dmpc::apps {
+
+/// Not thread-safe. `files` outlives it; the descriptor stays its maker's.
+class FileStream final : private std::streambuf, public std::ostream {
+ public:
+  FileStream(Files& files, int file);
+
+  /// Hands over what is still kept here. Returns 0, or errno's value of the first call that failed.
+  int finish();
+
+ private:
+  int overflow(int character) override;
+  std::streamsize xsputn(const char* text, std::streamsize count) override;
+  int sync() override;
+  /// Whether the file has taken everything so far.
+  bool hand_over(std::string_view bytes);
+
+  Files& files_;
+  int file_;
+  int error_ = 0;
+  std::vector<char> kept_;
+};
 
 /// Throws core::InputError unless a file can be made at `path`, as far as can be known beforehand: its folder exists, a file with
 /// something in it can be made there (it is removed again), and `path` is no folder. A device is asked whether it takes anything.

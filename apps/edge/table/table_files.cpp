@@ -5,7 +5,7 @@
 
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/system/scratch_folder.h"
-#include "apps/edge/table/plot_folder.h"
+#include "apps/edge/table/plot_program.h"
 
 namespace dmpc::apps {
 namespace {
@@ -40,6 +40,22 @@ OutputSet<TableResult> files_of(const TableOutput& asked, const std::vector<Plot
 }
 
 }  // namespace
+
+void PlotFolder::add(const Table& table, const std::string& data_file, std::span<const Plot> plots, Attempts& attempts) {
+  const bool has_data = attempts.make([&] { write_file(folder_ / data_file, text_of(table, TableFormat::csv)); });
+  if (has_data) {
+    for (const Plot& plot : plots) {
+      attempts.make([&] { draw_one(plot, table, data_file); });
+    }
+  }
+}
+
+void PlotFolder::draw_one(const Plot& plot, const Table& table, const std::string& data_file) {
+  const auto outcome = draw(plot, table, folder_, data_file);
+  if (outcome && !outcome->is_drawn && told_.insert(sentence_on(*outcome)).second) {
+    complaints_ << "dmpc: " << sentence_on(*outcome) << std::endl;
+  }
+}
 
 PlottedNames names_of(const std::string& data_file, const std::vector<Plot>& plots) {
   PlottedNames names{data_file, {}};

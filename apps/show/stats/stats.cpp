@@ -12,7 +12,6 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/machine/machine_file.h"
 #include "apps/edge/show/stats/counters_json.h"
-#include "apps/edge/show/stats/ranks.h"
 #include "apps/reader/confinement.h"
 #include "apps/run/memory_categories.h"
 #include "apps/run/strategy_rows.h"

@@ -1,4 +1,4 @@
-#include "apps/computer/page_words.h"
+#include "apps/computer/page_parts.h"
 
 #include <doctest/doctest.h>
 
@@ -7,6 +7,8 @@
 #include <vector>
 
 namespace dmpc::apps::page_words_test {
+
+using html::page_words;
 
 TEST_CASE("words stand once each and by alphabet, those that dmpc has in common among them") {
   std::vector<std::string_view> words;

@@ -1,5 +1,5 @@
 // What --heat writes.
-#include "apps/computer/task_heat_file.h"
+#include "apps/computer/program_outputs.h"
 
 #include <doctest/doctest.h>
 

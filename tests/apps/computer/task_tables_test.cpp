@@ -1,4 +1,3 @@
-#include "apps/computer/task_tables.h"
 
 #include <doctest/doctest.h>
 

@@ -220,19 +220,10 @@ TEST_CASE("the smallest and largest values are taken") {
   }
 }
 
-TEST_CASE("voxels are made by a rule that has a name, or by two numbers") {
-  const auto rule = [](const std::string& text) {
-    return render({"--structure=voxels", "--voxels=" + text}).database.build.voxels;
-  };
+TEST_CASE("voxels are made by one of two rules") {
   CHECK(render({"--structure=voxels"}).database.build.voxels == core::usual_voxels);
-  CHECK(rule("usual") == core::usual_voxels);
-  CHECK(rule("article") == core::article_voxels);
-  CHECK(rule("14:64").voxels_per_primitive == 14);
-  CHECK(rule("14:64").voxels_max == 64 * 64 * 64);
-  CHECK(rule("0.5").voxels_per_primitive == 0.5);
-  CHECK(rule("0.5").voxels_max == core::usual_voxels.voxels_max);
-  for (const std::string text : {"usual", "article", "14:64", "0.5:256"}) {
-    CHECK(text_of(rule(text)) == text);
+  for (const core::VoxelRule& rule : {core::usual_voxels, core::article_voxels}) {
+    CHECK(render({"--structure=voxels", "--voxels=" + text_of(rule)}).database.build.voxels == rule);
   }
 }
 
@@ -355,59 +346,17 @@ TEST_CASE("a pool has as many threads as processors unless the line says how man
   CHECK(render({"--runner=mpi", "--pool-threads=2"}).computer.pool_threads == 2U);
 }
 
-TEST_CASE("the help of render names every option and its default") {
+TEST_CASE("the help of render names the values and the defaults of options") {
   const std::string text = parse_command_line(std::vector<std::string>{"render", "--help"}).options<HelpText>().text;
   for (const std::string word :
-       {"Examples:",
-        "SCENE",
-        "--nodes",
-        "--strategy",
-        "svm|replicated|dataflow|forest [svm]",
-        "--node-memory",
-        "--page-size",
-        "SIZE [1KiB, forest 4KiB]",
-        "grid|extents|voxels [grid]",
-        "RULE [usual]",
-        "--cache-pages",
-        "--replacement",
-        "--in-flight",
-        "--work-item",
-        "--work-giver",
-        "ring|host [ring]",
-        "--system",
-        "--homes",
-        "spread|host|tree [spread]",
-        "--pixels",
-        "submaps|interleaved [submaps]",
-        "--workers",
-        "--resolution",
-        "--samples",
-        "--depth",
-        "--convention",
-        "--tracer",
-        "--no-skip",
-        "--stats",
-        "--quiet",
-        "-o",
-        "--balance",
-        "subsampled|equal-size|scattered|moving [subsampled]",
-        "longer-side|alternating [longer-side]",
-        "--ray-batch",
+       {"svm|replicated|dataflow|forest [svm]", "SIZE [1KiB, forest 4KiB]", "grid|extents|voxels [grid]", "usual|article [usual]",
+        "ring|host [ring]", "spread|host|tree [spread]", "submaps|interleaved [submaps]",
+        "subsampled|equal-size|scattered|moving [subsampled]", "longer-side|alternating [longer-side]",
         "1..546 [what fills 4 KiB; 2 KiB if rays walk alone or with --ray-places, modelled machines 1 KiB]",
-        "--ray-credits",
-        "0..64 [4; up to 64 of few nodes whose rays walk together]",
-        "--ray-places",
-        "1..4096 [64 of more than 128 nodes; else credits]",
-        "--ray-queue",
-        "0..16384 [256; 512 if rays walk alone; 128 with --ray-places]",
-        "--tested-objects",
-        "--no-backpressure",
-        "--runner",
-        "threads|pool|virtual|mpi [threads]",
-        "MACHINE|FILE.json [ipsc2]",
-        "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
-        "64, replicated 16, forest 16 to 256, runner virtual 1, or 16 in bundles, mpi up to 256",
-        "4, or 3 if rays walk alone"}) {
+        "0..64 [4; up to 64 of few nodes whose rays walk together]", "1..4096 [64 of more than 128 nodes; else credits]",
+        "0..16384 [256; 512 if rays walk alone; 128 with --ray-places]", "threads|pool|virtual|mpi [threads]",
+        "MACHINE|FILE.json [ipsc2]", "ipsc2, ipsc860, paragon, cm5, cs2, gigabit, hdr",
+        "64, replicated 16, forest 16 to 256, runner virtual 1, or 16 in bundles, mpi up to 256", "4, or 3 if rays walk alone"}) {
     CHECK_MESSAGE(contains(text, word), word);
   }
 }

@@ -1,15 +1,20 @@
-// Counters as JSON, by their rows.
+// Counters as JSON, by their rows, and what is known of each rank.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 
 #include "apps/edge/show/counters.h"
+#include "nodes/ranks/rank_figures.h"
 
 namespace dmpc::apps {
+
+/// Null where nodes are in one process. `is_observed`: the ranks' clocks were compared.
+nlohmann::ordered_json ranks_json(std::span<const nodes::RankFigures> ranks, bool is_observed);
 
 /// A name as keys have it.
 inline std::string key_of(std::string name) {

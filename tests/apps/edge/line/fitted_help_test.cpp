@@ -1,4 +1,3 @@
-#include "apps/edge/line/fitted_help.h"
 
 #include <doctest/doctest.h>
 

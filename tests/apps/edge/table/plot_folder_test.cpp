@@ -1,4 +1,4 @@
-#include "apps/edge/table/plot_folder.h"
+#include "apps/edge/table/table_files.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/show/heat/files.h"
+#include "apps/show/heat/picture.h"
 
 #include <doctest/doctest.h>
 

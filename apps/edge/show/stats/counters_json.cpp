@@ -1,4 +1,4 @@
-#include "apps/edge/show/stats/ranks.h"
+#include "apps/edge/show/stats/counters_json.h"
 
 namespace dmpc::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/edge/system/folder_heir.h"
+#include "apps/edge/system/scratch_folder.h"
 
 #include <fcntl.h>
 #include <spawn.h>
