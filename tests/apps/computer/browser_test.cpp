@@ -24,7 +24,8 @@ void check_in_browser(const std::string& page) {
 
 }  // namespace
 
-TEST_CASE("a browser shows the pages of programs whole, on a screen and on a telephone, light and dark") {
+TEST_CASE("a browser shows the pages of programs whole, on a screen and on a telephone, light and dark" *
+          doctest::test_suite("slow")) {
   const TemporaryFolder folder;
   const std::string file = folder / "page.html", report = "--report=" + file;
   REQUIRE(run_with(asker(10), {"--nodes=8", "--runner=virtual", "--machine=hdr", report}).status == 0);

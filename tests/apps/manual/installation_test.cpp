@@ -173,7 +173,8 @@ TEST_CASE("what cmake installs below a folder is complete and works there") {
   check_program(prefix / "bin/dmpc", folder.path());
 }
 
-TEST_CASE("the Debian packages say what they need, MPI and a compiler for one of them each, and what is in them works") {
+TEST_CASE("the Debian packages say what they need, MPI and a compiler for one of them each, and what is in them works" *
+          doctest::test_suite("slow")) {
   if (!is_installed("dpkg-shlibdeps")) {
     MESSAGE("dpkg-dev is not installed: no package is made");
     return;

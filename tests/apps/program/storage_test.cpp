@@ -250,7 +250,8 @@ const std::vector<float>& undisturbed_picture(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("storage: whatever the disk does and wherever the power goes, who goes on comes to the same picture") {
+TEST_CASE("storage: whatever the disk does and wherever the power goes, who goes on comes to the same picture" *
+          doctest::test_suite("slow")) {
   Seeds("pictures").for_each([](std::uint64_t seed, Coverage& covered) {
     Storage storage(seed, covered);
     for (int attempts = 0; attempts < 3; ++attempts) {

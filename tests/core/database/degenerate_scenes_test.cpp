@@ -103,7 +103,7 @@ TEST_CASE("flat scenes along every axis are hit as brute force says") {
   }
 }
 
-TEST_CASE("thousands of triangles in one place cost no more than elsewhere") {
+TEST_CASE("thousands of triangles in one place cost no more than elsewhere" * doctest::test_suite("slow")) {
   const std::size_t count = scaled(40'000);
   const Database flat = database_of(coincident(count, {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}));
   const Database slanted = database_of(coincident(count, {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}));

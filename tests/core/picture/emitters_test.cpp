@@ -181,7 +181,8 @@ TEST_CASE("in a hollow ball of albedo a light of power P comes back as a P / (4 
   }
 }
 
-TEST_CASE("to aim alone, to meet by chance alone, and both, weighed, have one mean; both vary little more than the better") {
+TEST_CASE("to aim alone, to meet by chance alone, and both, weighed, have one mean; both vary little more than the better" *
+          doctest::test_suite("slow")) {
   const int side = scaled_edge(16), samples = 64;
   for (const Scene& scene : {lit_by_two(), lit_from_ceiling()}) {
     for (const int bounces : {0, 2}) {

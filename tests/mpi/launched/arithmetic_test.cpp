@@ -55,7 +55,8 @@ const std::vector<std::string> beside_it = {"-x", "LD_PRELOAD=" DMPC_FOREIGN_ARI
 
 }  // namespace
 
-TEST_CASE("a library that flushes to zero and rounds down in every thread of every rank changes no picture") {
+TEST_CASE("a library that flushes to zero and rounds down in every thread of every rank changes no picture" *
+          doctest::test_suite("slow")) {
   for (const std::string strategy : {"svm", "dataflow"}) {
     CAPTURE(strategy);
     const ThreeRanks ranks(strategy);

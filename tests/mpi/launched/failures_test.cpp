@@ -134,7 +134,8 @@ TEST_CASE("srun that tells MPI nothing of its ranks is said by the first of them
   }
 }
 
-TEST_CASE("a process that is killed ends all, and the picture goes on from what was kept, on another number of ranks") {
+TEST_CASE("a process that is killed ends all, and the picture goes on from what was kept, on another number of ranks" *
+          doctest::test_suite("slow")) {
   const TemporaryFolder folder;
   const std::string kept = folder / "kept", stats = "--stats=" + (folder / "s.json").string();
   const std::vector<std::string> line = {"render",        "rings-3-t1",           "--resolution=256x256",    "--samples=64",

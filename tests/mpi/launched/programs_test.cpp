@@ -60,7 +60,7 @@ TEST_CASE("a program comes to the same on any number of ranks, over shared memor
   }
 }
 
-TEST_CASE("the examples come to the same on ranks") {
+TEST_CASE("the examples come to the same on ranks" * doctest::test_suite("slow")) {
   CHECK(contains(on_ranks(3, "ring_product", {"--size=64", "--nodes=4", "--quiet"}).output, "as expected"));
   CHECK(contains(on_ranks(3, "sample_sort", {"--keys=20000", "--nodes=5", "--quiet"}).output, "100000 keys, sorted"));
   CHECK(contains(on_ranks(3, "page_rank", {"--vertices=5000", "--nodes=6", "--quiet"}).output, "as in one memory"));
@@ -136,7 +136,8 @@ TEST_CASE("a trace of ranks has the spans and messages of all nodes") {
   }
 }
 
-TEST_CASE("pages for a browser have the nodes of all ranks, and the heat of tasks is that of one process") {
+TEST_CASE("pages for a browser have the nodes of all ranks, and the heat of tasks is that of one process" *
+          doctest::test_suite("slow")) {
   const TemporaryFolder folder;
   for (const std::string name : {"asker", "tasks"}) {
     const std::string file = folder / (name + ".html");
@@ -158,7 +159,7 @@ TEST_CASE("pages for a browser have the nodes of all ranks, and the heat of task
   CHECK(file_text(folder / "here.csv") == file_text(folder / "there.csv"));
 }
 
-TEST_CASE("what a program does wrong on ranks is said once, and ends all of them") {
+TEST_CASE("what a program does wrong on ranks is said once, and ends all of them" * doctest::test_suite("slow")) {
   check_program_fault("asker", {"--fault=13"}, 3, "what it threw is no std::exception");
   check_program_fault("asker", {"--fault=5"}, 3, "a packet 'question' of 80 bytes");
   check_program_fault("asker", {"--fault=2"}, 3, "had no answer 'square'");
@@ -176,7 +177,7 @@ TEST_CASE("nodes of several ranks that stand still are found out, with the circl
   CHECK_MESSAGE(contains(ended.errors, "in a circle: node 0 waits for node 1, that for node 2, that for node 0\n"), ended.errors);
 }
 
-TEST_CASE("ranks whose acts part are found out before anything waits for ever") {
+TEST_CASE("ranks whose acts part are found out before anything waits for ever" * doctest::test_suite("slow")) {
   const std::string parted = ": the ranks have parted: here comes ";
   check_program_fault("tasks", {"--fault=1"}, 3, parted + "the end, on rank 0 on host ");
   check_program_fault("tasks", {"--fault=2"}, 3, parted + "run 4 of 1,000 tasks of 64 B over 4.0 KiB of data ");

@@ -222,7 +222,7 @@ TEST_CASE("Ctrl-C ends a study with status 130 and the rows finished before") {
   }
 }
 
-TEST_CASE("Ctrl-C leaves the finished rows of runs side by side in the file, whatever its format") {
+TEST_CASE("Ctrl-C leaves the finished rows of runs side by side in the file, whatever its format" * doctest::test_suite("slow")) {
   const TemporaryFolder folder;
   const std::string file = folder / "table";
   for (const auto& [study, rows] :

@@ -110,7 +110,7 @@ TEST_CASE("without script the page has both pictures, commands and tables, and s
   CHECK_FALSE(tests::contains(page, " style="));
 }
 
-TEST_CASE("on one clock the pixels of either run are lit that it had done by then") {
+TEST_CASE("on one clock the pixels of either run are lit that it had done by then" * doctest::test_suite("slow")) {
   const Comparison comparison = four_and_eight();
   const std::string page = text_of(comparison);
   for (const int share : {0, 40, 100}) {
@@ -165,7 +165,8 @@ TEST_CASE("a name that would be script does nothing, and of a script in which a 
   CHECK(told(page, "", "!!id('player')") == "false");
 }
 
-TEST_CASE("a browser shows the page of two runs whole, on a screen and on a telephone, and asks nobody for more") {
+TEST_CASE("a browser shows the page of two runs whole, on a screen and on a telephone, and asks nobody for more" *
+          doctest::test_suite("slow")) {
   const tests::TemporaryFolder folder;
   const std::string page = text_of(four_and_eight());
   for (const int width : {1280, 400}) {

@@ -60,7 +60,8 @@ TEST_CASE("in a browser who looks round sees pictures of any size, and moves the
   }
 }
 
-TEST_CASE("in a browser the live page shows tiles, steps and figures as it is told them, on a telephone and a screen") {
+TEST_CASE("in a browser the live page shows tiles, steps and figures as it is told them, on a telephone and a screen" *
+          doctest::test_suite("slow")) {
   const TemporaryFolder folder;
   for (const int width : {400, 1280}) {
     const std::string told = told_by_browser(html::live_page("dmpc render x", html::LiveKind::run).html, width, width == 400,

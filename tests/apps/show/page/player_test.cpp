@@ -28,7 +28,7 @@ std::string page_of(const std::string& scene = "balls-2") {
 
 }  // namespace
 
-TEST_CASE("the pixels that are lit at a time are those that were done by then") {
+TEST_CASE("the pixels that are lit at a time are those that were done by then" * doctest::test_suite("slow")) {
   const std::string page = page_of();
   const nlohmann::json data = nlohmann::json::parse(tests::data_in(page));
   const std::vector<std::uint64_t> done = tests::numbers_in(data["done"]);
@@ -83,7 +83,7 @@ TEST_CASE("the view's command has its heat map and window") {
         "dmpc render balls-2 --heatmap=faults:faults.png --trace=part.pftrace --trace-window=1.000000,2.000000");
 }
 
-TEST_CASE("of a script in which a byte is changed nothing runs") {
+TEST_CASE("of a script in which a byte is changed nothing runs" * doctest::test_suite("slow")) {
   std::string page = page_of();
   CHECK(told(page, "", "!!id('player')") == "true");
   const std::size_t at = page.find("\"The run, as it went\"");

@@ -166,7 +166,7 @@ TEST_CASE("bench speed writes its table and plots where they are asked for") {
   }
 }
 
-TEST_CASE("bench speed draws renderers whose names have commas") {
+TEST_CASE("bench speed draws renderers whose names have commas" * doctest::test_suite("slow")) {
   const TemporaryFolder folder;
   output_of(tiny_speed({"--parts=plain", "--plots=" + folder.path().string()}));
   CHECK(contains(file_text(folder / "speed_plain.gnuplot"), "'svm on 64 nodes, virtual / plain on 2 threads'"));
