@@ -353,8 +353,7 @@ struct UnitMoved {
 /// Every node is done.
 using Stop = Word;
 
-template <class T>
-inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;
+using nodes::is_small_packet;
 static_assert(is_small_packet<Credits> && is_small_packet<Ask> && is_small_packet<FilmAcknowledgement> && is_small_packet<Token>);
 static_assert(is_small_packet<PrimariesTaken> && is_small_packet<Hold> && is_small_packet<HoldAcknowledgement>);
 static_assert(is_small_packet<UnitAsk> && is_small_packet<UnitRefusal> && is_small_packet<UnitAcknowledgement>);

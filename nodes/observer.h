@@ -4,9 +4,11 @@
 // observer is asked once for each packet and quantum whether there is one, and never within a quantum.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 
@@ -72,6 +74,8 @@ struct Span {
   std::uint64_t own_ns = 0;  ///< what it takes by itself, without interrupts and packets that came meanwhile
   Charges before, after;     ///< operations charged until its begin and its end; equal but for calls of the program
 
+  /// A call of the program that is no interrupt.
+  bool is_own_call() const { return activity == Activity::work || activity == Activity::receive; }
   /// The classes of the operations that it was charged.
   ChargeBits charged() const { return charged_between(before, after); }
 };
@@ -99,6 +103,12 @@ struct Passing {
   std::size_t lasting_bytes = 0;  ///< that follow `payload` where they are (modelled machines, nodes/packet.h)
 
   std::size_t payload_bytes() const { return payload.size() + lasting_bytes; }
+  /// What many protocols say first, a number; 0 where there is none.
+  std::uint32_t first_word() const {
+    std::uint32_t word = 0;
+    std::memcpy(&word, payload.data(), std::min(payload.size(), sizeof(word)));
+    return word;
+  }
 };
 
 /// What a call of a program has worked on. There may be several in a call, or none.
@@ -129,12 +139,12 @@ class Observer {
   virtual ~Observer() = default;
 
   /// From the runner. `program` is the node's, between two calls.
-  virtual void ended(const Span& span, const Program& program) = 0;
-  virtual void sent(const Passing& packet) = 0;
-  virtual void received(const Passing& packet) = 0;
+  virtual void ended(const Span& /*span*/, const Program& /*program*/) {}
+  virtual void sent(const Passing& /*packet*/) {}
+  virtual void received(const Passing& /*packet*/) {}
   virtual void waited(const Waited& /*wait*/) {}
   /// From a program with a meter.
-  virtual void worked(const Worked& worked) = 0;
+  virtual void worked(const Worked& /*worked*/) {}
 
   /// Whether a modelled machine is to say what led to the end of each wait, and to that of the run
   /// (VirtualReport::critical_path). Asked once, before the run.

@@ -28,6 +28,10 @@ static_assert(sizeof(PacketHeader) == 8 && std::is_trivially_copyable_v<PacketHe
 inline constexpr std::size_t small_slot_bytes = 64;
 inline constexpr std::size_t small_payload_bytes = small_slot_bytes - sizeof(PacketHeader);
 
+/// What fits a small place.
+template <class T>
+inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= small_payload_bytes;
+
 /// A received packet: valid only during the call of Program::receive().
 struct Packet {
   NodeId source{};

@@ -11,8 +11,7 @@
 #include "nodes/ranks/errands.h"
 #include "nodes/ranks/life_signs.h"
 #include "nodes/ranks/rank_links.h"
-#include "nodes/ranks/stream_from_host.h"
-#include "nodes/ranks/streams_to_ranks.h"
+#include "nodes/ranks/streams.h"
 
 namespace dmpc::apps {
 

@@ -88,42 +88,18 @@ WatchOrder watch_order(const RenderOptions& options, std::uint32_t page_count, s
 
 std::string bytes_of(const WatchOrder& order) {
   nodes::FlatWriter flat;
-  flat.put(order.node_count);
-  flat.put(order.page_count);
-  flat.put(order.pixel_count);
+  flat.put(order.node_count, order.page_count, order.pixel_count, order.trace, order.has_profile, order.wait_of, order.fetches,
+           order.references_max, order.has_all_references);
   flat.put_all(order.heat_kinds);
-  flat.put(order.trace.has_value());
-  if (order.trace) {
-    flat.put(order.trace->from_ns);
-    flat.put(order.trace->to_ns);
-    flat.put(order.trace->events_max);
-  }
-  flat.put(order.has_profile);
-  flat.put(order.wait_of);
-  flat.put(order.fetches);
-  flat.put(order.references_max);
-  flat.put(order.has_all_references);
   return flat.take();
 }
 
 WatchOrder watch_order_from(std::string_view bytes) {
   nodes::FlatReader flat(bytes);
   WatchOrder order;
-  order.node_count = flat.take<std::uint32_t>();
-  order.page_count = flat.take<std::uint32_t>();
-  order.pixel_count = flat.take<std::uint32_t>();
+  flat.take_into(order.node_count, order.page_count, order.pixel_count, order.trace, order.has_profile, order.wait_of,
+                 order.fetches, order.references_max, order.has_all_references);
   order.heat_kinds = flat.take_all<core::HeatKind>();
-  if (flat.take<bool>()) {
-    nodes::TraceChoice& trace = order.trace.emplace();
-    trace.from_ns = flat.take<std::uint64_t>();
-    trace.to_ns = flat.take<std::uint64_t>();
-    trace.events_max = flat.take<std::uint64_t>();
-  }
-  order.has_profile = flat.take<bool>();
-  order.wait_of = flat.take<nodes::WaitOf>();
-  order.fetches = flat.take<std::optional<svm::PageHomes>>();
-  order.references_max = flat.take<std::optional<std::size_t>>();
-  order.has_all_references = flat.take<bool>();
   core::expect(flat.is_at_end(), "an order is read to its end");
   return order;
 }

@@ -19,6 +19,7 @@
 
 #include "core/base/expect.h"
 #include "nodes/mailbox.h"
+#include "nodes/processors.h"
 #include "nodes/ranks/frame.h"
 #include "nodes/ranks/outbox.h"
 #include "nodes/ranks/rank_links.h"
@@ -159,12 +160,7 @@ class CountingTalk {
   /// What was sent here or came here was received here or left.
   void expect_nothing_lost() const {
     nodes_->expect_nothing_lies_about();
-    std::uint64_t sent = 0, received = 0;
-    for (const auto& processor : nodes_->processors()) {
-      sent += total(processor->node.counters().sent).packets;
-      received += total(processor->node.counters().received).packets;
-    }
-    core::expect(sent + traffic_.packets_received == received + traffic_.packets_sent, "packets sent are packets received");
+    expect_all_received(nodes_->processors(), traffic_.packets_received, traffic_.packets_sent);
   }
 
  private:

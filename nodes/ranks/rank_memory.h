@@ -8,7 +8,7 @@
 
 #include "nodes/ranks/outbox.h"
 #include "nodes/ranks/rank_links.h"
-#include "nodes/ranks/streams_to_ranks.h"
+#include "nodes/ranks/streams.h"
 #include "nodes/runner.h"
 
 namespace dmpc::nodes {

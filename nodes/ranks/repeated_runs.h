@@ -13,8 +13,7 @@
 #include "nodes/byte_source.h"
 #include "nodes/flat_bytes.h"
 #include "nodes/ranks/rank_memory.h"
-#include "nodes/ranks/stream_from_host.h"
-#include "nodes/ranks/streams_to_ranks.h"
+#include "nodes/ranks/streams.h"
 #include "nodes/runner.h"
 #include "nodes/watch/watching.h"
 

@@ -7,6 +7,9 @@
 
 namespace dmpc::nodes {
 
+/// The least thread stack that a plan may reserve (Category::reserve), in bytes. Sanitizers get a larger one, outside the plan.
+inline constexpr std::size_t thread_stack_bytes_min = std::size_t{64} << 10U;
+
 /// Not started, running, or joined. Thread safety: none; belongs to who starts it.
 class Thread {
  public:

@@ -21,7 +21,6 @@
 #include "nodes/threads/held_packets.h"
 #include "nodes/threads/looks.h"
 #include "nodes/threads/thread.h"
-#include "nodes/threads/threads_runner.h"
 
 namespace dmpc::nodes {
 

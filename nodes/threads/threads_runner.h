@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -12,11 +11,9 @@
 
 #include "nodes/chaos.h"
 #include "nodes/runner.h"
+#include "nodes/threads/node_threads.h"
 
 namespace dmpc::nodes {
-
-/// The least thread stack that a plan may reserve (Category::reserve), in bytes. Sanitizers get a larger one, outside the plan.
-inline constexpr std::size_t thread_stack_bytes_min = std::size_t{64} << 10U;
 
 /// As Runner; on one thread a node or on a pool of threads, wall clock.
 class ThreadsRunner final : public Runner {
@@ -26,7 +23,6 @@ class ThreadsRunner final : public Runner {
   /// the nodes' threads. `pool_threads`: as ComputerRequest's.
   explicit ThreadsRunner(std::span<const NodeSpecification> specifications, const std::optional<Chaos>& chaos = std::nullopt,
                          Observer* observer = nullptr, const std::optional<std::uint32_t>& pool_threads = std::nullopt);
-  ~ThreadsRunner() override;
 
   /// Starts the threads. After a stop is requested every thread ends within a quantum. A stall is found exactly, without a
   /// time-out: all nodes sleep and nothing is under way.
@@ -36,8 +32,11 @@ class ThreadsRunner final : public Runner {
   std::vector<std::string> gather(const Tell& tell) override;
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  RunEnd judge() const;
+
+  NodeThreads nodes_;
+  std::optional<Chaos> disturbance_;
+  bool is_started_ = false;
 };
 
 }  // namespace dmpc::nodes

@@ -66,17 +66,14 @@ struct alignas(cache_line_bytes) ActivityProfile::Log {
 };
 
 ActivityProfile::ActivityProfile(std::uint32_t peer_count, WorkOf work_of, const WaitOf& wait_of, std::size_t step_count_max)
-    : work_of_(std::move(work_of)), wait_of_(wait_of), step_count_max_(step_count_max) {
+    : work_of_(std::move(work_of)), wait_of_(wait_of), step_count_max_(step_count_max), logs_(peer_count) {
   core::expect(step_count_max >= 2 && step_count_max % 2 == 0, "steps can be joined in pairs");
-  for (std::uint32_t i = 0; i < peer_count; ++i) {
-    logs_.push_back(std::make_unique<Log>());
-  }
 }
 
 ActivityProfile::~ActivityProfile() = default;
 
 ActivityProfile::Log& ActivityProfile::log_until(NodeId node, std::uint64_t end_ns) {
-  Log& log = *logs_[index_of(node)];
+  Log& log = logs_[index_of(node)];
   while (end_ns > log.step_ns * step_count_max_) {
     log.double_steps();
   }
@@ -100,7 +97,7 @@ void ActivityProfile::waited(const Waited& wait) {
 std::string ActivityProfile::bytes() const {
   FlatWriter flat;
   for (std::uint32_t index = 0; index < logs_.size(); ++index) {
-    const Log& log = *logs_[index];
+    const Log& log = logs_[index];
     if (log.step_count() > 0) {
       flat.put(index);
       flat.put(log.step_ns);
@@ -114,7 +111,7 @@ std::string ActivityProfile::bytes() const {
 void ActivityProfile::add(std::string_view bytes) {
   FlatReader flat(bytes);
   while (!flat.is_at_end()) {
-    Log& log = *logs_.at(flat.take<std::uint32_t>());
+    Log& log = logs_.at(flat.take<std::uint32_t>());
     core::expect(log.step_count() == 0, "a node is on one rank");
     log.step_ns = flat.take<std::uint64_t>();
     log.works.steps = flat.take_all<WorkTimes>();
@@ -125,20 +122,20 @@ void ActivityProfile::add(std::string_view bytes) {
 ActivitySteps ActivityProfile::take() {
   ActivitySteps all;
   std::size_t count = 0;
-  for (const auto& log : logs_) {
-    all.step_ns = std::max(all.step_ns, log->step_ns);
+  for (Log& log : logs_) {
+    all.step_ns = std::max(all.step_ns, log.step_ns);
   }
-  for (const auto& log : logs_) {
-    while (log->step_ns < all.step_ns) {
-      log->double_steps();
+  for (Log& log : logs_) {
+    while (log.step_ns < all.step_ns) {
+      log.double_steps();
     }
-    count = std::max(count, log->step_count());
+    count = std::max(count, log.step_count());
   }
-  for (const auto& log : logs_) {
-    log->works.steps.resize(count);
-    log->waits.steps.resize(count);
-    all.nodes.push_back(std::move(log->works.steps));
-    all.waits.push_back(std::move(log->waits.steps));
+  for (Log& log : logs_) {
+    log.works.steps.resize(count);
+    log.waits.steps.resize(count);
+    all.nodes.push_back(std::move(log.works.steps));
+    all.waits.push_back(std::move(log.waits.steps));
   }
   return all;
 }

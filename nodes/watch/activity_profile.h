@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,10 +45,7 @@ class ActivityProfile final : public Observer {
   ~ActivityProfile() override;
 
   void ended(const Span& span, const Program& program) override;
-  void sent(const Passing&) override {}
-  void received(const Passing&) override {}
   void waited(const Waited& wait) override;
-  void worked(const Worked&) override {}
 
   /// What was seen of nodes, for add() of the profile of another rank.
   std::string bytes() const;
@@ -68,7 +64,7 @@ class ActivityProfile final : public Observer {
   WorkOf work_of_;
   WaitOf wait_of_;
   std::size_t step_count_max_;
-  std::vector<std::unique_ptr<Log>> logs_;
+  std::vector<Log> logs_;
 };
 
 }  // namespace dmpc::nodes

@@ -6,9 +6,9 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "nodes/atomics.h"
 #include "nodes/observer.h"
 #include "nodes/watch/heat_map.h"
 
@@ -20,19 +20,28 @@ namespace dmpc::nodes {
 class DoneWatch final : public Observer {
  public:
   /// `peer_count` = nodes + host. The map outlives this.
-  DoneWatch(std::uint32_t peer_count, HeatMap& map);
-  ~DoneWatch() override;
+  DoneWatch(std::uint32_t peer_count, HeatMap& map) : map_(&map), calls_(peer_count) {}
 
-  void ended(const Span& span, const Program& program) override;
-  void sent(const Passing&) override {}
-  void received(const Passing&) override {}
-  void worked(const Worked& worked) override;
+  void ended(const Span& span, const Program& /*program*/) override {
+    if (!span.is_own_call()) {
+      return;  // an interrupt within a call, which works on nothing, or no call at all
+    }
+    std::vector<std::uint32_t>& items = calls_[index_of(span.node)].items;
+    for (const std::uint32_t item : items) {
+      map_->raise(map_->done(), item, span.end_ns);
+    }
+    items.clear();
+  }
+  void worked(const Worked& worked) override { calls_[index_of(worked.node)].items.push_back(worked.item); }
 
  private:
-  struct Call;
+  /// On cache lines of its own. It has no more items than one call works on.
+  struct alignas(cache_line_bytes) Call {
+    std::vector<std::uint32_t> items;
+  };
 
   HeatMap* map_;
-  std::vector<std::unique_ptr<Call>> calls_;  ///< under way, by node
+  std::vector<Call> calls_;  ///< under way, by node
 };
 
 }  // namespace dmpc::nodes

@@ -14,12 +14,6 @@ namespace {
 // Rows that are kept: all pairs of 127 nodes and a host; and steps, of which the last half of a run has at least half.
 constexpr std::size_t row_max = std::size_t{1} << 14U, pair_step_count_max = 32, step_count_max = 64;
 
-std::uint32_t first_word(std::span<const std::byte> payload) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, payload.data(), std::min(payload.size(), sizeof(word)));
-  return word;
-}
-
 }  // namespace
 
 ExchangeProfile::ExchangeProfile(const ExchangeChoice& choice)
@@ -39,7 +33,7 @@ void ExchangeProfile::received(const Passing& packet) {
   }
   const std::uint64_t at_ns = packet.times.arrived_ns;
   pairs_.add(index_of(packet.node) * (choice_.node_count + 1) + index_of(packet.peer), at_ns, 1);
-  if (const std::uint32_t number = first_word(packet.payload); choice_.number_count > 0) {
+  if (const std::uint32_t number = packet.first_word(); choice_.number_count > 0) {
     numbers_.add(number, at_ns, 1);
   }
 }
@@ -104,7 +98,7 @@ std::span<const std::uint64_t> ExchangeProfile::link_bytes(std::string_view from
 /// A level stays what it was until it is told again.
 void ExchangeProfile::ended(const Span& span, const Program& program) {
   const std::uint32_t node = index_of(span.node);
-  if (node >= choice_.node_count || (span.activity != Activity::work && span.activity != Activity::receive)) {
+  if (node >= choice_.node_count || !span.is_own_call()) {
     return;
   }
   LevelsNow& now = levels_now_[node];

@@ -33,9 +33,7 @@ class ExchangeProfile final : public Observer {
   explicit ExchangeProfile(const ExchangeChoice& choice);
 
   void ended(const Span& span, const Program& program) override;
-  void sent(const Passing&) override {}
   void received(const Passing& packet) override;
-  void worked(const Worked&) override {}
 
   /// Packets that count: of the receiver, with the host as the last, from a sender at receiver * (node_count + 1) + sender.
   const StepCounts& pairs() const { return pairs_; }

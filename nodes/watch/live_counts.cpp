@@ -28,46 +28,42 @@ struct alignas(cache_line_bytes) LiveCounts::Node {
   std::array<Number, work_count> busy_ns;
 };
 
-LiveCounts::LiveCounts(std::uint32_t peer_count, WorkOf work_of) : work_of_(std::move(work_of)) {
-  for (std::uint32_t i = 0; i < peer_count; ++i) {
-    nodes_.push_back(std::make_unique<Node>());
-  }
-}
+LiveCounts::LiveCounts(std::uint32_t peer_count, WorkOf work_of) : work_of_(std::move(work_of)), nodes_(peer_count) {}
 
 LiveCounts::~LiveCounts() = default;
 
 void LiveCounts::ended(const Span& span, const Program& /*program*/) {
-  Node& node = *nodes_[index_of(span.node)];
+  Node& node = nodes_[index_of(span.node)];
   node.now_ns.set(span.end_ns);
   node.busy_ns[work_of_(span)].add(span.own_ns);
 }
 
 void LiveCounts::sent(const Passing& packet) {
-  Node& node = *nodes_[index_of(packet.node)];
+  Node& node = nodes_[index_of(packet.node)];
   node.packets_sent.add(1);
   node.bytes_sent.add(packet.payload_bytes());
 }
 
 std::vector<LiveNode> LiveCounts::read() const {
   std::vector<LiveNode> all;
-  for (const auto& node : nodes_) {
+  for (const Node& node : nodes_) {
     LiveNode& made = all.emplace_back();
-    made.now_ns = node->now_ns.get();
-    made.packets_sent = node->packets_sent.get();
-    made.bytes_sent = node->bytes_sent.get();
+    made.now_ns = node.now_ns.get();
+    made.packets_sent = node.packets_sent.get();
+    made.bytes_sent = node.bytes_sent.get();
     for (std::size_t work = 0; work < work_count; ++work) {
-      made.busy_ns[work] = node->busy_ns[work].get();
+      made.busy_ns[work] = node.busy_ns[work].get();
     }
   }
   return all;
 }
 
 void LiveCounts::clear() {
-  for (const auto& node : nodes_) {
-    node->now_ns.set(0);
-    node->packets_sent.set(0);
-    node->bytes_sent.set(0);
-    for (Number& busy : node->busy_ns) {
+  for (Node& node : nodes_) {
+    node.now_ns.set(0);
+    node.packets_sent.set(0);
+    node.bytes_sent.set(0);
+    for (Number& busy : node.busy_ns) {
       busy.set(0);
     }
   }

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "nodes/observer.h"
@@ -28,8 +27,6 @@ class LiveCounts final : public Observer {
 
   void ended(const Span& span, const Program& program) override;
   void sent(const Passing& packet) override;
-  void received(const Passing&) override {}
-  void worked(const Worked&) override {}
 
   /// By number, the host last.
   std::vector<LiveNode> read() const;
@@ -40,7 +37,7 @@ class LiveCounts final : public Observer {
   struct Node;
 
   WorkOf work_of_;
-  std::vector<std::unique_ptr<Node>> nodes_;
+  std::vector<Node> nodes_;
 };
 
 }  // namespace dmpc::nodes

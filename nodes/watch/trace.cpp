@@ -26,12 +26,6 @@ class Ordinals {
   std::unordered_map<std::size_t, std::uint32_t> count_;  // whose order nobody sees
 };
 
-std::uint32_t first_word_of(std::span<const std::byte> payload) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, payload.data(), std::min(payload.size(), sizeof(word)));
-  return word;
-}
-
 /// What begins first, and of what begins at one time what was called first.
 bool is_before(const TraceSpan& a, const TraceSpan& b) {
   return std::tuple(a.begin_ns, a.call, a.activity) < std::tuple(b.begin_ns, b.call, b.activity);
@@ -166,19 +160,11 @@ struct alignas(cache_line_bytes) TraceRecorder::Log {
   }
 };
 
-namespace {
-
-/// Work or a packet, and no interrupt.
-bool is_own_call(Activity activity) { return activity == Activity::work || activity == Activity::receive; }
-
-}  // namespace
-
-TraceRecorder::TraceRecorder(std::uint32_t peer_count, const TraceChoice& choice) : choice_(choice) {
+TraceRecorder::TraceRecorder(std::uint32_t peer_count, const TraceChoice& choice) : choice_(choice), logs_(peer_count) {
   const std::uint64_t own_room = choice.events_max / 2 / peer_count;
   shared_room_ = choice.events_max - own_room * peer_count;
-  for (std::uint32_t i = 0; i < peer_count; ++i) {
-    logs_.push_back(std::make_unique<Log>());
-    logs_.back()->room = own_room;
+  for (Log& log : logs_) {
+    log.room = own_room;
   }
 }
 
@@ -233,7 +219,7 @@ void TraceRecorder::thin(Log& log, std::uint64_t now_ns) {
 }
 
 void TraceRecorder::worked(const Worked& worked) {
-  Log& log = *logs_[index_of(worked.node)];
+  Log& log = logs_[index_of(worked.node)];
   if (log.current.item == TraceSpan::no_item) {
     log.current.item = worked.item;
     log.current.depth = worked.depth;
@@ -241,9 +227,9 @@ void TraceRecorder::worked(const Worked& worked) {
 }
 
 void TraceRecorder::ended(const Span& span, const Program& program) {
-  Log& log = *logs_[index_of(span.node)];
+  Log& log = logs_[index_of(span.node)];
   const TraceSpan made = cut(log, span);
-  if (is_own_call(span.activity)) {
+  if (span.is_own_call()) {
     note_levels(log, program, span.end_ns);
   }
   if (overlaps_window(span) && admit(log, made.begin_ns)) {
@@ -254,7 +240,7 @@ void TraceRecorder::ended(const Span& span, const Program& program) {
 /// With what the call has worked on, if it is one that does.
 TraceSpan TraceRecorder::cut(Log& log, const Span& span) const {
   TraceSpan made;
-  if (is_own_call(span.activity)) {
+  if (span.is_own_call()) {
     made = std::exchange(log.current, {});
   }
   made.begin_ns = std::max(span.begin_ns, choice_.from_ns);
@@ -297,18 +283,18 @@ void TraceRecorder::note_end(Log& log, Ends& ends, const Passing& packet, std::u
                          .ordinal = ordinal,
                          .call = packet.call,
                          .bytes = static_cast<std::uint32_t>(packet.payload_bytes()),
-                         .first_word = first_word_of(packet.payload),
+                         .first_word = packet.first_word(),
                          .kind = packet.kind});
   }
 }
 
 void TraceRecorder::sent(const Passing& packet) {
-  Log& log = *logs_[index_of(packet.node)];
+  Log& log = logs_[index_of(packet.node)];
   note_end(log, log.sent, packet, packet.times.sending_ns);
 }
 
 void TraceRecorder::received(const Passing& packet) {
-  Log& log = *logs_[index_of(packet.node)];
+  Log& log = logs_[index_of(packet.node)];
   note_end(log, log.received, packet, packet.times.received_ns);
 }
 
@@ -317,10 +303,10 @@ std::vector<TraceMessage> TraceRecorder::join() const {
   using Named = std::pair<End::Name, const End*>;
   std::vector<Named> sent, received;
   for (std::uint32_t i = 0; i < logs_.size(); ++i) {
-    for (const End& end : logs_[i]->sent.kept) {
+    for (const End& end : logs_[i].sent.kept) {
       sent.emplace_back(end.name(i, end.peer), &end);
     }
-    for (const End& end : logs_[i]->received.kept) {
+    for (const End& end : logs_[i].received.kept) {
       received.emplace_back(end.name(end.peer, i), &end);
     }
   }
@@ -348,9 +334,9 @@ std::vector<TraceMessage> TraceRecorder::join() const {
 std::string TraceRecorder::bytes() const {
   FlatWriter flat;
   for (std::uint32_t index = 0; index < logs_.size(); ++index) {
-    if (!logs_[index]->is_empty()) {
+    if (!logs_[index].is_empty()) {
       flat.put(index);
-      logs_[index]->put(flat);
+      logs_[index].put(flat);
     }
   }
   return flat.take();
@@ -359,7 +345,7 @@ std::string TraceRecorder::bytes() const {
 void TraceRecorder::add(std::string_view bytes, const ClockDrift& clock) {
   FlatReader flat(bytes);
   while (!flat.is_at_end()) {
-    Log& log = *logs_.at(flat.take<std::uint32_t>());
+    Log& log = logs_.at(flat.take<std::uint32_t>());
     core::expect(log.is_empty(), "a node is on one rank");
     log.take(flat);
     log.correct(clock);
@@ -370,7 +356,7 @@ void TraceRecorder::add(std::string_view bytes, const ClockDrift& clock) {
 std::uint64_t TraceRecorder::events_lost() const {
   std::uint64_t lost = 0;
   for (const auto& log : logs_) {
-    lost += log->lost;
+    lost += log.lost;
   }
   return lost;
 }
@@ -379,15 +365,15 @@ std::uint64_t TraceRecorder::events_lost() const {
 std::optional<RecordedTimes> TraceRecorder::settle_times() {
   std::optional<RecordedTimes> times;
   for (const auto& log : logs_) {
-    if (log->times && times) {
-      times->meet(*log->times);
-    } else if (log->times) {
-      times = log->times;
+    if (log.times && times) {
+      times->meet(*log.times);
+    } else if (log.times) {
+      times = log.times;
     }
   }
-  for (const auto& log : logs_) {
+  for (Log& log : logs_) {
     if (times) {
-      log->leave(*times);
+      log.leave(*times);
     }
   }
   return times;
@@ -415,8 +401,8 @@ Trace TraceRecorder::take() {
   std::stable_sort(trace.messages.begin(), trace.messages.end(),
                    [](const TraceMessage& a, const TraceMessage& b) { return a.sent_ns < b.sent_ns; });
   trace.events_lost = events_lost();
-  for (const auto& log : logs_) {
-    trace.nodes.push_back(std::move(log->node));
+  for (Log& log : logs_) {
+    trace.nodes.push_back(std::move(log.node));
   }
   for (TraceNode& node : trace.nodes) {
     std::sort(node.spans.begin(), node.spans.end(), is_before);

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -116,7 +115,7 @@ class TraceRecorder final : public Observer {
   std::uint64_t events_lost() const;
 
   TraceChoice choice_;
-  std::vector<std::unique_ptr<Log>> logs_;
+  std::vector<Log> logs_;
   std::uint64_t shared_room_ = 0;         ///< events, for whoever comes first
   std::atomic<std::uint64_t> taken_{0};   ///< of them, and what was asked for in vain
   std::atomic<std::uint32_t> period_{0};  ///< bits of the first to be thinned, and 1

@@ -36,17 +36,14 @@ struct alignas(cache_line_bytes) WaitLog::Log {
   std::uint64_t left_out_ns_max = 0;
 };
 
-WaitLog::WaitLog(std::uint32_t peer_count, std::size_t node_waits_max) : node_waits_max_(node_waits_max) {
+WaitLog::WaitLog(std::uint32_t peer_count, std::size_t node_waits_max) : node_waits_max_(node_waits_max), logs_(peer_count) {
   core::expect(node_waits_max >= 2, "half of the waits can be kept");
-  for (std::uint32_t i = 0; i < peer_count; ++i) {
-    logs_.push_back(std::make_unique<Log>());
-  }
 }
 
 WaitLog::~WaitLog() = default;
 
 void WaitLog::waited(const Waited& wait) {
-  Log& log = *logs_[index_of(wait.node)];
+  Log& log = logs_[index_of(wait.node)];
   ++log.count;
   if (log.left_out_ns_max > 0 && length_ns(wait) <= log.left_out_ns_max) {
     return;
@@ -59,11 +56,11 @@ void WaitLog::waited(const Waited& wait) {
 
 WaitRecord WaitLog::take(std::size_t count_max) {
   WaitRecord all;
-  for (const auto& log : logs_) {
-    all.waits.insert(all.waits.end(), log->waits.begin(), log->waits.end());
-    all.count += log->count;
-    all.left_out_ns_max = std::max(all.left_out_ns_max, log->left_out_ns_max);
-    log->waits = {};
+  for (Log& log : logs_) {
+    all.waits.insert(all.waits.end(), log.waits.begin(), log.waits.end());
+    all.count += log.count;
+    all.left_out_ns_max = std::max(all.left_out_ns_max, log.left_out_ns_max);
+    log.waits = {};
   }
   if (all.waits.size() > count_max) {
     all.left_out_ns_max = std::max(all.left_out_ns_max, keep_longest(all.waits, count_max));

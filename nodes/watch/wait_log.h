@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "nodes/observer.h"
@@ -25,10 +24,6 @@ class WaitLog final : public Observer {
   WaitLog(std::uint32_t peer_count, std::size_t node_waits_max);
   ~WaitLog() override;
 
-  void ended(const Span&, const Program&) override {}
-  void sent(const Passing&) override {}
-  void received(const Passing&) override {}
-  void worked(const Worked&) override {}
   void waited(const Waited& wait) override;
   bool follows_paths() const override { return true; }
 
@@ -39,7 +34,7 @@ class WaitLog final : public Observer {
   struct Log;
 
   std::size_t node_waits_max_;
-  std::vector<std::unique_ptr<Log>> logs_;  ///< by node
+  std::vector<Log> logs_;  ///< by node
 };
 
 }  // namespace dmpc::nodes

@@ -20,7 +20,7 @@
 
 namespace dmpc::svm {
 
-/// All that travels in this family, packets of pixels (svm/packets.h) and questions (svm/forest/packets.h) too, so that a number
+/// All that travels in this family, packets of pixels (svm/packets.h) and questions (svm/forest/forest.h) too, so that a number
 /// has one name in every trace.
 enum class Kind : nodes::PacketKind {
   page_request,
@@ -52,8 +52,7 @@ inline constexpr nodes::Channel ring_channel = 2;
 inline constexpr nodes::Channel control_channel = 3;
 static_assert(control_channel < nodes::channel_count);
 
-template <class T>
-inline constexpr bool is_small_packet = std::is_trivially_copyable_v<T> && sizeof(T) <= nodes::small_payload_bytes;
+using nodes::is_small_packet;
 
 struct PageRequest {
   PageId page = no_page;

@@ -5,10 +5,9 @@
 #include <vector>
 
 #include "core/base/expect.h"
-#include "svm/pages/policy/adaptive.h"
+#include "svm/pages/policy/remembering.h"
 #include "svm/pages/policy/small_and_main.h"
 #include "svm/pages/policy/stamped.h"
-#include "svm/pages/policy/two_queues.h"
 
 namespace dmpc::svm {
 namespace {

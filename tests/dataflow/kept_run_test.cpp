@@ -4,17 +4,14 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/refusal.h"
-#include "core/picture/partial_picture.h"
 #include "dataflow/frames.h"
 #include "dataflow/ranks.h"
 #include "dataflow/run.h"
 #include "nodes/ranks/rank_links.h"
 #include "tests/support/kept_scenes.h"
-#include "tests/support/kinds_of_computers.h"
 #include "tests/support/loopback_ranks.h"
 #include "tests/support/scaled.h"
 #include "tests/support/strategies.h"
@@ -142,7 +139,7 @@ TEST_CASE("refined pictures and pictures by paths of what is kept are those of i
   CHECK(outcome_of(run_dataflow(by_paths, {.computer = {.node_count = 8}})) == by_paths.outcome());
 }
 
-TEST_CASE("frames of what is kept, runs of it on several ranks, and runs that go on with it have the film of one run") {
+TEST_CASE("frames of what is kept, and runs of it on several ranks, have the film of one run") {
   const core::Scene scene = balls_in_places(0.3, Arrangement::apart, 13);
   const int side = scaled_edge(24);
   const Subject kept(scene, {side, side}, with_instances());
@@ -164,28 +161,6 @@ TEST_CASE("frames of what is kept, runs of it on several ranks, and runs that go
     CHECK(rank.failure_text() == "");
     CHECK(rank.value == kept.outcome().film_hash);
   }
-
-  // Not all rays are dealt when it is asked to stop.
-  const Subject large(scene, {64, 64, 3}, with_instances());
-  std::optional<core::PartialPicture> start;
-  nodes::RunEnd end{};
-  for (int runs = 0; runs < 20 && (runs == 0 || end != nodes::RunEnd::finished); ++runs) {
-    std::stop_source stop;
-    const std::optional<core::PartialPicture> from = start;
-    const core::Continuation continuation{from ? &*from : nullptr, [] { return true; },
-                                          [&](const core::Film& film, const core::Refinement& pass, const core::PixelMask& done) {
-                                            start.emplace(core::partial_picture(film, pass, done));
-                                            stop.request_stop();
-                                          }};
-    const Report report =
-        dataflow::run_dataflow(large.database(), large.settings(),
-                               {.computer = {.node_count = 2U + static_cast<std::uint32_t>(runs)}, .continuation = continuation},
-                               runs < 3 ? stop.get_token() : std::stop_token());
-    end = report.end;
-    CHECK((end != nodes::RunEnd::finished || report.film.hash() == large.outcome().film_hash));
-  }
-  REQUIRE(start);
-  CHECK(end == nodes::RunEnd::finished);
 }
 
 TEST_CASE("a plan has the room for the longer cursors and bundles of a database with instances, and no node takes more") {
@@ -198,15 +173,6 @@ TEST_CASE("a plan has the room for the longer cursors and bundles of a database 
     }
     CHECK(report.plan.rays_a_task == (bundles ? 16 : 1));
   }
-}
-
-TEST_CASE("what is kept on a modelled machine takes the same time whenever it is rendered") {
-  const core::Scene scene = balls_in_places(0.3, Arrangement::apart, 27);
-  const Subject kept(scene, {scaled_edge(16), scaled_edge(16)}, with_instances());
-  RunOptions options{.computer = {.node_count = 8}};
-  options.computer.machine = nodes::Machine{};
-  const Report one = run_dataflow(kept, options), other = run_dataflow(kept, options);
-  CHECK(one.virtual_time->run_hash(one.film.hash()) == other.virtual_time->run_hash(other.film.hash()));
 }
 
 TEST_CASE("a list of tested objects does not go with what is kept: a plan that asks for both is refused, with why") {

@@ -118,7 +118,7 @@ TEST_CASE("where memory is scarce rays walk alone before packets get shorter, an
   CHECK(dataflow::smallest_node_memory_bytes(request) == dataflow::smallest_node_memory_bytes(alone));
   std::uint32_t rays = 16;
   for (std::size_t memory = make_plan(request).node_memory_max_bytes(); memory >= dataflow::smallest_node_memory_bytes(request);
-       memory -= 1_KiB) {
+       memory -= 4_KiB) {
     request.computer.node_memory_bytes = memory;
     const Plan plan = make_plan(request);
     CHECK(plan.node_memory_max_bytes() <= memory);
@@ -157,7 +157,7 @@ TEST_CASE("scarce memory costs queued packets before room for units, that before
   PlanRequest request = moving_request({20, 40, 60});
   const std::size_t smallest = dataflow::smallest_node_memory_bytes(request);
   std::uint32_t spare = 40;
-  for (std::size_t memory = make_plan(request).node_memory_max_bytes(); memory >= smallest; memory -= 1_KiB) {
+  for (std::size_t memory = make_plan(request).node_memory_max_bytes(); memory >= smallest; memory -= 4_KiB) {
     request.computer.node_memory_bytes = memory;
     const Plan plan = make_plan(request);
     CHECK(plan.node_memory_max_bytes() <= memory);
@@ -197,7 +197,7 @@ TEST_CASE("scarce memory costs queued packets first, then credits, then the leng
   PlanRequest request = request_with(16, 100_KiB);
   const std::size_t all = make_plan(request).node_memory_max_bytes();
   std::uint32_t queue = 512, credits = 4, batch = 17;
-  for (std::size_t memory = all; memory >= dataflow::smallest_node_memory_bytes(request); memory -= 1_KiB) {
+  for (std::size_t memory = all; memory >= dataflow::smallest_node_memory_bytes(request); memory -= 8_KiB) {
     request.computer.node_memory_bytes = memory;
     const Plan plan = make_plan(request);
     CHECK(plan.node_memory_max_bytes() <= memory);
@@ -304,7 +304,7 @@ TEST_CASE("where places are shared each further node takes 142 bytes of every ot
 TEST_CASE("shared places are given up after queued packets and before the length of packets") {
   PlanRequest request = request_with(200, 100_KiB);
   const std::size_t smallest = dataflow::smallest_node_memory_bytes(request);
-  for (std::size_t memory = make_plan(request).node_memory_max_bytes(); memory >= smallest; memory -= 4_KiB) {
+  for (std::size_t memory = make_plan(request).node_memory_max_bytes(); memory >= smallest; memory -= 16_KiB) {
     request.computer.node_memory_bytes = memory;
     const Plan plan = make_plan(request);
     CHECK(plan.node_memory_max_bytes() <= memory);

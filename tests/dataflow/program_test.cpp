@@ -120,22 +120,6 @@ LocalHit find_local_hit(const Stage& stage) {
 
 }  // namespace
 
-TEST_CASE("a hit whose record was found elsewhere is shaded here if it is met here again") {
-  const Stage stage(tests::mirrors_and_glass(), 2, 16);
-  const LocalHit found = find_local_hit(stage);
-  const std::uint32_t other = 1 - found.owner;
-  LoneProgram node(stage, found.owner);
-  core::Passage passage = found.passage;
-  passage.best = found.hit;
-  passage.best.block = core::Address{0x7ffffff0};  // far outside this node's part
-  node.receive(other, dataflow::message_of(found.ray, passage, NodeId{other}));
-  node.work_to_rest();
-  const dataflow::ProgramReport report = node.program.report();
-  CHECK(report.operations.primary_hits == 1);
-  CHECK(report.operations.shadings >= 1);
-  CHECK(report.rays.hits_sent_back == 0);
-}
-
 TEST_CASE("a hit that is confirmed but not met here goes to its finder with the finder's address") {
   const Stage stage(tests::mirrors_and_glass(), 2, 16);
   const LocalHit found = find_local_hit(stage);
@@ -157,23 +141,6 @@ TEST_CASE("a hit that is confirmed but not met here goes to its finder with the 
   CHECK(report.rays.hits_sent_back == 1);
   CHECK(report.operations.primary_hits == 0);
   CHECK(report.rays.ended == 0);
-}
-
-TEST_CASE("a finder shades its hit when another node has confirmed it") {
-  const Stage stage(tests::mirrors_and_glass(), 2, 16);
-  const LocalHit found = find_local_hit(stage);
-  LoneProgram finder(stage, found.owner), whole(stage, found.owner);
-  RayMessage confirmed = dataflow::message_of(found.ray, {.best = found.hit}, NodeId{found.owner});
-  confirmed.is_confirmed = 1;
-  finder.receive(1 - found.owner, confirmed);
-  finder.work_to_rest();
-  whole.receive(1 - found.owner, dataflow::message_of(found.ray, found.passage, NodeId{found.owner}));
-  whole.work_to_rest();
-  const dataflow::ProgramReport report = finder.program.report(), expected = whole.program.report();
-  CHECK(report.operations.primary_hits == 1);
-  CHECK(report.operations.rays == expected.operations.rays);
-  CHECK(report.operations.shadings == expected.operations.shadings);
-  CHECK(report.film.deposits == expected.film.deposits);
 }
 
 TEST_CASE("a node refuses what is not sent to nodes, and rays that are not its own") {

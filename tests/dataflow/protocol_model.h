@@ -9,21 +9,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "dataflow/backpressure.h"
 #include "dataflow/flow_control.h"
 #include "dataflow/termination.h"
+#include "tests/dataflow/peers_model.h"
 
 namespace dmpc::tests {
-
-inline constexpr std::size_t model_nodes = 3;
-inline constexpr std::size_t model_host = model_nodes;
-inline constexpr std::size_t model_peers = model_nodes + 1;
-/// The host has two children, of which one has the third node.
-inline constexpr dataflow::TerminationTree model_tree{.node_count = model_nodes, .branches = 2};
 
 /// The rules as they are. Broken ones derive from this and hide a member.
 struct ProtocolRules {
@@ -65,16 +59,6 @@ struct ProtocolSettings {
   std::uint8_t owners = model_nodes;  ///< children go to the first so many nodes: fewer, and more children can be explored
 };
 
-struct ProtocolFailure : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-inline void hold(bool condition, const char* sentence) {
-  if (!condition) {
-    throw ProtocolFailure(std::string("violated: ") + sentence);
-  }
-}
-
 template <class Rules>
 class ProtocolModel {
  public:
@@ -86,11 +70,7 @@ class ProtocolModel {
     std::uint8_t owner = 0;   ///< of overflowed rays
     std::int8_t balance = 0;  ///< of a token
   };
-  /// In the order sent.
-  struct Channel {
-    std::array<Message, 8> messages{};
-    std::uint8_t size = 0;
-  };
+  using Channel = ModelChannel<Message, 8>;
   /// Rays of the packets queued for one owner, in the order of closing.
   using Queue = std::array<std::uint8_t, 2>;
   struct Member {
@@ -114,7 +94,7 @@ class ProtocolModel {
   };
   struct State {
     std::array<Member, model_peers> member;
-    std::array<std::array<Channel, model_peers>, model_peers> channel{};  ///< [from][to]
+    ModelChannels<Channel> channel{};
     std::uint8_t children_left = 0;
     std::uint8_t alive = 0;  ///< rays that have been made and have not ended
   };
@@ -125,8 +105,9 @@ class ProtocolModel {
     std::uint8_t count = 0;
     bool token = false;
     bool is_idle() const { return token; }
-    std::string text() const { return name(actor) + " " + verb + " (" + name(other) + ", " + std::to_string(count) + ")"; }
-    static std::string name(std::size_t peer) { return peer == model_host ? "host" : "node " + std::to_string(peer); }
+    std::string text() const {
+      return peer_name(actor) + " " + verb + " (" + peer_name(other) + ", " + std::to_string(count) + ")";
+    }
   };
 
   explicit ProtocolModel(const ProtocolSettings& settings) : settings_(settings) {}
@@ -145,16 +126,7 @@ class ProtocolModel {
     for (const Member& m : state.member) {
       append(bytes, m);
     }
-    for (const auto& row : state.channel) {
-      for (const Channel& channel : row) {
-        bytes += static_cast<char>(channel.size);
-        for (std::size_t i = 0; i < channel.size; ++i) {
-          const Message& message = channel.messages[i];
-          bytes += {static_cast<char>(message.kind), static_cast<char>(message.count), static_cast<char>(message.owner),
-                    static_cast<char>(message.balance)};
-        }
-      }
-    }
+    append_messages(bytes, state.channel);
     return bytes;
   }
 
@@ -193,11 +165,7 @@ class ProtocolModel {
     for (std::size_t node = 0; node < model_nodes; ++node) {
       is_done = is_done && state.member[node].is_finished;
     }
-    for (const auto& row : state.channel) {
-      for (const Channel& channel : row) {
-        is_done = is_done && channel.size == 0;
-      }
-    }
+    for_each_message(state.channel, [&](const Message&) { is_done = false; });
     return is_done && state.alive == 0 && credits_are_home(state);
   }
 
@@ -297,13 +265,13 @@ class ProtocolModel {
         count += queue[0] + queue[1];
       }
     }
-    for_each_message(state, [&](const Message& message) { count += carries_rays(message) ? message.count : 0U; });
+    for_each_message(state.channel, [&](const Message& message) { count += carries_rays(message) ? message.count : 0U; });
     return count;
   }
 
   static std::uint32_t ray_packets_in(const State& state) {
     std::uint32_t count = 0;
-    for_each_message(state,
+    for_each_message(state.channel,
                      [&](const Message& message) { count += carries_rays(message) || message.kind == Kind::unused ? 1U : 0U; });
     return count;
   }
@@ -320,17 +288,8 @@ class ProtocolModel {
 
   static std::uint32_t announcements_in(const State& state) {
     std::uint32_t count = 0;
-    for_each_message(state, [&](const Message& message) { count += message.kind == Kind::hold ? 1U : 0U; });
+    for_each_message(state.channel, [&](const Message& message) { count += message.kind == Kind::hold ? 1U : 0U; });
     return count;
-  }
-
-  template <class Visit>
-  static void for_each_message(const State& state, Visit visit) {
-    for (const auto& row : state.channel) {
-      for (const Channel& channel : row) {
-        std::for_each(channel.messages.begin(), channel.messages.begin() + channel.size, visit);
-      }
-    }
   }
 
   static bool carries_rays(const Message& message) { return message.kind == Kind::rays || message.kind == Kind::overflow; }
@@ -389,16 +348,7 @@ class ProtocolModel {
   }
 
   static void send(State& state, std::size_t from, std::size_t to, const Message& message) {
-    Channel& channel = state.channel[from][to];
-    hold(channel.size < channel.messages.size(), "a mailbox has room for everything that credits allow");
-    channel.messages[channel.size++] = message;
-  }
-
-  static Message pop(Channel& channel) {
-    const Message message = channel.messages[0];
-    std::copy(channel.messages.begin() + 1, channel.messages.begin() + channel.size, channel.messages.begin());
-    --channel.size;
-    return message;
+    state.channel[from][to].add(message);
   }
 
   // ---- Receptions --------------------------------------------------------------------------------------------------------
@@ -409,7 +359,7 @@ class ProtocolModel {
       return;
     }
     State next = state;
-    const Message message = pop(next.channel[from][to]);
+    const Message message = next.channel[from][to].take(0);
     accept(next, from, to, message);
     visit(Action{verb(message.kind), narrow(to), narrow(from), message.count, message.kind == Kind::token}, next);
   }
@@ -790,18 +740,14 @@ class ProtocolModel {
 
   template <class Visit>
   void hand_on(const State& state, std::size_t peer, Visit visit) const {
-    if (!state.member[peer].termination.holds_token()) {
-      return;
-    }
-    State next = state;
-    auto& termination = next.member[peer].termination;
-    const auto handover = termination.hand_on();
-    for (std::uint32_t i = 0; handover && i < handover->count; ++i) {
-      send(next, peer, index_of(handover->first) + i,
-           {Kind::token, static_cast<std::uint8_t>(handover->token.is_black), 0,
-            static_cast<std::int8_t>(handover->token.balance)});
-    }
-    visit(Action{"hands on the token", narrow(peer), narrow(peer), 0, !termination.is_terminated()}, next);
+    hand_on_token(
+        state, peer,
+        [&](State& next, std::size_t target, const dataflow::Token& token) {
+          send(next, peer, target, {Kind::token, narrow(token.is_black), 0, static_cast<std::int8_t>(token.balance)});
+        },
+        [&](const State& next, bool is_idle) {
+          visit(Action{"hands on the token", narrow(peer), narrow(peer), 0, is_idle}, next);
+        });
   }
 
   // ---- The host's quantum ------------------------------------------------------------------------------------------------
@@ -856,8 +802,6 @@ class ProtocolModel {
     state.member[model_host].is_finished = true;
     visit(Action{"tells the end", narrow(model_host), narrow(model_host)}, state);
   }
-
-  static constexpr std::uint8_t narrow(std::size_t index) { return static_cast<std::uint8_t>(index); }
 
   ProtocolSettings settings_;
 };

@@ -6,10 +6,9 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
+#include <utility>
 
 #include "apps/foreign/gltf/document.h"
-#include "apps/foreign/mesh_reader.h"
 #include "core/base/expect.h"
 #include "tests/fuzz/input_files.h"
 #include "tests/fuzz/small_picture.h"
@@ -54,15 +53,12 @@ std::optional<core::Scene> read(Bytes input, bool is_animated) {
   if (is_animated) {
     options.animation = apps::AnimationMoment{.seconds = 0.7};
   }
-  try {
-    apps::MeshScene mesh = apps::read_mesh(name, options, files);
-    mesh.scene.vertices = apps::expanded(mesh.vertices);
-    core::expand(mesh.scene, mesh.instances);
-    return std::move(mesh.scene);
-  } catch (const core::InputError& error) {
-    core::expect(!std::string_view(error.what()).empty(), "who refuses says why");
+  std::optional<apps::MeshScene> mesh = read_or_refuse(name, options, files);
+  if (!mesh) {
+    return std::nullopt;
   }
-  return std::nullopt;
+  core::expand(mesh->scene, mesh->instances);
+  return std::move(mesh->scene);
 }
 
 }  // namespace
@@ -79,12 +75,7 @@ void try_gltf(const std::uint8_t* data, std::size_t size) {
   covered().count("moved by an animation", scene && is_animated);
   covered().count("with a texture", scene && !scene->textures.empty());
   if (scene) {
-    tests::check_scene(*scene);
-    for (core::Texture& texture : scene->textures) {
-      texture.levels = {{2, 2, {0x102030, 0xffffff, 0, 0x808080}}};
-      core::add_levels(texture);
-    }
-    tests::render_small(*scene);
+    tests::check_textured(*scene);
   }
 }
 

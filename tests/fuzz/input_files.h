@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "apps/foreign/mesh/scene_files.h"
+#include "apps/foreign/mesh_reader.h"
 #include "core/base/expect.h"
 
 namespace dmpc::fuzz {
@@ -25,7 +28,7 @@ class InputBytes final : public apps::FileBytes {
 };
 
 /// The input is the only file; a picture within it is taken for one.
-class InputFiles final : public apps::SceneFiles {
+class InputFiles : public apps::SceneFiles {
  public:
   /// `input` outlives it.
   InputFiles(std::string name, std::span<const std::byte> input) : name_(std::move(name)), input_(input) {}
@@ -47,11 +50,24 @@ class InputFiles final : public apps::SceneFiles {
                    const apps::TextureEdges& /*edges*/) override {}
   void add_texture(std::span<const std::uint32_t> /*texels*/, std::uint32_t /*width*/, std::uint32_t /*height*/,
                    const std::string& /*name*/, const apps::TextureEdges& /*edges*/) override {}
-  void show_progress(float /*share*/) override {}
+  void show_progress(float share) override { core::expect(share >= 0 && share <= 1, "progress is a share"); }
 
  private:
   std::string name_;
   std::span<const std::byte> input_;
 };
+
+/// What the file of this name is read as, with its vertices; nothing if it is refused, for a reason.
+inline std::optional<apps::MeshScene> read_or_refuse(const std::string& name, const apps::MeshOptions& options,
+                                                     apps::SceneFiles& files) {
+  try {
+    apps::MeshScene mesh = apps::read_mesh(name, options, files);
+    mesh.scene.vertices = apps::expanded(mesh.vertices);
+    return mesh;
+  } catch (const core::InputError& error) {
+    core::expect(!std::string_view(error.what()).empty(), "who refuses says why");
+  }
+  return std::nullopt;
+}
 
 }  // namespace dmpc::fuzz

@@ -4,8 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +12,7 @@
 #include "apps/foreign/obj/mtl.h"
 #include "apps/foreign/obj/reader.h"
 #include "core/base/expect.h"
+#include "tests/fuzz/input_files.h"
 #include "tests/fuzz/targets.h"
 
 namespace dmpc::fuzz {
@@ -22,42 +21,8 @@ namespace {
 
 using Check = void (*)(std::string_view file);
 
-/// The text as the file of a scene, beside which there is nothing.
-class OneFile final : public apps::SceneFiles {
- public:
-  explicit OneFile(std::string_view text) : text_(text) {}
-
-  std::unique_ptr<apps::FileBytes> open(const std::string& path) override {
-    if (path != "a.obj") {
-      throw core::InputError(path + " is missing");
-    }
-    return std::make_unique<Text>(text_);
-  }
-  bool exists(const std::string& path) override { return path == "a.obj"; }
-  std::vector<std::filesystem::path> meant(const std::filesystem::path& /*folder*/, const std::string& /*name*/) override {
-    return {};
-  }
-  void add_texture(const std::string& /*path*/, const apps::TextureEdges& /*edges*/) override {}
-  void add_texture(std::span<const std::byte> /*file*/, const std::string& /*name*/, const std::string& /*format_hint*/,
-                   const apps::TextureEdges& /*edges*/) override {}
-  void add_texture(std::span<const std::uint32_t> /*texels*/, std::uint32_t /*width*/, std::uint32_t /*height*/,
-                   const std::string& /*name*/, const apps::TextureEdges& /*edges*/) override {}
-  void show_progress(float share) override { core::expect(share >= 0 && share <= 1, "progress is a share"); }
-
- private:
-  class Text final : public apps::FileBytes {
-   public:
-    explicit Text(std::string_view text) : text_(text) {}
-    std::span<const std::byte> bytes() const override { return std::as_bytes(std::span(text_)); }
-
-   private:
-    std::string_view text_;
-  };
-  std::string_view text_;
-};
-
 void check_obj(std::string_view text) {
-  OneFile files(text);
+  InputFiles files("a.obj", std::as_bytes(std::span(text)));
   const apps::PlacedFile file = apps::read_obj("a.obj", files);
   for (const apps::PlacedShape& shape : file.shapes) {
     const apps::PolygonMesh& mesh = shape.mesh;

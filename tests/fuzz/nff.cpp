@@ -12,9 +12,8 @@
 #include "apps/formats/nff_reader.h"
 #include "apps/formats/nff_writer.h"
 #include "core/base/expect.h"
-#include "core/database/database.h"
-#include "core/picture/render.h"
 #include "core/scene/scene.h"
+#include "tests/fuzz/small_picture.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/same_scene.h"
 
@@ -24,7 +23,6 @@ namespace {
 
 /// More of them make an input slow and find nothing new.
 constexpr std::size_t vertices_max = 2000, lights_max = 16;
-constexpr int picture_side = 4, depth_max = 4;
 
 std::optional<core::Scene> read(const std::string& text) {
   std::istringstream input(text);
@@ -71,16 +69,6 @@ void check_round_trip(const core::Scene& scene) {
   core::expect(tests::same_scene(scene, *again), "what is written and read again is the same scene");
 }
 
-void render(const core::Scene& scene) {
-  const core::Database database = core::build_database(scene, {});
-  core::LocalRecords records(database.bytes());
-  core::GridTracer tracer(records, database.header(), {});
-  const core::Camera camera(scene.view, database.header().frame, picture_side, picture_side, 1);
-  core::Operations operations;
-  const core::Film film = core::render(tracer, {database.header(), camera, {.depth_max = depth_max}}, operations);
-  core::expect(film.pixel_count() == picture_side * picture_side, "every pixel is there");
-}
-
 }  // namespace
 
 void try_nff(const std::uint8_t* data, std::size_t size) {
@@ -96,7 +84,7 @@ void try_nff(const std::uint8_t* data, std::size_t size) {
     check_round_trip(*scene);
   }
   if (is_rendered) {
-    render(*scene);
+    tests::render_tiny(*scene);
   }
 }
 

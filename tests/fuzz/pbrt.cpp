@@ -24,9 +24,9 @@ using Bytes = std::span<const std::byte>;
 
 constexpr const char* name = "input.pbrt";
 
-class SceneAndPart final : public apps::SceneFiles {
+class SceneAndPart final : public InputFiles {
  public:
-  explicit SceneAndPart(Bytes input) : scene_(input), other_(input.subspan(input.size())) {
+  explicit SceneAndPart(Bytes input) : InputFiles(name, input), scene_(input), other_(input.subspan(input.size())) {
     if (const auto end = std::find(input.begin(), input.end(), std::byte{0}); end != input.end()) {
       scene_ = input.first(static_cast<std::size_t>(end - input.begin()));
       other_ = input.subspan(scene_.size() + 1);
@@ -40,17 +40,6 @@ class SceneAndPart final : public apps::SceneFiles {
     return std::make_unique<InputBytes>(path == name ? scene_ : other_);
   }
   bool exists(const std::string& path) override { return path == name || !other_.empty(); }
-  std::vector<std::filesystem::path> meant(const std::filesystem::path& /*folder*/, const std::string& /*name*/) override {
-    return {};
-  }
-  void add_texture(const std::string& path, const apps::TextureEdges& /*edges*/) override {
-    throw core::InputError(path + ": is not there");
-  }
-  void add_texture(Bytes /*file*/, const std::string& /*name*/, const std::string& /*format_hint*/,
-                   const apps::TextureEdges& /*edges*/) override {}
-  void add_texture(std::span<const std::uint32_t> /*texels*/, std::uint32_t /*width*/, std::uint32_t /*height*/,
-                   const std::string& /*name*/, const apps::TextureEdges& /*edges*/) override {}
-  void show_progress(float share) override { core::expect(share >= 0 && share <= 1, "progress is a share"); }
 
  private:
   Bytes scene_, other_;
@@ -69,18 +58,6 @@ bool is_of_interest(std::string_view text) {
   return text.find("levels") == std::string_view::npos || text.find("Attribute ") == std::string_view::npos;
 }
 
-std::optional<core::Scene> read(Bytes input, bool is_by_paths) {
-  SceneAndPart files(input);
-  try {
-    apps::MeshScene mesh = apps::read_mesh(name, {.allows_missing = true, .is_below_own_sky = is_by_paths}, files);
-    mesh.scene.vertices = apps::expanded(mesh.vertices);
-    return std::move(mesh.scene);
-  } catch (const core::InputError& error) {
-    core::expect(!std::string_view(error.what()).empty(), "who refuses says why");
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 void try_pbrt(const std::uint8_t* data, std::size_t size) {
@@ -88,20 +65,18 @@ void try_pbrt(const std::uint8_t* data, std::size_t size) {
   if (!is_of_interest({reinterpret_cast<const char*>(data), size})) {
     return;
   }
-  std::optional<core::Scene> scene = read(input, size % 2 == 0);
+  SceneAndPart files(input);
+  const bool is_by_paths = size % 2 == 0;
+  std::optional<apps::MeshScene> mesh = read_or_refuse(name, {.allows_missing = true, .is_below_own_sky = is_by_paths}, files);
+  core::Scene* const scene = mesh ? &mesh->scene : nullptr;
   covered().count("refused", !scene);
-  covered().count("rendered", scene.has_value());
+  covered().count("rendered", scene != nullptr);
   covered().count("with a sphere", scene && !scene->spheres.empty());
   covered().count("with what shines",
                   scene && std::any_of(scene->materials.begin(), scene->materials.end(),
                                        [](const auto& material) { return material.emission != core::Vec3d{}; }));
   if (scene) {
-    tests::check_scene(*scene);
-    for (core::Texture& texture : scene->textures) {
-      texture.levels = {{2, 2, {0x102030, 0xffffff, 0, 0x808080}}};
-      core::add_levels(texture);
-    }
-    tests::render_small(*scene);
+    tests::check_textured(*scene);
   }
 }
 

@@ -40,15 +40,6 @@ std::string end_of(const std::vector<NodeSpecification>& specifications, const L
 
 }  // namespace
 
-TEST_CASE("a token goes round the ring across processes") {
-  const auto look = [](RanksRunner& runner) {
-    for (std::uint32_t index = 0; index < 8; ++index) {
-      CHECK((!runner.is_here(index) || program_of<TokenRound>(runner, index).passed() == 20));
-    }
-  };
-  CHECK(end_of(equal_nodes(8, TokenRound::mailbox, making<TokenRound>(20U)), look) == "");
-}
-
 TEST_CASE("every request is answered across processes") {
   const auto count = static_cast<std::uint32_t>(scaled(400));
   const auto look = [](RanksRunner& runner) {
@@ -69,11 +60,6 @@ TEST_CASE("an exception of a program ends the run in all processes, and others s
   const std::string expected =
       rank == here_now->rank() ? "the hundredth quantum" : here_now->group.name_of(rank) + ": the hundredth quantum";
   CHECK(end_of(specifications, [](RanksRunner&) {}) == expected);
-}
-
-TEST_CASE("a stall is found in all processes") {
-  const std::string said = end_of(equal_nodes(9, {}, making<Waiter>()), [](RanksRunner&) {});
-  CHECK(said.find("waits for Godot") != std::string::npos);
 }
 
 TEST_CASE("what nodes have to say after a run comes to rank 0") {

@@ -148,16 +148,6 @@ TEST_CASE("settings out of range are broken invariants") {
   CHECK_THROWS_AS(ChaosPauses({.idle_quanta_max = 1U << 31U}, NodeId{0}), core::InternalError);
 }
 
-/// Nodes with room for packets held back, small ones.
-std::vector<NodeSpecification> disturbed_nodes(std::uint32_t count, const MailboxCapacity& mailbox, const ProgramMaker& maker) {
-  std::vector<NodeSpecification> specifications = equal_nodes(count, mailbox, maker);
-  for (NodeSpecification& specification : specifications) {
-    specification.held_bytes = HeldPackets::room_bytes(small_payload_bytes);
-    specification.plan[Category::queues] += specification.held_bytes;
-  }
-  return specifications;
-}
-
 /// Sends every other node the numbers from 0 on, `window` unacknowledged to each at most; each checks their order.
 class Counting : public ToyProgram {
  public:
@@ -210,14 +200,15 @@ class Counting : public ToyProgram {
   bool in_order_ = true;
 };
 
-TEST_CASE("under any seed every packet arrives and the order of each pair holds") {
+TEST_CASE("under any seed every packet arrives and the order of each pair holds, among threads and in a pool") {
   constexpr std::uint32_t peers = 5, count = 40;
   std::uint64_t held = 0, sat_out = 0;
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (std::uint64_t seed = 0; seed < 16; ++seed) {
     CAPTURE(seed);
     const Chaos chaos = chaos_of(seed);
     const std::uint32_t window = shrunk_credits(chaos, 4, 0);
-    ThreadsRunner runner(disturbed_nodes(peers, Counting::mailbox(peers, 4), making<Counting>(count, window)), chaos);
+    ThreadsRunner runner(disturbed(equal_nodes(peers, Counting::mailbox(peers, 4), making<Counting>(count, window))), chaos,
+                         nullptr, seed % 2 == 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(1 + seed / 2 % 3)));
     CHECK(runner.run({}) == RunEnd::finished);
     for (std::uint32_t i = 0; i < peers; ++i) {
       CHECK(dynamic_cast<Counting&>(runner.program(i)).in_order());
@@ -228,6 +219,18 @@ TEST_CASE("under any seed every packet arrives and the order of each pair holds"
   }
   CHECK(held > 1000);
   CHECK(sat_out > 1000);
+}
+
+TEST_CASE("a disturbed node draws in a pool what it draws with a thread of its own") {
+  const Chaos chaos{.seed = 7, .held_percent = 50, .slow_node_percent = 100};
+  const auto specifications = disturbed(equal_nodes(3, TokenRound::mailbox, making<TokenRound>(60U)));
+  ThreadsRunner threads(specifications, chaos), pool(specifications, chaos, nullptr, 2);
+  CHECK(threads.run({}) == RunEnd::finished);
+  CHECK(pool.run({}) == RunEnd::finished);
+  for (std::uint32_t i = 0; i < 3; ++i) {  // a draw for each packet, whenever it is sent
+    CHECK(threads.node(i).counters().held > 10);
+    CHECK(pool.node(i).counters().held == threads.node(i).counters().held);
+  }
 }
 
 /// The host waits for a packet more than node 0 sends it.
@@ -253,7 +256,7 @@ class Expecting : public ToyProgram {
 
 TEST_CASE("a stall is found out only when nothing is held back any more, and names the seed") {
   const Chaos chaos{.seed = 77, .held_percent = 100, .delay_quanta_max = 1000, .slow_node_percent = 100};
-  ThreadsRunner runner(disturbed_nodes(2, {.small_slots = 10}, making<Expecting>(10U)), chaos);
+  ThreadsRunner runner(disturbed(equal_nodes(2, {.small_slots = 10}, making<Expecting>(10U))), chaos);
   std::string report;
   try {
     runner.run({});
@@ -325,7 +328,7 @@ class Presuming : public ToyProgram {
 };
 
 bool presumption_fails(const std::optional<Chaos>& chaos) {
-  ThreadsRunner runner(disturbed_nodes(3, Presuming::mailbox, making<Presuming>(30U)), chaos);
+  ThreadsRunner runner(disturbed(equal_nodes(3, Presuming::mailbox, making<Presuming>(30U))), chaos);
   CHECK(runner.run({}) == RunEnd::finished);
   return dynamic_cast<Presuming&>(runner.program(1)).presumption_failed();
 }

@@ -70,14 +70,6 @@ TEST_CASE("a packet comes out as it went in") {
   CHECK(box.mailbox.is_empty());
 }
 
-TEST_CASE("packets come out in the order in which they went in") {
-  OneMailbox box({.small_slots = 4});
-  CHECK(box.push_number(1, 10));
-  CHECK(box.push_number(2, 20));
-  CHECK(box.push_number(1, 11));
-  CHECK(box.take() == Taken{{1, 10}, {2, 20}, {1, 11}});
-}
-
 TEST_CASE("packets of a batch come out when it is handed over, in their order, behind those that came before") {
   OneMailbox box({.small_slots = 4});
   Mailbox::Batch batch;
@@ -138,12 +130,6 @@ TEST_CASE("as many packets as the capacity fit even while one is being received"
     CHECK_FALSE(box.push_number(1, 3));
   });
   CHECK(box.take() == Taken{{1, 1}, {1, 2}});
-}
-
-TEST_CASE("a mailbox without slots of a class refuses every packet of it") {
-  OneMailbox box({.small_slots = 0, .bulk_slots = 1, .bulk_payload_bytes = 100});
-  CHECK_FALSE(box.push_number(1, 0));
-  CHECK(box.push(1, std::vector<std::byte>(100)));
 }
 
 TEST_CASE("the classes have slots of their own") {

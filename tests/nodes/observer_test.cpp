@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "nodes/threads/held_packets.h"
 #include "nodes/threads/threads_runner.h"
 #include "tests/nodes/scripted_machine.h"
 
@@ -24,7 +23,6 @@ class Scribe final : public Observer {
   void ended(const Span& span, const Program& /*program*/) override { spans[index_of(span.node)].push_back(span); }
   void sent(const Passing& packet) override { sent_by[index_of(packet.node)].push_back(packet); }
   void received(const Passing& packet) override { received_by[index_of(packet.node)].push_back(packet); }
-  void worked(const Worked& /*worked*/) override {}
   void waited(const Waited& wait) override { waits_of[index_of(wait.node)].push_back(wait); }
 
   std::vector<std::vector<Span>> spans;
@@ -165,13 +163,9 @@ TEST_CASE("an observer of threads sees waits between a node's calls, which urgen
 TEST_CASE("an observer of threads sees a packet when its program sends it, however long chaos holds it back") {
   const std::vector<Script> scripts = {
       {.quanta = {{0, {{1}}}, {0, {{1}}}, {0, {{1}}}, {0, {}}, {0, {}}, {0, {}}, {0, {}}}}, {.packets_awaited = 3}, {}};
-  std::vector<NodeSpecification> specifications = specifications_of(scripts);
-  for (NodeSpecification& specification : specifications) {
-    specification.held_bytes = HeldPackets::room_bytes(small_payload_bytes);
-    specification.plan[Category::queues] += specification.held_bytes;
-  }
   Scribe scribe(scripts.size());
-  ThreadsRunner runner(specifications, Chaos{.seed = 1, .held_percent = 100, .shrinks_credits = false}, &scribe);
+  ThreadsRunner runner(disturbed(specifications_of(scripts)), Chaos{.seed = 1, .held_percent = 100, .shrinks_credits = false},
+                       &scribe);
   CHECK(runner.run({}) == RunEnd::finished);
   CHECK(runner.node(0).counters().held == 3);
   REQUIRE(scribe.sent_by[0].size() == 3);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "nodes/threads/held_packets.h"
 #include "nodes/threads/threads_runner.h"
 
 namespace dmpc::tests {
@@ -29,6 +30,15 @@ inline nodes::MemoryPlan least_plan(std::uint32_t peer_count, const nodes::Mailb
 inline std::vector<nodes::NodeSpecification> equal_nodes(std::uint32_t count, const nodes::MailboxCapacity& mailbox,
                                                          ProgramMaker maker) {
   return std::vector<nodes::NodeSpecification>(count, {least_plan(count, mailbox), mailbox, std::move(maker)});
+}
+
+/// With room for packets held back, small ones.
+inline std::vector<nodes::NodeSpecification> disturbed(std::vector<nodes::NodeSpecification> specifications) {
+  for (nodes::NodeSpecification& specification : specifications) {
+    specification.held_bytes = nodes::HeldPackets::room_bytes(nodes::small_payload_bytes);
+    specification.plan[nodes::Category::queues] += specification.held_bytes;
+  }
+  return specifications;
 }
 
 /// A maker of T(node, arguments...).

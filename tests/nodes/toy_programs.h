@@ -87,43 +87,6 @@ class Asker : public ToyProgram {
   std::uint64_t wrong_ = 0;
 };
 
-/// Every node sends the host `count` numbers, one credit each, returned by acknowledgement; the host checks the order.
-class AllToHost : public ToyProgram {
- public:
-  static nodes::MailboxCapacity mailbox(std::uint32_t peer_count) { return {.small_slots = peer_count}; }
-
-  AllToHost(nodes::Node& node, std::uint32_t count) : ToyProgram(node), count_(count), next_of_(node.peer_count(), 0) {
-    node.grant(host(), 0);
-    is_host_ = node.id() == host();
-    left_ = is_host_ ? count * (node.peer_count() - 1) : count;
-  }
-
-  void receive(const nodes::Packet& packet) override { is_host_ ? collect(packet) : node().grant(host(), 0); }
-  bool work() override {
-    if (!is_host_ && left_ > 0 && node().try_send(host(), 0, 1, count_ - left_)) {
-      --left_;
-    }
-    return false;
-  }
-  bool finished() const override { return left_ == 0; }
-  bool in_order() const { return in_order_; }
-
- private:
-  void collect(const nodes::Packet& packet) {
-    std::uint32_t& next = next_of_[index_of(packet.source)];
-    in_order_ = in_order_ && packet.as<std::uint32_t>() == next++;
-    --left_;
-    node().grant(packet.source, 1);
-    node().send_reserved(packet.source, 1, 2, std::span<const std::byte>());
-  }
-
-  std::uint32_t count_;
-  std::uint32_t left_ = 0;
-  std::vector<std::uint32_t> next_of_;
-  bool is_host_ = false;
-  bool in_order_ = true;
-};
-
 /// Waits for a packet that nobody sends.
 class Waiter : public ToyProgram {
  public:

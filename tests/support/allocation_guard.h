@@ -58,6 +58,14 @@ inline void release(void* place) {
 /// The sum of all threads under watch since the program began. Read it while none of them runs.
 inline Allocations watched_allocations() { return {allocation_guard::allocated.load(), allocation_guard::freed.load()}; }
 
+/// What threads under watch allocate and free in a run, in times.
+inline std::uint64_t allocated_in_run(nodes::Runner& runner) {
+  const Allocations before = watched_allocations();
+  static_cast<void>(runner.run({}));
+  const Allocations after = watched_allocations();
+  return after.allocated - before.allocated + after.freed - before.freed;
+}
+
 /// A program as it is, on a thread that is under watch from its first call to its end (the runner's own code included).
 class WatchedProgram final : public nodes::Program {
  public:

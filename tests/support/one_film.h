@@ -15,7 +15,7 @@
 
 namespace dmpc::tests {
 
-/// Replicated, by svm with room for much and for one page, by dataflow with much and with the least.
+/// Replicated, by svm with room for much and for one page, by dataflow with much and with the least, and on a pool.
 inline void check_strategies(const Subject& subject, const std::optional<nodes::Chaos>& chaos = {}) {
   for (const std::uint32_t nodes : {1U, 3U, 16U}) {
     CAPTURE(nodes);
@@ -28,6 +28,9 @@ inline void check_strategies(const Subject& subject, const std::optional<nodes::
     CHECK(outcome_of(run_dataflow(subject, {.computer = computer})) == subject.outcome());
     const dataflow::RayOptions least{.ray_batch = 1, .ray_credits = nodes % 2, .queue_packets = 0};
     CHECK(outcome_of(run_dataflow(subject, {.computer = computer, .rays = least})) == subject.outcome());
+    const nodes::ComputerRequest pool{.node_count = nodes, .chaos = chaos, .pool_threads = 1 + nodes % 4};
+    CHECK(outcome_of(run_svm(subject, {.computer = pool})) == subject.outcome());
+    CHECK(outcome_of(run_dataflow(subject, {.computer = pool})) == subject.outcome());
   }
 }
 

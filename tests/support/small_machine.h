@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/expect.h"
+#include "core/base/sampling.h"
 #include "core/picture/pixel_task.h"
 #include "nodes/node.h"
 #include "nodes/program.h"
@@ -32,28 +33,18 @@ Parcel parcel_of(std::uint32_t source, svm::Kind kind, const T& value) {
 }
 
 /// Node `index` of a plan, without a thread, and what it sends.
-struct LoneNode {
+struct LoneNode : SingleNode {
   LoneNode(const svm::Plan& plan, std::uint32_t index, nodes::Lasting lasting = nodes::Lasting::is_copied)
-      : memory(index == plan.request.computer.node_count ? plan.host_memory() : plan.node_memory(index), lasting),
-        node(nodes::NodeId{index}, plan.request.computer.node_count + 1, memory, post) {}
-
-  Post post;
-  nodes::LocalMemory memory;
-  nodes::Node node;
+      : SingleNode(index == plan.node_count() ? plan.host_memory() : plan.node_memory(index), index, plan.node_count() + 1,
+                   lasting) {}
 };
-
-inline std::uint64_t mixed(std::uint64_t value) {
-  value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9U;
-  value = (value ^ (value >> 27U)) * 0x94d049bb133111ebU;
-  return value ^ (value >> 31U);
-}
 
 /// Pages full of numbers that depend on their place, and the overread behind them.
 struct FakePages {
   FakePages(std::uint32_t page_count, std::size_t page_size_bytes)
       : page_size(page_size_bytes), storage(page_count * page_size_bytes / 8 + core::overread_bytes / 8) {
     for (std::size_t i = 0; i < storage.size(); ++i) {
-      storage[i] = mixed(i + 1);
+      storage[i] = core::mix(i + 1);
     }
   }
   std::span<const std::byte> bytes() const {
@@ -84,7 +75,7 @@ class FakeTask {
   void start(std::span<const std::uint32_t> pixels, std::span<const core::SampleStep>, const core::RenderSettings&,
              core::Operations& operations) {
     pixel_ = pixels.front();
-    state_ = mixed(pixel_);
+    state_ = core::mix(pixel_);
     rays_left_ = static_cast<std::uint32_t>(state_ % 4) + 1;
     begin_ray(operations);
   }
@@ -105,7 +96,7 @@ class FakeTask {
       }
       std::uint64_t word = 0;
       std::memcpy(&word, record, sizeof(word));
-      state_ = mixed(state_ ^ word);
+      state_ = core::mix(state_ ^ word);
     }
     return core::TaskState::more;
   }
@@ -118,7 +109,7 @@ class FakeTask {
   core::PixelSums sums(std::uint32_t = 0) const {
     core::PixelSums sums;
     for (std::size_t i = 0; i < 6; ++i) {
-      sums.plane[i / 3].channel[i % 3] = static_cast<std::int64_t>(mixed(state_ + i) >> 2U);
+      sums.plane[i / 3].channel[i % 3] = static_cast<std::int64_t>(core::mix(state_ + i) >> 2U);
     }
     return sums;
   }
@@ -127,7 +118,7 @@ class FakeTask {
   void begin_ray(core::Operations& operations) {
     ++operations.rays[0];
     --rays_left_;
-    steps_left_ = static_cast<std::uint32_t>(mixed(state_) % 6) + 1;
+    steps_left_ = static_cast<std::uint32_t>(core::mix(state_) % 6) + 1;
   }
 
   std::uint64_t state_ = 0;

@@ -7,38 +7,19 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/picture/frame_settings.h"
 #include "svm/forest/strategy.h"
-#include "tests/support/built_scene.h"
+#include "tests/support/walk.h"
 
 namespace svm_frames_test {
 
 using namespace dmpc;
-using tests::BuiltScene;
+using tests::Walk;
 
 namespace {
 
-/// Pictures of a scene, of which each is seen from a little farther to the right.
-struct Walk {
-  Walk(const char* name, int side, core::BuildOptions build = {.page_size_bytes = 512})
-      : scene(core::built_in_scene(core::parse_scene_name(name))), database(core::build_database(scene, build)) {
-    const core::RenderSettings own{database.header(), camera(scene.view, side), {}};
-    for (int step = 0; step < 3; ++step) {
-      core::View view = scene.view;
-      view.from.x += 0.02 * step;
-      frames.push_back(core::seen_by(camera(view, side), own, database));
-    }
-  }
-
-  core::Camera camera(const core::View& view, int side) const { return {view, database.header().frame, side, side, 1}; }
-  svm::Report alone(const svm::Strategy& strategy, std::size_t frame, const svm::RunOptions& options) const {
-    return svm::run_by(strategy, database, frames[frame], options, {});
-  }
-
-  core::Scene scene;
-  core::Database database;
-  std::vector<core::RenderSettings> frames;
-};
+svm::Report run_alone(const Walk& walk, const svm::Strategy& strategy, std::size_t frame, const svm::RunOptions& options) {
+  return svm::run_by(strategy, walk.database, walk.frames[frame], options, {});
+}
 
 svm::RunOptions one_by_one(std::uint32_t node_count, std::optional<nodes::Machine> machine = std::nullopt) {
   return {.computer = {.node_count = node_count, .machine = std::move(machine)},
@@ -48,8 +29,8 @@ svm::RunOptions one_by_one(std::uint32_t node_count, std::optional<nodes::Machin
 }  // namespace
 
 TEST_CASE("each frame has the film of a run of it alone, by pages, copies and questions, on threads, a pool and a machine") {
-  const Walk walk("teapot-4", 24);
-  const Walk tree("teapot-4", 24, {.page_size_bytes = 512, .structure = core::Structure::extents});
+  const Walk walk(24);
+  const Walk tree(24, {.page_size_bytes = 512, .structure = core::Structure::extents});
   const std::vector<const svm::Strategy*> strategies = {svm::svm_strategy(), svm::replicated_strategy(), svm::forest_strategy()};
   for (const svm::Strategy* const strategy : strategies) {
     const Walk& of = strategy == svm::forest_strategy() ? tree : walk;
@@ -64,7 +45,7 @@ TEST_CASE("each frame has the film of a run of it alone, by pages, copies and qu
         CAPTURE(way);
         CAPTURE(i);
         const svm::Report report = frames.render(of.frames[i], {});
-        CHECK(report.film.hash() == of.alone(*strategy, i, {.computer = {.node_count = 2}}).film.hash());
+        CHECK(report.film.hash() == run_alone(of, *strategy, i, {.computer = {.node_count = 2}}).film.hash());
         CHECK(report.pixels_done == 24U * 24U);
       }
     }
@@ -72,9 +53,9 @@ TEST_CASE("each frame has the film of a run of it alone, by pages, copies and qu
 }
 
 TEST_CASE("the first frame of several is the run of it alone, to the last event") {
-  const Walk walk("teapot-4", 24);
+  const Walk walk(24);
   const svm::RunOptions options = one_by_one(4, nodes::Machine{});
-  const svm::Report alone = walk.alone(*svm::svm_strategy(), 0, options);
+  const svm::Report alone = run_alone(walk, *svm::svm_strategy(), 0, options);
   const svm::Report first =
       svm::Frames(*svm::svm_strategy(), walk.database, walk.frames[0], options, {}).render(walk.frames[0], {});
   CHECK(first.virtual_time->hash == alone.virtual_time->hash);
@@ -82,7 +63,7 @@ TEST_CASE("the first frame of several is the run of it alone, to the last event"
 }
 
 TEST_CASE("nodes that keep nothing but what they had do the same again for the same frame, to the last event") {
-  const Walk walk("teapot-4", 24);
+  const Walk walk(24);
   svm::RunOptions options = one_by_one(4, nodes::Machine{});
   options.pages.cache_pages.reset();
   svm::Frames frames(*svm::replicated_strategy(), walk.database, walk.frames[0], options, {});
@@ -95,7 +76,7 @@ TEST_CASE("nodes that keep nothing but what they had do the same again for the s
 }
 
 TEST_CASE("what a node has fetched it does not fetch again where its cache has room for all: a still frame has no fault") {
-  const Walk walk("teapot-4", 24);
+  const Walk walk(24);
   svm::RunOptions options = one_by_one(4);
   options.pages.cache_pages = 1U << 20U;
   svm::Frames frames(*svm::svm_strategy(), walk.database, walk.frames[0], options, {});
@@ -112,12 +93,12 @@ TEST_CASE("what a node has fetched it does not fetch again where its cache has r
 TEST_CASE(
     "frames that are refined choose their samples as alone, whoever deals the work, and the host that has all pages serves "
     "each") {
-  Walk walk("teapot-4", 16);
+  Walk walk(16);
   for (core::RenderSettings& settings : walk.frames) {
     settings.camera = core::Camera(walk.scene.view, walk.database.header().frame, 16, 16, 2);
     settings.refinement = {.error = 0.02, .samples_max = 64};
   }
-  const svm::Report alone = walk.alone(*svm::svm_strategy(), 0, {.computer = {.node_count = 2}});
+  const svm::Report alone = run_alone(walk, *svm::svm_strategy(), 0, {.computer = {.node_count = 2}});
   CHECK(alone.refinement.passes > 1);
   for (const svm::WorkGiver giver : {svm::WorkGiver::ring, svm::WorkGiver::host}) {
     const svm::RunOptions options{

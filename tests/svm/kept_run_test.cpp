@@ -7,7 +7,6 @@
 #include "core/trace/charge.h"
 #include "svm/run.h"
 #include "tests/support/kept_scenes.h"
-#include "tests/support/kinds_of_computers.h"
 #include "tests/support/priced_machine.h"
 #include "tests/support/scaled.h"
 #include "tests/support/strategies.h"
@@ -39,19 +38,6 @@ TEST_CASE("nodes show of what is kept once what its copies show: on threads, a p
       }
       CHECK(outcome_of(run_replicated(kept, way_of(number, ++seed))) == copies.outcome());
     }
-  }
-}
-
-TEST_CASE("rays that walk alone and in bundles show the same of what is kept") {
-  const core::Scene scene = balls_in_places(0.3, Arrangement::deep_in_each_other, 23);
-  const int side = scaled_edge(24);
-  const Subject copies(scene, {side, side, 3}, with_copies(512)), kept(scene, {side, side, 3}, with_instances(512));
-  for (const bool bundles : {false, true}) {
-    core::Skips skips;
-    skips.bundles = bundles;
-    const svm::Report report = run_svm(kept, {.computer = {.node_count = 2}, .pages = {.cache_pages = 2}}, skips);
-    CHECK(outcome_of(report) == copies.outcome());
-    CHECK((report.operations().bundles > 0) == bundles);
   }
 }
 

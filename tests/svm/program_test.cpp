@@ -61,26 +61,6 @@ void run_shuffled(const svm::PlanRequest& request, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("every number of nodes, page size, cache, pixels in flight and work item gives the same film") {
-  const std::uint32_t sides[] = {0, 1, 3, 16};
-  const std::size_t page_sizes[] = {512, 1024, 4096, 65536};
-  std::size_t turn = 0;
-  for (const std::uint32_t nodes : {1U, 2U, 3U, 7U, 8U}) {
-    for (const std::uint32_t in_flight : {1U, 64U}) {
-      for (const std::uint32_t cache_pages : {1U, 5U, 1000U}) {
-        svm::PlanRequest request = request_with(nodes, page_sizes[turn % 4], turn % 4 == 3 ? 9 : 50);
-        request.pages.in_flight = in_flight;
-        request.pages.cache_pages = cache_pages;
-        request.pages.work_item_side = sides[(turn / 4 + turn) % 4];
-        INFO("nodes ", nodes, ", in_flight ", in_flight, ", cache_pages ", cache_pages, ", page_size_bytes ",
-             request.page_size_bytes, ", work_item_side ", request.pages.work_item_side);
-        run_on_threads(request);
-        ++turn;
-      }
-    }
-  }
-}
-
 TEST_CASE("any legal order of packets and quanta gives the same film, and no mailbox overflows") {
   const std::uint32_t sides[] = {0, 1, 3, 16};
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
@@ -115,14 +95,6 @@ TEST_CASE("more nodes than pixels, a picture of one pixel, a database of one pag
   CHECK(report.work().pixels_rendered == 1);
 }
 
-TEST_CASE("one node alone finds every page at home and asks nobody") {
-  const svm::Report report = run_on_threads(request_with(1, 1024, 20));
-  CHECK(report.pages().references == report.pages().home_hits);
-  CHECK(report.pages().references > 0);
-  CHECK(report.work().items_asked == 0);
-  CHECK(report.plan.frames == 0);
-}
-
 TEST_CASE("references are counted once, however often their pages are evicted") {
   svm::PlanRequest request = request_with(4, 512, 40);
   request.pages.work_item_side = 0;
@@ -138,18 +110,6 @@ TEST_CASE("references are counted once, however often their pages are evicted") 
   }
 }
 
-TEST_CASE("with one pixel in flight and static submaps the counters repeat exactly") {
-  svm::PlanRequest request = request_with(5, 512, 60);
-  request.pages.in_flight = 1;
-  request.pages.cache_pages = 7;
-  request.pages.work_item_side = 0;
-  const svm::PageCounters first = run_on_threads(request).pages();
-  const svm::PageCounters second = run_on_threads(request).pages();
-  CHECK(first.faults == second.faults);
-  CHECK(first.evictions == second.evictions);
-  CHECK(first.cache_hits == second.cache_hits);
-}
-
 TEST_CASE("distinct pages do not depend on cache or pixels in flight") {
   svm::PlanRequest request = request_with(3, 512, 70);
   request.pages.count_pages = true;
@@ -159,51 +119,6 @@ TEST_CASE("distinct pages do not depend on cache or pixels in flight") {
   request.pages.cache_pages = 1;
   request.pages.in_flight = 1;
   CHECK(run_on_threads(request).pages().distinct_pages == pages.distinct_pages);
-}
-
-TEST_CASE("a node uses exactly the memory of its plan, in every category") {
-  for (const svm::Strategy* const strategy : {svm::svm_strategy(), svm::replicated_strategy()}) {
-    for (const bool count_pages : {false, true}) {
-      svm::PlanRequest request = request_with(3, 1024, 25);
-      request.strategy = strategy;
-      request.pages.count_pages = count_pages && strategy == svm::svm_strategy();
-      for (const svm::NodeReport& node : run_on_threads(request).nodes) {
-        if (node.memory_used.bytes != node.memory_planned.bytes) {
-          // A fake task is smaller than a real one, for which memory is planned.
-          CHECK(node.memory_used[core::MemoryUse::ray_stacks] < node.memory_planned[core::MemoryUse::ray_stacks]);
-          CHECK(node.memory_planned.total() - node.memory_used.total() ==
-                node.memory_planned[core::MemoryUse::ray_stacks] - node.memory_used[core::MemoryUse::ray_stacks]);
-        }
-      }
-    }
-  }
-}
-
-TEST_CASE("a stop request interrupts the run") {
-  const svm::PlanRequest request = request_with(4, 512, 40);
-  const FakePages pages(request.page_count, request.page_size_bytes);
-  const core::RenderSettings settings = fake_settings(side, side);
-  const svm::Plan plan = svm::make_plan(request);
-  std::stop_source source;
-  source.request_stop();
-  const svm::Report report = svm::run_programs(plan, maker(plan, settings, pages), {}, source.get_token());
-  CHECK(report.end == nodes::RunEnd::interrupted);
-}
-
-TEST_CASE("progress ends with every pixel") {
-  const svm::PlanRequest request = request_with(4, 512, 40);
-  const FakePages pages(request.page_count, request.page_size_bytes);
-  const core::RenderSettings settings = fake_settings(side, side);
-  const svm::Plan plan = svm::make_plan(request);
-  std::uint32_t last = 0;
-  bool grew = true;
-  const auto progress = [&](std::uint32_t done, std::uint32_t total) {
-    grew = grew && done > last && done <= total;
-    last = done;
-  };
-  svm::run_programs(plan, maker(plan, settings, pages), {.watching = {.progress = progress}}, {});
-  CHECK(grew);
-  CHECK(last == side * side);
 }
 
 }  // namespace svm_program_test

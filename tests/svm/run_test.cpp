@@ -11,7 +11,6 @@
 #include "svm/pages/watch/optimum.h"
 #include "tests/support/built_scene.h"
 #include "tests/support/priced_machine.h"
-#include "tests/support/references.h"
 
 namespace svm_run_test {
 
@@ -237,6 +236,15 @@ TEST_CASE("a tracer of one's own may stand in for the grid in replicated") {
   CHECK(report.film.hash() == small.reference(operations).hash());
 }
 
+TEST_CASE("one node counts on a pool what it counts on a thread of its own, and has as much memory") {
+  const BuiltScene small("rings-2", 512, 24);
+  const svm::Report threads = svm::run_svm(small.database, small.settings, {.computer = {.node_count = 1}}, {});
+  const svm::Report pool = svm::run_svm(small.database, small.settings, {.computer = {.node_count = 1, .pool_threads = 1}}, {});
+  CHECK(pool.film.hash() == threads.film.hash());
+  CHECK(nodes::total(pool.sent()).packets == nodes::total(threads.sent()).packets);
+  CHECK(pool.nodes[0].memory_used.bytes == threads.nodes[0].memory_used.bytes);
+}
+
 TEST_CASE("a run that is stopped on the way says so and has not every pixel") {
   const BuiltScene small("balls-3", 1024, 64);
   std::stop_source source;
@@ -246,30 +254,6 @@ TEST_CASE("a run that is stopped on the way says so and has not every pixel") {
   const svm::Report report = svm::run_svm(small.database, small.settings, options, source.get_token());
   CHECK(report.end == nodes::RunEnd::interrupted);
   CHECK(report.work().pixels_rendered < 64 * 64);
-}
-
-TEST_CASE("an exception of the progress function ends the run and comes out") {
-  const BuiltScene small("balls-2", 1024, 8);
-  svm::RunOptions options;
-  options.watching.progress = [](std::uint32_t, std::uint32_t) { throw core::InputError("enough"); };
-  CHECK_THROWS_AS(svm::run_svm(small.database, small.settings, options, {}), core::InputError);
-}
-
-TEST_CASE("the references recorded in one run give every node's faults in runs with other caches, to the last one") {
-  const BuiltScene small("rings-2", 512, 24);
-  const svm::Report recorded = recorded_run(small, 4);
-  for (const std::uint32_t cache_pages : {1U, 3U, 8U, 20U, 60U}) {
-    svm::RunOptions options = fixed_order(4);
-    options.pages.cache_pages = cache_pages;
-    const svm::Report report = svm::run_svm(small.database, small.settings, options, {});
-    for (std::size_t i = 0; i < report.nodes.size(); ++i) {
-      CAPTURE(cache_pages);
-      CAPTURE(i);
-      const auto references = recorded.nodes[i].references.pages();
-      CHECK(svm::MissCurve(references).misses(cache_pages) == report.nodes[i].program.pages.faults);
-      CHECK(tests::lru_misses(references, cache_pages) == report.nodes[i].program.pages.faults);
-    }
-  }
 }
 
 TEST_CASE("recording changes neither film nor counters, and does not depend on the cache") {

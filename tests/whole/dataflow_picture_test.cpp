@@ -93,11 +93,8 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
 
 }  // namespace
 
-TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and axes give the picture of mirrors and glass") {
+TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and axes give the picture of glass and of gears") {
   check_pairwise(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
-}
-
-TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and axes give the picture of gears") {
   check_pairwise(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
 }
 
@@ -134,57 +131,41 @@ TEST_CASE("dataflow: lists of tested objects, however long, give the picture of 
   }
 }
 
-TEST_CASE("dataflow: lists of tested objects give the picture with several regions a node, and on threads") {
-  const Subject subject(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
-  for (const std::uint32_t nodes : {2U, 5U}) {
-    for (const std::uint32_t regions : {1U, 4U}) {
-      CAPTURE(regions);
-      RunOptions options{.computer = {.node_count = nodes}, .rays = {.tested_objects = 4}};
-      options.rays.balance = {.balance = Balance::scattered, .regions_a_node = regions};
-      check(subject, options);
-    }
-  }
-}
-
-TEST_CASE("dataflow: places that are shared give the picture on a modelled machine, twice with one run hash") {
-  const Subject subject(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
-  for (const std::uint32_t places : {1U, 3U, 64U}) {
-    CAPTURE(places);
-    const RunOptions options{.computer = {.node_count = 8, .machine = nodes::Machine{}},
-                             .rays = {.ray_batch = 2, .ray_places = places}};
-    const dataflow::Report first = check(subject, options), second = check(subject, options);
-    REQUIRE(first.virtual_time);
-    CHECK(first.virtual_time->run_hash(first.film.hash()) == second.virtual_time->run_hash(second.film.hash()));
-  }
-}
-
-TEST_CASE("dataflow: several regions a node, on any nodes, alone or in bundles, give the picture of mirrors and glass") {
+TEST_CASE("dataflow: several regions a node, that stay or move, alone or in bundles, give the picture of mirrors and glass") {
   const std::array<Subject, 2> subjects = along_both_axes(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
-  for (const std::uint32_t nodes : {1U, 2U, 5U, 8U}) {
-    for (const std::uint32_t regions : {1U, 2U, 4U, 16U}) {
-      for (const bool bundles : {true, false}) {
-        CAPTURE(regions);
-        CAPTURE(bundles);
-        RunOptions options{.computer = {.node_count = nodes}};
-        options.rays.balance = {.balance = Balance::scattered, .regions_a_node = regions};
-        const dataflow::Report report = check(subjects[regions == 4 ? 1 : 0], options, {.bundles = bundles});
-        CHECK(report.regions.region_count() == nodes * regions);
-        CHECK(report.nodes.back().region_count == regions);
+  for (const Balance balance : {Balance::scattered, Balance::moving}) {
+    for (const std::uint32_t nodes : {1U, 2U, 5U, 8U}) {
+      for (const std::uint32_t regions : {2U, 4U, 16U}) {
+        for (const bool bundles : {true, false}) {
+          CAPTURE(regions);
+          CAPTURE(bundles);
+          RunOptions options{.computer = {.node_count = nodes}};
+          options.rays.balance = {.balance = balance, .regions_a_node = regions};
+          const dataflow::Report report = check(subjects[regions == 4 ? 1 : 0], options, {.bundles = bundles});
+          CHECK(report.regions.region_count() == nodes * regions);
+          CHECK((balance == Balance::moving ? report.movement().units == nodes * regions
+                                            : report.nodes.back().region_count == regions));
+        }
       }
     }
   }
 }
 
-TEST_CASE("dataflow: several regions a node give the picture on a modelled machine, twice with one run hash") {
+TEST_CASE("dataflow: shared places, and several regions a node, give the picture on a model, twice with one run hash") {
   const Subject subject(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
-  for (const std::uint32_t nodes : {1U, 2U, 5U, 8U}) {
-    for (const std::uint32_t regions : {1U, 2U, 4U, 16U}) {
-      CAPTURE(regions);
-      RunOptions options{.computer = {.node_count = nodes, .machine = nodes::Machine{}}};
-      options.rays.balance = {.balance = Balance::scattered, .regions_a_node = regions};
-      const dataflow::Report first = check(subject, options), second = check(subject, options);
-      REQUIRE(first.virtual_time);
-      CHECK(first.virtual_time->run_hash(first.film.hash()) == second.virtual_time->run_hash(second.film.hash()));
+  const auto check_twice = [&subject](RunOptions options) {
+    options.computer.machine = nodes::Machine{};
+    const dataflow::Report first = check(subject, options), second = check(subject, options);
+    REQUIRE(first.virtual_time);
+    CHECK(first.virtual_time->run_hash(first.film.hash()) == second.virtual_time->run_hash(second.film.hash()));
+  };
+  for (const std::uint32_t places : {1U, 3U, 64U}) {
+    check_twice({.computer = {.node_count = 8}, .rays = {.ray_batch = 2, .ray_places = places}});
+  }
+  for (const std::uint32_t nodes : {1U, 2U, 5U}) {
+    for (const std::uint32_t regions : {1U, 4U, 16U}) {
+      const dataflow::BalanceOptions scattered{.balance = Balance::scattered, .regions_a_node = regions};
+      check_twice({.computer = {.node_count = nodes}, .rays = {.balance = scattered}});
     }
   }
 }
@@ -202,22 +183,6 @@ TEST_CASE("dataflow: with the least memory that is named several regions a node 
   }
   options.computer.node_memory_bytes = least - 1;
   CHECK_THROWS_AS(run(subject, options), core::RoomError);
-}
-
-TEST_CASE("dataflow: regions that move, on any nodes, alone or in bundles, give the picture of mirrors and glass") {
-  const std::array<Subject, 2> subjects = along_both_axes(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
-  for (const std::uint32_t nodes : {1U, 2U, 5U, 8U}) {
-    for (const std::uint32_t units : {2U, 4U, 16U}) {
-      for (const bool bundles : {true, false}) {
-        CAPTURE(units);
-        CAPTURE(bundles);
-        RunOptions options{.computer = {.node_count = nodes}};
-        options.rays.balance = {.balance = Balance::moving, .regions_a_node = units};
-        const dataflow::Report report = check(subjects[units == 4 ? 1 : 0], options, {.bundles = bundles});
-        CHECK(report.movement().units == nodes * units);
-      }
-    }
-  }
 }
 
 TEST_CASE("dataflow: regions that move give the picture of samples that are refined, and with empty regions asked") {
@@ -272,22 +237,6 @@ TEST_CASE("dataflow: a thousand lights need no more memory for rays and give the
   }
 }
 
-TEST_CASE("dataflow: several samples a pixel reach both planes of the film") {
-  const Subject subject(mirrors_and_glass(), {12, 12, 5});
-  check(subject, {.computer = {.node_count = 5}});
-}
-
-TEST_CASE("dataflow: when every ray overflows the picture is the same and all of them come back from the host") {
-  const Subject subject(mirrors_and_glass(), {20, 20});
-  for (const std::uint32_t nodes : {2U, 5U, 16U}) {
-    const dataflow::Report report =
-        check(subject, {.computer = {.node_count = nodes}, .rays = {.ray_batch = 1, .ray_credits = 0}});
-    CHECK(report.gathers().rays_overflowed == report.gathers().rays);
-    CHECK(report.host_rays.rays_out > 0);
-    CHECK(report.sent()[dataflow::number_of(dataflow::Kind::rays)].packets == 0);
-  }
-}
-
 TEST_CASE("dataflow: triangles in border planes and rays along border edges are met by one node each") {
   const Subject subject(BorderScene().scene(), {33, 33}, BorderScene::options());
   const core::Corner size = core::grid_size(subject.settings().header.frame);
@@ -326,29 +275,6 @@ TEST_CASE("dataflow: repeated runs give one picture and the same counts of rays 
   }
 }
 
-TEST_CASE("dataflow: the report's figures fit together") {
-  const Subject subject(mirrors_and_glass(), {20, 20});
-  const dataflow::Report report =
-      check(subject, {.computer = {.node_count = 8}, .rays = {.topology = nodes::TopologyKind::mesh}});
-  std::uint64_t rays = 0;
-  const std::vector<std::uint64_t> matrix = report.ray_matrix();
-  REQUIRE(matrix.size() == 64);
-  for (std::size_t i = 0; i < matrix.size(); ++i) {
-    rays += matrix[i];
-    CHECK((i % 9 != 0 || matrix[i] == 0));  // no ray goes to its own node
-  }
-  CHECK(rays == report.gathers().rays);
-  CHECK(report.messages_per_ray() > 0);
-  CHECK(report.mean_fill() > 0);
-  CHECK(report.mean_fill() <= 1);
-  CHECK(report.duplication >= 1);
-  CHECK(report.predicted.size() == 8);
-  CHECK(dataflow::average_load(report.work()) > 0.1);
-  for (const dataflow::NodeReport& node : report.nodes) {
-    CHECK(node.memory_used.bytes == node.memory_planned.bytes);
-  }
-}
-
 TEST_CASE("dataflow: a scene that does not fit says which number of nodes works, and it does") {
   const Subject subject(built_in("tetra-5"), {8, 8});
   RunOptions options{.computer = {.node_count = 1},
@@ -367,16 +293,6 @@ TEST_CASE("dataflow: a scene that does not fit says which number of nodes works,
       static_cast<std::uint32_t>(std::stoul(error.substr(at + std::string("with this memory node_count=").size())));
   CHECK(options.computer.node_count > 1);
   check(subject, options);
-}
-
-TEST_CASE("dataflow: the smallest memory that a plan names renders the same picture") {
-  const Subject subject(built_in("teapot-4"), {16, 16});
-  for (const std::uint32_t nodes : {1U, 3U, 16U}) {
-    RunOptions options{.computer = {.node_count = nodes}};
-    const dataflow::Plan ample = dataflow::prepare(subject.database(), subject.settings(), options).plan;
-    options.computer.node_memory_bytes = dataflow::smallest_node_memory_bytes(ample.request);
-    CHECK(check(subject, options).plan.node_memory_max_bytes() == options.computer.node_memory_bytes);
-  }
 }
 
 TEST_CASE("dataflow: light beyond what a film holds gives the same picture in whatever order it comes") {

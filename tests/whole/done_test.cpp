@@ -114,18 +114,4 @@ TEST_CASE("with several pixels in flight, and with rays that travel, no call wor
   }
 }
 
-TEST_CASE("on a modelled machine another run lights the same pixels at the same times, and none after its end") {
-  const Subject small = subject();
-  Run first, second;
-  std::uint64_t total_ns = 0;
-  for (Run* const run : {&first, &second}) {
-    svm::RunOptions options = one_in_flight({.machine = priced_machine()});
-    options.watching.observer = &run->both;
-    total_ns = run_svm(small, options).virtual_time->total_ns;
-  }
-  CHECK(std::ranges::equal(first.done(), second.done()));
-  CHECK(std::ranges::max(first.done()) <= total_ns);
-  CHECK(std::ranges::max(first.done()) > total_ns / 2);
-}
-
 }  // namespace dmpc::tests::whole_done_test

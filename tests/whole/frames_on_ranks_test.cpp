@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/picture/frame_settings.h"
 #include "dataflow/frames.h"
 #include "dataflow/ranks.h"
 #include "nodes/ranks/dismissal.h"
@@ -15,35 +14,18 @@
 #include "svm/forest/strategy.h"
 #include "svm/frames.h"
 #include "svm/ranks.h"
-#include "tests/support/built_scene.h"
 #include "tests/support/loopback_ranks.h"
+#include "tests/support/walk.h"
 
 namespace frames_on_ranks_test {
 
 namespace {
 
 using namespace dmpc;
+using tests::Walk;
 
-constexpr int side = 24;
-
-/// Pictures of a scene, of which each is seen from a little farther to the right; the last is the first again.
-struct Walk {
-  explicit Walk(core::BuildOptions build = {.page_size_bytes = 512})
-      : scene(core::built_in_scene(core::parse_scene_name("teapot-4"))), database(core::build_database(scene, build)) {
-    const core::RenderSettings own{database.header(), camera(scene.view), {}};
-    for (const double step : {0.0, 0.02, 0.04, 0.0}) {
-      core::View view = scene.view;
-      view.from.x += step;
-      frames.push_back(core::seen_by(camera(view), own, database));
-    }
-  }
-
-  core::Camera camera(const core::View& view) const { return {view, database.header().frame, side, side, 1}; }
-
-  core::Scene scene;
-  core::Database database;
-  std::vector<core::RenderSettings> frames;
-};
+/// The last frame is the first again.
+Walk there_and_back(const core::BuildOptions& build = {.page_size_bytes = 512}) { return Walk(24, build, {0, 0.02, 0.04, 0}); }
 
 /// What one frame came to.
 struct Seen {
@@ -136,7 +118,7 @@ std::vector<Seen> without_packets(std::vector<Seen> seen) {
 }  // namespace
 
 TEST_CASE("frames on ranks have the films, rays and page faults of those in one process, by every strategy") {
-  const Walk walk, tree({.page_size_bytes = 512, .structure = core::Structure::extents});
+  const Walk walk = there_and_back(), tree = there_and_back({.page_size_bytes = 512, .structure = core::Structure::extents});
   for (const std::uint32_t ranks : {1U, 2U, 5U}) {
     CAPTURE(ranks);
     for (const svm::Strategy* const strategy : {svm::svm_strategy(), svm::replicated_strategy(), svm::forest_strategy()}) {
@@ -149,7 +131,7 @@ TEST_CASE("frames on ranks have the films, rays and page faults of those in one 
 }
 
 TEST_CASE("what is counted on ranks is a frame's own: the caches stay warm elsewhere, too, and fewer pages travel") {
-  const Walk walk;
+  const Walk walk = there_and_back();
   const std::vector<Seen> seen = pages_on_ranks(3, *svm::svm_strategy(), walk);
   REQUIRE(seen.size() == 4);
   CHECK(seen[0].faults > 0);
@@ -159,7 +141,7 @@ TEST_CASE("what is counted on ranks is a frame's own: the caches stay warm elsew
 }
 
 TEST_CASE("nodes that begin anew after frames are made of another job, by the same ranks") {
-  const Walk walk, other({.page_size_bytes = 1024});
+  const Walk walk = there_and_back(), other = there_and_back({.page_size_bytes = 1024});
   const std::vector<Seen> first = by_pages(*svm::svm_strategy(), walk, nullptr),
                           second = by_pages(*svm::svm_strategy(), other, nullptr);
   std::vector<Seen> again;

@@ -175,19 +175,6 @@ TEST_CASE("with pixels that stay and wait alone, threads and virtual time fault 
   CHECK(threads.sum(HeatKind::faults) > 0);
 }
 
-TEST_CASE("in virtual time every kind is the same again") {
-  const Subject small = heated();
-  svm::RunOptions options = small_cache(4);
-  options.computer.machine = priced_machine();
-  const HeatMap first = svm_map(small, options), second = svm_map(small, options);
-  const dataflow::RunOptions rays{.computer = {.node_count = 4, .machine = priced_machine()}};
-  const HeatMap first_rays = dataflow_map(small, rays), second_rays = dataflow_map(small, rays);
-  for (const HeatKind kind : all_kinds) {
-    CHECK(values(first, kind) == values(second, kind));
-    CHECK(values(first_rays, kind) == values(second_rays, kind));
-  }
-}
-
 TEST_CASE("where rays travel a pixel's node is the same in every run") {
   const Subject small = heated();
   const dataflow::RunOptions calm{.computer = {.node_count = 4}};
@@ -196,16 +183,6 @@ TEST_CASE("where rays travel a pixel's node is the same in every run") {
   const Values nodes = values(dataflow_map(small, calm), HeatKind::node);
   CHECK(nodes == values(dataflow_map(small, disturbed), HeatKind::node));
   CHECK(*std::max_element(nodes.begin(), nodes.end()) > 0);
-}
-
-TEST_CASE("a metered node uses exactly the memory of its plan") {
-  const Subject small = heated();
-  HeatMap map = empty_map();
-  svm::RunOptions options = small_cache(3);
-  options.watching.heat = &map;
-  for (const svm::NodeReport& node : run_svm(small, options).nodes) {
-    CHECK(node.memory_used.bytes == node.memory_planned.bytes);
-  }
 }
 
 TEST_CASE("a refined picture's heat is that of all its passes") {

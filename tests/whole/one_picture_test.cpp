@@ -129,16 +129,11 @@ core::Scene from_far_away(core::Scene scene) {
 
 }  // namespace
 
-TEST_CASE("mirrors, glass and every kind of primitive give one picture in every pair of choices") {
+TEST_CASE("every kind of primitive, many lights, what is concave and a teapot give one picture in every pair of choices") {
   check_pairwise(tests::mirrors_and_glass(), {scaled_edge(40), scaled_edge(32)});
-}
-
-TEST_CASE("a thousand lights give one picture in every pair of choices") {
   check_pairwise(tests::thousand_lights(), {scaled_edge(12), scaled_edge(12)});
-}
-
-TEST_CASE("concave and transparent gears give one picture in every pair of choices") {
   check_pairwise(tests::built_in("gears-1"), {scaled_edge(16), scaled_edge(16)});
+  check_pairwise(tests::built_in("teapot-4"), {scaled_edge(32), scaled_edge(32)});
 }
 
 TEST_CASE("what only mesh files say of surfaces gives one picture in every pair of choices, and by every strategy") {
@@ -171,10 +166,6 @@ TEST_CASE("interleaved pixels, with pages at home at the host or with the nodes,
       }
     }
   }
-}
-
-TEST_CASE("a teapot gives one picture in every pair of choices") {
-  check_pairwise(tests::built_in("teapot-4"), {scaled_edge(32), scaled_edge(32)});
 }
 
 TEST_CASE("svm, replicated and dataflow give one film along the world's axes, and one along the screen's") {
@@ -254,14 +245,6 @@ TEST_CASE("twenty runs on 64 nodes give one picture" * doctest::test_suite("slow
   for (int run = 0; run < 20; ++run) {
     CAPTURE(run);
     CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 64}})) == subject.outcome());
-  }
-}
-
-TEST_CASE("a picture of one pixel and a picture with fewer pixels than nodes are the reference's") {
-  for (const int width : {1, 5}) {
-    const Subject subject(tests::mirrors_and_glass(), {width, 1}, {.page_size_bytes = 512});
-    CHECK(outcome_of(run_svm(subject, {.computer = {.node_count = 8}})) == subject.outcome());
-    CHECK(outcome_of(run_dataflow(subject, {.computer = {.node_count = 8}})) == subject.outcome());
   }
 }
 

@@ -104,9 +104,6 @@ TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its erro
   transport.zenith = {0.1F, 0.3F, 2.0F};
   check_error({white_background(tests::built_in("rings-2")), transport}, 8.0 / 255);
 }
-TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: mountains, one bounce") {
-  check_error({white_background(tests::built_in("mount-4")), under_sky, 1}, 4.0 / 255);
-}
 TEST_CASE("the estimate of a picture by paths is within 0.8 and 1.25 of its error: mountains, one bounce, few pixels") {
   check_error({white_background(tests::built_in("mount-4")), under_sky, 1, side * 3 / 4}, 4.0 / 255);
 }

@@ -91,20 +91,6 @@ TEST_CASE("paths of 253 bounces below a sky's picture, and of none, give one fil
   check_strategies(subject);
 }
 
-TEST_CASE("a film below a sky's picture that was stopped goes on to that of one run, by another strategy") {
-  const Subject subject(much_of_all(), size_of(3), options_of(1024));
-  check_going_on(subject);
-}
-
-TEST_CASE("a film below a sky's picture that is refined is one by every strategy" * doctest::test_suite("slow")) {
-  Subject::Size size = size_of(2, core::first_refined_samples(core::ErrorKind::noise));
-  size.refinement = {.error = 16.0 / 255, .samples_max = 32, .kind = core::ErrorKind::noise};
-  core::Scene scene = mesh_surfaces();
-  scene.sky = sunny_texels(60, 0);
-  const Subject subject(scene, size, options_of(1024));
-  check_strategies(subject);
-}
-
 TEST_CASE("on modelled machines, and with regions that move, a sky's picture makes one film") {
   const Subject subject(much_of_all(), size_of(2), options_of(1024));
   for (const std::uint32_t nodes : {2U, 8U}) {

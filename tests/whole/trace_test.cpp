@@ -161,7 +161,7 @@ constexpr Way all_ways[] = {Way::pages, Way::rays, Way::copies};
 
 }  // namespace
 
-TEST_CASE("a trace has every quantum and every packet of a run, by either clock") {
+TEST_CASE("a trace has every quantum and every packet of a run, in order of time, by either clock") {
   const Subject small = traced();
   for (const Way way : all_ways) {
     for (const auto& machine : {std::optional<nodes::Machine>(), std::optional(priced_machine())}) {
@@ -171,6 +171,10 @@ TEST_CASE("a trace has every quantum and every packet of a run, by either clock"
       CHECK(sum(trace, {Activity::receive, Activity::serve}).count == counted.received);
       CHECK(trace.messages.size() == counted.sent);
       CHECK(trace.events_lost == 0);
+      CHECK(std::all_of(trace.nodes.begin(), trace.nodes.end(), is_nested));
+      for (const nodes::TraceMessage& message : trace.messages) {
+        CHECK(message.sent_ns <= message.received_ns);
+      }
     }
   }
 }
@@ -186,28 +190,6 @@ TEST_CASE("in virtual time what the nodes did takes as long as the run says") {
     CHECK(sum(trace, {Activity::serve}).count == counted.pages_served);
     CHECK(sum(trace, {Activity::work, Activity::receive, Activity::send, Activity::take_over}).total_ns ==
           times.computing_ns + times.sending_ns + times.receiving_ns + times.stolen_ns);
-  }
-}
-
-TEST_CASE("what a node does stands in order of time, and interrupts lie within what they interrupt") {
-  const Subject small = traced();
-  for (const Way way : all_ways) {
-    for (const auto& machine : {std::optional<nodes::Machine>(), std::optional(priced_machine())}) {
-      for (const nodes::TraceNode& node : traced(small, way, machine).trace.nodes) {
-        CHECK(is_nested(node));
-      }
-    }
-  }
-}
-
-TEST_CASE("no message is received before it is sent") {
-  const Subject small = traced();
-  for (const Way way : all_ways) {
-    for (const auto& machine : {std::optional<nodes::Machine>(), std::optional(priced_machine())}) {
-      for (const nodes::TraceMessage& message : traced(small, way, machine).trace.messages) {
-        CHECK(message.sent_ns <= message.received_ns);
-      }
-    }
   }
 }
 

@@ -10,7 +10,6 @@
 #include "core/trace/charge.h"
 #include "dataflow/run.h"
 #include "svm/run.h"
-#include "tests/support/references.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
@@ -70,19 +69,6 @@ std::vector<std::vector<std::uint64_t>> side_by_side(const Function& function) {
     const std::jthread one([&] { results[0] = function(); }), other([&] { results[1] = function(); });
   }
   return results;
-}
-
-std::vector<std::uint64_t> faults_by_node(const svm::Report& report) {
-  std::vector<std::uint64_t> faults;
-  for (const svm::NodeReport& node : report.nodes) {
-    faults.push_back(node.program.pages.faults);
-  }
-  return faults;
-}
-
-/// Every pixel at a fixed node, one after the other: the order of a node's references is known.
-svm::RunOptions fixed_assignment(std::uint32_t node_count, std::uint32_t cache_pages) {
-  return {.computer = {.node_count = node_count}, .pages = {.cache_pages = cache_pages, .in_flight = 1, .work_item_side = 0}};
 }
 
 }  // namespace
@@ -151,19 +137,6 @@ TEST_CASE("virtual time: starved runs give the same picture") {
   }
 }
 
-TEST_CASE("virtual time: with contention off and on the picture is the same, and only the time differs") {
-  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
-  svm::RunOptions options{.computer = {.node_count = 16, .machine = slow_network(nodes::TopologyKind::mesh)},
-                          .pages = {.cache_pages = 2}};
-  const svm::Report with = run_svm(subject, options);
-  options.computer.machine->has_contention = false;
-  const svm::Report without = run_svm(subject, options);
-  check(subject, with);
-  check(subject, without);
-  CHECK(with.virtual_time->links.wait_ns > 0);
-  CHECK(without.virtual_time->links.wait_ns == 0);
-}
-
 TEST_CASE("virtual time: equal runs have equal events and films, one after the other and side by side") {
   const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
   const auto svm = [&] {
@@ -187,59 +160,6 @@ TEST_CASE("virtual time: a fixed picture has one run hash for each strategy, on 
         0x5f55c78b2873cacc);
   CHECK(run_hash(run_replicated(subject, {.computer = {.node_count = 5, .machine = slow_network()}})) == 0x200badb4018fc631);
   CHECK(run_hash(run_dataflow(subject, {.computer = {.node_count = 5, .machine = slow_network()}})) == 0x7d4e9b16e01fde54);
-}
-
-TEST_CASE("virtual time: with memory ports the picture is the same, and more is waited for") {
-  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
-  // Every pixel at its node: else who renders what depends on when messages arrive.
-  svm::RunOptions options = fixed_assignment(16, 2);
-  options.computer.machine = slow_network();
-  const svm::Report without = run_svm(subject, options);
-  options.computer.machine->has_memory_port = true;
-  const svm::Report with = run_svm(subject, options);
-  check(subject, with);
-  CHECK(with.virtual_time->links.wait_ns > without.virtual_time->links.wait_ns);
-}
-
-TEST_CASE("virtual time: another cost makes another run and the same film") {
-  const Subject subject(mirrors_and_glass(), {16, 16}, {.page_size_bytes = 512});
-  svm::RunOptions options{.computer = {.node_count = 5, .machine = slow_network()}, .pages = {.cache_pages = 2}};
-  const svm::Report first = run_svm(subject, options);
-  ++options.computer.machine->service_ns;
-  const svm::Report second = run_svm(subject, options);
-  CHECK(first.virtual_time->hash != second.virtual_time->hash);
-  CHECK(first.film.hash() == second.film.hash());
-}
-
-TEST_CASE("virtual time: under fixed assignment every node has the faults that it has on threads") {
-  const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
-  for (const std::uint32_t nodes : virtual_node_counts) {
-    for (const std::uint32_t cache_pages : {1U, 4U, 20U}) {
-      svm::RunOptions options = fixed_assignment(nodes, cache_pages);
-      const std::vector<std::uint64_t> on_threads = faults_by_node(run_svm(subject, options));
-      options.computer.machine = slow_network();
-      CHECK(faults_by_node(run_svm(subject, options)) == on_threads);
-    }
-  }
-}
-
-TEST_CASE("virtual time: under fixed assignment faults are the misses of the references in a cache of that size") {
-  const Subject subject(built_in("teapot-4"), {24, 24}, {.page_size_bytes = 512});
-  for (const std::uint32_t nodes : {2U, 5U, 16U}) {
-    for (const std::uint32_t cache_pages : {1U, 3U, 8U, 20U, 100U}) {
-      CAPTURE(nodes);
-      CAPTURE(cache_pages);
-      svm::RunOptions options = fixed_assignment(nodes, cache_pages);
-      options.computer.machine = slow_network();
-      options.pages.record_references = true;
-      const svm::Report report = run_svm(subject, options);
-      check(subject, report);
-      for (const svm::NodeReport& node : report.nodes) {
-        CHECK(node.program.pages.faults == lru_misses(node.references.pages(), cache_pages));
-      }
-      CHECK(report.pages().faults > 0);
-    }
-  }
 }
 
 TEST_CASE("virtual time: only homes are interrupted, by as many requests as there are faults") {

@@ -80,17 +80,6 @@ TEST_CASE("voxels give the film of the grid and of the extents, of every family 
   }
 }
 
-TEST_CASE("voxels give the film of the grid by every strategy") {
-  for (const char* name : families) {
-    CAPTURE(name);
-    const core::Scene scene = tests::built_in(name);
-    const Subject::Size size{.width = 16, .height = 12, .knows_background = true};
-    const Subject voxels(scene, size, voxels_by(core::usual_voxels));
-    CHECK(voxels.outcome() == Subject(scene, size).outcome());
-    check_strategies(voxels, 5);
-  }
-}
-
 TEST_CASE("voxels give the film of the grid of textures, covering faces, glass and records in any order, on 1 to 16 nodes") {
   for (const core::Scene& scene : {tests::mirrors_and_glass(), tests::mesh_surfaces(), tests::glass_on_floor(true, true)}) {
     CAPTURE(scene.name);

@@ -10,7 +10,7 @@
 #include "nodes/local_memory.h"
 #include "svm/pages/policy/ghosts.h"
 #include "svm/pages/policy/index_lists.h"
-#include "svm/pages/policy/policy.h"
+#include "svm/pages/replacement.h"
 
 namespace dmpc::svm {
 

@@ -10,7 +10,7 @@
 #include "core/picture/memory_use.h"
 #include "nodes/layout.h"
 #include "nodes/local_memory.h"
-#include "svm/pages/policy/policy.h"
+#include "svm/pages/replacement.h"
 
 namespace dmpc::svm {
 

@@ -209,9 +209,9 @@ FetchWatch::FetchWatch(std::uint32_t node_count, std::uint32_t page_count, std::
     : where_(where),
       peer_count_(homes_of(where, node_count).end()),
       page_count_(page_count),
-      log_max_(std::max(log_max_least, sample_max / (are_at_host(where) ? 1 : node_count))) {
-  for (std::uint32_t i = 0; i < peer_count_; ++i) {
-    Log& log = *logs_.emplace_back(std::make_unique<Log>());
+      log_max_(std::max(log_max_least, sample_max / (are_at_host(where) ? 1 : node_count))),
+      logs_(peer_count_) {
+  for (Log& log : logs_) {
     for (auto* const counts : {&log.asked, &log.taken, &log.requested, &log.replied}) {
       counts->resize(peer_count_);
     }
@@ -225,7 +225,7 @@ void FetchWatch::sent(const nodes::Passing& packet) {
     return;
   }
   const std::uint32_t self = index_of(packet.node), peer = index_of(packet.peer), page = page_in(packet);
-  Log& log = *logs_.at(self);
+  Log& log = logs_.at(self);
   if (is_kind(packet, Kind::page_request)) {
     log.as_asker.open({.name = name_of_next(where_, self, peer, page, log.asked[peer]),
                        .page = page,
@@ -248,7 +248,7 @@ void FetchWatch::received(const nodes::Passing& packet) {
   }
   const std::uint32_t self = index_of(packet.node), peer = index_of(packet.peer);
   const nodes::MessageTimes& times = packet.times;
-  Log& log = *logs_.at(self);
+  Log& log = logs_.at(self);
   const bool is_passed = is_kind(packet, Kind::passed_request);
   if (is_passed || is_kind(packet, Kind::page_request)) {
     const std::uint32_t asker = is_passed ? asker_in(packet) : peer, page = page_in(packet);
@@ -273,9 +273,9 @@ void FetchWatch::received(const nodes::Passing& packet) {
 std::string FetchWatch::bytes() const {
   nodes::FlatWriter flat;
   for (std::uint32_t index = 0; index < logs_.size(); ++index) {
-    if (!logs_[index]->is_empty()) {
+    if (!logs_[index].is_empty()) {
       flat.put(index);
-      logs_[index]->put(flat);
+      logs_[index].put(flat);
     }
   }
   return flat.take();
@@ -284,7 +284,7 @@ std::string FetchWatch::bytes() const {
 void FetchWatch::add(std::string_view bytes, const nodes::ClockDrift& clock) {
   nodes::FlatReader flat(bytes);
   while (!flat.is_at_end()) {
-    Log& log = *logs_.at(flat.take<std::uint32_t>());
+    Log& log = logs_.at(flat.take<std::uint32_t>());
     core::expect(log.is_empty(), "a node is on one rank");
     log.take(flat, clock);
   }
@@ -294,12 +294,12 @@ Fetches FetchWatch::take() {
   Fetches all{.peer_count = peer_count_, .by_pair = std::vector<std::uint64_t>(std::size_t{peer_count_} * peer_count_)};
   all.where = where_;
   all.by_page.resize(page_count_);
-  for (const auto& log : logs_) {
-    all.every = std::max({all.every, log->as_asker.every(), log->as_home.every()});
+  for (Log& log : logs_) {
+    all.every = std::max({all.every, log.as_asker.every(), log.as_home.every()});
   }
   std::vector<End> ends;
   for (std::uint32_t node = 0; node < peer_count_; ++node) {
-    Log& log = *logs_[node];
+    Log& log = logs_[node];
     for (const auto& [asker, count] : log.by_asker) {
       all.by_pair[std::size_t{asker} * peer_count_ + node] = count;
     }
@@ -313,8 +313,8 @@ Fetches FetchWatch::take() {
   for (const End& end : numbered(std::move(ends))) {
     homes.emplace(end.name, end);
   }
-  for (const auto& log : logs_) {
-    for (const End& end : numbered(log->as_asker.take(all.every))) {
+  for (Log& log : logs_) {
+    for (const End& end : numbered(log.as_asker.take(all.every))) {
       if (const auto home = homes.find(end.name); home != homes.end()) {
         all.sample.push_back(joined(end, home->second));
       }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -69,10 +68,8 @@ class FetchWatch final : public nodes::Observer {
              PageHomes where = PageHomes::spread);
   ~FetchWatch() override;
 
-  void ended(const nodes::Span&, const nodes::Program&) override {}
   void sent(const nodes::Passing& packet) override;
   void received(const nodes::Passing& packet) override;
-  void worked(const nodes::Worked&) override {}
 
   /// What was seen of nodes, for add() of the watch of another rank.
   std::string bytes() const;
@@ -89,7 +86,7 @@ class FetchWatch final : public nodes::Observer {
   std::uint32_t peer_count_;
   std::uint32_t page_count_;
   std::size_t log_max_;
-  std::vector<std::unique_ptr<Log>> logs_;
+  std::vector<Log> logs_;
 };
 
 }  // namespace dmpc::svm

@@ -5,7 +5,9 @@
 #include <numeric>
 
 #include "apps/edge/run/work.h"
+#include "nodes/ranks/rank_links.h"
 #include "tests/apps/show/watched.h"
+#include "tests/support/loopback_ranks.h"
 
 namespace dmpc::apps::onlookers_test {
 
@@ -47,6 +49,21 @@ TEST_CASE("a trace and a page can be asked for at a time") {
   const Sights both = Onlookers(watch_order(options, 10, 20)).take();
   CHECK(both.trace);
   CHECK(both.view);
+}
+
+TEST_CASE("a rank keeps its share of a trace's events, and is told what else is to be seen") {
+  RenderOptions options = small();
+  options.trace.path = "trace.pftrace";
+  options.report = "page.html";
+  const std::uint64_t events_max = watch_order(options, 10, 20).trace->events_max;
+  nodes::Loopback loopback(3);
+  nodes::RankLinks links(loopback.rank(0));
+  options.computer.ranks = &links;
+  const WatchOrder order = watch_order(options, 10, 20), told = watch_order_from(bytes_of(order));
+  CHECK(order.trace->events_max == events_max / 3);
+  CHECK(told.trace->events_max == order.trace->events_max);
+  CHECK(told.heat_kinds == order.heat_kinds);
+  CHECK(told.pixel_count == 20);
 }
 
 TEST_CASE("every fetch is seen, by threads and in virtual time") {

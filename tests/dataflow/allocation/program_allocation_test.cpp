@@ -34,10 +34,7 @@ std::uint64_t allocated_by(const dataflow::PlanRequest& bounds, std::uint32_t no
     specifications[i] = watched(specifications[i]);
   }
   nodes::ThreadsRunner runner(specifications);
-  const Allocations before = watched_allocations();
-  static_cast<void>(runner.run({}));
-  const Allocations after = watched_allocations();
-  return after.allocated - before.allocated + after.freed - before.freed;
+  return allocated_in_run(runner);
 }
 
 TEST_CASE("a node of dataflow allocates nothing while it traces, receives and sends") {

@@ -8,17 +8,13 @@
 
 #include <array>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 
 #include "dataflow/termination.h"
 #include "dataflow/units/hand_over.h"
+#include "tests/dataflow/peers_model.h"
 
 namespace dmpc::tests {
-
-inline constexpr std::size_t unit_nodes = 3, unit_host = unit_nodes, unit_peers = unit_nodes + 1;
-/// The host has two children, of which one has the third node.
-inline constexpr dataflow::TerminationTree unit_tree{.node_count = unit_nodes, .branches = 2};
 
 /// The rules as they are. Broken ones derive from this and hide a member.
 struct HandOverRules {
@@ -38,14 +34,10 @@ struct HandOverRules {
 };
 
 struct HandOverSettings {
-  std::array<std::uint8_t, unit_nodes> rays{1, 1, 1};  ///< that start on a node, all of them for the unit
+  std::array<std::uint8_t, model_nodes> rays{1, 1, 1};  ///< that start on a node, all of them for the unit
   /// That start later, or go along with the unit: until then the node may ask, but is not passive.
-  std::array<std::uint8_t, unit_nodes> held{};
+  std::array<std::uint8_t, model_nodes> held{};
   std::uint8_t questions = 2;  ///< that all nodes together may ask
-};
-
-struct HandOverFailure : std::runtime_error {
-  using std::runtime_error::runtime_error;
 };
 
 template <class Rules>
@@ -58,13 +50,10 @@ class HandOverModel {
     std::uint8_t owner = 0;    ///< of news; of a page: whether it is the last
     std::int8_t balance = 0;   ///< of a token; of primary rays: how many
   };
-  struct Channel {
-    std::array<Message, 6> messages{};
-    std::uint8_t size = 0;
-  };
+  using Channel = ModelChannel<Message, 6>;
   struct Member {
     dataflow::HandOver hand_over;
-    dataflow::Termination termination = dataflow::Termination::initiator(unit_tree);
+    dataflow::Termination termination = dataflow::Termination::initiator(model_tree);
     std::uint8_t owner = 0, version = 0;  ///< of the unit, as it is known
     std::uint8_t rays = 0;                ///< not looked at yet
     std::uint8_t held = 0;                ///< not started
@@ -76,8 +65,8 @@ class HandOverModel {
     bool wants = false;  ///< finds another worth asking
   };
   struct State {
-    std::array<Member, unit_peers> member;
-    std::array<std::array<Channel, unit_peers>, unit_peers> channel{};  ///< [from][to]
+    std::array<Member, model_peers> member;
+    ModelChannels<Channel> channel{};
     std::uint8_t alive = 0, questions_left = 0;
   };
   struct Action {
@@ -85,7 +74,7 @@ class HandOverModel {
     std::uint8_t actor = 0;
     bool token = false;
     bool is_idle() const { return token; }
-    std::string text() const { return (actor == unit_host ? std::string("host") : "node " + std::to_string(actor)) + " " + verb; }
+    std::string text() const { return peer_name(actor) + " " + verb; }
   };
 
   explicit HandOverModel(const HandOverSettings& settings) : settings_(settings) {}
@@ -93,9 +82,9 @@ class HandOverModel {
   State initial() const {
     State state;
     state.questions_left = settings_.questions;
-    for (std::size_t node = 0; node < unit_nodes; ++node) {
+    for (std::size_t node = 0; node < model_nodes; ++node) {
       Member& m = state.member[node];
-      m.termination = dataflow::Termination::member(nodes::NodeId{narrow(node)}, unit_tree);
+      m.termination = dataflow::Termination::member(nodes::NodeId{narrow(node)}, model_tree);
       m.rays = settings_.rays[node];
       m.held = settings_.held[node];
       state.alive = narrow(state.alive + m.rays + m.held);
@@ -112,43 +101,34 @@ class HandOverModel {
     for (const Member& m : state.member) {
       append(bytes, m);
     }
-    for (const auto& row : state.channel) {
-      for (const Channel& channel : row) {
-        bytes += static_cast<char>(channel.size);
-        for (std::size_t i = 0; i < channel.size; ++i) {
-          const Message& message = channel.messages[i];
-          bytes += {static_cast<char>(message.kind), static_cast<char>(message.version), static_cast<char>(message.owner),
-                    static_cast<char>(message.balance)};
-        }
-      }
-    }
+    append_messages(bytes, state.channel);
     return bytes;
   }
 
   template <class Visit>
   void for_each_step(const State& state, Visit visit) const {
-    for (std::size_t from = 0; from < unit_peers; ++from) {
-      for (std::size_t to = 0; to < unit_peers; ++to) {
+    for (std::size_t from = 0; from < model_peers; ++from) {
+      for (std::size_t to = 0; to < model_peers; ++to) {
         for (std::size_t i = 0; i < state.channel[from][to].size; ++i) {  // in any order
           State next = state;
-          const Message message = take(next.channel[from][to], i);
+          const Message message = next.channel[from][to].take(i);
           receive(next, from, to, message);
           visit(Action{verb(message.kind), narrow(to), message.kind == Kind::token}, next);
         }
       }
     }
-    for (std::size_t node = 0; node < unit_nodes; ++node) {
+    for (std::size_t node = 0; node < model_nodes; ++node) {
       work(state, node, visit);
     }
-    if (!state.member[unit_host].termination.is_terminated()) {
-      hand_on(state, unit_host, visit);
+    if (!state.member[model_host].termination.is_terminated()) {
+      hand_on(state, model_host, visit);
     }
   }
 
   /// What holds in every state.
   void check(const State& state) const {
     std::uint32_t rays = 0, answering = 0, given = 0, taken = 0, wanting = 0;
-    for (std::size_t node = 0; node < unit_nodes; ++node) {
+    for (std::size_t node = 0; node < model_nodes; ++node) {
       const Member& m = state.member[node];
       rays += m.rays + m.held + m.walking;
       answering += m.owner == node ? 1 : 0;
@@ -158,7 +138,7 @@ class HandOverModel {
     }
     hold(rays + rays_under_way(state) == state.alive, "no ray is lost or doubled while a unit moves");
     hold(answering >= 1, "somebody answers for the unit");
-    if (state.member[unit_host].termination.is_terminated()) {
+    if (state.member[model_host].termination.is_terminated()) {
       hold(state.alive == 0, "termination is detected only when no ray is left");
       hold(count_of(state, is_counted) == 0 && given == taken, "termination is detected only when no unit is under way");
       hold(wanting == 0, "termination is detected only when nobody will ask");
@@ -168,19 +148,13 @@ class HandOverModel {
 
   /// The end is proved, and nothing is under way.
   bool is_end(const State& state) const {
-    return state.member[unit_host].termination.is_terminated() && count_of(state, [](Kind) { return true; }) == 0;
+    return state.member[model_host].termination.is_terminated() && count_of(state, [](Kind) { return true; }) == 0;
   }
   bool is_quiet(const State& state) const {
     return state.alive == 0 && count_of(state, is_counted) == 0 && !is_anybody_active(state);
   }
 
  private:
-  static void hold(bool condition, const char* sentence) {
-    if (!condition) {
-      throw HandOverFailure(std::string("violated: ") + sentence);
-    }
-  }
-  static constexpr std::uint8_t narrow(std::size_t index) { return static_cast<std::uint8_t>(index); }
   static const char* verb(Kind kind) {
     constexpr std::array<const char*, 8> verbs{"receives a ray",         "is asked for the unit", "is refused",
                                                "receives a page",        "receives primary rays", "hears that it came",
@@ -225,31 +199,20 @@ class HandOverModel {
   template <class Of>
   static std::uint32_t count_of(const State& state, Of of) {
     std::uint32_t count = 0;
-    for (const auto& row : state.channel) {
-      for (const Channel& channel : row) {
-        for (std::size_t i = 0; i < channel.size; ++i) {
-          count += of(channel.messages[i].kind) ? 1 : 0;
-        }
-      }
-    }
+    for_each_message(state.channel, [&](const Message& message) { count += of(message.kind) ? 1 : 0; });
     return count;
   }
   static std::uint32_t rays_under_way(const State& state) {
     std::uint32_t rays = 0;
-    for (const auto& row : state.channel) {
-      for (const Channel& channel : row) {
-        for (std::size_t i = 0; i < channel.size; ++i) {
-          const Message& message = channel.messages[i];
-          rays += message.kind == Kind::ray ? 1U : 0U;
-          rays += message.kind == Kind::primaries ? static_cast<std::uint32_t>(message.balance) : 0U;
-        }
-      }
-    }
+    for_each_message(state.channel, [&](const Message& message) {
+      rays += message.kind == Kind::ray ? 1U : 0U;
+      rays += message.kind == Kind::primaries ? static_cast<std::uint32_t>(message.balance) : 0U;
+    });
     return rays;
   }
   static bool is_anybody_active(const State& state) {
     bool is_active = false;
-    for (std::size_t node = 0; node < unit_nodes; ++node) {
+    for (std::size_t node = 0; node < model_nodes; ++node) {
       is_active = is_active || wants_to_ask(state, node);
     }
     return is_active;
@@ -259,17 +222,7 @@ class HandOverModel {
     if (counts(message.kind)) {
       state.member[from].termination.ray_packet_sent();
     }
-    Channel& channel = state.channel[from][to];
-    hold(channel.size < channel.messages.size(), "a mailbox has room");
-    channel.messages[channel.size++] = message;
-  }
-  static Message take(Channel& channel, std::size_t place) {
-    const Message message = channel.messages[place];
-    for (std::size_t i = place; i + 1 < channel.size; ++i) {
-      channel.messages[i] = channel.messages[i + 1];
-    }
-    channel.messages[--channel.size] = {};
-    return message;
+    state.channel[from][to].add(message);
   }
 
   static bool wants_to_ask(const State& state, std::size_t node) {
@@ -327,7 +280,7 @@ class HandOverModel {
   void rest(const State& state, std::size_t node, Visit visit) const {
     const bool wants = wants_to_ask(state, node);
     if (wants) {
-      for (std::size_t other = 0; other < unit_nodes; ++other) {
+      for (std::size_t other = 0; other < model_nodes; ++other) {
         if (other != node) {
           State next = state;
           ask(next, node, other);
@@ -353,18 +306,14 @@ class HandOverModel {
 
   template <class Visit>
   void hand_on(const State& state, std::size_t peer, Visit visit) const {
-    if (!state.member[peer].termination.holds_token()) {
-      return;
-    }
-    State next = state;
-    auto& termination = next.member[peer].termination;
-    const auto handover = termination.hand_on();
-    for (std::uint32_t i = 0; handover && i < handover->count; ++i) {
-      send(next, peer, nodes::index_of(handover->first) + i,
-           {Kind::token, static_cast<std::uint8_t>(handover->token.is_black), 0,
-            static_cast<std::int8_t>(handover->token.balance)});
-    }
-    visit(Action{"hands on the token", narrow(peer), !termination.is_terminated()}, next);
+    hand_on_token(
+        state, peer,
+        [&](State& next, std::size_t target, const dataflow::Token& token) {
+          send(next, peer, target, {Kind::token, narrow(token.is_black), 0, static_cast<std::int8_t>(token.balance)});
+        },
+        [&](const State& next, bool is_idle) {
+          visit(Action{"hands on the token", narrow(peer), is_idle}, next);
+        });
   }
 
   static void own(Member& m, std::size_t node, std::uint8_t version) {

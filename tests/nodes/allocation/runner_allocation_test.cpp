@@ -1,11 +1,11 @@
 // Between start and end no node's thread allocates.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "nodes/threads/held_packets.h"
 #include "tests/nodes/toy_machine.h"
 #include "tests/support/allocation_guard.h"
 
@@ -29,17 +29,10 @@ class Spendthrift final : public TokenRound {
 
 std::uint64_t allocated_by(const ProgramMaker& maker, const std::optional<nodes::Chaos>& chaos = std::nullopt,
                            const std::optional<std::uint32_t>& pool_threads = std::nullopt) {
-  auto specifications = equal_nodes(8, TokenRound::mailbox, maker);
-  for (nodes::NodeSpecification& specification : specifications) {
-    specification = watched(specification);
-    specification.held_bytes = nodes::HeldPackets::room_bytes(nodes::small_payload_bytes);
-    specification.plan[nodes::Category::queues] += specification.held_bytes;
-  }
+  auto specifications = disturbed(equal_nodes(8, TokenRound::mailbox, maker));
+  std::transform(specifications.begin(), specifications.end(), specifications.begin(), watched);
   nodes::ThreadsRunner runner(specifications, chaos, nullptr, pool_threads);
-  const Allocations before = watched_allocations();
-  static_cast<void>(runner.run({}));
-  const Allocations after = watched_allocations();
-  return after.allocated - before.allocated + after.freed - before.freed;
+  return allocated_in_run(runner);
 }
 
 TEST_CASE("from start to end no thread of a node allocates or frees, the runner's code included") {

@@ -17,8 +17,7 @@
 #include "nodes/ranks/failure.h"
 #include "nodes/ranks/life_signs.h"
 #include "nodes/ranks/repeated_runs.h"
-#include "nodes/ranks/stream_from_host.h"
-#include "nodes/ranks/streams_to_ranks.h"
+#include "nodes/ranks/streams.h"
 #include "tests/support/loopback_ranks.h"
 
 namespace streams_test {

@@ -4,16 +4,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <optional>
-#include <stdexcept>
-#include <stop_token>
 #include <string>
-#include <thread>
-#include <utility>
 #include <vector>
 
 #include "core/base/expect.h"
@@ -81,86 +75,9 @@ class TakesTurns : public ToyProgram {
   std::uint32_t left_ = 100;
 };
 
-std::string stall_of(ThreadsRunner& runner) {
-  try {
-    runner.run({});
-  } catch (const core::InternalError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-TEST_CASE("programs that are finished from the start end the run of a pool, of fewer nodes than threads, too") {
-  for (const std::uint32_t threads : {1U, 2U, 5U}) {
-    for (const std::uint32_t count : {1U, 2U, 65U}) {
-      CAPTURE(threads);
-      CAPTURE(count);
-      ThreadsRunner runner = pooled(threads, equal_nodes(count, {}, making<ToyProgram>()));
-      CHECK(runner.run({}) == RunEnd::finished);
-      CHECK(runner.node(0).counters().quanta == 0);
-    }
-  }
-}
-
 TEST_CASE("a pool without a thread is none, and each process may use a processor") {
   CHECK_THROWS_AS(pooled(0, equal_nodes(9, TokenRound::mailbox, making<TokenRound>(5U))), core::InternalError);
   CHECK(nodes::processors_allowed() >= 1);
-}
-
-TEST_CASE("a token goes round the ring of a pool's nodes, as it does among threads") {
-  for (const std::uint32_t threads : {1U, 2U, 3U}) {
-    for (const std::uint32_t count : {1U, 2U, 3U, 65U}) {
-      CAPTURE(threads);
-      CAPTURE(count);
-      ThreadsRunner runner = pooled(threads, equal_nodes(count, TokenRound::mailbox, making<TokenRound>(20U)));
-      CHECK(runner.run({}) == RunEnd::finished);
-      for (std::uint32_t i = 0; i < count; ++i) {
-        CHECK(program_of<TokenRound>(runner, i).passed() == 20);
-        CHECK(runner.node(i).counters().sent[1].packets == 20);
-        CHECK(runner.node(i).counters().received[1].bytes == 20 * 12);
-      }
-    }
-  }
-}
-
-TEST_CASE("every request among a pool's nodes is answered, with one credit or many") {
-  for (const std::uint32_t threads : {1U, 2U, 4U}) {
-    for (const auto& [peers, window] : {std::pair{2U, 1U}, std::pair{5U, 7U}, std::pair{24U, 1U}}) {
-      ThreadsRunner runner = pooled(threads, equal_nodes(peers, Asker::mailbox(peers, window), making<Asker>(20U, window)));
-      CHECK(runner.run({}) == RunEnd::finished);
-      for (std::uint32_t i = 0; i < peers; ++i) {
-        CHECK(program_of<Asker>(runner, i).all_right());
-        CHECK(runner.node(i).counters().received[request].packets == 20 * (peers - 1));
-        CHECK(runner.node(i).counters().received[reply].packets == 20 * (peers - 1));
-      }
-    }
-  }
-}
-
-TEST_CASE("many nodes of a pool send to one, each in order") {
-  ThreadsRunner runner = pooled(2, equal_nodes(33, AllToHost::mailbox(33), making<AllToHost>(50U)));
-  CHECK(runner.run({}) == RunEnd::finished);
-  CHECK(program_of<AllToHost>(runner, 32).in_order());
-  CHECK(total(runner.node(32).counters().received).packets == 32 * 50);
-}
-
-TEST_CASE("packets that may wait arrive in order in a pool, and before their sender sleeps") {
-  std::vector<std::uint32_t> expected(Patient::count);
-  std::iota(expected.begin(), expected.end(), 0);
-  for (const std::uint32_t threads : {1U, 2U}) {
-    auto specifications = equal_nodes(2, Patient::mailbox, making<Patient>(6U));
-    specifications[0].patience = {.kinds = 1U << 1U, .packets = 5};
-    ThreadsRunner runner = pooled(threads, specifications);
-    CHECK(runner.run({}) == RunEnd::finished);
-    CHECK(program_of<Patient>(runner, 1).received() == expected);
-  }
-}
-
-TEST_CASE("a node of a pool that puts work off, in case a packet comes, does it before it sleeps") {
-  for (const std::uint32_t threads : {1U, 3U}) {
-    ThreadsRunner runner = pooled(threads, equal_nodes(20, {.small_slots = 1}, making<PutsOff>()));
-    CHECK(runner.run({}) == RunEnd::finished);
-  }
 }
 
 TEST_CASE("nodes of one thread take turns, none waits until another has no more to do") {
@@ -173,50 +90,6 @@ TEST_CASE("nodes of one thread take turns, none waits until another has no more 
   CHECK(first(1) < 100);
   CHECK(first(2) < 200);
   CHECK(order.back() == 2);
-}
-
-TEST_CASE("a stall of a pool's nodes is found, with a report on every node") {
-  for (const std::uint32_t threads : {1U, 2U, 3U}) {
-    ThreadsRunner runner = pooled(threads, equal_nodes(3, {}, making<Waiter>()));
-    const std::string report = stall_of(runner);
-    CHECK(report.find("all nodes sleep") != std::string::npos);
-    CHECK(report.find("node 0 (finished): waits for Godot") != std::string::npos);
-    CHECK(report.find("node 1: waits for Godot") != std::string::npos);
-    CHECK(report.find("host: waits for Godot") != std::string::npos);
-  }
-}
-
-TEST_CASE("an exception of a program ends a pool's run, whoever sleeps, and comes out of it once") {
-  for (const std::uint32_t threads : {1U, 2U, 8U}) {
-    auto specifications = equal_nodes(8, {}, making<Waiter>());
-    specifications[3].make_program = making<Worker>(true);
-    ThreadsRunner runner = pooled(threads, specifications);
-    CHECK_THROWS_WITH_AS(runner.run({}), "the hundredth quantum", std::runtime_error);
-  }
-}
-
-TEST_CASE("a stop request ends a pool's run, whether its threads work or sleep") {
-  for (const std::uint32_t threads : {1U, 2U}) {
-    auto specifications = equal_nodes(8, {}, making<Waiter>());
-    specifications[0].make_program = making<Worker>(false);
-    ThreadsRunner runner = pooled(threads, specifications);
-    std::stop_source stop;
-    std::jthread stopper([&stop] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      stop.request_stop();
-    });
-    CHECK(runner.run(stop.get_token()) == RunEnd::interrupted);
-  }
-}
-
-TEST_CASE("a node has the memory in a pool that it has with a thread of its own") {
-  const auto specifications = equal_nodes(4, TokenRound::mailbox, making<TokenRound>(1U));
-  ThreadsRunner threads(specifications);
-  ThreadsRunner pool = pooled(2, specifications);
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    CHECK(pool.node(i).memory().sealed());
-    CHECK(pool.node(i).memory().used().bytes == threads.node(i).memory().used().bytes);
-  }
 }
 
 TEST_CASE("a pool's processor time is that of the node whose turn it is, sleep that of a node without packets") {
@@ -233,44 +106,6 @@ TEST_CASE("a pool's processor time is that of the node whose turn it is, sleep t
   }
 }
 
-/// Nodes with room for packets held back, small ones.
-std::vector<NodeSpecification> disturbed(std::vector<NodeSpecification> specifications) {
-  for (NodeSpecification& specification : specifications) {
-    specification.held_bytes = HeldPackets::room_bytes(small_payload_bytes);
-    specification.plan[Category::queues] += specification.held_bytes;
-  }
-  return specifications;
-}
-
-TEST_CASE("chaos holds packets back and lets nodes of a pool sit out, and every number arrives in order") {
-  std::uint64_t held = 0, sat_out = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    CAPTURE(seed);
-    ThreadsRunner runner = pooled(static_cast<std::uint32_t>(1 + seed % 3),
-                                  disturbed(equal_nodes(9, AllToHost::mailbox(9), making<AllToHost>(30U))), chaos_of(seed));
-    CHECK(runner.run({}) == RunEnd::finished);
-    CHECK(program_of<AllToHost>(runner, 8).in_order());
-    for (std::uint32_t i = 0; i < 9; ++i) {
-      held += runner.node(i).counters().held;
-      sat_out += runner.node(i).counters().sat_out;
-    }
-  }
-  CHECK(held > 1000);
-  CHECK(sat_out > 1000);
-}
-
-TEST_CASE("a disturbed node draws in a pool what it draws with a thread of its own") {
-  const Chaos chaos{.seed = 7, .held_percent = 50, .slow_node_percent = 100};
-  const auto specifications = disturbed(equal_nodes(3, AllToHost::mailbox(3), making<AllToHost>(30U)));
-  ThreadsRunner threads(specifications, chaos);
-  ThreadsRunner pool = pooled(2, specifications, chaos);
-  CHECK(threads.run({}) == RunEnd::finished);
-  CHECK(pool.run({}) == RunEnd::finished);
-  for (std::uint32_t i = 0; i < 3; ++i) {  // a draw for each packet, whenever it is sent
-    CHECK(pool.node(i).counters().held == threads.node(i).counters().held);
-  }
-}
-
 /// Counts what it is told, each node's for itself.
 class Counts final : public Observer {
  public:
@@ -282,7 +117,6 @@ class Counts final : public Observer {
   }
   void sent(const Passing& packet) override { ++sent_by[index_of(packet.node)]; }
   void received(const Passing& packet) override { ++received_by[index_of(packet.node)]; }
-  void worked(const Worked& /*worked*/) override {}
 
   std::vector<std::uint64_t> sent_by, received_by, last_ns;
   std::atomic<bool> in_order{true};

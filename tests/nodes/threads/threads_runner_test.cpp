@@ -5,19 +5,10 @@
 #include <time.h>
 
 #include <algorithm>
-#include <array>
 #include <cfenv>
-#include <chrono>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <optional>
-#include <stdexcept>
-#include <stop_token>
-#include <string>
-#include <thread>
-#include <utility>
-#include <vector>
 
 #include "nodes/threads/looks.h"
 #include "tests/nodes/toy_machine.h"
@@ -122,59 +113,6 @@ class Longing : public ToyProgram {
   bool has_sent_ = false, is_answered_ = false;
 };
 
-TEST_CASE("programs that are finished from the start end the run") {
-  for (const std::uint32_t count : {1U, 2U, 65U}) {
-    ThreadsRunner runner(equal_nodes(count, {}, making<ToyProgram>()));
-    CHECK(runner.run({}) == RunEnd::finished);
-  }
-}
-
-TEST_CASE("a token goes round the ring") {
-  for (const std::uint32_t count : {1U, 2U, 3U, 64U}) {
-    ThreadsRunner runner(equal_nodes(count, TokenRound::mailbox, making<TokenRound>(20U)));
-    CHECK(runner.run({}) == RunEnd::finished);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      CHECK(program_of<TokenRound>(runner, i).passed() == 20);
-      CHECK(runner.node(i).counters().sent[1].packets == 20);
-      CHECK(runner.node(i).counters().received[1].bytes == 20 * 12);
-    }
-  }
-}
-
-TEST_CASE("every request is answered, with one credit or many") {
-  for (const auto& [peers, window] : {std::pair{2U, 1U}, std::pair{5U, 1U}, std::pair{5U, 7U}, std::pair{24U, 1U}}) {
-    ThreadsRunner runner(equal_nodes(peers, Asker::mailbox(peers, window), making<Asker>(20U, window)));
-    CHECK(runner.run({}) == RunEnd::finished);
-    std::uint64_t refused = 0;
-    for (std::uint32_t i = 0; i < peers; ++i) {
-      CHECK(program_of<Asker>(runner, i).all_right());
-      CHECK(runner.node(i).counters().received[request].packets == 20 * (peers - 1));
-      CHECK(runner.node(i).counters().received[reply].packets == 20 * (peers - 1));
-      refused += runner.node(i).counters().refused;
-    }
-    CHECK(refused > 0);
-  }
-}
-
-TEST_CASE("many nodes send to one, each in order, each within its credit") {
-  ThreadsRunner runner(equal_nodes(33, AllToHost::mailbox(33), making<AllToHost>(50U)));
-  CHECK(runner.run({}) == RunEnd::finished);
-  CHECK(program_of<AllToHost>(runner, 32).in_order());
-  CHECK(total(runner.node(32).counters().received).packets == 32 * 50);
-}
-
-TEST_CASE("packets that may wait arrive in order, overtaken by none, and before their sender sleeps") {
-  std::vector<std::uint32_t> expected(Patient::count);
-  std::iota(expected.begin(), expected.end(), 0);
-  for (const std::uint32_t hasty_one : {0U, 6U, 37U, 99U}) {
-    auto specifications = equal_nodes(2, Patient::mailbox, making<Patient>(hasty_one));
-    specifications[0].patience = {.kinds = 1U << 1U, .packets = 5};
-    ThreadsRunner runner(specifications);
-    CHECK(runner.run({}) == RunEnd::finished);
-    CHECK(program_of<Patient>(runner, 1).received() == expected);
-  }
-}
-
 TEST_CASE("a target is not woken for each packet that may wait") {
   auto specifications = equal_nodes(2, Patient::mailbox, making<Patient>(99U));
   specifications[0].patience = {.kinds = 1U << 1U, .packets = 10};
@@ -189,13 +127,6 @@ TEST_CASE("a packet that may wait does not wait for as long as its sender has wo
   ThreadsRunner runner(specifications);
   CHECK(runner.run({}) == RunEnd::finished);
   CHECK(runner.node(0).counters().quanta >= patience_quanta_max);
-}
-
-TEST_CASE("a node that puts work off, in case a packet comes, does it before it sleeps") {
-  for (const std::uint32_t nodes : {2U, 20U}) {  // which do not look again, and do
-    ThreadsRunner runner(equal_nodes(nodes, {.small_slots = 1}, making<PutsOff>()));
-    CHECK(runner.run({}) == RunEnd::finished);
-  }
 }
 
 TEST_CASE("packets that may wait have one target") {
@@ -235,51 +166,6 @@ TEST_CASE("an idle thread whose long yields let others run sleeps at once for a 
 TEST_CASE("a mailbox smaller than the credits is found out") {
   ThreadsRunner runner(equal_nodes(5, {.small_slots = 1, .bulk_slots = 1, .bulk_payload_bytes = 200}, making<Asker>(50U, 40U)));
   CHECK_THROWS_WITH_AS(runner.run({}), doctest::Contains("credits leave room"), core::InternalError);
-}
-
-TEST_CASE("a stall ends the run with a report on every node") {
-  ThreadsRunner runner(equal_nodes(3, {}, making<Waiter>()));
-  std::string report;
-  try {
-    runner.run({});
-  } catch (const core::InternalError& error) {
-    report = error.what();
-  }
-  CHECK(report.find("all nodes sleep") != std::string::npos);
-  CHECK(report.find("node 0 (finished): waits for Godot") != std::string::npos);
-  CHECK(report.find("node 1: waits for Godot") != std::string::npos);
-  CHECK(report.find("host: waits for Godot") != std::string::npos);
-}
-
-TEST_CASE("an exception of a program ends the run and comes out of it once") {
-  ThreadsRunner runner(equal_nodes(8, {}, making<Worker>(true)));
-  CHECK_THROWS_WITH_AS(runner.run({}), "the hundredth quantum", std::runtime_error);
-}
-
-TEST_CASE("an exception wakes those that sleep") {
-  auto specifications = equal_nodes(8, {}, making<Waiter>());
-  specifications[3].make_program = making<Worker>(true);
-  ThreadsRunner runner(specifications);
-  CHECK_THROWS_WITH_AS(runner.run({}), "the hundredth quantum", std::runtime_error);
-}
-
-TEST_CASE("a stop request ends workers and sleepers alike") {
-  auto specifications = equal_nodes(8, {}, making<Waiter>());
-  specifications[0].make_program = making<Worker>(false);
-  ThreadsRunner runner(specifications);
-  std::stop_source stop;
-  std::jthread stopper([&stop] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    stop.request_stop();
-  });
-  CHECK(runner.run(stop.get_token()) == RunEnd::interrupted);
-}
-
-TEST_CASE("a stop request before the start ends the run at once") {
-  std::stop_source stop;
-  stop.request_stop();
-  ThreadsRunner runner(equal_nodes(4, {}, making<Worker>(false)));
-  CHECK(runner.run(stop.get_token()) == RunEnd::interrupted);
 }
 
 TEST_CASE("nodes compute alike, however the thread that starts them flushes to zero or rounds") {
@@ -338,14 +224,6 @@ TEST_CASE("a runner runs again, with what its programs have to do by then, and c
       }
     }
   }
-}
-
-TEST_CASE("a run that was interrupted is not followed by another") {
-  ThreadsRunner runner(equal_nodes(1, {}, making<ToyProgram>()));
-  std::stop_source stop;
-  stop.request_stop();
-  CHECK(runner.run(stop.get_token()) == RunEnd::interrupted);
-  CHECK_THROWS_AS(runner.run({}), core::InternalError);
 }
 
 TEST_CASE("a computer of nothing and a thread without a stack are refused") {

@@ -8,8 +8,6 @@
 #include <functional>
 #include <random>
 #include <span>
-#include <stdexcept>
-#include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
@@ -17,34 +15,12 @@
 
 #include "tests/nodes/scripted_machine.h"
 #include "tests/nodes/toy_programs.h"
+#include "tests/support/topologies.h"
 
 namespace dmpc::tests::virtual_runner_test {
 namespace {
 
 using namespace nodes;
-
-/// Works for ever; asks `source` to stop or fails in its hundredth quantum.
-class EndlessWorker : public ToyProgram {
- public:
-  EndlessWorker(Node& node, std::stop_source* source) : ToyProgram(node), source_(source) {}
-  bool work() override {
-    if (++quanta_ == 100 && source_ == nullptr) {
-      throw std::runtime_error("the hundredth quantum");
-    }
-    if (quanta_ == 100) {
-      source_->request_stop();
-    }
-    return true;
-  }
-  bool finished() const override { return false; }
-
- private:
-  std::stop_source* source_;
-  std::uint64_t quanta_ = 0;
-};
-
-constexpr std::array topologies{TopologyKind::crossbar, TopologyKind::hypercube, TopologyKind::mesh, TopologyKind::torus,
-                                TopologyKind::fat_tree};
 
 /// What interrupts are answered by.
 constexpr PacketKind thanks = 4;
@@ -72,7 +48,7 @@ std::vector<Script> random_scripts(std::uint64_t seed) {
 
 Machine random_machine(std::uint64_t seed) {
   std::mt19937_64 random(seed + 1);
-  Machine machine = toy_model(topologies[random() % topologies.size()]);
+  Machine machine = toy_model(all_topologies[random() % std::size(all_topologies)]);
   machine.has_contention = random() % 4 != 0;
   for (std::uint64_t* cost : {&machine.short_message.latency_ns, &machine.long_message.latency_ns, &machine.hop_ns,
                               &machine.service_ns, &machine.long_message.send_ns, &machine.short_message.receive_ns}) {
@@ -131,79 +107,7 @@ std::uint64_t hash_of(const Letter& letter) {
   return run_scripts({{.quanta = {{0, {letter}}}}, {}, {}, {}}, machine).report.hash;
 }
 
-/// A run that stalls, and what it says.
-std::string stall_of(const std::vector<Script>& scripts) {
-  VirtualRunner runner(specifications_of(scripts), toy_model());
-  try {
-    runner.run({});
-  } catch (const core::InternalError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-TEST_CASE("programs that are finished from the start end a virtual run at time 0") {
-  for (const std::uint32_t count : {1U, 2U, 65U}) {
-    VirtualRunner runner(equal_nodes(count, {}, making<ToyProgram>()), toy_model());
-    CHECK(runner.run({}) == RunEnd::finished);
-    CHECK(runner.virtual_report()->total_ns == 0);
-    CHECK(runner.virtual_report()->events == 0);
-    CHECK(runner.virtual_report()->nodes.size() == count);
-  }
-}
-
-TEST_CASE("a token goes round the ring in virtual time") {
-  for (const std::uint32_t count : {1U, 2U, 3U, 64U}) {
-    VirtualRunner runner(equal_nodes(count, TokenRound::mailbox, making<TokenRound>(20U)), toy_model(TopologyKind::torus));
-    CHECK(runner.run({}) == RunEnd::finished);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      CHECK(dynamic_cast<TokenRound&>(runner.program(i)).passed() == 20);
-      CHECK(runner.node(i).counters().sent[1].packets == 20);
-      CHECK(runner.node(i).counters().received[1].bytes == 20 * 12);
-    }
-  }
-}
-
-TEST_CASE("a run in which nothing happens any more and somebody waits is an error that tells every node's state") {
-  const std::string report = stall_of({{.quanta = {{1, {{1}}}}}, {.packets_awaited = 2}, {.packets_awaited = 1}});
-  CHECK(report.find("unfinished") != std::string::npos);
-  CHECK(report.find("node 0 (finished): 0 of 0 packets") != std::string::npos);
-  CHECK(report.find("node 1: 1 of 2 packets") != std::string::npos);
-  CHECK(report.find("host: 0 of 1 packets") != std::string::npos);
-}
-
-TEST_CASE("a virtual run that is asked to stop is interrupted") {
-  std::stop_source source;
-  VirtualRunner runner(equal_nodes(3, {}, making<EndlessWorker>(&source)), toy_model());
-  CHECK(runner.run(source.get_token()) == RunEnd::interrupted);
-  CHECK(runner.node(0).counters().quanta < 10'000);
-}
-
-TEST_CASE("a stop request before the start interrupts a virtual run at once") {
-  std::stop_source source;
-  source.request_stop();
-  VirtualRunner runner(equal_nodes(3, {}, making<EndlessWorker>(&source)), toy_model());
-  CHECK(runner.run(source.get_token()) == RunEnd::interrupted);
-  CHECK(runner.node(0).counters().quanta <= 1);
-}
-
-TEST_CASE("a program's exception ends a virtual run and comes out of it") {
-  VirtualRunner runner(equal_nodes(3, {}, making<EndlessWorker>(nullptr)), toy_model());
-  CHECK_THROWS_WITH_AS(runner.run({}), "the hundredth quantum", std::runtime_error);
-}
-
-TEST_CASE("a node that puts work off, in case a packet comes, does it in virtual time, too") {
-  VirtualRunner runner(equal_nodes(2, {.small_slots = 1}, making<PutsOff>()), toy_model());
-  CHECK(runner.run({}) == RunEnd::finished);
-}
-
-TEST_CASE("a virtual computer of nothing, and a run after one that was interrupted, are refused") {
-  CHECK_THROWS_AS(VirtualRunner({}, toy_model()), core::InternalError);
-  std::stop_source stop;
-  VirtualRunner runner(equal_nodes(1, {}, making<EndlessWorker>(&stop)), toy_model());
-  CHECK(runner.run(stop.get_token()) == RunEnd::interrupted);
-  CHECK_THROWS_AS(runner.run({}), core::InternalError);
-}
+TEST_CASE("a virtual computer of nothing is refused") { CHECK_THROWS_AS(VirtualRunner({}, toy_model()), core::InternalError); }
 
 TEST_CASE("another virtual run begins at time 0 on a machine as new: programs that do the same again have the same events") {
   constexpr std::uint32_t peers = 5, window = 2, count = 9;
@@ -222,14 +126,6 @@ TEST_CASE("another virtual run begins at time 0 on a machine as new: programs th
   CHECK(again.links.bytes == first.links.bytes);
   CHECK(again.nodes.at(2).total_ns() == first.nodes.at(2).total_ns());
   CHECK(runner.node(1).counters().sent[request].packets == std::uint64_t{count} * (peers - 1));
-}
-
-TEST_CASE("a memory is sealed before a virtual run begins, and as full as on threads") {
-  const std::vector<NodeSpecification> specifications = specifications_of({{}, {}});
-  VirtualRunner runner(specifications, toy_model());
-  ThreadsRunner threads(specifications);
-  CHECK(runner.node(0).memory().sealed());
-  CHECK(runner.node(0).memory().used().bytes == threads.node(0).memory().used().bytes);
 }
 
 TEST_CASE("a packet without room in the target's mailbox is found out, small or bulk") {

@@ -45,14 +45,6 @@ std::vector<Script> all_to_host(std::uint32_t count, std::uint64_t bytes) {
   return scripts;
 }
 
-/// All other nodes send a letter to node 0 at the start.
-std::vector<Script> all_to_node_0(std::uint32_t node_count, std::uint64_t bytes) {
-  std::vector<Script> scripts(1);
-  scripts.resize(node_count, sends({.target = 0, .bytes = bytes}));
-  scripts.emplace_back();
-  return scripts;
-}
-
 TEST_CASE("a ping-pong takes twice what a message takes, over each number of hops, short and long") {
   struct Case {
     TopologyKind topology;
@@ -84,39 +76,12 @@ TEST_CASE("what is computed before a packet leaves and after it came is added to
   CHECK(run.report.nodes[1].computing_ns == 3 * operation_ns);
 }
 
-TEST_CASE("a letter round a ring takes the sum of its ways, by the hops of each topology") {
-  const auto hops_round =
-      std::vector<std::pair<TopologyKind, std::uint32_t>>{{TopologyKind::crossbar, 8},
-                                                          {TopologyKind::hypercube, 1 + 2 + 1 + 3 + 1 + 2 + 1 + 3},
-                                                          {TopologyKind::mesh, 3 + 4 + 3 + 4},
-                                                          {TopologyKind::torus, 3 + 2 + 3 + 2},
-                                                          {TopologyKind::fat_tree, 6 * 2 + 2 * 4}};
-  for (const auto& [topology, hops] : hops_round) {
-    std::vector<Script> scripts(9);
-    for (std::uint32_t i = 1; i < 8; ++i) {
-      scripts[i].reactions[ping] = {0, {{(i + 1) % 8}}};
-    }
-    scripts[0] = sends({.target = 1});
-    const Machine machine = toy_model(topology);
-    const ScriptedRun run = run_scripts(scripts, machine);
-    CHECK(run.report.total_ns == 8 * one_way_ns(machine, short_bytes, 0) + hops * machine.hop_ns);
-    CHECK(run.report.links.hops == hops);
-  }
-}
-
 TEST_CASE("a message of a node to itself passes no link") {
   const Machine machine = toy_model();
   const ScriptedRun run = run_scripts({sends({.target = 0}), {}});
   const MessageCost& cost = machine.short_message;
   CHECK(run.report.total_ns == cost.send_ns + cost.latency_ns + cost.receive_ns);
   CHECK(run.report.links.messages == 0);
-}
-
-TEST_CASE("the host is one link farther than node 0") {
-  const Machine machine = toy_model(TopologyKind::hypercube);
-  std::vector<Script> scripts(9);
-  scripts[7] = sends({.target = 8});
-  CHECK(run_scripts(scripts, machine).report.total_ns == one_way_ns(machine, short_bytes, 3 + 1));
 }
 
 TEST_CASE("a message of the most bytes that are short is short, and one byte more makes it long") {
@@ -142,79 +107,6 @@ TEST_CASE("messages over one link arrive one after the other, or at once without
     const ScriptedRun free = run_scripts(all_to_host(count, long_bytes), machine);
     CHECK(free.report.total_ns == enters + passage + count * machine.long_message.receive_ns);
     CHECK(free.report.links.wait_ns == 0);
-  }
-}
-
-TEST_CASE("all to one: the last message arrives when those over the same link have passed one after the other") {
-  struct Case {
-    TopologyKind topology;
-    std::uint32_t node_count;
-    std::uint32_t messages, hops;       // over the link into node 0 that most need, and the hops that it waits for
-    std::uint32_t last_together;        // arrivals at that time, by other links too
-    std::uint32_t most_hops, farthest;  // the longest way to node 0, and how many have such a one
-  };
-  // A header that waits before that link needs one hop more, one that waits behind another's circuit those from there on.
-  const std::vector<Case> cases = {
-      {TopologyKind::crossbar, 9, 1, 1, 8, 1, 8},                  // a link for each
-      {TopologyKind::hypercube, 8, 4, 1 + 1 + 1 + 2, 1, 3, 1},     // 4-0: from 4, 5, 6, and 7 behind 6
-      {TopologyKind::mesh, 9, 6, 1 + 1 + 2 + 1 + 2 + 3, 1, 4, 1},  // 3-0: from 3, 4, 5 behind 4, 6, 7 behind 6, 8 behind 7
-      {TopologyKind::torus, 9, 3, 1 + 1 + 1, 2, 2, 4},             // 3-0: from 3, 4, 5; 6-0: from 6, 7, 8
-      {TopologyKind::fat_tree, 16, 15, (2 + 1 + 1) + (1 + 9) + 2 * (2 + 9), 1, 4, 12}};  // switch 0 to 0: all
-  for (const Case& one : cases) {
-    CAPTURE(name_of(one.topology));
-    Machine machine = toy_model(one.topology);
-    const std::vector<Script> scripts = all_to_node_0(one.node_count, long_bytes);
-    const std::uint64_t enters = machine.long_message.send_ns + machine.long_message.latency_ns;
-    const std::uint64_t bytes_ns = passage_ns(machine, long_bytes, 0), receive = machine.long_message.receive_ns;
-    const VirtualReport queued = run_scripts(scripts, machine).report;
-    CHECK(queued.total_ns == enters + one.hops * machine.hop_ns + one.messages * bytes_ns + one.last_together * receive);
-    CHECK(queued.busiest_links.front().busy_ns == one.hops * machine.hop_ns + one.messages * bytes_ns);
-
-    machine.has_contention = false;
-    const VirtualReport free = run_scripts(scripts, machine).report;
-    CHECK(free.total_ns == enters + one.most_hops * machine.hop_ns + bytes_ns + one.farthest * receive);
-    CHECK(free.links.hops == queued.links.hops);
-    CHECK(free.links.wait_ns == 0);
-
-    machine = toy_model(one.topology);
-    machine.has_memory_port = true;  // node 0 takes in one after the other, whatever links they come by
-    const VirtualReport ported = run_scripts(scripts, machine).report;
-    const std::uint64_t all_bytes_ns = enters + (one.node_count - 1) * bytes_ns + receive;
-    CHECK(ported.total_ns >= all_bytes_ns + machine.hop_ns);
-    CHECK(ported.total_ns <= all_bytes_ns + queued.links.hops * machine.hop_ns);
-  }
-}
-
-TEST_CASE("a link that two nodes saturate carries their messages without a gap, each at its own length") {
-  constexpr std::uint32_t count = 30;
-  const Machine machine = toy_model(TopologyKind::hypercube);
-  std::vector<Script> scripts(9);
-  const std::vector<Letter> letters(count, Letter{.target = 0, .bytes = long_bytes});
-  scripts[2].quanta.push_back({0, letters});
-  scripts[3].quanta.push_back({0, letters});
-  const VirtualReport report = run_scripts(scripts, machine).report;
-  const std::uint64_t busy = 2 * count * passage_ns(machine, long_bytes, 1);  // headers of node 3 wait before it, at node 2
-  const std::uint64_t enters = machine.long_message.send_ns + machine.long_message.latency_ns;
-  CHECK(report.total_ns == enters + busy + machine.long_message.receive_ns);
-  CHECK(report.busiest_links.front().from == "node 2");
-  CHECK(report.busiest_links.front().to == "node 0");
-  CHECK(report.busiest_links.front().busy_ns == busy);
-  CHECK(report.busiest_links.front().messages == 2 * count);
-  CHECK(report.busiest_links.front().bytes == 2 * count * long_bytes);
-}
-
-TEST_CASE("a node with a memory port sends to all its neighbours one after the other") {
-  Machine machine = toy_model(TopologyKind::hypercube);
-  std::vector<Script> scripts(9);
-  scripts[0].quanta = {{0, {{1, ping, long_bytes}, {2, ping, long_bytes}, {4, ping, long_bytes}}}};
-  const std::uint64_t passage = passage_ns(machine, long_bytes, 1), receive = machine.long_message.receive_ns;
-  const std::uint64_t enters = machine.long_message.send_ns + machine.long_message.latency_ns;
-  const ScriptedRun free = run_scripts(scripts, machine);
-  machine.has_memory_port = true;
-  const ScriptedRun ported = run_scripts(scripts, machine);
-  for (const auto& [nth, neighbour] : {std::pair{0U, 1U}, std::pair{1U, 2U}, std::pair{2U, 4U}}) {
-    CHECK(free.end_ns(neighbour) == enters + nth * machine.long_message.send_ns + passage + receive);
-    CHECK(ported.end_ns(neighbour) == enters + (nth + 1) * passage + receive);
   }
 }
 

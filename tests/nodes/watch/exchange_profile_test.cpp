@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/nodes/scripted_machine.h"
+#include "tests/support/topologies.h"
 
 namespace dmpc::tests::exchange_profile_test {
 namespace {
@@ -66,8 +67,7 @@ TEST_CASE("packets that count are counted by pair, and by the number with which 
 }
 
 TEST_CASE("what each link carried over time adds up to what the machine says that it carried, whatever its topology") {
-  for (const TopologyKind kind :
-       {TopologyKind::crossbar, TopologyKind::hypercube, TopologyKind::mesh, TopologyKind::torus, TopologyKind::fat_tree}) {
+  for (const TopologyKind kind : all_topologies) {
     CAPTURE(name_of(kind));
     const Letters letters(kind);
     REQUIRE_FALSE(letters.run.report.busiest_links.empty());

@@ -15,9 +15,6 @@ namespace {
 
 class Listener final : public Observer {
  public:
-  void ended(const Span& /*span*/, const Program& /*program*/) override {}
-  void sent(const Passing& /*packet*/) override {}
-  void received(const Passing& /*packet*/) override {}
   void worked(const Worked& worked) override { heard.push_back(worked); }
 
   std::vector<Worked> heard;

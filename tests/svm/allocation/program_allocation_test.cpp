@@ -44,10 +44,7 @@ std::uint64_t allocated_by(const svm::Strategy* strategy, const svm::RunOptions&
     specifications[i] = watched(specifications[i]);
   }
   nodes::ThreadsRunner runner(specifications);
-  const Allocations before = watched_allocations();
-  static_cast<void>(runner.run({}));
-  const Allocations after = watched_allocations();
-  return after.allocated - before.allocated + after.freed - before.freed;
+  return allocated_in_run(runner);
 }
 
 TEST_CASE("a node of svm allocates nothing while it renders, pages, asks for work and serves") {

@@ -14,7 +14,6 @@
 #include "svm/frames.h"
 #include "svm/run.h"
 #include "tests/support/kept_scenes.h"
-#include "tests/support/kinds_of_computers.h"
 #include "tests/support/scaled.h"
 #include "tests/support/strategies.h"
 #include "tests/support/subject.h"
@@ -90,18 +89,6 @@ TEST_CASE("what leads into few meshes is at every node, and of what leads into m
   }
 }
 
-TEST_CASE("many places that are kept once show what their copies show, where nodes ask each other for the way to them") {
-  const int side = scaled_edge(32);
-  const Subject copies(field_of_balls(42, 6), {side, side, 2}, with_copies());
-  for (const std::size_t page_size : {512U, 4096U}) {
-    REQUIRE_FALSE(svm::holds_open_pages(static_cast<std::uint32_t>(field(page_size).database().open_page_count()), page_size));
-    for (int number = 0; number < 4; ++number) {
-      CAPTURE(number);
-      CHECK(outcome_of(run_forest(field(page_size), way_of(number, 71))) == copies.outcome());
-    }
-  }
-}
-
 TEST_CASE("of what is kept once the film, the rays and all that walks do are those of replicated, on any number of nodes") {
   const core::Skips alone{.bundles = false};
   for (const Subject* const subject : {&balls(), &field()}) {
@@ -129,19 +116,6 @@ TEST_CASE("in chaos what is kept once shows the same, whatever is under way" * d
     svm::RunOptions options = way_of(3, seed);
     options.pages.in_flight = seed % 3 == 0 ? std::optional(1U) : seed % 3 == 1 ? std::optional(5U) : std::nullopt;
     CHECK(outcome_of(run_forest(subject, options)) == subject.outcome());
-  }
-}
-
-TEST_CASE("a node alone asks nobody about what is kept, and of several each question has one answer") {
-  for (const Subject* const subject : {&balls(), &field()}) {
-    for (const std::uint32_t nodes : {1U, 2U, 5U}) {
-      const svm::Report report = run_forest(*subject, computer_of(nodes));
-      const svm::QuestionCounters questions = report.questions();
-      CHECK((questions.rays_asked > 0) == (nodes > 1));
-      CHECK((questions.records_asked > 0) == (nodes > 1));
-      CHECK(questions.rays_asked == questions.rays_answered);
-      CHECK(questions.records_asked == questions.records_answered);
-    }
   }
 }
 

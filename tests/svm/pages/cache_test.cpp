@@ -150,17 +150,6 @@ TEST_CASE("empty frames are filled before a page is evicted") {
   }
 }
 
-TEST_CASE("lru evicts what was referenced least recently, fifo what came first") {
-  for (const auto& [replacement, evicted] : {std::pair(Replacement::lru, 1U), {Replacement::fifo, 0U}}) {
-    SmallCache small(3, replacement);
-    for (std::uint32_t page = 0; page < 3; ++page) {
-      small.install(page);
-    }
-    CHECK(small.refer(0));
-    CHECK(small.install(3) == PageId{evicted});
-  }
-}
-
 TEST_CASE("a page is installed whole, and only where it is absent") {
   SmallCache small(2);
   small.install(1);

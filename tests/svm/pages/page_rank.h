@@ -28,8 +28,8 @@ struct Graph {
 inline Graph random_graph(std::uint32_t vertex_count, std::uint32_t degree, std::uint64_t seed) {
   Graph graph{vertex_count, std::vector<std::vector<std::uint32_t>>(vertex_count), std::vector<std::uint32_t>(vertex_count)};
   for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
-    for (std::uint32_t edge = 0; edge < mixed(seed + vertex) % (2 * degree); ++edge) {
-      const std::uint64_t draw = mixed(seed ^ (std::uint64_t{vertex} << 32U | edge));
+    for (std::uint32_t edge = 0; edge < core::mix(seed + vertex) % (2 * degree); ++edge) {
+      const std::uint64_t draw = core::mix(seed ^ (std::uint64_t{vertex} << 32U | edge));
       const auto source = static_cast<std::uint32_t>((draw >> 32U) % (1 + draw % vertex_count));  // low numbers more often
       graph.sources[vertex].push_back(source);
       ++graph.out_degrees[source];

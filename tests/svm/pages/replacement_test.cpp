@@ -94,18 +94,6 @@ TEST_CASE("fifo may miss more with more frames, lru never does") {
   CHECK(Frames(Replacement::lru, 4).misses(anomaly) == 8);
 }
 
-TEST_CASE("clock passes what was referenced, once, and takes what was not") {
-  Frames frames(Replacement::clock, 3);
-  frames.misses({1, 2, 3});
-  frames.refer(4);  // all marked: the hand goes round and takes the first
-  CHECK(frames.pages == Pages{4, 2, 3});
-  frames.refer(2);
-  frames.refer(5);  // 2 is marked again, 3 is not
-  CHECK(frames.pages == Pages{4, 2, 5});
-  frames.refer(6);  // 4 has a mark, 2 has lost its own
-  CHECK(frames.pages == Pages{4, 6, 5});
-}
-
 TEST_CASE("random takes every frame about as often, the same ones for the same node, others for another") {
   constexpr std::uint32_t frame_count = 7;
   constexpr int draws = 70'000;
@@ -125,12 +113,6 @@ TEST_CASE("random takes every frame about as often, the same ones for the same n
     CHECK(std::abs(count - draws / 7.0) < 5 * sigma);
   }
   CHECK(std::abs(agreements - draws / 7.0) < 5 * sigma);
-}
-
-TEST_CASE("every policy has one frame to choose from where there is one") {
-  for (const Replacement replacement : all_policies()) {
-    CHECK(Frames(replacement, 1).misses({1, 1, 2, 2, 1}) == 3);
-  }
 }
 
 TEST_CASE("a policy takes exactly the memory that it says it needs, and clock, fifo and random none") {
