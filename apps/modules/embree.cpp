@@ -30,8 +30,6 @@ constexpr Library functions{
     .set_geometry_occluded_filter_function = rtcSetGeometryOccludedFilterFunction,
     .intersect = rtcIntersect1,
     .occluded = rtcOccluded1,
-    .intersect_packet = rtcIntersect16,
-    .occluded_packet = rtcOccluded16,
 };
 
 }  // namespace

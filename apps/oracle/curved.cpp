@@ -12,38 +12,12 @@ namespace {
 
 using core::Vec3d;
 
-/// The roots of a t^2 + 2 b t + c = 0 in ascending order, written so that neither suffers from cancellation of b against the
-/// root; with a = 0 both are the one root. NaN, which no comparison accepts, stands for a root that does not exist.
-std::array<double, 2> roots(double a, double b, double c, double quarter_discriminant) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (!(quarter_discriminant >= 0)) {
-    return {none, none};
-  }
-  const double q = -(b + std::copysign(std::sqrt(quarter_discriminant), b));
-  const double first = q != 0 ? c / q : none;
-  const double second = a != 0 ? q / a : first;
-  return first < second || std::isnan(second) ? std::array{first, second} : std::array{second, first};
-}
-
-/// The first root, `start` farther along the ray, in (0, t_max) that `accept` takes.
-template <class Accept>
-std::optional<double> first_of(const std::array<double, 2>& candidates, double start, float t_max, const Accept& accept) {
-  for (const double root : candidates) {
-    const double t = start + root;
-    if (t > 0 && t < static_cast<double>(t_max) && accept(root)) {
-      return t;
-    }
-  }
-  return std::nullopt;
-}
-
 /// Without the root of an eye that lies on the surface, as far as rounding may have moved that: it sees what lies around it
-/// (core::is_on_surface()). `c`: of the quadratic; `size`: the largest coordinate and radius; `start`: as of
-/// first_of().
-std::array<double, 2> without_start(std::array<double, 2> candidates, double start, const core::Ray& ray,
-                                    const core::CurvedValues& value, double c, double size, double radius) {
+/// (core::is_on_surface()). `c`: of the quadratic; `size`: the largest coordinate and radius.
+std::array<double, 2> without_start(std::array<double, 2> candidates, const core::Ray& ray, const core::CurvedValues& value,
+                                    double c, double size, double radius) {
   if (ray.kind == core::RayKind::primary && core::is_on_surface(value, c, radius, size)) {
-    const bool is_first = std::fabs(start + candidates[0]) < std::fabs(start + candidates[1]);
+    const bool is_first = std::fabs(candidates[0]) < std::fabs(candidates[1]);
     candidates[is_first ? 0 : 1] = std::numeric_limits<double>::quiet_NaN();
   }
   return candidates;
@@ -60,28 +34,13 @@ std::optional<double> nearest_on_sphere(const core::CurvedValues& value, const c
   const Vec3d across = from_center - direction * (b / a);
   const double distance = length(from_center);
   const double c = (distance - std::fabs(radius)) * (distance + std::fabs(radius));
-  const std::array<double, 2> both = roots(a, b, c, a * (radius * radius - dot(across, across)));
-  return first_of(without_start(both, 0, ray, value, c, largest_component(center) + std::fabs(radius), radius), 0, ray.t_max,
-                  [&](double t) { return radius > 0 || dot(from_center + direction * t, direction) > 0; });
-}
-
-/// A cone with its axis, in double precision; radius(height) = base_radius + slope * height.
-struct Axial {
-  Vec3d base, axis;  ///< axis: unit length, from base to apex
-  double base_radius, height, slope;
-  bool inside_only;
-};
-
-Axial axial(const core::CurvedValues& value) {
-  const Vec3d base = value.vector(0), to_apex = value.axis();
-  const double height = length(to_apex);
-  const double base_radius = std::fabs(value.value(3)), apex_radius = std::fabs(value.value(7));
-  return {
-      base, to_apex * (1 / height), base_radius, height, (apex_radius - base_radius) / height, value.is_inside_visible_only()};
+  const std::array<double, 2> both = quadratic_roots(a, b, c, a * (radius * radius - dot(across, across)));
+  return first_root(without_start(both, ray, value, c, largest_component(center) + std::fabs(radius), radius), 0,
+                    double{ray.t_max}, [&](double t) { return radius > 0 || dot(from_center + direction * t, direction) > 0; });
 }
 
 std::optional<double> nearest_on_cone(const core::CurvedValues& value, const core::Ray& ray) {
-  const Axial cone = axial(value);
+  const ConeAxis cone(value.vector(0), value.axis(), std::fabs(value.value(3)), std::fabs(value.value(7)));
   const Vec3d direction = ray.full_direction();
   const double along_direction = dot(direction, cone.axis);
   // A thin one all but lies in the plane of its base: only from there on its two sheets can be told apart.
@@ -98,11 +57,11 @@ std::optional<double> nearest_on_cone(const core::CurvedValues& value, const cor
   const double b = dot(across_origin, across_direction) - radius_origin * radius_direction;
   const double across_length = length(across_origin);
   const double c = (across_length - radius_origin) * (across_length + radius_origin);
-  return first_of(roots(a, b, c, b * b - a * c), start, ray.t_max, [&](double t) {
+  return first_root(quadratic_roots(a, b, c, b * b - a * c), start, double{ray.t_max}, [&](double t) {
     const double along = along_origin + t * along_direction;
     const double turn = dot(across_origin + across_direction * t, direction) -
                         cone.slope * (radius_origin + t * radius_direction) * along_direction;
-    return along >= 0 && along <= cone.height && (!cone.inside_only || turn > 0);
+    return along >= 0 && along <= cone.height && (!value.is_inside_visible_only() || turn > 0);
   });
 }
 
@@ -117,6 +76,16 @@ void enclose(std::array<float, 6>& box, const Vec3d& center, double radius) {
 }
 
 }  // namespace
+
+std::array<double, 2> quadratic_roots(double a, double b, double c, double quarter) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!(quarter >= 0)) {
+    return {none, none};
+  }
+  const double q = b > 0 ? -b - std::sqrt(quarter) : std::sqrt(quarter) - b;
+  const double one = a != 0 ? q / a : none, other = q != 0 ? c / q : one;
+  return one > other ? std::array{other, one} : std::array{one, other};
+}
 
 std::optional<double> nearest_on_curved(const core::PrimitiveValues& values, const core::Ray& ray) {
   core::expect(values.kind != core::PrimitiveKind::triangle, "a curved primitive is a sphere or a cone");

@@ -1,7 +1,6 @@
 #include "apps/oracle/embree.h"
 
 #include <array>
-#include <string>
 
 #include "apps/edge/system/module.h"
 #include "apps/oracle/curved.h"
@@ -26,9 +25,9 @@ const Library& library() {
   return *opened;
 }
 
-OwnedScene::OwnedScene(RTCSceneFlags flags, RTCBuildQuality quality, std::uint32_t thread_count)
+OwnedScene::OwnedScene(RTCSceneFlags flags, RTCBuildQuality quality)
     : quality_(quality),
-      device_(library_.new_device(thread_count == 0 ? nullptr : ("threads=" + std::to_string(thread_count)).c_str())),
+      device_(library_.new_device(nullptr)),
       scene_(device_ == nullptr ? nullptr : library_.new_scene(device_)) {
   core::expect(scene_ != nullptr, "Embree opens its device");
   library_.set_scene_flags(scene_, flags);

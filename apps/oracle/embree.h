@@ -1,7 +1,6 @@
 // The only file that includes Embree, version 3 or 4: what dmpc calls of it, its geometries, and rays asked of it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -44,8 +43,6 @@ struct Library {
   decltype(&rtcSetGeometryOccludedFilterFunction) set_geometry_occluded_filter_function;
   decltype(&rtcIntersect1) intersect;
   decltype(&rtcOccluded1) occluded;
-  decltype(&rtcIntersect16) intersect_packet;
-  decltype(&rtcOccluded16) occluded_packet;
 };
 
 /// Opened at the first call, as open_module() says. Thread-safe.
@@ -54,9 +51,8 @@ const Library& library();
 /// A scene on a device of its own, and the owner of both.
 class OwnedScene {
  public:
-  /// An empty scene. Embree builds it with `thread_count` threads, 0: as many as there are processors. Throws core::InternalError
-  /// if Embree opens no device.
-  OwnedScene(RTCSceneFlags flags, RTCBuildQuality quality, std::uint32_t thread_count = 0);
+  /// An empty scene, which Embree builds on all processors. Throws core::InternalError if Embree opens no device.
+  OwnedScene(RTCSceneFlags flags, RTCBuildQuality quality);
   ~OwnedScene();
   OwnedScene(const OwnedScene&) = delete;
   OwnedScene& operator=(const OwnedScene&) = delete;
@@ -77,12 +73,6 @@ class OwnedScene {
   RTCScene scene_;
 };
 
-/// Which of 16 rays are asked about, and how.
-struct Packet {
-  alignas(64) std::array<int, 16> valid{};  ///< -1 for those, 0 for the others
-  bool is_coherent = false;                 ///< Embree walks with all of them at a time as long as it can
-};
-
 // Embree 4 renamed the context and moved it into an arguments structure. That branch is untested: Debian 12 has 3.13.
 #if RTC_VERSION_MAJOR >= 4
 using Context = RTCRayQueryContext;
@@ -99,20 +89,6 @@ inline void occlude(const Library& library, RTCScene scene, Context& context, RT
   arguments.context = &context;
   library.occluded(scene, &ray, &arguments);
 }
-inline void intersect(const Library& library, RTCScene scene, Context& context, const Packet& packet, RTCRayHit16& rays) {
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.context = &context;
-  arguments.flags = packet.is_coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-  library.intersect_packet(packet.valid.data(), scene, &rays, &arguments);
-}
-inline void occlude(const Library& library, RTCScene scene, Context& context, const Packet& packet, RTCRay16& rays) {
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.context = &context;
-  arguments.flags = packet.is_coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-  library.occluded_packet(packet.valid.data(), scene, &rays, &arguments);
-}
 #else
 /// What a query's callbacks are handed: make it the first member of a structure to let them find more.
 using Context = RTCIntersectContext;
@@ -124,15 +100,6 @@ inline void intersect(const Library& library, RTCScene scene, Context& context, 
 /// Any hit.
 inline void occlude(const Library& library, RTCScene scene, Context& context, RTCRay& ray) {
   library.occluded(scene, &context, &ray);
-}
-/// Intersects those of 16 rays that the packet has.
-inline void intersect(const Library& library, RTCScene scene, Context& context, const Packet& packet, RTCRayHit16& rays) {
-  context.flags = packet.is_coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  library.intersect_packet(packet.valid.data(), scene, &context, &rays);
-}
-inline void occlude(const Library& library, RTCScene scene, Context& context, const Packet& packet, RTCRay16& rays) {
-  context.flags = packet.is_coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  library.occluded_packet(packet.valid.data(), scene, &context, &rays);
 }
 #endif
 

@@ -1,7 +1,7 @@
 // The groups of micro-benchmarks, and how a benchmark comes to be one row of a group.
 //
 // A row's name is "group/subject"; the first row of a group is what the others are compared with. What a row has done is a number
-// of items (references, packets, events, blocks); its time is that of one. Every row checks its answers by core::expect, so that
+// of items (references, packets, events); its time is that of one. Every row checks its answers by core::expect, so that
 // what is broken ends the program and cannot look fast.
 #pragma once
 
@@ -16,7 +16,6 @@ namespace dmpc::bench {
 void add_pager_rows();
 void add_mailbox_rows();
 void add_virtual_runner_rows();
-void add_kernel_rows();
 
 /// A row timed by the processor time of its thread: of loops on one thread. `work(state)` says how many items it has done.
 template <class Work>

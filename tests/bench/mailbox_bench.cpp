@@ -1,4 +1,4 @@
-// Packets through a mailbox, beside boost, oneTBB and moodycamel: how many get through, and how long there and back.
+// Packets through a mailbox, beside boost: how many get through, and how long there and back.
 //
 // Nobody who has to wait spins: he gives his core away (or, in the rows that say so, sleeps), as there may be more threads than
 // cores.
@@ -171,21 +171,15 @@ void add_size(const std::string& size) {
   const std::string alone = size + " in and out on one thread";
   add_in_and_out<BoostQueue<T>, T>(alone);
   add_in_and_out<OwnQueue<T>, T>(alone);
-  add_in_and_out<TbbQueue<T>, T>(alone);
-  add_in_and_out<MoodycamelQueue<T>, T>(alone);
   for (const std::uint32_t senders : {1U, 8U}) {
     const std::string group = size + " from " + std::to_string(senders) + (senders == 1 ? " sender" : " senders");
     add_traffic<BoostQueue<T>, T>(group, senders);
     add_traffic<OwnQueue<T>, T>(group, senders);
-    add_traffic<TbbQueue<T>, T>(group, senders);
-    add_traffic<MoodycamelQueue<T>, T>(group, senders);
   }
   const std::string both_ways = size + " there and back";
   add_ping_pong<BoostQueue<T>, T>(both_ways);
   add_ping_pong<OwnQueue<T>, T>(both_ways);
   add_ping_pong<OwnQueue<T>, T, Sleeping>(both_ways, "nodes::Mailbox, receiver asleep");
-  add_ping_pong<TbbQueue<T>, T>(both_ways);
-  add_ping_pong<MoodycamelQueue<T>, T>(both_ways);
 }
 
 }  // namespace

@@ -11,7 +11,6 @@ int main(int argument_count, char** arguments) {
   add_pager_rows();
   add_mailbox_rows();
   add_virtual_runner_rows();
-  add_kernel_rows();
   RatioTable table;
   const bool has_run = benchmark::RunSpecifiedBenchmarks(&table) > 0;
   benchmark::Shutdown();

@@ -1,20 +1,10 @@
-// Queues that carry packets from many senders to one receiver: ours and its rivals, each with the same few functions.
+// Queues that carry packets from many senders to one receiver: ours and a rival of equal guarantee, each with the same few
+// functions.
 //
-// All are bounded, refuse when they are full, keep the order of each sender, and move packets of a size that the compiler knows
-// by copying. A rival's receiver copies once more, out of the queue, where ours reads in the slot; no rival offers anything else.
-//
-// | queue | lock-free | bounded by | allocates |
-// |---|---|---|---|
-// | nodes::Mailbox | yes | slots | never after the start |
-// | boost::lockfree::queue | yes | nodes | never after the start |
-// | tbb::concurrent_bounded_queue | no | a count | again and again |
-// | moodycamel::ConcurrentQueue | yes | blocks | when a sender comes first |
-//
-// oneTBB's tickets make one thread wait for another; moodycamel's queue keeps no order between senders.
+// Both are lock-free and bounded, refuse when they are full, keep the order of each sender, allocate nothing after the start, and
+// move packets of a size that the compiler knows by copying. The rival's receiver copies once more, out of the queue, where ours
+// reads in the slot; it offers nothing else.
 #pragma once
-
-#include <concurrentqueue/concurrentqueue.h>
-#include <tbb/concurrent_queue.h>
 
 #include <array>
 #include <boost/lockfree/queue.hpp>
@@ -41,7 +31,7 @@ struct Message {
 
 constexpr std::uint32_t check_of(std::uint32_t sender, std::uint32_t number) { return (sender + 1) * 0x9e3779b1U ^ number; }
 
-/// Ours, with a place to sleep that the others have not. Each of them has the functions push() and drain().
+/// Ours, with a place to sleep that the other has not. Each of them has the functions push() and drain().
 template <class T>
 class OwnQueue {
  public:
@@ -84,7 +74,6 @@ class OwnQueue {
   nodes::AwakeCount awake_;
 };
 
-/// The rival of equal guarantee.
 template <class T>
 class BoostQueue {
  public:
@@ -100,52 +89,6 @@ class BoostQueue {
 
  private:
   boost::lockfree::queue<T, boost::lockfree::capacity<queue_capacity>> queue_;
-};
-
-template <class T>
-class TbbQueue {
- public:
-  static constexpr const char* name = "tbb::concurrent_bounded_queue";
-
-  explicit TbbQueue(std::uint32_t /*sender_count*/) { queue_.set_capacity(queue_capacity); }
-
-  bool push(std::uint32_t /*sender*/, const T& message) { return queue_.try_push(message); }
-  template <class Receive>
-  bool drain(Receive&& receive) {
-    bool has_received = false;
-    for (T message; queue_.try_pop(message); has_received = true) {
-      receive(message);
-    }
-    return has_received;
-  }
-
- private:
-  tbb::concurrent_bounded_queue<T> queue_;
-};
-
-/// Taken from in bulk, its fastest way. Senders have no tokens: a sender with a token keeps the blocks that it has had, so a fast
-/// one leaves none to the others, for ever.
-template <class T>
-class MoodycamelQueue {
- public:
-  static constexpr const char* name = "moodycamel::ConcurrentQueue";
-
-  explicit MoodycamelQueue(std::uint32_t sender_count) : queue_(queue_capacity, 0, sender_count), receiver_(queue_) {}
-
-  bool push(std::uint32_t /*sender*/, const T& message) { return queue_.try_enqueue(message); }
-  template <class Receive>
-  bool drain(Receive&& receive) {
-    const std::size_t count = queue_.try_dequeue_bulk(receiver_, taken_.begin(), taken_.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      receive(taken_[i]);
-    }
-    return count > 0;
-  }
-
- private:
-  moodycamel::ConcurrentQueue<T> queue_;
-  moodycamel::ConsumerToken receiver_;
-  std::array<T, 32> taken_{};
 };
 
 }  // namespace dmpc::bench

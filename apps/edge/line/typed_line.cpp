@@ -208,8 +208,10 @@ class Reader {
     if (find_option(*here_, full) != nullptr) {
       fail(said + ". Did you mean " + full + "?");
     }
-    if (const std::string instead = said_instead_of(full); !instead.empty()) {
-      fail(said + " any more: " + instead);
+    for (const std::string& gone : {full, line_.command + " " + full}) {
+      if (const std::string instead = said_instead_of(gone); !instead.empty()) {
+        fail(said + " any more: " + instead);
+      }
     }
     fail_if_foreign(name, said);
     const bool has_command = here_->commands.empty();

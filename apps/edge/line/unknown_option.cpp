@@ -32,6 +32,7 @@ struct Gone {
 
 constexpr Gone gone[] = {
     {"--balance-grid", "loads are counted in 256x256 columns"},
+    {"--details", "-o FILE has every comparison"},
     {"--grid-axes", "the grid has the world's axes; --camera turns the picture"},
     {"--idle", "ranks spin where there are more processors than nodes, else sleep"},
     {"--keep-checkpoint", "a checkpoint goes when the picture is there; without --resume that is rendered again"},
@@ -39,6 +40,11 @@ constexpr Gone gone[] = {
     {"--no-contention",
      "--machine=FILE.json names a machine whose has_contention is false; dmpc machine prints one to begin with"},
     {"--no-skip=empty-space", "empty voxels are passed over by all; --structure=voxels --voxels=article visits each"},
+    {"--parts=build", "--parts=plain has the build of each scene, on all cores"},
+    {"--parts=load", "dmpc render --stats=FILE says what loading and each phase behind it take"},
+    {"--parts=memory", "dmpc study scale has the anonymous memory of processes that render"},
+    {"--parts=pages", "dmpc study paper has Table 2 of the article beside ours"},
+    {"--parts=picture", "--parts=plain has pictures by Embree"},
     {"--preview", "--serve shows the picture in a browser as it comes"},
     {"--strip", "--heatmap=done:FILE.png shows when each pixel was done, and the page of --report plays it"},
     {"--subsample", "one pixel of every 8x8 says how regions are cut; dmpc study balance --subsample=N shows what others do"},
@@ -49,6 +55,10 @@ constexpr Gone gone[] = {
      "a trace too long is kept in parts from all times of the run; --trace-window=FROM,TO records all of one time"},
     {"--trace-nodes", "--trace records all nodes; Perfetto shows those that are pinned on top"},
     {"--tree-arity", "--homes=tree has three children a node"},
+    {"bench error --pictures", "dmpc compare --difference=IMAGE shows how far one picture lies from another"},
+    {"bench error --references", "each run makes its own references"},
+    {"bench speed --plots", "-o FILE.csv --format=csv has all comparisons, to be drawn"},
+    {"bench stability --resume", "a long run may be made of several with another --seed each, whose counts add up"},
 };
 
 /// "w", of "--w", "-w" and "-W640"; "+w", of "+W640"; names of several letters keep their digits.

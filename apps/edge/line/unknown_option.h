@@ -16,8 +16,8 @@ struct ForeignOption {
 /// if it is none of those known.
 std::optional<ForeignOption> foreign_option(const std::string& name);
 
-/// What to say in place of an option that commands had, "--preview", or a word of one, "--no-skip=empty-space", and what that
-/// does: a sentence without its dot. Empty if it is none of those.
+/// What to say in place of an option that commands had, "--preview", one of them alone, "bench error --pictures", or a word of an
+/// option, "--no-skip=empty-space", and what that does: a sentence without its dot. Empty if it is none of those.
 std::string said_instead_of(const std::string& name);
 
 }  // namespace dmpc::apps

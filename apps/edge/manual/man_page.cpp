@@ -29,14 +29,8 @@ struct EnvironmentVariable {
 };
 
 constexpr EnvironmentVariable variables[] = {
-    {"XDG_CACHE_HOME", "The folder in which bench error keeps the pictures that it measures against, in one called dmpc."},
-    {"HOME", "Its folder .cache is taken if XDG_CACHE_HOME is not set."},
     {"TMPDIR", "Where files go that are not kept; /tmp if not set."},
     {"NO_COLOR", "Is obeyed whatever its value: dmpc never writes in colour. Progress is shown on terminals only."},
-};
-
-constexpr EnvironmentVariable files[] = {
-    {"~/.cache/dmpc", "References of bench error (--references). May be deleted: they are made again when needed."},
 };
 
 bool is_help(const OptionDescription& option) { return option.names.back() == "--help"; }
@@ -196,10 +190,6 @@ class Writer {
     page_.begin_section("ENVIRONMENT");
     for (const EnvironmentVariable& variable : variables) {
       page_.add_entry(variable.name, "", variable.text);
-    }
-    page_.begin_section("FILES");
-    for (const EnvironmentVariable& file : files) {
-      page_.add_entry(file.name, "", file.text);
     }
     page_.begin_section("SEE ALSO");
     page_.add_paragraph("gnuplot(1), oiiotool(1)");

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 
+#include "apps/lab/crowd/side_by_side.h"
 #include "core/base/counts.h"
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
+#include "core/base/units.h"
 #include "core/picture/render.h"
 
 namespace dmpc::apps {
@@ -179,20 +182,6 @@ std::uint64_t count_differing(const core::Database& database, const EmbreeScene&
   return tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, pixels.size()), std::uint64_t{0}, count, std::plus<>());
 }
 
-Harvest trace_band(const core::Database& database, const EmbreeScene& scene, const core::RenderSettings& settings,
-                   const InspectionOptions& options, std::uint32_t first, std::uint32_t last) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::uint32_t>(first, last, 64), Harvest(options),
-      [&](const tbb::blocked_range<std::uint32_t>& pixels, Harvest harvest) {
-        trace_pixels(database, scene, settings, pixels.begin(), pixels.end(), harvest);
-        return harvest;
-      },
-      [](Harvest left, const Harvest& right) {
-        left.join(right);
-        return left;
-      });
-}
-
 std::vector<SettledRay> settle(const Referee& referee, const std::vector<TracedRay>& rays) {
   std::vector<SettledRay> settled(rays.size());
   tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t index) {
@@ -218,11 +207,16 @@ Inspection inspect(const core::Database& database, const EmbreeScene& scene, con
   const std::uint32_t pixel_count = settings.camera.pixel_count();
   const std::uint32_t band = std::max(pixel_count / 200, 1024U);
   Harvest harvest(options);
-  for (std::uint32_t first = 0; first < pixel_count; first += std::min(band, pixel_count - first)) {
-    options.progress(first, pixel_count);
-    harvest.join(trace_band(database, scene, settings, options, first, first + std::min(band, pixel_count - first)));
-  }
-  options.progress(pixel_count, pixel_count);
+  options.progress(0, pixel_count);
+  side_by_side(core::ceil_divide(pixel_count, band), [&](std::size_t index) -> std::function<void()> {
+    const std::uint32_t first = static_cast<std::uint32_t>(index) * band, last = std::min(first + band, pixel_count);
+    const auto part = std::make_shared<Harvest>(options);
+    trace_pixels(database, scene, settings, first, last, *part);
+    return [&, part, last] {
+      harvest.join(*part);
+      options.progress(last, pixel_count);
+    };
+  });
   const Referee referee(database);
   return {.operations = harvest.operations,
           .differences = settle(referee, harvest.differences),

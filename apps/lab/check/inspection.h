@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "apps/lab/oracle/certified.h"
+#include "apps/lab/oracle/exact.h"
 #include "apps/lab/oracle/referee.h"
 #include "apps/oracle/oracle.h"
 #include "core/database/database.h"
@@ -46,7 +46,7 @@ struct Inspection {
 struct InspectionOptions {
   std::uint64_t brute_force = 0;  ///< rays that go to the referee whether they differ or not, drawn uniformly from all rays
   std::uint64_t certify = 0;      ///< hits whose certificates are held against rational arithmetic, drawn uniformly from all hits
-  /// Called on the calling thread between bands of rows: (pixels done, pixels in all).
+  /// Called between bands of pixels, by one thread at a time: (pixels done, pixels in all).
   std::function<void(std::uint64_t, std::uint64_t)> progress = [](std::uint64_t, std::uint64_t) {};
 };
 

@@ -1,22 +1,134 @@
 #include "apps/lab/compare/command.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <iomanip>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "apps/edge/line/exit_status.h"
+#include "apps/edge/line/json_format.h"
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
 #include "apps/edge/system/distinct_files.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/lab/compare/pages.h"
-#include "apps/lab/compare/report.h"
+#include "apps/lab/difference/picture_error.h"
 #include "apps/picture/image_file.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// More are for a program to read.
+constexpr std::size_t lines_max = 100;
+
+void print_names(std::ostream& output, const CompareOptions& files) {
+  output << "A " << shown(files.a.string()) << "\nB " << shown(files.reference.string()) << " (the reference)\n";
+}
+
+void print(std::ostream& output, const Json& json) {
+  output << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';  // names of files may be no UTF-8
+}
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+std::string side_text(const std::optional<FigureValue>& value) { return value ? shown(text_of(*value)) : "not there"; }
+
+struct ValueJson {
+  Json operator()(std::monostate) const { return nullptr; }
+  template <class Value>
+  Json operator()(const Value& value) const {
+    return value;
+  }
+};
+
+Json difference_json(const Difference& difference) {
+  Json json = {{"figure", difference.name}};
+  if (difference.figure) {
+    json["a"] = std::visit(ValueJson(), *difference.figure);
+  }
+  if (difference.reference) {
+    json["b"] = std::visit(ValueJson(), *difference.reference);
+  }
+  return json;
+}
+
+/// A line each figure.
+void print_text(std::ostream& output, const CompareOptions& files, const PictureError& error) {
+  const double share =
+      100 * static_cast<double>(error.differing_pixels) / static_cast<double>(std::max<std::uint64_t>(error.pixels, 1));
+  print_names(output, files);
+  output << "root mean square error  " << error.root_mean_square << "\n"
+         << "largest error           " << error.largest << "\n"
+         << "99th percentile         " << error.percentile_99 << "\n"
+         << "mean absolute error     " << error.mean_absolute << "\n"
+         << "peak signal to noise    " << error.peak_signal_to_noise_decibels << " dB\n"
+         << "relative mean square    " << error.relative_mean_square << "\n"
+         << "FLIP, mean              " << error.flip_mean << "\n"
+         << "FLIP, 99th percentile   " << error.flip_percentile_99 << "\n"
+         << "differing pixels        " << error.differing_pixels << " of " << error.pixels << " (" << share << " %)\n";
+}
+
+/// One object, in which what is infinite is null; `passed` are limits of --fail-above.
+void print_json(std::ostream& output, const CompareOptions& files, const PictureError& error,
+                const std::vector<std::string>& passed) {
+  print(output, {
+                    {"format", json_format},
+                    {"picture", files.a.string()},
+                    {"reference", files.reference.string()},
+                    {"root_mean_square", finite(error.root_mean_square)},
+                    {"largest", finite(error.largest)},
+                    {"percentile_99", finite(error.percentile_99)},
+                    {"mean_absolute", finite(error.mean_absolute)},
+                    {"peak_signal_to_noise_decibels", finite(error.peak_signal_to_noise_decibels)},
+                    {"relative_mean_square", finite(error.relative_mean_square)},
+                    {"flip_mean", finite(error.flip_mean)},
+                    {"flip_percentile_99", finite(error.flip_percentile_99)},
+                    {"pixels", error.pixels},
+                    {"differing_pixels", error.differing_pixels},
+                    {"passed_limits", passed},
+                });
+}
+
+/// A line each difference, and how many there are.
+void print_text(std::ostream& output, const CompareOptions& files, const FigureComparison& comparison) {
+  print_names(output, files);
+  const std::size_t count = std::min(comparison.differences.size(), lines_max);
+  std::size_t width = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    width = std::max(width, comparison.differences[i].name.size());
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Difference& difference = comparison.differences[i];
+    output << std::left << std::setw(static_cast<int>(width)) << shown(difference.name) << "  A " << side_text(difference.figure)
+           << "  B " << side_text(difference.reference) << "\n";
+  }
+  if (count < comparison.differences.size()) {
+    output << "and " << grouped(comparison.differences.size() - count) << " more: --format=json has them all\n";
+  }
+  output << counted(comparison.compared, "figure") << " compared, " << grouped(comparison.differences.size())
+         << (comparison.differences.size() == 1 ? " differs\n" : " differ\n");
+}
+
+/// One object with all differences; a figure that a file does not have is not there.
+void print_json(std::ostream& output, const CompareOptions& files, const FigureComparison& comparison) {
+  Json differences = Json::array();
+  for (const Difference& difference : comparison.differences) {
+    differences.push_back(difference_json(difference));
+  }
+  print(output, {{"format", json_format},
+                 {"counters", files.a.string()},
+                 {"reference", files.reference.string()},
+                 {"compared", comparison.compared},
+                 {"differences", differences}});
+}
 
 enum class Kind : std::uint8_t { pictures, counters, pages };
 
@@ -74,9 +186,9 @@ int compare_pictures(const CompareOptions& options, Interrupt& interrupt, std::o
   interrupt.set_consequence("the output may be incomplete");
   const std::vector<std::string> passed = passed_limits(options.limits, error);
   if (options.format == CompareFormat::json) {
-    print_json(output, {options.a, options.reference}, error, passed);
+    print_json(output, options, error, passed);
   } else {
-    print_text(output, {options.a, options.reference}, error);
+    print_text(output, options, error);
   }
   finish_output(output, "the figures");
   return status_after(options, passed);
@@ -85,9 +197,9 @@ int compare_pictures(const CompareOptions& options, Interrupt& interrupt, std::o
 /// What `compared` says is printed.
 int tell_counters(const CompareOptions& options, const FigureComparison& comparison, std::ostream& output) {
   if (options.format == CompareFormat::json) {
-    print_json(output, {options.a, options.reference}, comparison);
+    print_json(output, options, comparison);
   } else {
-    print_text(output, {options.a, options.reference}, comparison);
+    print_text(output, options, comparison);
   }
   finish_output(output, "the figures");
   std::vector<std::string> sentences;

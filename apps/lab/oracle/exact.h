@@ -1,10 +1,12 @@
-// Certificates of hits against rational arithmetic, which rounds nothing. GMP is named in exact.cpp only.
+// Certificates of hits against rational arithmetic, which rounds nothing; how many hold, and how wide their intervals are. GMP is
+// named in exact.cpp only.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "core/database/database.h"
 #include "core/record/ray.h"
@@ -30,7 +32,39 @@ std::string_view name_of(CertificateFault fault);
 CertificateFault fault_of(const core::Ray& ray, const core::PrimitiveValues& values, float t,
                           const core::Certificate& certificate);
 
-/// The exact answer rounded to double, for reports and tests: t, u, v; NaN where there is none. A triangle's.
-std::array<double, 3> exact_answer(const core::Ray& ray, const core::PrimitiveValues& triangle);
+/// One hit. Units in the last place are those of a float: of the hit's t, or of the exact one where that is greater.
+struct CertifiedHit {
+  CertificateFault fault = CertificateFault::none;
+  bool is_decided = false;  ///< the others mean nothing if not
+  bool is_inside = false;   ///< the exact ray meets the triangle, beyond doubt
+  double width_ulp = 0;     ///< of the interval that holds the exact t
+  double error_ulp = 0;     ///< what the hit's t is off, at most: from the far end of that interval
+  double allowed_ulp = 0;   ///< what the kernels' bound allows it to be off
+};
+
+/// Certifies a hit of `ray` on `values` at `t`. Thread-safe.
+CertifiedHit certified(const core::Ray& ray, const core::PrimitiveValues& values, float t);
+
+/// Any number of values, kept for their median.
+class Spread {
+ public:
+  void add(double value) { values_.push_back(value); }
+  /// 0 if there are none.
+  double median() const;
+  double worst() const;
+
+ private:
+  std::vector<double> values_;
+};
+
+struct CertifiedCounts {
+  std::uint64_t hits = 0, undecided = 0, inside = 0;
+  std::array<std::uint64_t, certificate_fault_count> faults{};
+  Spread width_ulp;               ///< of those that are decided
+  Spread error_ulp, allowed_ulp;  ///< of those surely on their primitive: others have their exact t anywhere on the plane
+
+  void count(const CertifiedHit& hit);
+  std::uint64_t failures() const;
+};
 
 }  // namespace dmpc::apps

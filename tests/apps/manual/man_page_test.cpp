@@ -68,8 +68,8 @@ TEST_CASE("groff has nothing to say about the pages") {
 TEST_CASE("dmpc's page has all its sections, commands and options") {
   const CommandDescription program = describe_command_line();
   const std::string page = man_page(program, "dmpc 1");
-  for (const char* const title : {"NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "COMMANDS", "EXAMPLES", "EXIT STATUS",
-                                  "ENVIRONMENT", "FILES", "SEE ALSO"}) {
+  for (const char* const title :
+       {"NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "COMMANDS", "EXAMPLES", "EXIT STATUS", "ENVIRONMENT", "SEE ALSO"}) {
     CHECK_MESSAGE(count(page, ".SH \"" + std::string(title) + "\"\n") == 1, title);
   }
   for (const Leaf& leaf : leaves_of(program)) {

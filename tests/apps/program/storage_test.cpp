@@ -19,8 +19,6 @@
 #include "apps/edge/machine/machine_file.h"
 #include "apps/edge/machine/machines.h"
 #include "apps/formats/nff_reader.h"
-#include "apps/lab/bench/stability/state.h"
-#include "apps/lab/oracle/accurate/reference_file.h"
 #include "apps/render/checkpoint_file.h"
 #include "apps/render/command.h"
 #include "core/base/expect.h"
@@ -264,75 +262,6 @@ TEST_CASE("storage: whatever the disk does and wherever the power goes, who goes
   });
 }
 
-TEST_CASE("storage: a reference that was kept is whole or not there, and there if it was said to be") {
-  apps::Reference reference;
-  reference.picture = apps::Image(3, 2);
-  reference.own_error = 0.25;
-  Seeds("references").for_each([&](std::uint64_t seed, Coverage& covered) {
-    const TemporaryFolder folder;
-    SimulatedFiles files(seed);
-    files.begin({.power_lasts_calls = seed % 24, .error_every = static_cast<std::uint32_t>(seed % 5 * 8)});
-    bool is_certain = true;
-    try {
-      apps::save_reference(folder.path(), "key", reference, files);
-    } catch (const core::InputError&) {
-      is_certain = false;
-    }
-    is_certain = is_certain && files.has_power();
-    files.lose_power();
-    for (const auto& [path, bytes] : files.contents()) {
-      write_text(path, bytes);
-    }
-    const std::optional<apps::Reference> read = apps::load_reference(folder.path(), "key");
-    CHECK((read.has_value() || !is_certain));
-    CHECK((!read || (read->own_error == 0.25 && read->picture.width == 3)));
-    covered.count("there was a reference that is certain", is_certain);
-    covered.count("there was a reference that is not there", !read);
-  });
-}
-
-TEST_CASE("storage: a state of the stability bench is the last that was kept, and who cannot read it is told so") {
-  Seeds("states").for_each([](std::uint64_t seed, Coverage& covered) {
-    const TemporaryFolder folder;
-    SimulatedFiles files(seed);
-    apps::StabilityState state;
-    state.rows = {{"R1 one"}, {"R2 two"}};
-    files.begin({.power_lasts_calls = seed % 48,
-                 .error_every = static_cast<std::uint32_t>(seed % 5 * 8),
-                 .short_every = static_cast<std::uint32_t>(seed % 3)});
-    std::uint64_t certain = 0;
-    for (state.rays_done = 1; state.rays_done <= 8; ++state.rays_done) {
-      state.rows[1].counts[2].tried = state.rays_done * 1000;
-      try {
-        apps::save_state(folder / "state", state, "seed 1", files);
-        certain = files.has_power() ? state.rays_done : certain;
-      } catch (const core::InputError& error) {
-        CHECK((contains(error.what(), "cannot be written") || contains(error.what(), "loss of power")));
-      }
-    }
-    files.lose_power();
-    for (const auto& [path, bytes] : files.contents()) {
-      write_text(path, bytes);
-    }
-    files.begin({.error_every = static_cast<std::uint32_t>(seed % 4), .short_every = static_cast<std::uint32_t>(seed % 3)});
-    apps::StabilityState read = state;
-    read.rays_done = 0;
-    try {
-      apps::load_state(folder / "state", read, "seed 1", files);
-      CHECK(read.rays_done >= certain);
-      CHECK((read.rays_done == 0 || read.rows[1].counts[2].tried == read.rays_done * 1000));
-    } catch (const core::InputError& error) {
-      CHECK(contains(error.what(), "cannot be read: "));
-      CHECK(files.errors() > 0);
-      read.rays_done = UINT64_MAX;
-    }
-    covered.count("there was a state that is certain", certain > 0);
-    covered.count("there was a state that is read", read.rays_done >= 1 && read.rays_done <= 8);
-    covered.count("there was a state that is not there", read.rays_done == 0);
-    covered.count("there was a state that cannot be read", read.rays_done == UINT64_MAX);
-  });
-}
-
 TEST_CASE("storage: a disk that fails to read is told from a file that is damaged") {
   const fs::path failing = "/proc/self/mem";  // ordinary to look at, and its first byte cannot be read
   const auto complaint_of = [](const auto& read) -> std::string {
@@ -343,13 +272,11 @@ TEST_CASE("storage: a disk that fails to read is told from a file that is damage
     }
     return "";
   };
-  apps::StabilityState state;
   for (const std::string& complaint :
        {complaint_of([&] {
           apps::read_checkpoint(failing, {1, 1, {}, {}});
         }),
-        complaint_of([&] { apps::load_state(failing, state, "seed 1"); }), complaint_of([&] { apps::read_nff_file(failing); }),
-        complaint_of([&] { apps::load_machine(failing); })}) {
+        complaint_of([&] { apps::read_nff_file(failing); }), complaint_of([&] { apps::load_machine(failing); })}) {
     CHECK_MESSAGE(contains(complaint, "cannot be read: Input/output error"), complaint);
   }
 }

@@ -75,20 +75,11 @@ std::vector<TableCase> table_cases() {
            true,
            false},
           {{"study", "sweep", "balls-1", "--resolution=8x8", "--vary=nodes:1,2"}, "sweep.csv", true},
-          {{"bench", "speed", "tetra-1", "--quick", "--parts=build", "--repeat=1"}, "speed_build.csv"},
+          {{"bench", "speed", "tetra-1", "--quick", "--parts=kernel", "--repeat=1", "--threads=1"}},
           {{"bench", "error", "tetra-1", "--quick", "--resolution=8x8", "--reference-samples=8", "--knobs=depth"},
            "error_tetra-1.csv"},
           {{"bench", "stability", "--tests=R5", "--rays=20"}, "", false, false},
           {{"bench", "precision", "tetra-1", "--resolution=8x8"}}};
-}
-
-/// References of `bench error` go to a folder of the test's.
-Words words_of(const TableCase& one, const TemporaryFolder& folder) {
-  Words words = one.words;
-  if (words[1] == "error") {
-    words.push_back("--references=" + (folder / "references").string());
-  }
-  return words;
 }
 
 }  // namespace
@@ -106,7 +97,7 @@ TEST_CASE("a picture or page that cannot be written keeps no command's table, an
       make_unwritable(folder / "page.html");
       outputs.push_back("--report=" + (folder / "page.html").string());
     }
-    CHECK(run_table(words_of(one, folder), outputs).status == (one.data_file.empty() ? 0 : 1));
+    CHECK(run_table(one.words, outputs).status == (one.data_file.empty() ? 0 : 1));
     CHECK(contains("\n\n" + file_text(folder / "table.md"), "\n\n**"));  // bench error has a summary before its title
   }
 }
@@ -115,7 +106,7 @@ TEST_CASE("every table, with its title and notes, fits lines of 120 letters") {
   for (const TableCase& one : table_cases()) {
     const TemporaryFolder folder;
     CAPTURE(one.words[1]);
-    CHECK(widest_line(run_table(words_of(one, folder)).output) <= 120);
+    CHECK(widest_line(run_table(one.words).output) <= 120);
   }
 }
 
@@ -133,13 +124,12 @@ TEST_CASE("what is in the way of any output is said before a command begins") {
     const TemporaryFolder folder;
     CAPTURE(one.words[1]);
     std::filesystem::create_directories(folder / "table.md");
-    CHECK_THROWS_AS(run_table(words_of(one, folder), {"-o", folder / "table.md"}), core::InputError);
+    CHECK_THROWS_AS(run_table(one.words, {"-o", folder / "table.md"}), core::InputError);
     if (!one.data_file.empty()) {
       std::filesystem::create_directories(folder / "plots" / one.data_file);
-      CHECK_THROWS_AS(run_table(words_of(one, folder), {"--plots", folder / "plots", "-o", folder / "a.md"}), core::InputError);
+      CHECK_THROWS_AS(run_table(one.words, {"--plots", folder / "plots", "-o", folder / "a.md"}), core::InputError);
       CHECK_FALSE(std::filesystem::exists(folder / "a.md"));
     }
-    CHECK_FALSE(std::filesystem::exists(folder / "references"));
   }
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "paper" / "losses.svg");
@@ -156,7 +146,7 @@ TEST_CASE("no command's output replaces a file that its scene is read from") {
     const std::string obj = folder / "a.obj", mtl = folder / "a.mtl", material = "newmtl m\nKd 1 0 0\n";
     write_text(obj, "mtllib a.mtl\nusemtl m\n" + triangle_obj);
     write_text(mtl, material);
-    Words words = words_of(one, folder);
+    Words words = one.words;
     words[2] = obj;
     CHECK_THROWS_AS(run_table(words, {"-o", obj}), core::UsageError);
     CHECK_THROWS_AS(run_table(words, {"-o", mtl}), core::UsageError);

@@ -10,7 +10,6 @@
 #include "apps/edge/line/folded_text.h"
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/parsed_number.h"
-#include "apps/edge/system/output_file.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/real_load.h"
 #include "apps/edge/table/shown_rows.h"
@@ -64,16 +63,12 @@ void check_scenes(const ErrorOptions& options) {
   }
 }
 
-/// Names of pictures of errors are known when they are drawn.
 TableFiles files_of(const ErrorOptions& options) {
   OtherFiles others;
   std::vector<PlottedNames> plotted;
   for (const std::string& scene : options.scenes) {
     add_scene_file(scene, others.inputs);
     plotted.push_back({data_file_of(scene), {plot_name_of(scene) + "_seconds", plot_name_of(scene) + "_rays"}});
-  }
-  if (options.measure.pictures) {
-    make_output_folder(*options.measure.pictures, "--pictures");
   }
   return {options.table, plotted, others};
 }
@@ -91,46 +86,34 @@ std::string title_of(const ErrorOptions& options) {
          counted(measure.rounds, "round");
 }
 
-const std::vector<std::string>& explanations_of_paths() {
-  static const std::vector<std::string> sentences = {
-      "Errors are against the converged picture by our own arithmetic, of other samples than those of all rows; a row whose RMSE "
-      "is less than 10 times the reference's own error claims nothing and is on no Pareto front; plots show what is left of it, "
-      "hollow, between what is left if that error were twice as large, a tenth at least, and all of it.",
-      "Seconds are those of processors. Fewer bounces are darker, which is an error that no samples take away; roulette, and "
-      "meeting by chance what shines, are none.",
+std::vector<std::string> explanations(bool are_by_paths) {
+  const std::string unclaimed =
+      "; a row whose RMSE is less than 10 times the reference's own error claims nothing and is on no Pareto front; plots show "
+      "what "
+      "is left of it, hollow, between what is left if that error were twice as large, a tenth at least, and all of it.";
+  return {
+      are_by_paths
+          ? "Errors are against the converged picture by our own arithmetic, of other samples than those of all rows" + unclaimed
+          : "Errors without a word before them are against the converged picture in double precision" + unclaimed,
+      are_by_paths
+          ? "Seconds are those of processors. Fewer bounces are darker, which is an error that no samples take away; roulette, "
+            "and "
+            "meeting by chance what shines, are none."
+          : "Deterministic errors are those of the knob alone: against the picture with the same samples and the knob at its "
+            "exact position, of arithmetic against the same samples in double precision.",
       "Adaptive sampling is asked for no smaller error than the reference's own.",
       "Ratios at equal RMSE are interpolated in logarithms, after the reference's own error is taken off in squares."};
-  return sentences;
-}
-
-const std::vector<std::string>& explanations() {
-  static const std::vector<std::string> sentences = {
-      "Errors without a word before them are against the converged picture in double precision; a row whose RMSE is "
-      "less than 10 times the reference's own error claims nothing and is on no Pareto front; plots show what is left of it, "
-      "hollow, between what is left if that error were twice as large, a tenth at least, and all of it.",
-      "Deterministic errors are those of the knob alone: against the picture with the same samples and the knob at its exact "
-      "position, of arithmetic against the same samples in double precision.",
-      "Adaptive sampling is asked for no smaller error than the reference's own.",
-      "Ratios at equal RMSE are interpolated in logarithms, after the reference's own error is taken off in squares."};
-  return sentences;
 }
 
 Table finished_table(const ErrorOptions& options, std::span<const SceneResult> results, double load, bool is_whole) {
   Table table = table_of(results, title_of(options));
-  const bool are_by_paths = options.measure.picture.transport.is_by_paths();
-  for (const std::string& sentence : are_by_paths ? explanations_of_paths() : explanations()) {
+  for (const std::string& sentence : explanations(options.measure.picture.transport.is_by_paths())) {
     table.add_note(sentence);
-  }
-  if (options.measure.pictures) {
-    table.add_note("Pictures show the absolute error, " + fixed(static_cast<double>(picture_scale), 0) + " times as bright.");
   }
   for (const SceneResult& result : results) {
     for (std::string& sentence : findings_of(result)) {
       table.add_note(std::move(sentence));
     }
-  }
-  if (std::string mean = mean_of_all(results); !mean.empty()) {
-    table.add_note(std::move(mean));
   }
   table.add_note(load_note(load));
   if (!is_whole) {
@@ -210,14 +193,6 @@ void choose_transport(const OptionSet& set, MeasureOptions& measure) {
   if (!std::has_single_bit(side)) {
     throw core::UsageError("--reference-samples=" + std::to_string(side) + ": by paths expected a power of two from 2 to 128");
   }
-  if (set.is_given("--references")) {
-    throw core::UsageError("--references does not go with --transport=paths, whose references are not kept");
-  }
-}
-
-/// Where plots go that nobody has asked for: who looks and keeps the table will want them, too.
-std::filesystem::path plots_beside(const std::filesystem::path& table) {
-  return table.parent_path() / (table.stem().string() + "_plots");
 }
 
 /// What is turned, and what stays.
@@ -266,12 +241,9 @@ void add_options(OptionSet set, ErrorOptions& options) {
       "N, even, 2..128 [" + std::to_string(default_reference_side) + ", by paths " + std::to_string(path_reference_side) + "]",
       [&measure](const std::string& text) { measure.reference.samples_a_side = parse_reference_side(text); },
       "N x N rays through each pixel of the reference");
-  set.add_path("--references", "FOLDER [~/.cache/dmpc]", measure.reference.folder, "Where references are kept");
   add_strategy_option(set, measure.strategy.strategy);
   set.add_number("--nodes", measure.strategy.computer.node_count, 1, nodes::node_count_max,
                  std::to_string(measure.strategy.computer.node_count), "Nodes that render");
-  set.add_path("--pictures", "FOLDER", measure.pictures,
-               "Where pictures of every point's error go, " + fixed(static_cast<double>(picture_scale), 0) + " times as bright");
   add_options(set, options.table, TableExtras::plots);
   set.add_quiet(options.quiet);
   set.set_examples(
@@ -279,15 +251,10 @@ void add_options(OptionSet set, ErrorOptions& options) {
       "  dmpc bench error teapot-12 --quick\n"
       "  dmpc bench error rings-3 balls-3 --knobs=samples,adaptive --plots=plots -o error.md\n"
       "  dmpc bench error balls-3 --transport=paths --bounces=4 --sky=1 --light-radius=1 --quick\n"
-      "  dmpc bench error shells-3 --knobs=depth,cutoff --repeat=1 --pictures=errors --format=csv -o shells.csv\n"
-      "With -o on a terminal, plots go to a folder beside the table, here error_plots, unless --plots or --quiet says "
-      "otherwise.\n"
+      "  dmpc bench error shells-3 --knobs=depth,cutoff --repeat=1 --format=csv -o shells.csv\n"
       "By paths pictures have 128x128 pixels unless said otherwise, 96x96 with --quick, and references 32 x 32 samples with it.\n"
       "The reference and the base point have the depth given; the other depths are below it.");
   set.check_in_the_end([set, &options] {
-    if (options.table.file && !options.table.plots && !options.quiet && stderr_is_terminal()) {
-      options.table.plots = plots_beside(*options.table.file);
-    }
     choose_transport(set, options.measure);
     if (options.measure.is_quick) {
       choose_quick(set, options.measure);

@@ -140,8 +140,7 @@ std::string reference_text(const SceneResult& result) {
   return result.scene + ": the reference has " + n + "x" + n + " samples a pixel, " +
          (result.base.is_by_paths() ? counted(static_cast<std::uint64_t>(*result.base.bounces), "bounce")
                                     : "depth " + std::to_string(result.base.depth)) +
-         ", " + grouped(result.reference.rays) + " rays in " + seconds_text(result.reference.seconds) +
-         (result.reference.from_cache ? " when it was made" : "") + "; its own error is " +
+         ", " + grouped(result.reference.rays) + " rays in " + seconds_text(result.reference.seconds) + "; its own error is " +
          fixed(255 * result.reference.own_error, 4) + "/255 (relative MSE " +
          scientific(result.reference.own_relative_mean_square) + ").";
 }
@@ -196,19 +195,6 @@ std::string summary_of(std::span<const SceneResult> results) {
                         (claimed == all ? "."
                                         : "; of the others the reference's is taken off in squares, and plots show them hollow, "
                                           "with an interval.");
-}
-
-std::string mean_of_all(std::span<const SceneResult> results) {
-  std::vector<double> gains;
-  for (const SceneResult& result : results) {
-    if (const auto gain = adaptive_gain(result).seconds) {
-      gains.push_back(*gain);
-    }
-  }
-  return results.size() < 2 || gains.empty()
-             ? ""
-             : "For an RMSE of 1/255 uniform samples take " + fixed(*geometric_mean(gains), 3) + " (of " +
-                   counted(gains.size(), "scene") + ") times the time of adaptive ones, as a geometric mean.";
 }
 
 }  // namespace dmpc::apps

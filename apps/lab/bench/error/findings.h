@@ -29,8 +29,4 @@ std::vector<std::string> findings_of(const SceneResult& result);
 /// told from the reference. Empty if nothing is measured.
 std::string summary_of(std::span<const SceneResult> results);
 
-/// About several: what adaptive sampling is worth, as a geometric mean over the scenes that have a figure. Empty for less than
-/// two, or without a figure.
-std::string mean_of_all(std::span<const SceneResult> results);
-
 }  // namespace dmpc::apps

@@ -55,12 +55,6 @@ class Scenes {
   /// The base point's.
   const Built& exact() const { return scenes_.at(exact_); }
 
-  /// Throws core::UsageError if `picture` falls on a file that the scene was read from, or on another output.
-  void check_apart(const NamedFile& picture) const {
-    check_not_read(opened_, {picture});
-    check_distinct(outputs_, {picture});
-  }
-
  private:
   /// Tessellation, and emitters.
   using Key = std::pair<int, std::uint32_t>;
@@ -244,30 +238,6 @@ class Bench {
     if (base_ && !setting.is_by_paths() && !setting.is_refined() && setting.samples == result_.base.samples) {
       measurement.deterministic = measure_error(picture, *base_);
     }
-    if (options_.pictures) {
-      write_pictures(measurement, picture);
-    }
-  }
-
-  void write_pictures(const Measurement& measurement, const Image& picture) const {
-    for (std::size_t point = 0; point < result_.points.size(); ++point) {
-      if (&result_.of(point) != &measurement) {
-        continue;
-      }
-      const std::string name = file_text(result_.scene) + "_" + file_text(name_of(result_.points[point].knob)) + "_" +
-                               file_text(result_.points[point].text);
-      write_error(name, picture, result_.reference.picture);
-      if (deterministic_error(result_, point)) {
-        write_error(name + "_deterministic", picture, result_.points[point].knob == Knob::arithmetic ? *accurate_ : *base_);
-      }
-    }
-  }
-  void write_error(const std::string& name, const Image& picture, const Image& reference) const {
-    Image error = difference_picture(picture, reference);
-    std::transform(error.rgb.begin(), error.rgb.end(), error.rgb.begin(), [](float value) { return picture_scale * value; });
-    const std::filesystem::path path = *options_.pictures / (name + ".png");
-    scenes_.check_apart({"--pictures", path});
-    write_image(path, error);
   }
 
   const MeasureOptions& options_;

@@ -2,16 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "apps/edge/system/distinct_files.h"
 #include "apps/edge/system/interrupt.h"
-#include "apps/lab/bench/error/knob.h"
 #include "apps/lab/bench/error/result.h"
 #include "apps/lab/oracle/accurate/reference.h"
 #include "apps/run/strategy_options.h"
@@ -26,13 +23,9 @@ struct MeasureOptions {
   bool is_quick = false;
   std::size_t rounds = 3;
   ReferenceOptions reference;
-  std::optional<std::filesystem::path> pictures;  ///< an existing folder for pictures of the errors
-  std::function<void(const SceneResult&)> told;   ///< each time that a setting has been rendered for the first time
-  std::vector<NamedFile> outputs;                 ///< none of which may be a file that a scene is read from
+  std::function<void(const SceneResult&)> told;  ///< each time that a setting has been rendered for the first time
+  std::vector<NamedFile> outputs;                ///< none of which may be a file that a scene is read from
 };
-
-/// How much brighter than the error, in linear light, its pictures are.
-inline constexpr float picture_scale = 32;
 
 /// `text` as a part of a file's name: letters, digits and hyphens; what else it has becomes a hyphen.
 std::string file_text(const std::string& text);

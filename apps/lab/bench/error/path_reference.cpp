@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <chrono>
-#include <cmath>
 #include <vector>
 
 #include "apps/edge/system/interrupt.h"
@@ -13,9 +12,6 @@
 namespace dmpc::apps {
 namespace {
 
-/// What is added to a reference's value where relative errors are divided by it; as in apps/lab/difference/picture_error.h.
-constexpr double dimmest = 0.01;
-
 core::Vec3d light_of(const core::PixelSums& sums, std::uint32_t samples, core::FilmScale scale) {
   core::Vec3d light;
   for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -25,9 +21,8 @@ core::Vec3d light_of(const core::PixelSums& sums, std::uint32_t samples, core::F
   return light;
 }
 
-/// Square errors of one row, and its rays.
-struct RowFigures {
-  double squares = 0, relative_squares = 0;
+/// What the halves of one row differ by, and its rays.
+struct RowFigures : HalvesSum {
   std::uint64_t rays = 0;
 };
 
@@ -48,8 +43,7 @@ class RowRenderer {
     for (std::uint32_t pixel = static_cast<std::uint32_t>(row) * width; pixel < (static_cast<std::uint32_t>(row) + 1) * width;
          ++pixel) {
       const core::Vec3d a = half(pixel, path_reference_first, operations);
-      const core::Vec3d b = half(pixel, path_reference_first + half_, operations);
-      add(pixel, a, b, figures, picture);
+      figures.add(pixel, a, half(pixel, path_reference_first + half_, operations), picture);
     }
     figures.rays = operations.ray_count();
     return figures;
@@ -60,14 +54,6 @@ class RowRenderer {
     core::PixelTask task(stack_);
     return light_of(core::render_pixel(task, pixel, {first, half_}, tracer_, settings_, operations), half_,
                     settings_.shade.film_scale);
-  }
-  static void add(std::uint32_t pixel, const core::Vec3d& a, const core::Vec3d& b, RowFigures& figures, Image& picture) {
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      const double mean = (a[channel] + b[channel]) / 2, off = (a[channel] - b[channel]) / 2;
-      picture.rgb[3 * pixel + channel] = static_cast<float>(mean);
-      figures.squares += off * off;
-      figures.relative_squares += off * off / ((mean + dimmest) * (mean + dimmest));
-    }
   }
 
   const core::RenderSettings& settings_;
@@ -101,15 +87,13 @@ Reference path_reference(const core::Database& database, const core::RenderSetti
   if (attendance.stop.stop_requested()) {
     throw Interrupted();
   }
-  double squares = 0, relative_squares = 0;
+  HalvesSum sum;
   for (const RowFigures& row : figures) {
-    squares += row.squares;
-    relative_squares += row.relative_squares;
+    sum.squares += row.squares;
+    sum.relative_squares += row.relative_squares;
     reference.rays += row.rays;
   }
-  const auto values = static_cast<double>(reference.picture.rgb.size());
-  reference.own_error = std::sqrt(squares / values);
-  reference.own_relative_mean_square = relative_squares / values;
+  sum.finish(reference);
   reference.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return reference;
 }

@@ -1,23 +1,59 @@
 #include "apps/lab/bench/precision/command.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <ostream>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/option_values.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/table/filled_columns.h"
 #include "apps/edge/table/shown_rows.h"
 #include "apps/edge/table/table_files.h"
-#include "apps/lab/bench/precision/expectation.h"
 #include "apps/lab/bench/precision/precision.h"
 #include "apps/lab/study/engine/tabled_job.h"
 #include "apps/scene/load_scene.h"
-#include "core/families/scenes.h"
+#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
+
+constexpr int measured_side = 256, measured_depth = 5;
+
+struct FamilyExpectation {
+  const char* scene;
+  double percent;
+  const char* reason;
+};
+
+constexpr const char* by_mirrors = "mirrors multiply what rounding leaves at each bounce";
+constexpr const char* by_steps = "colours lie next to a step of 8 bits";
+constexpr const char* by_nothing = "nothing is rounded by a step of 8 bits";
+
+constexpr std::array<FamilyExpectation, 11> family_expectations = {{{"balls-4", 99.92, by_mirrors},
+                                                                    {"gears-4", 99.99, by_steps},
+                                                                    {"jacks-1", 100, by_nothing},
+                                                                    {"lattice-12", 99.96, by_mirrors},
+                                                                    {"mount-6", 99.99, by_steps},
+                                                                    {"rings-7", 99.92, by_mirrors},
+                                                                    {"shells-5", 99.94, by_mirrors},
+                                                                    {"sombrero-1", 100, by_nothing},
+                                                                    {"teapot-12", 99.99, by_steps},
+                                                                    {"tetra-6", 100, by_nothing},
+                                                                    {"tree-11", 99.99, by_steps}}};
+
+/// "99.5": a number from 0 to 100.
+double parse_expectation(const std::string& text) {
+  const double percent = finite_number(text);
+  if (!(percent >= 0 && percent <= 100)) {
+    throw core::UsageError("--expect=" + text + ": expected a percentage from 0 to 100, such as 99.5");
+  }
+  return percent;
+}
+
+Expectation usual_expectation() { return {99, "what is expected of any scene"}; }
 
 constexpr int failed_status = 3;
 /// Unexplained pixels of one scene that are described.
@@ -26,9 +62,8 @@ constexpr std::size_t errors_shown = 10;
 /// Every family in the size that is its own.
 std::vector<std::string> all_families() {
   std::vector<std::string> scenes;
-  for (const char* family :
-       {"balls", "gears", "jacks", "lattice", "mount", "rings", "shells", "sombrero", "teapot", "tetra", "tree"}) {
-    scenes.push_back(core::parse_scene_name(family).text());
+  for (const FamilyExpectation& family : family_expectations) {
+    scenes.emplace_back(family.scene);
   }
   return scenes;
 }
@@ -165,6 +200,12 @@ const char* verdict_of(bool is_complete, const Outcome& outcome) {
 }
 
 }  // namespace
+
+Expectation expectation_of(const std::string& scene) {
+  const auto* const found = std::find_if(family_expectations.begin(), family_expectations.end(),
+                                         [&](const FamilyExpectation& family) { return family.scene == scene; });
+  return found == family_expectations.end() ? usual_expectation() : Expectation{found->percent, found->reason};
+}
 
 void add_options(OptionSet set, PrecisionOptions& options) {
   set.add_arguments(

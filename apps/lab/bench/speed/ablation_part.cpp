@@ -7,7 +7,6 @@
 
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
-#include "apps/lab/bench/speed/matches.h"
 #include "apps/lab/bench/speed/parts.h"
 #include "apps/lab/study/engine/timed_render.h"
 #include "apps/scene/subject.h"

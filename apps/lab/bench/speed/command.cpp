@@ -59,29 +59,14 @@ constexpr std::array part_rows = {
             "kernel: rays of one render, up to so many a class, and bounces at random from what the eye sees; all contenders "
             "trace the same rays as closest and as any hit, in the processor time of the busiest thread. Bundles are those of "
             "a render in tiles of 4x4 pixels: up to 16 rays that walk together; grids take their rays one by one, in the same "
-            "order. Embree is asked by rtcIntersect1 and rtcOccluded1, for packets, which are the same bundles, by "
-            "rtcIntersect16 and rtcOccluded16, told that all but bounces are coherent, without filters, its trees are of high "
-            "quality. The pager is that of a node of eight, all other nodes' pages in its cache. Bounces are a path "
+            "order. Embree is asked by rtcIntersect1 and rtcOccluded1, without filters, its trees are of high quality. The pager "
+            "is that of a node of eight, all other nodes' pages in its cache. Bounces are a path "
             "tracer's."},
     PartRow{
         .measure = measure_emulation,
         .explanation =
             "emulation: seconds of the phase render, setting the nodes' memories aside and dealing out the database included; "
-            "the nodes share the same cores. An item is a question that some other node answers by 1 KiB, and the work behind "
-            "it; a node has 16 under way. Figures by kind are those of works an item."},
-    PartRow{
-        .measure = measure_build,
-        .explanation =
-            "build: our database from the scene to the pages; Embree's robust tree, and its fast one of high quality (spatial "
-            "splits, which robust trees have not), from vertices that lie ready; on as many threads, on one in processor time."},
-    PartRow{.measure = measure_memory,
-            .explanation =
-                "memory: the most anonymous memory of a process that renders on 8 nodes, above that of one which renders a "
-                "triangle, against the sum of the nodes' local memories."},
-    PartRow{
-        .measure = measure_pages,
-        .explanation =
-            "pages: our databases and the distinct pages of a pixel against Table 2 of the article, with its counting of rays."},
+            "the nodes share the same cores."},
     PartRow{
         .measure = measure_ablation,
         .explanation =
@@ -91,19 +76,12 @@ constexpr std::array part_rows = {
 };
 const PartRow& row_of(SpeedPart part) { return part_rows[static_cast<std::size_t>(part)]; }
 
-std::string plot_name_of(SpeedPart part) { return std::string("speed_") + name_of(part); }
-std::string data_file_of(SpeedPart part) { return plot_name_of(part) + ".csv"; }
-
 TableFiles files_of(const SpeedOptions& options) {
   OtherFiles others;
   for (const std::string& scene : options.settings.scenes) {
     add_scene_file(scene, others.inputs);
   }
-  std::vector<PlottedNames> plotted;
-  for (const SpeedPart part : options.parts) {
-    plotted.push_back({data_file_of(part), {plot_name_of(part)}});
-  }
-  return {options.table, plotted, others};
+  return {options.table, {}, others};
 }
 
 void measure_all(const SpeedOptions& options, const TableFiles& files, const Interrupt& interrupt, Results& results) {
@@ -133,7 +111,7 @@ void add_notes(const SpeedOptions& options, double load, bool is_whole, Table& t
   }
 }
 
-/// The means are to be read first; then all, if that is asked for or goes to a file.
+/// The means are to be read first; then all, if that goes to a file.
 std::string text_of_all(const SpeedOptions& options, const Results& results, double load, bool is_whole) {
   Table details = table_of(results, title());
   if (options.table.format != TableFormat::markdown) {
@@ -142,20 +120,11 @@ std::string text_of_all(const SpeedOptions& options, const Results& results, dou
   }
   Table means = headline_of(results, title() + ", geometric means over scenes and kinds");
   add_notes(options, load, is_whole, means);
-  if (options.has_details || options.table.file) {
+  if (options.table.file) {
     return text_of(means, TableFormat::markdown) + "\n" + text_of(details, TableFormat::markdown);
   }
-  means.add_note("--details, or a file (-o), has all " + std::to_string(details.rows().size()) + " comparisons.");
+  means.add_note("A file (-o) has all " + std::to_string(details.rows().size()) + " comparisons.");
   return text_of(means, TableFormat::markdown);
-}
-
-std::vector<PlottedTable> plotted_tables(const SpeedOptions& options, const Results& results) {
-  std::vector<PlottedTable> plotted;
-  for (const SpeedPart part : options.parts) {
-    const Table table = plotted_table(part, results);
-    plotted.push_back({table, data_file_of(part), {plot_of(part, table, plot_name_of(part))}});
-  }
-  return plotted;
 }
 
 /// Parts and threads are those of comparisons.
@@ -178,12 +147,11 @@ void add_options(OptionSet set, SpeedOptions& options) {
   set.add_arguments(
       "SCENE", [&settings](const std::string& text) { settings.scenes.push_back(text); },
       "NFF or mesh files, or built-in scenes such as teapot-12, rings-3, tetra-6; without any teapot-12, mount-6-t6, rings-4-t1 "
-      "and tetra-9, with balls-2-t4 for plain, tetra-10 for build and memory, and for pages those of the 1994 article");
+      "and tetra-9, with balls-2-t4 for plain");
   set.add_text(
       "--parts", "NAME,NAME,... [all]", [&options](const std::string& text) { options.parts = parse_speed_parts(text); },
       "What is measured: plain (all beside a plain renderer), paths (beside a plain path tracer), kernel (rays a second), "
-      "emulation (small caches, items of work), build (databases), memory (of the real computer), pages "
-      "(against the article)");
+      "emulation (small caches)");
   set.add_flag("--ablation", options.is_ablation,
                "Instead: what each skip (render --no-skip) is worth. Without SCENE balls-4 and tree-8, too");
   set.check_in_the_end([set, &options] { choose_ablation(set, options); });
@@ -192,18 +160,17 @@ void add_options(OptionSet set, SpeedOptions& options) {
   set.add_text(
       "--threads", "N,N,... [1 and all cores]",
       [&settings](const std::string& text) { settings.thread_counts = parse_thread_counts(text); },
-      "Threads that trace in kernel, and that build in build");
+      "Threads that trace in kernel");
   set.add_text(
       "--resolution", "WxH [512x512, plain and emulation 1024x1024, paths 256x256]",
       [&settings](const std::string& text) { settings.resolution = parse_resolution(text); }, "Pixels of the pictures");
-  set.add_flag("--details", options.has_details, "Print every comparison, too, not the means of them alone");
-  add_options(set, options.table, TableExtras::plots);
+  add_options(set, options.table, TableExtras::none);
   set.add_quiet(options.quiet);
   set.set_examples(
       "Examples:\n"
       "  dmpc bench speed --quick\n"
-      "  dmpc bench speed --parts=kernel --threads=1 --plots=plots -o speed.md\n"
-      "  dmpc bench speed --ablation --plots=plots -o skips.md\n"
+      "  dmpc bench speed --parts=kernel --threads=1 -o speed.md\n"
+      "  dmpc bench speed --ablation -o skips.md\n"
       "  dmpc bench speed my.nff rings-5-t1 --parts=kernel,emulation --resolution=256x256 --format=csv -o speed.csv\n"
       "All figures are of one run on one machine, side by side; figures of two runs do not compare.");
 }
@@ -212,9 +179,7 @@ int bench_speed_command(const SpeedOptions& options, Interrupt& interrupt, std::
   const TableFiles files = files_of(options);
   const double load = machine_load();
   Results results;
-  const auto result = [&](bool is_whole) -> TableResult {
-    return {.text = text_of_all(options, results, load, is_whole), .plotted = [&] { return plotted_tables(options, results); }};
-  };
+  const auto result = [&](bool is_whole) -> TableResult { return {.text = text_of_all(options, results, load, is_whole)}; };
   return run_tabled({.measure = [&] { measure_all(options, files, interrupt, results); },
                      .has_findings = [&] { return has_figures(results); },
                      .consequence = "the table has what was measured before"},

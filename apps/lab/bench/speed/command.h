@@ -15,9 +15,8 @@ struct SpeedOptions {
   SpeedSettings settings;
   bool is_ablation = false;  ///< then that is the only part
   std::set<SpeedPart> parts = all_speed_parts();
-  TableOutput table;         ///< without a page
-  bool has_details = false;  ///< every comparison is printed, too; a file has them anyway
-  bool quiet = false;        ///< no progress
+  TableOutput table;   ///< without a page and plots
+  bool quiet = false;  ///< no progress
 };
 
 /// Declares them.

@@ -1,6 +1,5 @@
 #include "apps/lab/bench/speed/embree_tree.h"
 
-#include <algorithm>
 #include <optional>
 
 #include "apps/oracle/curved.h"
@@ -30,35 +29,11 @@ std::optional<float> distance(const embree::CurvedQuery& query) {
   return t ? std::optional(static_cast<float>(*t) + start) : std::nullopt;
 }
 
-/// Up to 16 rays as Embree takes them, side by side.
-struct FilledPacket {
-  embree::Packet packet;
-  RTCRayHit16 asked{};
-
-  void fill(std::span<const core::Ray> rays) {
-    std::fill(std::fill_n(packet.valid.begin(), rays.size(), -1), packet.valid.end(), 0);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      set(i, embree::ray_of(rays[i]));
-    }
-  }
-
- private:
-  void set(std::size_t i, const RTCRay& ray) {
-    RTCRay16& rays = asked.ray;
-    rays.org_x[i] = ray.org_x, rays.org_y[i] = ray.org_y, rays.org_z[i] = ray.org_z;
-    rays.dir_x[i] = ray.dir_x, rays.dir_y[i] = ray.dir_y, rays.dir_z[i] = ray.dir_z;
-    rays.tnear[i] = ray.tnear, rays.tfar[i] = ray.tfar, rays.mask[i] = ray.mask;
-    asked.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-  }
-};
-
 }  // namespace
 
-EmbreeTree::EmbreeTree(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode, EmbreeQuality quality,
-                       std::uint32_t thread_count)
+EmbreeTree::EmbreeTree(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode)
     : shapes_(primitives),
-      tree_(mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE,
-            quality == EmbreeQuality::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM, thread_count) {
+      tree_(mode == EmbreeMode::robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH) {
   if (!shapes_.triangles.empty()) {
     tree_.attach(embree::triangle_mesh(tree_.device(), shapes_));
   }
@@ -85,28 +60,6 @@ std::uint64_t EmbreeTree::trace(std::span<const core::Ray> rays, Query query) co
       asked.hit.geomID = RTC_INVALID_GEOMETRY_ID;
       embree::intersect(library_, tree_.scene(), context, asked);
       hits += asked.hit.geomID != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
-    }
-  }
-  return hits;
-}
-
-std::uint64_t EmbreeTree::trace_packets(const BundleSpan& bundles, Query query, Coherence coherence) const {
-  embree::Context context;
-  embree::start(context);
-  FilledPacket filled;
-  filled.packet.is_coherent = coherence == Coherence::coherent;
-  std::uint64_t hits = 0;
-  for (std::size_t i = 0; i < bundles.count(); ++i) {
-    const auto count = static_cast<std::ptrdiff_t>(bundles.bundle(i).size());
-    filled.fill(bundles.bundle(i));
-    if (query == Query::any) {
-      embree::occlude(library_, tree_.scene(), context, filled.packet, filled.asked.ray);
-      const float* const ends = filled.asked.ray.tfar;
-      hits += static_cast<std::uint64_t>(std::count_if(ends, ends + count, [](float end) { return end < 0; }));
-    } else {
-      embree::intersect(library_, tree_.scene(), context, filled.packet, filled.asked);
-      const unsigned* const met = filled.asked.hit.geomID;
-      hits += static_cast<std::uint64_t>(count - std::count(met, met + count, RTC_INVALID_GEOMETRY_ID));
     }
   }
   return hits;

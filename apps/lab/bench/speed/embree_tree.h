@@ -5,7 +5,6 @@
 #include <span>
 
 #include "apps/edge/system/stopwatch.h"
-#include "apps/lab/bench/speed/bundled_rays.h"
 #include "apps/oracle/embree.h"
 #include "apps/oracle/oracle.h"
 #include "core/database/database.h"
@@ -16,27 +15,16 @@ namespace dmpc::apps {
 /// What every traced ray is asked for.
 enum class Query : std::uint8_t { closest, any };
 
-/// What is known of rays that are asked about together: that they start or end near each other, as a picture's do, or nothing, as
-/// of bounces. Embree walks with them accordingly; the wrong choice costs it much of its speed.
-enum class Coherence : std::uint8_t { incoherent, coherent };
-
-/// How much work Embree puts into its tree: its default, or all it can. In version 3 that adds spatial splits to fast trees, and
-/// nothing to robust ones.
-enum class EmbreeQuality : std::uint8_t { medium, high };
-
-/// Its tree over the primitives of a database, as any renderer has it built: no filters, no order among equal t, no triangle left
-/// out. Triangles come first, then spheres and cones as user geometry, if there are any. Immutable once built; every query is
-/// thread-safe.
+/// Its tree over the primitives of a database, of high quality, as any renderer has it built: no filters, no order among equal t,
+/// no triangle left out. Triangles come first, then spheres and cones as user geometry, if there are any. Immutable once built;
+/// every query is thread-safe.
 class EmbreeTree {
  public:
-  /// `primitives` outlive it. Builds on `thread_count` threads, 0: on all cores. Throws InternalError if Embree reports an error.
-  EmbreeTree(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode, EmbreeQuality quality,
-             std::uint32_t thread_count = 0);
+  /// `primitives` outlive it. Builds on all cores. Throws InternalError if Embree reports an error.
+  EmbreeTree(std::span<const core::PrimitiveValues> primitives, EmbreeMode mode);
 
   /// Asks about the rays, one by one, up to their t_max; returns how many hit.
   std::uint64_t trace(std::span<const core::Ray> rays, Query query) const;
-  /// Traces bundles, each as a packet of up to 16 rays.
-  std::uint64_t trace_packets(const BundleSpan& bundles, Query query, Coherence coherence) const;
 
   const embree::Library& library() const { return library_; }
   RTCScene scene() const { return tree_.scene(); }

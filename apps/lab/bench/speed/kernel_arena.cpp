@@ -13,9 +13,6 @@ namespace {
 /// Threads take turns at pieces of so many bundles: no thread gets the hard part of a picture.
 constexpr std::size_t piece_bundles = 32;
 
-/// As a renderer would tell Embree.
-Coherence coherence_of(RayClass ray_class) { return ray_class == RayClass::bounce ? Coherence::incoherent : Coherence::coherent; }
-
 /// Asks about each ray, and counts the hits.
 template <core::Records R>
 std::uint64_t trace_rays(std::span<const core::Ray> rays, R&& records, const core::DatabaseHeader& header) {
@@ -50,8 +47,8 @@ std::uint64_t trace_bundles(const BundleSpan& bundles, R&& records, const core::
 }  // namespace
 
 const char* name_of(Contender contender) {
-  static constexpr std::array<const char*, contender_count> names = {
-      "grid", "paged grid", "bundles", "paged bundles", "Embree robust", "Embree fast", "Embree robust packets"};
+  static constexpr std::array<const char*, contender_count> names = {"grid",          "paged grid",    "bundles",
+                                                                     "paged bundles", "Embree robust", "Embree fast"};
   return names[static_cast<std::size_t>(contender)];
 }
 
@@ -59,8 +56,8 @@ KernelArena::KernelArena(const std::string& scene, const SpeedSettings& settings
     : name_(scene),
       subject_(settings.subject_of(SpeedPart::kernel, scene)),
       recording_(record_rays(subject_.database, subject_.settings, settings.rays_max())),
-      robust_(subject_.database.primitives(), EmbreeMode::robust, EmbreeQuality::high),
-      fast_(subject_.database.primitives(), EmbreeMode::fast, EmbreeQuality::high) {
+      robust_(subject_.database.primitives(), EmbreeMode::robust),
+      fast_(subject_.database.primitives(), EmbreeMode::fast) {
   for (std::uint32_t i = 0; i < settings.thread_counts.back(); ++i) {
     pagers_.push_back(std::make_unique<WarmPager>(subject_.database, subject_.settings));
   }
@@ -74,7 +71,7 @@ RaysTraced KernelArena::trace(Contender contender, RayClass ray_class, Query que
     ProcessorStopwatch stopwatch(CLOCK_THREAD_CPUTIME_ID);
     std::uint64_t hits = 0;
     for (std::size_t first = thread * piece_bundles; first < bundles.count(); first += threads * piece_bundles) {
-      hits += trace_piece(contender, ray_class, bundles.part(first, piece_bundles), query, thread);
+      hits += trace_piece(contender, bundles.part(first, piece_bundles), query, thread);
     }
     shares[thread] = {hits, stopwatch.lap()};
   });
@@ -90,8 +87,7 @@ void KernelArena::ask(RayClass ray_class, Query query) {
   }
 }
 
-std::uint64_t KernelArena::trace_piece(Contender contender, RayClass ray_class, const BundleSpan& piece, Query query,
-                                       std::size_t thread) {
+std::uint64_t KernelArena::trace_piece(Contender contender, const BundleSpan& piece, Query query, std::size_t thread) {
   const core::DatabaseHeader& header = subject_.settings.header;
   switch (contender) {
     case Contender::grid:
@@ -105,11 +101,9 @@ std::uint64_t KernelArena::trace_piece(Contender contender, RayClass ray_class, 
     case Contender::robust:
       return robust_.trace(piece.rays(), query);
     case Contender::fast:
-      return fast_.trace(piece.rays(), query);
-    case Contender::robust_packets:
       break;
   }
-  return robust_.trace_packets(piece, query, coherence_of(ray_class));
+  return fast_.trace(piece.rays(), query);
 }
 
 }  // namespace dmpc::apps

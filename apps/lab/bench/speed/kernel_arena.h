@@ -15,9 +15,9 @@
 namespace dmpc::apps {
 
 /// Who traces: our grid over records in an array, or through a pager, by single rays or by bundles of them; Embree by single
-/// rays, or by the same bundles.
-enum class Contender : std::uint8_t { grid, paged_grid, bundles, paged_bundles, robust, fast, robust_packets };
-inline constexpr std::size_t contender_count = 7;
+/// rays.
+enum class Contender : std::uint8_t { grid, paged_grid, bundles, paged_bundles, robust, fast };
+inline constexpr std::size_t contender_count = 6;
 /// As tables call it.
 const char* name_of(Contender contender);
 
@@ -41,7 +41,7 @@ class KernelArena {
 
  private:
   void ask(RayClass ray_class, Query query);
-  std::uint64_t trace_piece(Contender contender, RayClass ray_class, const BundleSpan& piece, Query query, std::size_t thread);
+  std::uint64_t trace_piece(Contender contender, const BundleSpan& piece, Query query, std::size_t thread);
 
   std::string name_;
   Subject subject_;

@@ -7,7 +7,6 @@
 
 #include "apps/edge/system/progress.h"
 #include "apps/lab/bench/speed/kernel_arena.h"
-#include "apps/lab/bench/speed/matches.h"
 #include "apps/lab/bench/speed/parts.h"
 #include "core/base/expect.h"
 
@@ -16,20 +15,8 @@ namespace {
 
 constexpr std::array<Query, 2> queries = {Query::closest, Query::any};
 
-/// Who is held against whom.
-struct Pair {
-  Contender subject, rival;
-};
-constexpr std::array<Pair, 10> pairs = {{{Contender::grid, Contender::robust},
-                                         {Contender::grid, Contender::fast},
-                                         {Contender::paged_grid, Contender::robust},
-                                         {Contender::paged_grid, Contender::fast},
-                                         {Contender::bundles, Contender::robust},
-                                         {Contender::bundles, Contender::fast},
-                                         {Contender::bundles, Contender::robust_packets},
-                                         {Contender::paged_bundles, Contender::robust},
-                                         {Contender::paged_bundles, Contender::fast},
-                                         {Contender::paged_bundles, Contender::robust_packets}}};
+constexpr std::array our_contenders = {Contender::grid, Contender::paged_grid, Contender::bundles, Contender::paged_bundles};
+constexpr std::array embree_contenders = {Contender::robust, Contender::fast};
 
 const char* name_of(Query query) { return query == Query::closest ? "closest hit" : "any hit"; }
 
@@ -55,10 +42,12 @@ struct Match {
 /// Embree names other rays that graze, or that meet the triangle they start on; more would mean that they were not asked the
 /// same.
 void check_hits(const Match& match) {
-  const std::uint64_t ours = match.hits_of(Contender::grid);
-  for (const Pair& pair : pairs) {
-    core::expect(match.hits_of(pair.subject) == ours, "our grid hits as much through the pager and in bundles as without them");
-    const double apart = static_cast<double>(match.hits_of(pair.rival)) - static_cast<double>(ours);
+  const std::uint64_t hits = match.hits_of(Contender::grid);
+  for (const Contender subject : our_contenders) {
+    core::expect(match.hits_of(subject) == hits, "our grid hits as much through the pager and in bundles as without them");
+  }
+  for (const Contender rival : embree_contenders) {
+    const double apart = static_cast<double>(match.hits_of(rival)) - static_cast<double>(hits);
     core::expect(std::fabs(apart) <= 0.02 * match.ray_count() + 16, "Embree hits about as much as our grid");
   }
 }
@@ -72,16 +61,18 @@ void add_contenders(Match& match, const Interrupt& interrupt, Matches& matches) 
       return std::vector{match.speed_of(contender)};
     });
   }
-  for (const Pair& pair : pairs) {
-    matches.compare(numbers[static_cast<std::size_t>(pair.subject)], numbers[static_cast<std::size_t>(pair.rival)],
-                    {.part = SpeedPart::kernel,
-                     .scene = match.arena.name(),
-                     .what = name_of(match.query),
-                     .detail = apps::name_of(match.ray_class),
-                     .threads = match.threads,
-                     .subject = apps::name_of(pair.subject),
-                     .rival = apps::name_of(pair.rival),
-                     .unit = "Mray/s"});
+  for (const Contender subject : our_contenders) {
+    for (const Contender rival : embree_contenders) {
+      matches.compare(numbers[static_cast<std::size_t>(subject)], numbers[static_cast<std::size_t>(rival)],
+                      {.part = SpeedPart::kernel,
+                       .scene = match.arena.name(),
+                       .what = name_of(match.query),
+                       .detail = apps::name_of(match.ray_class),
+                       .threads = match.threads,
+                       .subject = apps::name_of(subject),
+                       .rival = apps::name_of(rival),
+                       .unit = "Mray/s"});
+    }
   }
 }
 

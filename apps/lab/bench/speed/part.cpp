@@ -1,13 +1,12 @@
 #include "apps/lab/bench/speed/part.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "apps/edge/line/option_values.h"
+#include "apps/edge/line/unknown_option.h"
 #include "apps/edge/line/words.h"
 #include "apps/edge/system/real_load.h"
-#include "apps/lab/study/paper/data.h"
 #include "apps/scene/load_scene.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
@@ -15,26 +14,16 @@
 namespace dmpc::apps {
 namespace {
 
-/// Many parts have these.
-const std::vector<std::string> usual_scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9"};
-/// A million triangles.
-constexpr const char* big_scene = "tetra-10";
-/// A quarter of that, which part plain sets up some thirty times.
+/// A quarter of a million triangles, which part plain sets up some thirty times.
 constexpr const char* large_scene = "tetra-9";
-
-std::vector<std::string> article_scenes() {
-  std::vector<std::string> scenes;
-  for (const PaperScene& scene : paper_scenes) {
-    scenes.emplace_back(scene.scene);
-  }
-  return scenes;
-}
+/// Many parts have these.
+const std::vector<std::string> usual_scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", large_scene};
 
 /// What a part does unless something else is asked for.
 struct PartDefaults {
   const char* name;
   std::vector<std::string> scenes = usual_scenes;
-  int side = static_cast<int>(paper_resolution);  ///< of its pictures
+  int side = 512;  ///< of its pictures
   std::size_t rounds = 3;
 };
 
@@ -45,9 +34,6 @@ const std::array<PartDefaults, speed_part_count>& all_defaults() {
        {.name = "paths", .side = 256},
        {.name = "kernel", .rounds = 7},
        {.name = "emulation", .side = 1024},
-       {.name = "build", .scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9", big_scene}},
-       {.name = "memory", .scenes = {"tetra-9", big_scene}},
-       {.name = "pages", .scenes = article_scenes()},
        {.name = "ablation", .scenes = {"teapot-12", "mount-6-t6", "rings-4-t1", "tetra-9", "balls-4", "tree-8"}, .rounds = 5}}};
   return all;
 }
@@ -66,10 +52,8 @@ SpeedPart parse_part(const std::string& word) {
     names.emplace_back(name_of(part));
     list += names.back() + ", ";
   }
-  if (word == "load" || word == "picture") {
-    throw core::UsageError("--parts=" + word +
-                           " is no part any more: dmpc render --stats=FILE says what loading and each phase behind it take, and "
-                           "--parts=plain has pictures by Embree");
+  if (const std::string instead = said_instead_of("--parts=" + word); !instead.empty()) {
+    throw core::UsageError("--parts=" + word + " is no part any more: " + instead);
   }
   const std::string meant = core::did_you_mean(word, names);
   throw core::UsageError("--parts=" + word + ": expected " + list + "with commas between" + (meant.empty() ? "" : ".") + meant);
@@ -103,15 +87,8 @@ SpeedSettings::SpeedSettings() : thread_counts{1}, program("/proc/self/exe") {
 
 std::vector<std::string> SpeedSettings::scenes_of(SpeedPart part) const {
   std::vector<std::string> chosen = scenes.empty() ? defaults_of(part).scenes : scenes;
-  if (scenes.empty() && is_quick) {
-    std::erase(chosen, big_scene);
-    if (part == SpeedPart::plain) {
-      std::erase(chosen, large_scene);
-    }
-  }
-  if (part == SpeedPart::pages) {
-    const std::vector<std::string> known = article_scenes();
-    std::erase_if(chosen, [&](const std::string& scene) { return std::find(known.begin(), known.end(), scene) == known.end(); });
+  if (scenes.empty() && is_quick && part == SpeedPart::plain) {
+    std::erase(chosen, large_scene);
   }
   return chosen;
 }

@@ -16,24 +16,23 @@
 
 namespace dmpc::apps {
 
-/// plain: all our own beside a plain renderer. kernel: rays a second. emulation: small caches, and items of work. build:
-/// databases. memory: of the real computer. pages: databases and pages against the article's. ablation: what skips are worth.
-/// paths: light along paths beside a plain path tracer.
-enum class SpeedPart : std::uint8_t { plain, paths, kernel, emulation, build, memory, pages, ablation };
-inline constexpr std::size_t speed_part_count = 8;
+/// plain: all our own beside a plain renderer. paths: light along paths beside a plain path tracer. kernel: rays a second.
+/// emulation: small caches. ablation: what skips are worth.
+enum class SpeedPart : std::uint8_t { plain, paths, kernel, emulation, ablation };
+inline constexpr std::size_t speed_part_count = 5;
 
 /// As the command line and the table call it.
 const char* name_of(SpeedPart part);
 /// Those that compare speeds: all but ablation, which is asked for by itself.
 std::set<SpeedPart> all_speed_parts();
-/// "kernel,build". Throws core::UsageError for anything that is none, listing those that there are.
+/// "kernel,plain". Throws core::UsageError for anything that is none, listing those that there are.
 std::set<SpeedPart> parse_speed_parts(const std::string& text);
 
 struct SpeedSettings {
   std::vector<std::string> scenes;           ///< none: those of each part
   bool is_quick = false;                     ///< fewer rays, rounds, pixels and large scenes
   std::optional<std::size_t> rounds;         ///< nothing: what the part takes
-  std::vector<std::uint32_t> thread_counts;  ///< of kernel and build, each once, ascending
+  std::vector<std::uint32_t> thread_counts;  ///< of kernel, each once, ascending
   std::optional<Resolution> resolution;      ///< nothing: what the part takes
   std::filesystem::path program;             ///< dmpc itself, to be run as a process of its own
   std::vector<NamedFile> outputs;            ///< none of which may be a file that a scene is read from

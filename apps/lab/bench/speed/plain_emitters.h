@@ -1,22 +1,18 @@
 // How the plain path tracer aims at what shines, in single precision.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "apps/lab/bench/speed/plain_stage.h"
+#include "apps/lab/oracle/emitter_aim.h"
 #include "core/base/vec.h"
 #include "core/picture/sample_pair.h"
 
 namespace dmpc::apps {
 
 /// A place on what shines.
-struct PlainAim {
-  core::Vec3f way;      ///< there
-  core::Vec3f towards;  ///< the same, of unit length
+struct PlainAim : EmitterAim<float> {
   core::Color radiance;
-  float density;  ///< of this direction, per steradian
 };
 
 /// From `from`, by our records, alias table and formulas (core/picture/emitter_light.h). Nothing from within a sphere, or where a

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "apps/lab/bench/speed/plain_stage.h"
+#include "apps/lab/oracle/facet_lobes.h"
 #include "core/base/vec.h"
 #include "core/picture/sample_pair.h"
 
@@ -18,42 +19,29 @@ struct PlainWay {
   float density = std::numeric_limits<float>::infinity();  ///< of the direction, per steradian; of mirror and glass infinite
 };
 
-/// NFF's surface, a matt part, a mirror and what lets through, or one of tiny mirrors over a matt part: the formulas of ours
-/// (core/picture/path_step.h, core/picture/microfacet_lobes.h), whose ways are chosen by the same shares.
+/// NFF's surface, a matt part, a mirror and what lets through, by the formulas of ours (core/picture/path_step.h), or one of tiny
+/// mirrors over a matt part, as judges have it; ways are chosen by the shares of ours.
 class PlainLobes {
  public:
   /// Of a hit by a ray that comes along `direction`. `material` and `surface` outlive it.
   PlainLobes(const PlainMaterial& material, const PlainSurface& surface, const core::Vec3f& direction);
 
-  struct Response {
-    core::Color value;  ///< of a radiance of 1 from there, per steradian, the cosine included
-    float density = 0;  ///< of ways there
-  };
+  using Response = FacetedResponse<float>;
   /// To light from the unit direction `in`: nothing below the surface, wherever a blended normal points.
   Response response(const core::Vec3f& in) const;
   /// Whether that is above 0 from anywhere.
-  bool scatters() const { return scattered_ > 0 || (is_spread() && mirrored_ > 0); }
+  bool scatters() const { return facets_ ? facets_->scatters() : scattered_ > 0; }
   /// Chosen in proportion to the brightest channels of all; nothing if it leads nowhere.
   std::optional<PlainWay> way(const core::SamplePair& choice, const core::SamplePair& direction) const;
 
  private:
-  void begin_plain();
-  void begin_facets();
   float all() const { return scattered_ + mirrored_ + through_; }
-  /// Of tiny mirrors that differ in direction.
-  bool is_spread() const;
-  float unreflected(float cosine) const;
-  core::Color mirrored_share(float cosine) const;
-  std::optional<PlainWay> spread(const core::Vec3f& in) const;
-  core::Vec3f tiny_mirrored(const core::SamplePair& direction) const;
-  core::Vec3f bent() const;
 
-  const PlainMaterial& material_;
+  std::optional<FacetLobes<float>> facets_;  ///< then that is all there is
   const PlainSurface& surface_;
-  core::Vec3f direction_, out_;  ///< whence it comes, or above the normal beside that
-  float cosine_, index_, behind_;
-  bool is_total_;                         ///< by Snell's law nothing gets through
-  core::Color matt_, straight_, mirror_;  ///< scattered; reflected straight ahead; and by a mirror
+  core::Vec3f direction_;
+  float index_, behind_ = 0;
+  core::Color matt_, mirror_;  ///< scattered; and reflected by a mirror
   float scattered_ = 0, mirrored_ = 0, through_ = 0;
 };
 

@@ -13,15 +13,15 @@
 #include "apps/edge/system/scratch_folder.h"
 #include "apps/edge/system/stopwatch.h"
 #include "apps/edge/system/watched_process.h"
-#include "apps/lab/bench/speed/matches.h"
 #include "apps/lab/bench/speed/parts.h"
-#include "apps/lab/bench/speed/path_distance.h"
-#include "apps/lab/bench/speed/path_scene.h"
 #include "apps/lab/bench/speed/plain_renderer.h"
 #include "apps/lab/study/engine/timed_render.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"
+#include "core/database/conversion.h"
+#include "core/database/light_spheres.h"
+#include "core/database/parallel.h"
 
 namespace dmpc::apps {
 namespace {
@@ -234,7 +234,26 @@ bool is_left_out(const Subject& subject, const std::string& scene, SpeedPart par
   return is_textured;
 }
 
+constexpr double light_share = 0.05, roughness = 0.3;
+
+void polish(core::Material& material) {
+  const double mirrored = material.specular_max() * material.mirror;
+  if (mirrored > 0 && !material.microfacets.are_there()) {
+    material.microfacets = {.roughness = roughness, .metallic = mirrored / (mirrored + material.diffuse)};
+  }
+}
+
 }  // namespace
+
+void light_and_polish(core::Scene& scene) {
+  for (core::Material& material : scene.materials) {
+    polish(material);
+  }
+  const core::Box box = core::bounds_of(scene, core::world_axes, core::Parallel(1));
+  if (!box.empty()) {
+    core::make_lights_spheres(scene, light_share * 2 * length(box.half()));
+  }
+}
 
 void measure_plain(const SpeedSettings& settings, const Interrupt& interrupt, std::vector<Comparison>& results) {
   for (const std::string& scene : settings.scenes_of(SpeedPart::plain)) {

@@ -43,10 +43,6 @@ class PlainRenderer {
   const Times& build_times() const;
 
  private:
-  class Painter;
-  class Walker;  ///< by paths
-  PlainPicture render_paths(std::uint32_t thread_count) const;
-
   std::unique_ptr<PlainStage> stage_;
 };
 
@@ -55,5 +51,17 @@ inline constexpr double plain_error_max = 1.0 / 255;
 
 /// How far it lies from our film of `scene`. Throws core::InternalError if that is more than plain_error_max.
 double distance_to_ours(const PlainPicture& picture, const core::Film& film, const std::string& scene);
+
+/// Root mean squares, linear: how far a plain picture lies from ours, and how noisy that is, as far as its two planes tell.
+struct PathDistance {
+  double apart = 0, noise = 0;
+};
+
+/// The most that pictures lie apart, over the noise of ours: most samples have one path in both.
+inline constexpr double path_distance_max = 0.5;
+
+/// Of our film of `scene`, of 16 samples a pixel or more. Throws core::InternalError if the pictures are further apart than
+/// path_distance_max of its noise, or their means than a hundredth of the light.
+PathDistance path_distance(const PlainPicture& picture, const core::Film& film, const std::string& scene);
 
 }  // namespace dmpc::apps

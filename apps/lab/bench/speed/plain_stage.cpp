@@ -79,7 +79,7 @@ void PlainMaterial::add(const core::MicrofacetRecord& finish) {
 PlainStage::PlainStage(const Subject& subject)
     : settings_(subject.settings),
       records_(subject.database.bytes()),
-      tree_(subject.database.primitives(), EmbreeMode::robust, EmbreeQuality::high),
+      tree_(subject.database.primitives(), EmbreeMode::robust),
       places_(subject.database.find_places()),
       camera_(settings_.camera),
       materials_(materials_in(records_, settings_.header)),

@@ -1,14 +1,13 @@
 #include "apps/lab/bench/speed/recording.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numeric>
 
-#include "core/base/elementary.h"
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "core/picture/bundle_task.h"
+#include "core/picture/path_step.h"
 #include "core/picture/shade.h"
 #include "svm/work_items.h"
 
@@ -20,18 +19,6 @@ using core::Vec3d;
 /// Uniform in [0, 1).
 double random(std::uint64_t number, std::uint64_t dimension) {
   return static_cast<double>(core::mix(core::mix(number + 1) + dimension) >> 11U) * 0x1p-53;
-}
-
-/// A direction of unit length about `normal`, cosine-weighted: a point drawn from the disc, lifted to the hemisphere
-/// (N. Malley; M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, section 13.6.3).
-Vec3d direction_about(const Vec3d& normal, std::uint64_t number) {
-  constexpr double full_turn = 360;
-  const double share = random(number, 0), angle = full_turn * random(number, 1);
-  const Vec3d aside = std::fabs(normal.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-  const Vec3d first = core::normalize(core::cross(normal, aside)), second = core::cross(normal, first);
-  const double radius = std::sqrt(share);
-  return first * (radius * core::cos_degrees(angle)) + second * (radius * core::sin_degrees(angle)) +
-         normal * std::sqrt(1 - share);
 }
 
 RayClass class_of(core::RayKind kind) {
@@ -166,7 +153,8 @@ core::Ray bounce_ray(const core::Ray& primary, const core::Hit& hit, const core:
   shader.step(state, records.find(core::record_needed(state, header)), bounce);
   // A mirror that turns the ray into the direction drawn makes the child that starts there.
   const Vec3d normal = state.leaving ? -state.geometric_normal : state.geometric_normal;
-  state.normal = core::normalize(direction_about(normal, number) - Vec3d(primary.direction));
+  state.normal =
+      core::normalize(core::cosine_direction({random(number, 0), random(number, 1)}, normal) - Vec3d(primary.direction));
   state.stage = core::HitState::Stage::reflected;
   state.set_gloss({});
   shader.step(state, nullptr, bounce);

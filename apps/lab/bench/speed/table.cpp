@@ -1,7 +1,6 @@
 #include "apps/lab/bench/speed/table.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/table/averages.h"
@@ -40,17 +39,6 @@ const FilledColumns<Comparison>& comparison_columns() {
        [](const C& c) { return c.processor.rounds() > 0 ? Cell(ratio_of(c.processor).median) : Cell(); }},
       {{"rounds"}, [](const C& c) { return std::uint64_t{c.figures.rounds()}; }}};
   return columns;
-}
-
-std::string pair_named_in(const Comparison& comparison) {
-  const bool is_threaded = comparison.part == SpeedPart::kernel || comparison.part == SpeedPart::build;
-  const std::string threads = is_threaded ? " x" + std::to_string(comparison.threads) : "";
-  return comparison.subject + " / " + comparison.rival + threads;
-}
-
-/// What a bar's height is the mean of.
-bool are_of_one_bar(const Comparison& a, const Comparison& b) {
-  return a.scene == b.scene && a.what == b.what && pair_named_in(a) == pair_named_in(b);
 }
 
 bool are_alike(const Comparison& a, const Comparison& b) {
@@ -103,36 +91,6 @@ Table table_of(std::span<const Comparison> comparisons, const std::string& title
     table.add_row(row_of(comparison_columns(), *comparison));
   }
   return table;
-}
-
-Table plotted_table(SpeedPart part, std::span<const Comparison> comparisons) {
-  Table table(name_of(part), {{"scene"}, {"what"}, {"pair"}, {"ratio"}});
-  const auto is_meant = [&](const Comparison& one) { return one.part == part; };
-  for (const Comparisons& bar : grouped(measured(comparisons, is_meant), are_of_one_bar)) {
-    const Comparison& one = *bar.front();
-    table.add_row({one.scene, one.what, pair_named_in(one), *geometric_mean(ratios_of(bar))});
-  }
-  return table;
-}
-
-Plot plot_of(SpeedPart part, const Table& plotted, const std::string& name) {
-  Plot plot{.name = name,
-            .title = std::string("Speed: ") + name_of(part),
-            .places = {"scene", "what"},
-            .x = {},
-            .y = {.label = part == SpeedPart::kernel     ? "ratio (more is better)"
-                           : part == SpeedPart::ablation ? "ratio (above 1 the skip wins)"
-                                                         : "ratio (less is better)",
-                  .least = 0},
-            .series = {}};
-  for (const auto& row : plotted.rows()) {
-    const auto& pair = std::get<std::string>(row[2]);
-    const auto is_same = [&](const PlotSeries& series) { return series.title == pair; };
-    if (std::none_of(plot.series.begin(), plot.series.end(), is_same)) {
-      plot.series.push_back({pair, "ratio", {{"pair", pair}}, PlotMark::bars, plot.series.size() % 8});
-    }
-  }
-  return plot;
 }
 
 }  // namespace dmpc::apps

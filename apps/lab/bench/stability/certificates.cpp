@@ -10,7 +10,7 @@
 #include "apps/lab/bench/stability/crowd.h"
 #include "apps/lab/bench/stability/rays.h"
 #include "apps/lab/bench/stability/targets.h"
-#include "apps/lab/oracle/certified.h"
+#include "apps/lab/oracle/exact.h"
 #include "core/trace/primitive.h"
 
 namespace dmpc::apps {

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <iosfwd>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,17 +19,15 @@ struct StabilityOptions {
   bool quick = false, is_long = false;  ///< the command line's words for quick_rays and 0; `rays` says it
   std::vector<std::string> tests;       ///< "R1", "quadrics"; none: all
   std::uint64_t seed = 1;
-  TableOutput table;                            ///< without a page and plots
-  std::optional<std::filesystem::path> resume;  ///< where the run's state is kept, and gone on from
-  bool quiet = false;                           ///< no progress
+  TableOutput table;   ///< without a page and plots
+  bool quiet = false;  ///< no progress
 };
 
 /// Declares them.
 void add_options(OptionSet set, StabilityOptions& options);
 
-/// Measures and writes as run_tabled() does. With --resume the state is written about once a minute, after a signal and in the
-/// end. The exit status is 1, too, if one of our kernels failed, whatever Embree did. Throws core::UsageError for a test that is
-/// none, core::InputError for files that cannot be written or another run's state.
+/// Measures and writes as run_tabled() does. The exit status is 1, too, if one of our kernels failed, whatever Embree did. Throws
+/// core::UsageError for a test that is none, core::InputError for a table that cannot be made.
 int bench_stability_command(const StabilityOptions& options, Interrupt& interrupt, std::ostream& output);
 
 }  // namespace dmpc::apps

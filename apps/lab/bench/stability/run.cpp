@@ -1,6 +1,7 @@
 #include "apps/lab/bench/stability/run.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "apps/lab/crowd/side_by_side.h"
@@ -12,9 +13,6 @@ namespace {
 
 constexpr std::uint64_t batch_rays = 1024;
 
-/// The last of them may be short.
-std::uint64_t batches_in(std::uint64_t rays) { return (rays + batch_rays - 1) / batch_rays; }
-
 std::uint64_t hash_of(const std::string& text) {
   std::uint64_t hash = text.size();
   for (const char letter : text) {
@@ -23,11 +21,31 @@ std::uint64_t hash_of(const std::string& text) {
   return hash;
 }
 
+/// The row that a case counts for; a new one if it is the first.
 KernelCounts& row_of(StabilityState& state, const std::string& name) {
   const auto found =
       std::find_if(state.rows.begin(), state.rows.end(), [&](const StabilityRow& row) { return row.name == name; });
-  core::expect(found != state.rows.end(), "every case has a row");
-  return found->counts;
+  return found != state.rows.end() ? found->counts : state.rows.emplace_back(StabilityRow{name}).counts;
+}
+
+void run_case(const StabilityCase& one, std::uint64_t seed, StabilityState& state, const std::function<void()>& after_batch) {
+  const ShootRays shoot_rays = one.prepare();
+  const std::uint64_t key = core::mix(seed) ^ hash_of(one.row + "/" + one.name);
+  KernelCounts& sum = row_of(state, one.row);
+  StabilityCounts& of_case = state.trials.emplace_back(StabilityTrial{one.row, one.name}).counts;
+  side_by_side((one.rays + batch_rays - 1) / batch_rays, [&](std::size_t index) -> std::function<void()> {
+    const std::uint64_t first = index * batch_rays, count = std::min(batch_rays, one.rays - first);
+    Random random(core::mix(key + first));
+    const KernelCounts counts = shoot_rays(random, first, count);
+    return [&state, &sum, &of_case, &after_batch, counts, count] {
+      sum += counts;
+      for (const StabilityCounts& of_kernel : counts) {
+        of_case += of_kernel;
+      }
+      state.rays_done += count;
+      after_batch();
+    };
+  });
 }
 
 }  // namespace
@@ -44,7 +62,7 @@ std::uint64_t StabilityState::own_failures() const {
 
 std::vector<std::string> StabilityState::blind_cases() const {
   std::vector<std::string> blind;
-  for (std::size_t i = 0; i < std::min(case_index, trials.size()); ++i) {
+  for (std::size_t i = 0; i < cases_done; ++i) {
     if (trials[i].counts.tried == 0) {
       blind.push_back(trials[i].row + ", " + trials[i].name);
     }
@@ -52,67 +70,17 @@ std::vector<std::string> StabilityState::blind_cases() const {
   return blind;
 }
 
-StabilityRun::StabilityRun(StabilityCases cases, std::uint64_t seed) : cases_(std::move(cases)), seed_(seed) {}
-
-StabilityState StabilityRun::start() const {
-  StabilityState state;
-  for (const StabilityCase& one : cases_) {
-    if (std::none_of(state.rows.begin(), state.rows.end(), [&](const StabilityRow& row) { return row.name == one.row; })) {
-      state.rows.push_back({one.row});
-    }
-    state.trials.push_back({one.row, one.name});
-  }
-  return state;
-}
-
-void StabilityRun::go_on(StabilityState& state, const std::function<void()>& after_batch) const {
-  while (state.case_index < cases_.size()) {
-    run_case(cases_[state.case_index], state, after_batch);
-    ++state.case_index;
-    state.rays_done = 0;
+void run_stability(const StabilityCases& cases, std::uint64_t seed, StabilityState& state,
+                   const std::function<void()>& after_batch) {
+  for (const StabilityCase& one : cases) {
+    run_case(one, seed, state, after_batch);
+    ++state.cases_done;
   }
 }
 
-void StabilityRun::run_case(const StabilityCase& one, StabilityState& state, const std::function<void()>& after_batch) const {
-  core::expect(state.rays_done % batch_rays == 0 || state.rays_done == one.rays, "a run stops between batches");
-  const ShootRays shoot_rays = one.prepare();
-  const std::uint64_t first_batch = batches_in(state.rays_done), batches = batches_in(one.rays);
-  const std::uint64_t key = core::mix(seed_) ^ hash_of(one.row + "/" + one.name);
-  KernelCounts& sum = row_of(state, one.row);
-  side_by_side(batches - first_batch, [&](std::size_t index) -> std::function<void()> {
-    const std::uint64_t first = (first_batch + index) * batch_rays, count = std::min(batch_rays, one.rays - first);
-    Random random(core::mix(key + first));
-    const KernelCounts counts = shoot_rays(random, first, count);
-    return [&state, &sum, &after_batch, counts, count] {
-      sum += counts;
-      for (const StabilityCounts& of_kernel : counts) {
-        state.trials[state.case_index].counts += of_kernel;
-      }
-      state.rays_done += count;
-      after_batch();
-    };
-  });
-}
-
-std::uint64_t StabilityRun::total_rays() const {
-  std::uint64_t sum = 0;
-  for (const StabilityCase& one : cases_) {
-    sum += one.rays;
-  }
-  return sum;
-}
-
-std::uint64_t StabilityRun::rays_done(const StabilityState& state) const {
-  std::uint64_t sum = state.rays_done;
-  for (std::size_t i = 0; i < state.case_index; ++i) {
-    sum += cases_[i].rays;
-  }
-  return sum;
-}
-
-std::string StabilityRun::place(const StabilityState& state) const {
-  const StabilityCase& one = cases_[std::min(state.case_index, cases_.size() - 1)];
-  return one.row + ", " + one.name;
+std::uint64_t total_rays(const StabilityCases& cases) {
+  return std::accumulate(cases.begin(), cases.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const StabilityCase& one) { return sum + one.rays; });
 }
 
 StabilityCases stability_cases(const StabilityAmount& amount, const std::vector<std::string>& tests) {

@@ -1,4 +1,4 @@
-// Carries out the cases of stability tests, batch by batch, over the real computer's cores; it can be stopped and gone on with.
+// Carries out the cases of stability tests, batch by batch, over the real computer's cores.
 #pragma once
 
 #include <cstddef>
@@ -23,10 +23,10 @@ struct StabilityTrial {
   StabilityCounts counts{};
 };
 
-/// How far a run is: what it has counted in all batches before.
+/// What a run has counted in all batches so far.
 struct StabilityState {
-  std::size_t case_index = 0;   ///< cases before are done
-  std::uint64_t rays_done = 0;  ///< of this case
+  std::size_t cases_done = 0;
+  std::uint64_t rays_done = 0;  ///< of all cases
   std::vector<StabilityRow> rows;
   std::vector<StabilityTrial> trials;  ///< by case
 
@@ -36,29 +36,13 @@ struct StabilityState {
   std::vector<std::string> blind_cases() const;
 };
 
-class StabilityRun {
- public:
-  /// A batch of rays is the same whatever the number of cores, and so is what it draws: a hash of `seed`, case and batch.
-  StabilityRun(StabilityCases cases, std::uint64_t seed);
+/// Carries out the cases. A batch of rays is the same whatever the number of cores, and so is what it draws: a hash of `seed`,
+/// case and batch. After each batch, in their order and one at a time, calls after_batch(), which may throw to stop: `state` then
+/// has what was counted before. Whatever a batch throws is thrown on.
+void run_stability(
+    const StabilityCases& cases, std::uint64_t seed, StabilityState& state, const std::function<void()>& after_batch = [] {});
 
-  /// Nothing done.
-  StabilityState start() const;
-  /// Takes `state` to the end. After each batch, in their order and one at a time, calls after_batch(), which may throw to stop:
-  /// `state` is then good to go on from. Whatever a batch throws is thrown on.
-  void go_on(StabilityState& state, const std::function<void()>& after_batch) const;
-
-  std::uint64_t total_rays() const;
-  std::uint64_t rays_done(const StabilityState& state) const;
-  /// "R1 closed bodies, cube"; the last case's once all are done.
-  std::string place(const StabilityState& state) const;
-  const StabilityCases& cases() const { return cases_; }
-
- private:
-  void run_case(const StabilityCase& one, StabilityState& state, const std::function<void()>& after_batch) const;
-
-  StabilityCases cases_;
-  std::uint64_t seed_;
-};
+std::uint64_t total_rays(const StabilityCases& cases);
 
 /// The cases of the tests named ("R1", "quadrics"; all if none is), in the order of grid tests R1 to R16. Throws core::UsageError
 /// for a name that is none, saying what there is.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/oracle/curved.h"
+
 namespace dmpc::apps {
 namespace {
 
@@ -57,58 +59,24 @@ AccurateSurface on_triangle(const AccurateBody& body, const AccurateRay& ray) {
   return surface;
 }
 
-/// The real roots of a t^2 + 2 b t + c in ascending order, neither by a difference of numbers that are nearly equal (W. Press and
-/// others, Numerical Recipes, section 5.6). `quarter` is b^2 - a c. NaN stands for a root that there is not.
-std::array<double, 2> roots(double a, double b, double c, double quarter) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (!(quarter >= 0)) {
-    return {none, none};
-  }
-  const double q = b > 0 ? -b - std::sqrt(quarter) : std::sqrt(quarter) - b;
-  const double one = a != 0 ? q / a : none, other = q != 0 ? c / q : one;
-  return one > other ? std::array{other, one} : std::array{one, other};
-}
-
-template <class Accept>
-std::optional<double> first_root(const std::array<double, 2>& candidates, const AccurateRay& ray, double shift,
-                                 const Accept& accept) {
-  for (const double root : candidates) {
-    const double t = root + shift;
-    if (t > 0 && t < ray.t_max && accept(root)) {
-      return t;
-    }
-  }
-  return std::nullopt;
-}
-
 std::optional<double> to_sphere(const AccurateBody& body, const AccurateRay& ray) {
   const double radius = std::fabs(body.radius[0]);
   const double shift = dot(body.place[0] - ray.origin, ray.direction) / squared(ray.direction);
   const Vec3d nearest = ray.origin + ray.direction * shift - body.place[0];
   const double a = squared(ray.direction), b = dot(nearest, ray.direction), off = length(nearest);
   const double c = (off - radius) * (off + radius);
-  return first_root(roots(a, b, c, b * b - a * c), ray, shift, [&](double root) { return body.radius[0] > 0 || root > 0; });
+  return first_root(quadratic_roots(a, b, c, b * b - a * c), shift, ray.t_max,
+                    [&](double root) { return body.radius[0] > 0 || root > 0; });
 }
 
-/// A cone as seen along its axis; the radius changes by `slope` for each unit of height.
-struct Axial {
-  explicit Axial(const AccurateBody& body)
-      : base(body.place[0]),
-        height(length(body.place[1] - body.place[0])),
-        axis((body.place[1] - body.place[0]) * (1 / height)),
-        base_radius(std::fabs(body.radius[0])),
-        slope((std::fabs(body.radius[1]) - base_radius) / height) {}
-
-  Vec3d base;
-  double height;
-  Vec3d axis;
-  double base_radius, slope;
-};
+ConeAxis axis_of(const AccurateBody& body) {
+  return {body.place[0], body.place[1] - body.place[0], std::fabs(body.radius[0]), std::fabs(body.radius[1])};
+}
 
 constexpr double thin_share = 0.01;
 
 std::optional<double> to_cone(const AccurateBody& body, const AccurateRay& ray) {
-  const Axial cone(body);
+  const ConeAxis cone = axis_of(body);
   const Vec3d middle = cone.base + cone.axis * (cone.height / 2);
   const double rise = dot(ray.direction, cone.axis), widest = std::max(cone.base_radius, std::fabs(body.radius[1]));
   // One that is thin all but lies in a plane. Off where the ray crosses that, its two sheets would be one to doubles.
@@ -122,7 +90,7 @@ std::optional<double> to_cone(const AccurateBody& body, const AccurateRay& ray) 
   const double a = squared(going) - widening * widening, b = dot(off, going) - radius * widening;
   const double c = (length(off) - radius) * (length(off) + radius);
   const bool inside_only = body.radius[0] < 0 || body.radius[1] < 0;
-  return first_root(roots(a, b, c, b * b - a * c), ray, shift, [&](double root) {
+  return first_root(quadratic_roots(a, b, c, b * b - a * c), shift, ray.t_max, [&](double root) {
     const double at = up + rise * root;
     const double leaving = dot(off + going * root, going) - (radius + widening * root) * widening;
     return at >= 0 && at <= cone.height && (!inside_only || leaving > 0);
@@ -135,7 +103,7 @@ AccurateSurface on_sphere(const AccurateBody& body, const Vec3d& point) {
 }
 
 AccurateSurface on_cone(const AccurateBody& body, const Vec3d& point) {
-  const Axial cone(body);
+  const ConeAxis cone = axis_of(body);
   const double up = std::clamp(dot(point - cone.base, cone.axis), 0.0, cone.height);
   const Vec3d off = point - cone.base - cone.axis * up;
   const double distance = length(off);
@@ -174,7 +142,7 @@ std::optional<double> across_sphere(const AccurateBody& body, const AccurateRay&
 }
 
 std::optional<double> across_cone(const AccurateBody& body, const AccurateRay& ray) {
-  const Axial cone(body);
+  const ConeAxis cone = axis_of(body);
   const Vec3d start = ray.origin - cone.base;
   const double up = dot(start, cone.axis), rise = dot(ray.direction, cone.axis), widening = cone.slope * rise;
   const Vec3d off = start - cone.axis * up, going = ray.direction - cone.axis * rise;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "apps/lab/oracle/accurate/scene.h"
+#include "apps/lab/oracle/emitter_aim.h"
 #include "core/database/database.h"
 #include "core/picture/sample_pair.h"
 
@@ -13,16 +14,11 @@ namespace dmpc::apps {
 /// Has the scene aim at the emitters of `database`, which was built of the same one, as often as the product does.
 void aim_as_product(AccurateScene& scene, const core::Database& database);
 
-struct AccurateAim {
-  core::Vec3d place;
-  core::Vec3d normal;  ///< of the emitter there
-  double density;      ///< per steradian, the emitter's chance included
-};
 /// An emitter, and a place on it, as the product's: by two pairs, of the place and of further digits. Nothing from within a
 /// sphere, or where a triangle is seen edge-on. Requires that there is an emitter.
-struct AccurateTarget {
+struct AccurateTarget : EmitterAim<double> {
   std::uint32_t body;
-  AccurateAim aim;
+  core::Vec3d normal;  ///< of the emitter there
 };
 std::optional<AccurateTarget> aim_from(const AccurateScene& scene, const core::Vec3d& from, const core::SamplePair& place,
                                        const core::SamplePair& digits);

@@ -46,8 +46,5 @@ struct AccurateTexel {
 
 /// The mean of alpha and, in linear light, of what of the texels is there.
 AccurateTexel texture_sum(const core::Texture& texture, const AccurateFootprint& footprint);
-inline core::Vec3d texture_color(const core::Texture& texture, const AccurateFootprint& footprint) {
-  return texture_sum(texture, footprint).light;
-}
 
 }  // namespace dmpc::apps

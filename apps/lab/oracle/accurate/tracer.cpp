@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "apps/lab/oracle/accurate/emitters.h"
-#include "apps/lab/oracle/accurate/facets.h"
+#include "apps/lab/oracle/facet_lobes.h"
 
 namespace dmpc::apps {
 namespace {
@@ -64,16 +64,22 @@ struct AccurateTracer::Touch {
   /// By paths, if the material has them.
   bool has_facets = false;
   core::Microfacets facets_there;  ///< with what a texture makes of them
-  AccurateFacets facets() const {
+  FacetLobes<double> facets() const {
     const core::Microfacets& facets = facets_there;
     const double side = dot(ray.direction, surface.normal) > 0 ? -1 : 1;
-    return AccurateFacets({.facets = facets,
-                           .base = color,
-                           .there = there * facets.opacity,
-                           .index = index,
-                           .direction = ray.direction,
-                           .normal = normal,
-                           .true_normal = surface.normal * side});
+    const double shown = there * facets.opacity, dielectric = shown * (1 - facets.metallic);
+    return FacetLobes<double>({.base = color,
+                               .metallic = facets.metallic,
+                               .alpha = facets.roughness * facets.roughness,
+                               .reflectance = facets.reflectance,
+                               .there = shown,
+                               .matt = dielectric * (1 - facets.transmission),
+                               .absent = 1 - shown,
+                               .passing = dielectric * facets.transmission * (color.x + color.y + color.z) / 3,
+                               .index = index,
+                               .direction = ray.direction,
+                               .normal = normal,
+                               .true_normal = surface.normal * side});
   }
 
   /// The square of the cosine behind the surface by Snell's law; below 0 all is reflected.
@@ -281,7 +287,8 @@ void AccurateTracer::add_shadow_rays(const Touch& touch, std::vector<AccurateRay
     ray.light = index;
     ray.weight = {};
     if (cosine > 0 && touch.has_facets) {
-      ray.weight = touch.ray.weight * light.intensity * touch.facets().response(towards * (1 / distance));
+      ray.weight =
+          touch.ray.weight * light.intensity * touch.facets().response(towards * (1 / distance)).value * std::numbers::pi;
     } else if (cosine > 0) {
       const double lobe = std::clamp(dot(mirror, towards) / distance, 0.0, 1.0);
       const double highlight = touch.specular == Vec3d{} ? 0 : std::pow(lobe, touch.material.shine);
@@ -345,7 +352,7 @@ std::optional<Vec3d> AccurateTracer::scattered_direction(const Touch& touch) {
 
 double AccurateTracer::scattered_density(const Touch& touch, const Vec3d& towards) {
   if (touch.has_facets) {
-    return touch.facets().density(towards);
+    return touch.facets().response(towards).density;
   }
   const Ways ways = ways_of(touch);
   const double cosine = dot(towards, touch.normal);
@@ -364,19 +371,19 @@ void AccurateTracer::add_aimed_ray(const Touch& touch, std::vector<AccurateRay>&
   if (!target) {
     return;
   }
-  const AccurateAim& aim = target->aim;
-  AccurateRay ray = child(touch, aim.place - touch.surface.point, RayKind::shadow);
+  AccurateRay ray = child(touch, target->way, RayKind::shadow);
   const double density = scattered_density(touch, ray.direction);
   if (!(density > 0)) {
     return;
   }
   const AccurateBody& body = scene_.bodies[target->body];
   const double other = core::density_of(core::density_bits(density));
-  const double share = share_of(aimed_density(scene_, body, touch.surface.point, aim.place, aim.normal), other);
-  const Vec3d reflected = touch.has_facets ? touch.facets().response(ray.direction) * (1 / std::numbers::pi)
+  const Vec3d place = touch.surface.point + target->way;
+  const double share = share_of(aimed_density(scene_, body, touch.surface.point, place, target->normal), other);
+  const Vec3d reflected = touch.has_facets ? touch.facets().response(ray.direction).value
                                            : touch.color * (touch.diffuse * dot(ray.direction, touch.normal) / std::numbers::pi);
-  ray.weight = from.weight * scene_.materials[body.material].emission * reflected * (share / aim.density);
-  const Vec3d way = aim.place - ray.origin;
+  ray.weight = from.weight * scene_.materials[body.material].emission * reflected * (share / target->density);
+  const Vec3d way = place - ray.origin;
   ray.direction = normalize(way);
   ray.t_max = length(way) * (1 - light_gap);
   if (!brings_nothing(ray)) {
@@ -402,7 +409,7 @@ std::optional<AccurateRay> AccurateTracer::continued_by_facets(const Touch& touc
   AccurateRay ray = child(touch, step->towards, before.kind == RayKind::scattered ? RayKind::scattered : step->kind);
   ray.weight = ray.weight * step->weight;
   if (step->kind == RayKind::scattered) {
-    ray.density = core::density_of(core::density_bits(scattered_density(touch, step->towards)));
+    ray.density = core::density_of(core::density_bits(step->density));
   }
   return ray;
 }

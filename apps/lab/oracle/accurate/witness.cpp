@@ -1,7 +1,6 @@
 #include "apps/lab/oracle/accurate/witness.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -18,13 +17,6 @@ constexpr double ring_ratio = 0.25;
 constexpr double least_cosine = 0.01;
 
 bool is_shadow(const AccurateRay& ray) { return ray.kind == core::RayKind::shadow; }
-
-/// Two directions of unit length across a direction and each other.
-std::array<Vec3d, 2> across(const Vec3d& direction) {
-  const Vec3d aside = std::fabs(direction.x) < std::fabs(direction.y) ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-  const Vec3d one = normalize(cross(direction, aside));
-  return {one, cross(direction, one)};
-}
 
 }  // namespace
 
@@ -62,7 +54,7 @@ AccurateRay WitnessFinder::beside(const AccurateRay& ray, const Vec3d& step) con
 
 template <class Accept>
 bool WitnessFinder::any_beside(const AccurateRay& ray, double reach, const Accept& accept) const {
-  const auto [right, up] = across(ray.direction);
+  const auto [right, up] = cone_about(ray.direction, 1);
   double width = reach;
   for (int ring = 0; ring < ring_count; ++ring, width *= ring_ratio) {
     for (int place = 0; place < ring_rays; ++place) {

@@ -151,6 +151,7 @@ constexpr Slip slips[] = {
     {"render a.obj --trace-events=9 -o a.png", "any more: a million events are kept, spread over the run"},
     {"render a.obj --trace-keep=last -o a.png", "any more: a trace too long is kept in parts from all times"},
     {"render a.obj --trace-nodes=host -o a.png", "any more: --trace records all nodes"},
+    {"bench stability --resume=a", "--resume is no option of dmpc bench stability any more: a long run may be made of several"},
     {"render a.obj --tree-arity=4 -o a.png", "--tree-arity is no option of dmpc render any more: --homes=tree has three"},
     {"render a.obj --topology=mesh -o a.png", "dmpc study balance --topology=KIND compares"},
     {"info a.obj --subsample=4", "dmpc study balance --subsample=N shows what others do"},

@@ -31,9 +31,8 @@ ErrorOptions error_options(Words arguments) {
 }
 
 /// The errors of tetra-2 at 16x16 against a rough reference.
-ErrorOptions tiny_error(const TemporaryFolder& folder, Words more = {}) {
-  more.insert(more.end(), {"tetra-2", "--resolution=16x16", "--quick", "--repeat=2", "--reference-samples=12",
-                           "--references=" + (folder / "references").string()});
+ErrorOptions tiny_error(Words more = {}) {
+  more.insert(more.end(), {"tetra-2", "--resolution=16x16", "--quick", "--repeat=2", "--reference-samples=12"});
   return error_options(more);
 }
 
@@ -47,8 +46,7 @@ std::string output_of(const ErrorOptions& options) {
 }  // namespace
 
 TEST_CASE("bench error prints a row for each point, and what they say") {
-  const TemporaryFolder folder;
-  const std::string table = output_of(tiny_error(folder));
+  const std::string table = output_of(tiny_error());
   for (const char* part :
        {"| samples ", "| adaptive ", "| cutoff ", "| depth ", "| arithmetic ", "| adaptive and cutoff ",
         "the reference has 12x12 samples a pixel", "cheapest with a deterministic RMSE", "Load of the machine"}) {
@@ -88,8 +86,7 @@ TEST_CASE("of pictures by paths bench error has a reference of 2^14 samples") {
 }
 
 TEST_CASE("the base point of bench error has no deterministic error and float next to none") {
-  const TemporaryFolder folder;
-  const ErrorOptions options = tiny_error(folder, {"--knobs=depth,arithmetic"});
+  const ErrorOptions options = tiny_error({"--knobs=depth,arithmetic"});
   apps::Interrupt interrupt;
   apps::SceneResult result;
   apps::measure_scene("tetra-2", options.measure, interrupt, result);
@@ -104,7 +101,7 @@ TEST_CASE("the base point of bench error has no deterministic error and float ne
 
 TEST_CASE("bench error takes meshes with textures, seen and lit as one likes, and float is next to double") {
   const TemporaryFolder folder;
-  ErrorOptions options = tiny_error(folder, {"--knobs=samples,arithmetic", "--camera=0.5,0.4,1/0.5,0.5,0", "--light=3,4,5"});
+  ErrorOptions options = tiny_error({"--knobs=samples,arithmetic", "--camera=0.5,0.4,1/0.5,0.5,0", "--light=3,4,5"});
   apps::Interrupt interrupt;
   apps::SceneResult result;
   apps::measure_scene(write_painted_square(folder, 64), options.measure, interrupt, result);
@@ -114,23 +111,20 @@ TEST_CASE("bench error takes meshes with textures, seen and lit as one likes, an
   CHECK(base.error.root_mean_square < 0.1);
 }
 
-TEST_CASE("bench error writes its table, plots and pictures of errors where they are asked for") {
+TEST_CASE("bench error writes its table and plots where they are asked for") {
   const TemporaryFolder folder;
-  const ErrorOptions options = tiny_error(
-      folder, {"--knobs=samples,depth", "--plots=" + (folder / "plots").string(), "--pictures=" + (folder / "pictures").string(),
-               "--format=csv", "-o" + (folder / "table.csv").string()});
-  CHECK(output_of(options).empty());
+  CHECK(output_of(tiny_error({"--knobs=samples,depth", "--plots=" + (folder / "plots").string(), "--format=csv",
+                              "-o" + (folder / "table.csv").string()}))
+            .empty());
   CHECK(contains(file_text(folder / "table.csv"), "RMSE (1/255)"));
   CHECK(std::filesystem::exists(folder / "plots" / "error_tetra-2_rays.gnuplot"));
-  CHECK(std::filesystem::exists(folder / "pictures" / "tetra-2_depth_8.png"));
-  CHECK(std::filesystem::exists(folder / "pictures" / "tetra-2_depth_2_deterministic.png"));
 }
 
 TEST_CASE("bench error writes what was measured before an error ended it") {
   const TemporaryFolder folder;
   apps::Interrupt interrupt;
   std::ostringstream output;
-  ErrorOptions options = tiny_error(folder, {"--knobs=depth"});
+  ErrorOptions options = tiny_error({"--knobs=depth"});
   options.scenes.push_back((folder / "no.nff").string());
   CHECK_THROWS_AS(apps::bench_error_command(options, interrupt, output), core::InputError);
   CHECK(contains(output.str(), "| tetra-2 | depth "));
@@ -139,7 +133,7 @@ TEST_CASE("bench error writes what was measured before an error ended it") {
 
 TEST_CASE("an interrupted bench error writes nothing before anything is measured") {
   const TemporaryFolder folder;
-  ErrorOptions options = tiny_error(folder);
+  ErrorOptions options = tiny_error();
   options.table.file = folder / "table.md";
   apps::Interrupt interrupt;
   ::kill(::getpid(), SIGINT);

@@ -30,8 +30,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Four of ours over two of Embree, and bundles over packets, with and without the pager.
-constexpr std::size_t kernel_pairs = 10;
+/// Four of ours over two of Embree.
+constexpr std::size_t kernel_pairs = 8;
 
 SpeedOptions speed_options(Words arguments) {
   arguments.insert(arguments.begin(), {"bench", "speed"});
@@ -66,31 +66,20 @@ std::vector<Comparison> ablation_of(const Words& scenes) {
 
 TEST_CASE("bench speed measures all its parts") {
   const std::string table = output_of(tiny_speed());
-  for (const char* part :
-       {"| svm on 64 nodes, virtual ", "| rays ", "| distance ", "| paths ", "| kernel ", "| emulation ", "| build ", "| memory ",
-        "| forest on 8 nodes, pool ", "| Embree robust ", "| Embree fast ", "secondary ", "| dataflow on 64 nodes ", "primary ",
-        "64 us ", "| replicated on 2 nodes, Embree ", "Load of the machine"}) {
+  for (const char* part : {"| svm on 64 nodes, virtual ", "| rays ", "| distance ", "| paths ", "| kernel ", "| emulation ",
+                           "| build ", "| forest on 8 nodes, pool ", "| Embree robust ", "| Embree fast ", "secondary ",
+                           "| dataflow on 64 nodes ", "primary ", "| replicated on 2 nodes, Embree ", "Load of the machine"}) {
     CAPTURE(std::string(part));
     CHECK(contains(table, part) == (std::string(part) != "secondary "));  // of which the scene has none
   }
 }
 
-TEST_CASE("bench speed holds a scene of the article against its table") {
-  SpeedOptions options = tiny_speed({"--parts=pages"});
-  options.settings.scenes = {"mount-6-t6", "tetra-2"};
-  options.has_details = true;
-  const std::string table = output_of(options);
-  CHECK(contains(table, "| pages | database "));
-  CHECK(contains(table, "| pages | mount-6-t6 | database "));
-}
-
-TEST_CASE("bench speed prints its means first, and every comparison if asked or into a file") {
+TEST_CASE("bench speed prints its means first, and every comparison into a file") {
   const TemporaryFolder folder;
-  SpeedOptions options = tiny_speed({"--parts=pages"});
-  options.settings.scenes = {"mount-6-t6"};
+  SpeedOptions options = tiny_speed({"--parts=emulation"});
   const std::string means = output_of(options);
   CHECK(contains(means, "geometric means over scenes and kinds"));
-  CHECK(contains(means, "--details, or a file (-o), has all "));
+  CHECK(contains(means, "A file (-o) has all "));
   CHECK_FALSE(contains(means, "largest ratio"));
   options.table.file = folder / "speed.md";
   CHECK(output_of(options).empty());
@@ -102,46 +91,30 @@ TEST_CASE("bench speed prints its means first, and every comparison if asked or 
   }
 }
 
-TEST_CASE("the kernel is measured for all classes, queries and threads, all in each round") {
+TEST_CASE(
+    "the kernel is measured for all classes, queries and threads, and each contender has one figure of a round in all pairs") {
   SpeedOptions options = tiny_speed({"--threads=1,3"});
   apps::Interrupt interrupt;
   std::vector<Comparison> results;
   apps::measure_kernel(options.settings, interrupt, results);
-  CHECK(results.size() == 3 * 2 * 2 * kernel_pairs);
-  for (const Comparison& one : results) {
-    CHECK(one.figures.subject.size() == 2);
-    CHECK(one.figures.rival.size() == 2);
-    CHECK(one.figures.subject.front() > 0);
-  }
-}
-
-TEST_CASE("who is in several of the kernel's comparisons has one figure of a round in all") {
-  SpeedOptions options = tiny_speed({"--threads=1"});
-  apps::Interrupt interrupt;
-  std::vector<Comparison> results;
-  apps::measure_kernel(options.settings, interrupt, results);
-  using Each = std::vector<double>;
+  REQUIRE(results.size() == 3 * 2 * 2 * kernel_pairs);
   for (std::size_t first = 0; first < results.size(); first += kernel_pairs) {
-    std::map<std::string, std::set<Each>> figures;
+    std::map<std::string, std::set<std::vector<double>>> figures;
     for (std::size_t i = first; i < first + kernel_pairs; ++i) {
+      CHECK(results[i].figures.rounds() == 2);
+      CHECK(results[i].figures.subject.front() > 0);
       figures[results[i].subject].insert(results[i].figures.subject);
       figures[results[i].rival].insert(results[i].figures.rival);
     }
-    std::set<Each> all;
+    CHECK(figures.size() == 6);
     for (const auto& [contender, its] : figures) {
       CAPTURE(contender);
       CHECK(its.size() == 1);
-      all.insert(its.begin(), its.end());
     }
-    CHECK(figures.size() == 7);
-    CHECK(all.size() == 7);
-    CHECK(results[first].subject == "grid");
-    CHECK(results[first + kernel_pairs - 1].subject == "paged bundles");
-    CHECK(results[first + kernel_pairs - 1].rival == "Embree robust packets");
   }
 }
 
-TEST_CASE("caches of each size are held against one that has all pages, and items of each work against the work alone") {
+TEST_CASE("caches of each size are held against one that has all pages") {
   const SpeedOptions options = tiny_speed();
   apps::Interrupt interrupt;
   std::vector<Comparison> results;
@@ -151,35 +124,16 @@ TEST_CASE("caches of each size are held against one that has all pages, and item
   };
   CHECK(of("5 %").figures.rival == of("25 %").figures.rival);
   CHECK(of("5 %").figures.subject.size() == 2);
-  CHECK(of("64 nodes, pool").detail == "0.5 us");
-  CHECK(of("64 nodes, pool").figures.rival == of("64 nodes, threads").figures.rival);
-}
-
-TEST_CASE("bench speed writes its table and plots where they are asked for") {
-  const TemporaryFolder folder;
-  const SpeedOptions options = tiny_speed(
-      {"--parts=kernel,build", "--plots=" + (folder / "plots").string(), "--format=csv", "-o" + (folder / "table.csv").string()});
-  CHECK(output_of(options).empty());
-  CHECK(contains(file_text(folder / "table.csv"), "largest ratio"));
-  for (const char* name : {"speed_kernel.csv", "speed_kernel.gnuplot", "speed_build.gnuplot"}) {
-    CHECK(std::filesystem::exists(folder / "plots" / name));
-  }
-}
-
-TEST_CASE("bench speed draws renderers whose names have commas" * doctest::test_suite("slow")) {
-  const TemporaryFolder folder;
-  output_of(tiny_speed({"--parts=plain", "--plots=" + folder.path().string()}));
-  CHECK(contains(file_text(folder / "speed_plain.gnuplot"), "'svm on 64 nodes, virtual / plain on 2 threads'"));
 }
 
 TEST_CASE("bench speed writes what was measured before an error ended it") {
   const TemporaryFolder folder;
   apps::Interrupt interrupt;
   std::ostringstream output;
-  SpeedOptions options = tiny_speed({"--parts=kernel,memory"});
-  options.settings.program = folder / "no program";
+  SpeedOptions options = tiny_speed({"--parts=emulation"});
+  options.settings.scenes.push_back((folder / "no.nff").string());
   CHECK_THROWS_AS(apps::bench_speed_command(options, interrupt, output), core::InputError);
-  CHECK(contains(output.str(), "| kernel "));
+  CHECK(contains(output.str(), "| emulation "));
   CHECK(contains(output.str(), "Ended before its time"));
 }
 
@@ -225,15 +179,16 @@ TEST_CASE("skips that a scene needs not are worth nothing there, others are") {
   CHECK(of("error", "with cutoff 1/255") == 0);
 }
 
-TEST_CASE("bench speed --ablation has a row for each skip, and its own plot") {
+TEST_CASE("bench speed --ablation has a row for each skip") {
   const TemporaryFolder folder;
-  const std::string table = output_of(tiny_speed({"--ablation", "--details", "--plots=" + folder.path().string()}));
+  const std::string file = folder / "skips.md";
+  CHECK(output_of(tiny_speed({"--ablation", "-o", file})).empty());
+  const std::string table = unfolded(file_text(file));
   for (const char* const cell : {"| counted work ", "| without background ", "| the same again ", "| with it, dataflow "}) {
     CHECK_MESSAGE(contains(table, cell), cell);
   }
   CHECK(contains(table, "| ablation | tetra-2 | render "));
   CHECK(contains(table, "Load of the machine"));
-  CHECK(std::filesystem::exists(folder / "speed_ablation.csv"));
 }
 
 TEST_CASE("an ablation is a part of its own") {
@@ -254,7 +209,7 @@ TEST_CASE("what was measured comes to a row for each pair, with means over scene
                                            comparison("a", "bounce", 4),
                                            comparison("b", "primary", 4),
                                            comparison("b", "bounce", 16),
-                                           {.part = SpeedPart::build}};
+                                           {.part = SpeedPart::emulation}};
   const apps::Table table = apps::headline_of(results, "");
   REQUIRE(table.rows().size() == 1);
   const auto figure = [&](const char* column) { return apps::number_in(table, table.rows()[0], column).value(); };
@@ -264,18 +219,6 @@ TEST_CASE("what was measured comes to a row for each pair, with means over scene
   CHECK(figure("in processor time") == doctest::Approx(3));
   CHECK(figure("of") == 4);
   CHECK(std::get<std::string>(table.rows()[0].back()) == "primary 2.000, bounce 8.000");
-}
-
-TEST_CASE("a plot of a part has a bar for each pair, the mean over what was traced") {
-  const auto comparison = [](const char* detail, double figure) {
-    return Comparison{SpeedPart::kernel, "tetra-2", "any hit", detail, 1, "grid", "Embree fast", "", {{figure}, {1}}};
-  };
-  const std::vector<Comparison> results = {comparison("primary", 1), comparison("bounce", 4), {.part = SpeedPart::kernel}};
-  const apps::Table table = plotted_table(SpeedPart::kernel, results);
-  REQUIRE(table.rows().size() == 1);
-  CHECK(std::get<double>(table.rows()[0][3]) == doctest::Approx(2));
-  CHECK(plot_of(SpeedPart::kernel, table, "name").series.size() == 1);
-  CHECK(plotted_table(SpeedPart::build, results).rows().empty());
 }
 
 }  // namespace dmpc::tests::speed_command_test

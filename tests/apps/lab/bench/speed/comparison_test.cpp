@@ -5,7 +5,6 @@
 #include <sstream>
 #include <vector>
 
-#include "apps/lab/bench/speed/matches.h"
 #include "core/base/expect.h"
 
 namespace dmpc::tests::comparison_test {

@@ -18,10 +18,8 @@
 
 namespace dmpc::tests::contenders_test {
 
-using apps::Coherence;
 using apps::Contender;
 using apps::EmbreeMode;
-using apps::EmbreeQuality;
 using apps::EmbreeTree;
 using apps::Query;
 using apps::RayClass;
@@ -49,31 +47,12 @@ TEST_CASE("the rival hits as many primary rays as our grid, triangles and sphere
     const std::uint64_t hits = hits_of(rays, records, subject.settings.header);
     REQUIRE(hits > 100);
     for (const EmbreeMode mode : {EmbreeMode::robust, EmbreeMode::fast}) {
-      const EmbreeTree rival(subject.database.primitives(), mode, EmbreeQuality::medium, 1);
+      const EmbreeTree rival(subject.database.primitives(), mode);
       CHECK(rival.trace(rays, Query::closest) == hits);
       CHECK(rival.trace(rays, Query::any) == hits);
       CHECK(rival.trace({}, Query::any) == 0);
       CHECK(rival.build_times().wall_seconds > 0);
     }
-  }
-}
-
-TEST_CASE("the rival hits as much by packets, full and not, as by single rays") {
-  for (const char* scene : {"tetra-3", "balls-2"}) {
-    CAPTURE(std::string(scene));
-    const apps::Subject subject = small_subject(scene, {30, 30});
-    const apps::Recording recording = apps::record_rays(subject.database, subject.settings, 10'000);
-    const EmbreeTree rival(subject.database.primitives(), EmbreeMode::robust, EmbreeQuality::medium, 1);
-    for (std::size_t i = 0; i < apps::ray_class_count; ++i) {
-      const apps::BundledRays& rays = recording.rays[i];
-      for (const Query query : {Query::closest, Query::any}) {
-        const auto single = static_cast<double>(rival.trace(rays.rays, query));
-        for (const Coherence coherence : {Coherence::incoherent, Coherence::coherent}) {
-          CHECK(std::fabs(static_cast<double>(rival.trace_packets(rays.bundles(), query, coherence)) - single) <= 2);
-        }
-      }
-    }
-    CHECK(rival.trace_packets(apps::BundledRays().bundles(), Query::closest, Coherence::coherent) == 0);
   }
 }
 
@@ -91,7 +70,7 @@ TEST_CASE("all contenders hit about as much of every class, ours the same") {
       CHECK(arena.trace(ours, ray_class, Query::closest, 1).hits == hits);
       CHECK(arena.trace(ours, ray_class, Query::any, 2).hits == hits);
     }
-    for (const Contender rival : {Contender::robust, Contender::fast, Contender::robust_packets}) {
+    for (const Contender rival : {Contender::robust, Contender::fast}) {
       const auto its = static_cast<double>(arena.trace(rival, ray_class, Query::closest, 2).hits);
       CHECK(its == doctest::Approx(static_cast<double>(hits)).epsilon(0.02));
     }
@@ -104,7 +83,7 @@ TEST_CASE("the rival looks no farther than a ray goes") {
   for (core::Ray& ray : rays) {
     ray.t_max = 1e-3F;
   }
-  const EmbreeTree rival(subject.database.primitives(), EmbreeMode::robust, EmbreeQuality::high);
+  const EmbreeTree rival(subject.database.primitives(), EmbreeMode::robust);
   CHECK(rival.trace(rays, Query::closest) == 0);
   CHECK(rival.trace(rays, Query::any) == 0);
 }
@@ -122,20 +101,6 @@ TEST_CASE("a warm pager lacks no page, and has all but its own in the cache") {
   CHECK(after.misses == before.misses);
   CHECK(after.cache_hits > before.cache_hits);
   CHECK(after.home_hits > before.home_hits);
-}
-
-TEST_CASE("a warm pager of one node has every page at home") {
-  const apps::Subject subject = small_subject("tetra-2", {32, 32});
-  apps::WarmPager warm(subject.database, subject.settings, 1);
-  CHECK(warm.pager().counters().faults == 0);
-}
-
-TEST_CASE("each share of a crew's work is done once") {
-  for (const std::size_t count : {0U, 1U, 2U, 5U}) {
-    std::vector<std::atomic<int>> done(count);
-    apps::on_threads(count, [&](std::size_t index) { ++done[index]; });
-    CHECK(std::all_of(done.begin(), done.end(), [](const auto& times) { return times == 1; }));
-  }
 }
 
 TEST_CASE("an exception on a crew's thread comes back when all are over") {

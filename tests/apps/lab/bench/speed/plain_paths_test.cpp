@@ -1,14 +1,11 @@
 // The plain path tracer of `bench speed`, and how ours is held against it.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/lab/bench/speed/parts.h"
-#include "apps/lab/bench/speed/path_distance.h"
-#include "apps/lab/bench/speed/path_scene.h"
 #include "apps/lab/bench/speed/plain_renderer.h"
 #include "core/base/expect.h"
 #include "core/picture/render.h"
@@ -35,15 +32,12 @@ apps::PictureOptions picture_by_paths(const std::string& scene, int bounces, boo
   return picture;
 }
 
-apps::Subject subject_by_paths(const std::string& scene, int bounces, bool has_sky) {
-  const apps::PictureOptions picture = picture_by_paths(scene, bounces, has_sky);
-  return apps::build_subject(apps::load_scene(picture), picture);
-}
-
-apps::Subject lit_subject(const std::string& scene, int bounces, bool has_sky) {
+apps::Subject subject_by_paths(const std::string& scene, int bounces, bool has_sky, bool is_lit_and_polished = false) {
   const apps::PictureOptions picture = picture_by_paths(scene, bounces, has_sky);
   core::Scene loaded = apps::load_scene(picture);
-  apps::light_and_polish(loaded);
+  if (is_lit_and_polished) {
+    apps::light_and_polish(loaded);
+  }
   return apps::build_subject(std::move(loaded), picture);
 }
 
@@ -111,7 +105,7 @@ TEST_CASE("the plain path tracer aims at what we aim at, and its tiny mirrors ar
     for (const bool has_sky : {false, true}) {
       CAPTURE(std::string(scene));
       CAPTURE(has_sky);
-      const apps::Subject subject = lit_subject(scene, 3, has_sky);
+      const apps::Subject subject = subject_by_paths(scene, 3, has_sky, true);
       REQUIRE(subject.settings.header.emitter_count > 0);
       CHECK(compare(subject, scene).ray_ratio == doctest::Approx(1).epsilon(0.02));
     }
@@ -127,14 +121,6 @@ TEST_CASE("the plain path tracer aims at what we aim at, and its tiny mirrors ar
 
 TEST_CASE("without a sky the plain path tracer's eye and mirrors see the backdrop, and what it scatters does not") {
   CHECK_NOTHROW(compare(subject_by_paths("balls-2", 3, false), "balls-2"));
-}
-
-TEST_CASE("the plain path tracer's picture is the same on any number of threads") {
-  const apps::Subject subject = subject_by_paths("teapot-3", 2, true);
-  const PlainRenderer renderer(subject);
-  const PlainPicture one = renderer.render(1), three = renderer.render(3);
-  CHECK(std::ranges::equal(one.pixels.span(), three.pixels.span()));
-  CHECK(one.rays == three.rays);
 }
 
 TEST_CASE("a path picture that is brighter than ours, or beyond our noise, is an error") {

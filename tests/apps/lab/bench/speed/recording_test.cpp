@@ -97,12 +97,6 @@ TEST_CASE("a sample of bundles keeps all of few and evenly many of more, in the 
   CHECK(std::abs(static_cast<double>(in_first_half) / static_cast<double>(kept.size()) - 0.5) < 0.1);
 }
 
-TEST_CASE("a sample of bundles favours neither of two that take turns") {
-  const std::vector<std::uint32_t> kept = numbers_of(kept_of(10'000, 3000));
-  const auto even = std::count_if(kept.begin(), kept.end(), [](std::uint32_t number) { return number % 2 == 0; });
-  CHECK(std::abs(static_cast<double>(even) / static_cast<double>(kept.size()) - 0.5) < 0.1);
-}
-
 TEST_CASE("a part of some bundles cuts none of them") {
   const apps::BundledRays kept = kept_of(10, 30);
   const apps::BundleSpan part = kept.bundles().part(4, 4), rest = kept.bundles().part(8, 4), none = kept.bundles().part(10, 4);
@@ -158,22 +152,6 @@ TEST_CASE("the rays recorded are those that the render counts, by class") {
   CHECK(recording.of(RayClass::secondary).rays.size() == operations.rays[1] + operations.rays[2]);
   CHECK(recording.of(RayClass::bounce).rays.size() == operations.primary_hits);
   CHECK(operations.rays[1] > 0);
-}
-
-TEST_CASE("what is recorded has the same bits again") {
-  const apps::Subject subject = recorded_subject("teapot-2");
-  const Recording one = apps::record_rays(subject.database, subject.settings, 100);
-  const Recording two = apps::record_rays(subject.database, subject.settings, 100);
-  for (std::size_t i = 0; i < apps::ray_class_count; ++i) {
-    CHECK(one.rays[i].rays.size() <= 100);
-    CHECK(same_rays(one.rays[i].rays, two.rays[i].rays));
-    CHECK(one.rays[i].borders == two.rays[i].borders);
-  }
-}
-
-TEST_CASE("a scene without mirrors has no secondary rays") {
-  const apps::Subject subject = recorded_subject("tetra-2");
-  CHECK(apps::record_rays(subject.database, subject.settings, plenty).of(RayClass::secondary).rays.empty());
 }
 
 TEST_CASE("bounces leave a wall on the ray's side, by the cosine, and ignore the triangle they start on") {

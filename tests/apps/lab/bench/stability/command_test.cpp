@@ -2,12 +2,9 @@
 
 #include <doctest/doctest.h>
 
-#include <filesystem>
 #include <sstream>
 
 #include "apps/main/commands.h"
-#include "core/base/expect.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
 namespace dmpc::tests::stability_command_test {
@@ -38,20 +35,6 @@ TEST_CASE("bench stability prints a row for each kernel, and where the other tes
   CHECK(contains(table, "tests/chaos"));
   CHECK_FALSE(contains(table, "R1 "));
   CHECK(contains(table, "Tried of R5 sequence of cells"));
-}
-
-TEST_CASE("bench stability writes its table and its state, and goes on from the state") {
-  const TemporaryFolder folder;
-  StabilityOptions options = stability_options({"--tests=R5", "--rays=2000", "--resume=" + (folder / "state").string()});
-  const std::string first = output_of(options);
-  CHECK(std::filesystem::exists(folder / "state"));
-  options.table.file = folder / "table.md";
-  CHECK(output_of(options).empty());
-  CHECK(std::filesystem::file_size(folder / "table.md") == first.size());
-  options.seed = 2;
-  apps::Interrupt interrupt;
-  std::ostringstream unused;
-  CHECK_THROWS_AS(apps::bench_stability_command(options, interrupt, unused), core::InputError);
 }
 
 TEST_CASE("bench stability has an amount of rays, and tests by name") {

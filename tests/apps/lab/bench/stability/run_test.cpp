@@ -14,7 +14,6 @@ using apps::KernelCounts;
 using apps::Random;
 using apps::StabilityCases;
 using apps::StabilityKernel;
-using apps::StabilityRun;
 using apps::StabilityState;
 
 namespace {
@@ -38,9 +37,9 @@ StabilityCases three_cases() {
   return {{"R1 one", "a", 5000, prepare}, {"R1 one", "b", 1, prepare}, {"R2 two", "c", 3000, prepare}};
 }
 
-StabilityState finished(const StabilityRun& run) {
-  StabilityState state = run.start();
-  run.go_on(state, [] {});
+StabilityState finished(const StabilityCases& cases, std::uint64_t seed = 1) {
+  StabilityState state;
+  apps::run_stability(cases, seed, state);
   return state;
 }
 
@@ -55,34 +54,30 @@ bool same_rows(const StabilityState& a, const StabilityState& b) {
 }  // namespace
 
 TEST_CASE("a stability run tries the rays of every case once and sums them up by row") {
-  const StabilityRun run(three_cases(), 1);
-  const StabilityState state = finished(run);
+  const StabilityState state = finished(three_cases());
   REQUIRE(state.rows.size() == 2);
   CHECK(state.rows[0].counts[index_of(StabilityKernel::grid)].tried == 5001);
   CHECK(state.rows[1].counts[index_of(StabilityKernel::grid)].tried == 3000);
-  CHECK(run.rays_done(state) == run.total_rays());
+  CHECK(state.rays_done == apps::total_rays(three_cases()));
 }
 
-TEST_CASE("a stability run that is stopped after any batch and gone on with counts what one without a stop does") {
-  const StabilityRun run(three_cases(), 1);
-  const StabilityState whole = finished(run);
-  for (int batches = 1; batches < 9; ++batches) {
-    StabilityState state = run.start();
-    int left = batches;
-    CHECK_THROWS_AS(run.go_on(state, [&] { left-- > 1 ? void() : throw Stop(); }), Stop);
-    CHECK(run.rays_done(state) > 0);
-    run.go_on(state, [] {});
-    CHECK(same_rows(state, whole));
-  }
+TEST_CASE("a stability run that is stopped has counted what was tried before") {
+  StabilityState state;
+  int left = 6;  // of the five batches of the first case, one of the second and three of the last
+  CHECK_THROWS_AS(apps::run_stability(three_cases(), 1, state, [&] { left-- > 1 ? void() : throw Stop(); }), Stop);
+  CHECK(state.rays_done == 5001);
+  CHECK(state.cases_done == 1);
+  REQUIRE(state.rows.size() == 1);
+  CHECK(state.rows[0].counts == finished(three_cases()).rows[0].counts);
 }
 
 TEST_CASE("another seed draws other rays") {
-  CHECK_FALSE(same_rows(finished(StabilityRun(three_cases(), 1)), finished(StabilityRun(three_cases(), 2))));
-  CHECK(same_rows(finished(StabilityRun(three_cases(), 1)), finished(StabilityRun(three_cases(), 1))));
+  CHECK_FALSE(same_rows(finished(three_cases(), 1), finished(three_cases(), 2)));
+  CHECK(same_rows(finished(three_cases(), 1), finished(three_cases(), 1)));
 }
 
 TEST_CASE("what our kernels fail counts and what Embree fails does not") {
-  const StabilityState state = finished(StabilityRun(three_cases(), 1));
+  const StabilityState state = finished(three_cases());
   CHECK(state.own_failures() == state.rows[0].counts[index_of(StabilityKernel::grid)].leaks +
                                     state.rows[1].counts[index_of(StabilityKernel::grid)].leaks);
 }
@@ -91,9 +86,7 @@ TEST_CASE("a stability run says what each case has tried, and which has tried no
   StabilityCases cases = three_cases();
   cases.push_back({"R3 three", "misses all", 10,
                    [] { return apps::ShootRays([](Random&, std::uint64_t, std::uint64_t) { return KernelCounts{}; }); }});
-  const StabilityRun run(cases, 1);
-  CHECK(run.start().blind_cases().empty());
-  const StabilityState state = finished(run);
+  const StabilityState state = finished(cases);
   REQUIRE(state.trials.size() == 4);
   CHECK(state.trials[1].counts.tried == 1);
   CHECK(state.trials[2].counts.tried == 3000);

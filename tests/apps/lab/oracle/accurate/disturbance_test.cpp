@@ -40,23 +40,17 @@ TEST_CASE("a disturbance moves a ray by some roundings and never to the wrong si
   CHECK(farthest < 1e-12);
 }
 
-TEST_CASE("glass turns a ray by the rounding of its index, too") {
+TEST_CASE("glass turns a ray that starts inside by the rounding of its index, too") {
   AccurateRay inwards = child(core::RayKind::refracted);
   inwards.direction.z = -0.8;
   double farthest = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    farthest = std::max(farthest, length(disturbed(seed, inwards).direction - inwards.direction));
+    const AccurateRay ray = disturbed(seed, inwards);
+    REQUIRE(ray.origin.z < 1);
+    farthest = std::max(farthest, length(ray.direction - inwards.direction));
   }
   CHECK(farthest > 1e-7);
   CHECK(farthest < 6e-7);
-}
-
-TEST_CASE("a refracted ray starts inside") {
-  AccurateRay inwards = child(core::RayKind::refracted);
-  inwards.direction.z = -0.8;
-  for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    REQUIRE(disturbed(seed, inwards).origin.z < 1);
-  }
 }
 
 TEST_CASE("a shadow ray still ends at its light") {

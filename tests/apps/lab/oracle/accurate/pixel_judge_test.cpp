@@ -145,11 +145,5 @@ TEST_CASE("another place on a texture and another texture are unexplained") {
   CHECK(Causes(Workbench(scene, darker, 24)).of(PixelCause::unexplained) > 100);
 }
 
-TEST_CASE("every cause has a name of its own") {
-  for (std::size_t cause = 1; cause < apps::pixel_cause_count; ++cause) {
-    CHECK(name_of(static_cast<PixelCause>(cause)) != name_of(static_cast<PixelCause>(cause - 1)));
-  }
-}
-
 }  // namespace
 }  // namespace dmpc::tests::pixel_judge_test

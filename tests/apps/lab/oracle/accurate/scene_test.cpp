@@ -4,25 +4,10 @@
 
 #include <cmath>
 
-#include "core/database/database.h"
 #include "tests/support/small_scenes.h"
 
 namespace dmpc::tests::accurate_scene_test {
 namespace {
-
-TEST_CASE("bodies stand in the order of the product's primitives") {
-  for (const char* name : {"balls-2", "gears-1", "jacks-2", "mount-3", "rings-1-t1", "teapot-3", "tetra-3", "tree-4"}) {
-    CAPTURE(std::string(name));
-    const core::Scene scene = built_in(name);
-    const core::Database database = core::build_database(scene, {});
-    const apps::AccurateScene accurate = apps::accurate_scene(scene);
-    REQUIRE(accurate.bodies.size() == database.primitives().size());
-    for (std::size_t id = 0; id < accurate.bodies.size(); ++id) {
-      REQUIRE(accurate.bodies[id].object == database.sources()[id].object);
-      REQUIRE(accurate.bodies[id].kind == database.primitives()[id].kind);
-    }
-  }
-}
 
 TEST_CASE("bodies have the file's own numbers") {
   const core::Scene scene = mirrors_and_glass();

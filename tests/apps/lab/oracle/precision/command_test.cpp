@@ -9,7 +9,6 @@
 #include <thread>
 #include <vector>
 
-#include "apps/lab/bench/precision/expectation.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"

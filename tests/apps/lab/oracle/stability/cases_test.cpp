@@ -8,9 +8,8 @@
 namespace dmpc::tests::cases_test {
 
 TEST_CASE("our grid fails no stress test of numerical stability") {
-  const apps::StabilityRun run(apps::stability_cases({ray_count(500)}, {}), 7);
-  apps::StabilityState state = run.start();
-  run.go_on(state, [] {});
+  apps::StabilityState state;
+  apps::run_stability(apps::stability_cases({ray_count(500)}, {}), 7, state);
   CHECK(state.blind_cases().empty());
   for (const apps::StabilityRow& row : state.rows) {
     for (std::size_t k = 0; k < row.counts.size(); ++k) {
@@ -23,9 +22,8 @@ TEST_CASE("our grid fails no stress test of numerical stability") {
 }
 
 TEST_CASE("nor as many rays as the command shoots by itself" * doctest::test_suite("slow")) {
-  const apps::StabilityRun run(apps::stability_cases({apps::StabilityOptions::standard_rays}, {}), 1);
-  apps::StabilityState state = run.start();
-  run.go_on(state, [] {});
+  apps::StabilityState state;
+  apps::run_stability(apps::stability_cases({apps::StabilityOptions::standard_rays}, {}), 1, state);
   CHECK(state.own_failures() == 0);
   CHECK(state.blind_cases().empty());
 }
