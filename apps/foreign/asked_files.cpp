@@ -84,11 +84,6 @@ void AskedFiles::add_texture(std::span<const std::uint32_t> texels, std::uint32_
   ask_for_texture(Saying::texture_texels, add_edges(fields, edges));
 }
 
-void AskedFiles::expect(const MeshCounts& counts) {
-  SceneFiles::expect(counts);
-  line_.send(Saying::expected, pack(counts));
-}
-
 /// A tenth of a percent more is worth a word.
 void AskedFiles::show_progress(float share) {
   if (!(share > shown_ && share < shown_ + 0.001F)) {

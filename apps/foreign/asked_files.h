@@ -11,7 +11,7 @@ struct HungUp {};
 
 class AskedFiles final : public SceneFiles {
  public:
-  explicit AskedFiles(Line& line) : line_(line) {}
+  AskedFiles(Line& line, std::uint64_t memory_bytes_max) : line_(line), memory_bytes_max_(memory_bytes_max) {}
 
   std::unique_ptr<FileBytes> open(const std::string& path) override;
   bool exists(const std::string& path) override;
@@ -21,7 +21,7 @@ class AskedFiles final : public SceneFiles {
                    const TextureEdges& edges) override;
   void add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height, const std::string& name,
                    const TextureEdges& edges) override;
-  void expect(const MeshCounts& counts) override;
+  std::uint64_t memory_bytes_max() const override { return memory_bytes_max_; }
   void show_progress(float share) override;
 
  private:
@@ -30,6 +30,7 @@ class AskedFiles final : public SceneFiles {
   void send_bytes(std::span<const std::byte> bytes);
 
   Line& line_;
+  std::uint64_t memory_bytes_max_;
   float shown_ = -1;
 };
 

@@ -66,8 +66,9 @@ void serve_mesh(const Message& request, Line& line) {
   core::expect(request.saying == Saying::read_mesh, "a reader of mesh files is asked for mesh files");
   Unpacker fields(request.bytes);
   const std::string path = fields.take_text();
+  const auto memory_bytes = fields.take<std::uint64_t>();
   const MeshOptions options = take_options(fields);
-  AskedFiles files(line);
+  AskedFiles files(line, memory_bytes);
   MeshScene mesh = read_mesh(path, options, files);
   for (const std::string& note : mesh.notes) {
     line.send(Saying::note, Packer().add_text(note));

@@ -175,7 +175,7 @@ class PlacedScene {
       once += is_first ? size : GeometrySize{};
       made += is_first || !is_left_out ? size : GeometrySize{};
     }
-    check_size(made);
+    check_size(made, files_.memory_bytes_max());
     result_.scene.objects.reserve(options_.smooth_degrees ? all.faces : once.faces);
     if (meshes < places && options_.copies == core::Copies::put) {
       result_.notes.push_back(grouped(meshes) + (meshes == 1 ? " mesh stands in " : " meshes stand in ") + grouped(places) +

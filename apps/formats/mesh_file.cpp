@@ -14,6 +14,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Some name the line, too.
+std::string with_path(const std::string& path, const std::string& text) {
+  return text.starts_with(path + ":") ? text : path + ": " + text;
+}
+
 std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   ending.erase(0, 1);
@@ -60,10 +65,9 @@ MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, boo
     }
     return MeshSession(path, options, shows_progress, limits).read();
   } catch (const core::RoomError& error) {
-    throw core::RoomError(path + ": " + error.what());
+    throw core::RoomError(with_path(path, error.what()));
   } catch (const core::InputError& error) {
-    const std::string text = error.what();
-    throw text.starts_with(path + ":") ? error : core::InputError(path + ": " + text);  // one that names the line, too
+    throw core::InputError(with_path(path, error.what()));
   }
 }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "apps/edge/system/opened_files.h"
-#include "apps/formats/mesh_counts.h"
 #include "apps/formats/mesh_options.h"
 #include "apps/formats/mesh_sky.h"
 #include "core/scene/scene.h"
@@ -17,11 +16,10 @@ struct ReaderLimits;
 
 struct MeshFile {
   core::Scene scene;
-  std::vector<std::string> notes;           ///< what of the file is not shown as it is, a sentence each
-  std::vector<MeshSky> skies;               ///< whose lights add up; none unless the options say that they are shown
-  BoundingSphere bounds;                    ///< where an animation is asked for: of the whole at its moment
-  OpenedFiles opened;                       ///< with those of the textures
-  std::optional<ReadingForecast> forecast;  ///< of the memory that reading takes, if the file's reader could tell
+  std::vector<std::string> notes;  ///< what of the file is not shown as it is, a sentence each
+  std::vector<MeshSky> skies;      ///< whose lights add up; none unless the options say that they are shown
+  BoundingSphere bounds;           ///< where an animation is asked for: of the whole at its moment
+  OpenedFiles opened;              ///< with those of the textures
 };
 
 /// What ends so is read: "obj", "ply", ..., in lower case.

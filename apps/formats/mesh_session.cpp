@@ -13,6 +13,7 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/edge/system/input_memory.h"
 #include "apps/formats/named_file.h"
+#include "apps/formats/reading_memory.h"
 #include "apps/formats/view_faults.h"
 #include "apps/picture/texture_size.h"
 #include "core/base/expect.h"
@@ -100,6 +101,7 @@ MeshSession::MeshSession(const std::string& path, const MeshOptions& options, bo
       current_(path) {}
 
 MeshFile MeshSession::read() {
+  say_memory();
   try {
     ask();
     while (!answer(process_.receive())) {
@@ -141,6 +143,7 @@ void MeshSession::note_alpha() {
 void MeshSession::ask() {
   Packer fields;
   fields.add_text(path_);
+  fields.add(reader_memory_bytes_max());
   add(fields, options_.scale, options_.scale.value_or(1));
   const UpAxis up = options_.up.value_or(UpAxis{});
   add(fields, options_.up, static_cast<double>(up.axis));
@@ -172,9 +175,6 @@ bool MeshSession::answer(const Message& message) {
       return false;
     case Saying::progress:
       show(fields);
-      return false;
-    case Saying::expected:
-      expect(fields);
       return false;
     case Saying::lies_here:
       take_over(fields);
@@ -365,11 +365,11 @@ void MeshSession::add_note(Unpacker fields) {
 }
 
 /// Said where it may be too much, and on a terminal where it is much.
-void MeshSession::expect(Unpacker fields) {
+void MeshSession::say_memory() const {
   constexpr std::uint64_t much = std::uint64_t{256} << 20U;
-  result_.forecast = forecast_of(take_mesh_counts(fields), options_.smooth_degrees.has_value());
-  const std::uint64_t bytes = result_.forecast->peak_bytes();
-  const std::string text = "dmpc: reading " + shown(path_) + " takes up to " + bytes_text(bytes) + " of memory";
+  const std::uint64_t bytes = estimated_reading_bytes(format_of(path_), file_bytes_);
+  const std::string text =
+      "dmpc: reading " + shown(path_) + " takes some " + bytes_text(bytes) + " of memory (half to twice that)";
   if (const MemoryRoom room = memory_room(); bytes > room.bytes) {
     std::cerr << text + ", and " + room.source + " is " + bytes_text(room.bytes) + '\n';
   } else if (bytes >= much && shows_progress_ && stderr_is_terminal()) {

@@ -43,7 +43,7 @@ class MeshSession {
   void take_bounds(Unpacker fields);
   void add_note(Unpacker fields);
   void note_alpha();
-  void expect(Unpacker fields);
+  void say_memory() const;
   void show(Unpacker fields);
 
   std::string path_;

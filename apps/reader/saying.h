@@ -7,7 +7,7 @@
 namespace dmpc::apps {
 
 /// The version of the messages and of what they hold; processes of different builds do not understand each other.
-inline constexpr std::uint32_t protocol = 12;
+inline constexpr std::uint32_t protocol = 13;
 
 /// A message is no longer; more is sent in pieces.
 inline constexpr std::size_t message_bytes_max = 64 * 1024;
@@ -17,8 +17,9 @@ inline constexpr std::size_t text_bytes_max = 32 * 1024;
 /// Fields in the order in which they are packed (apps/reader/packing.h).
 enum class Saying : std::uint8_t {
   // From dmpc.
-  limits,         ///< bytes of memory: the first message
-  read_mesh,      ///< path, scale, up, smooth, size, flags of MeshOptions, and an animation's moment if one is asked for
+  limits,     ///< bytes of memory: the first message
+  read_mesh,  ///< path, bytes of memory for the scene, scale, up, smooth, size, flags of MeshOptions, and an animation's moment
+              ///< if one is asked for
   read_texture,   ///< name, format hint, bytes of the file, whether alpha counts; with the file
   read_image,     ///< likewise
   writes,         ///< an ending; answered by yes or no
@@ -54,7 +55,6 @@ enum class Saying : std::uint8_t {
   no_room,    ///< a text
   out_of_memory,
   lies_here,  ///< objects, or another list of a scene's, address and bytes: answered by yes, when dmpc has them from there, or no
-  expected,   ///< what the scene's file says that it has, MeshCounts: before it is read, or never
   spheres,    ///< of a scene that has some
   sky,        ///< the last of all: a picture's path, the rows of what turns the world's directions into its own, a factor
   bounds,     ///< of a scene at an animation's moment: a centre and a radius

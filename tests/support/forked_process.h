@@ -1,6 +1,7 @@
 // A body of code in a process of its own, in which signals find no threads of the tests.
 #pragma once
 
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,12 +12,16 @@ namespace dmpc::tests {
 /// Not with a body that needs more of this process than its memory.
 class ForkedProcess {
  public:
-  /// What `body` returns is the exit status. What it says on stderr nobody sees.
+  /// What `body` returns is the exit status, 255 if it throws. What it says on stderr nobody sees.
   explicit ForkedProcess(int (*body)()) {
     const pid_t child = ::fork();
     if (child == 0) {
-      ::close(STDERR_FILENO);
-      ::_exit(body());
+      ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
+      try {
+        ::_exit(body());
+      } catch (...) {  // the tests that follow are not this process's
+        ::_exit(255);
+      }
     }
     core::expect(::waitpid(child, &status_, 0) == child, "a child can be waited for");
   }

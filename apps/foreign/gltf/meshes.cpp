@@ -8,6 +8,7 @@
 #include <string>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/foreign/mesh/geometry.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::gltf {
@@ -142,8 +143,9 @@ void check_size(const Part& primitive, const Primitive& source) {
 
 class PrimitiveReader {
  public:
-  PrimitiveReader(Buffers& buffers, Accessors& accessors, const std::vector<MaterialTraits>& materials)
-      : buffers_(buffers), accessors_(accessors), materials_(materials) {}
+  PrimitiveReader(Buffers& buffers, Accessors& accessors, const std::vector<MaterialTraits>& materials,
+                  std::uint64_t memory_bytes_max)
+      : buffers_(buffers), accessors_(accessors), materials_(materials), memory_bytes_max_(memory_bytes_max) {}
 
   void add(const Part& primitive, const std::string& name, Meshes& result) {
     const Mode mode = mode_of(primitive);
@@ -162,6 +164,9 @@ class PrimitiveReader {
       if (mode < Mode::triangles) {
         read.thin_faces = face_count(mode, source.indices.size());
       } else {
+        const std::uint64_t faces = face_count(mode, source.indices.size());
+        size_ += {faces, faces, 3 * faces};
+        apps::check_size(size_, memory_bytes_max_);
         add_vertices(source, materials_[read.mesh.material].coordinates, read.mesh);
         read.mesh.faces = triangles_of(mode, std::move(source.indices));
       }
@@ -173,13 +178,15 @@ class PrimitiveReader {
   Buffers& buffers_;
   Accessors& accessors_;
   const std::vector<MaterialTraits>& materials_;
+  std::uint64_t memory_bytes_max_;
+  GeometrySize size_;  ///< of all so far
 };
 
 }  // namespace
 
-Meshes read_meshes(const Document& document, Buffers& buffers, Accessors& accessors,
-                   const std::vector<MaterialTraits>& materials) {
-  PrimitiveReader reader(buffers, accessors, materials);
+Meshes read_meshes(const Document& document, Buffers& buffers, Accessors& accessors, const std::vector<MaterialTraits>& materials,
+                   std::uint64_t memory_bytes_max) {
+  PrimitiveReader reader(buffers, accessors, materials, memory_bytes_max);
   Meshes result;
   for (const Part& source : document.root().list("meshes")) {
     const std::size_t first = result.list.size();

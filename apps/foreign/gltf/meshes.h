@@ -32,8 +32,8 @@ struct Meshes {
 };
 
 /// With places on the textures of `materials`, of which the last is that of primitives without one. Throws core::InputError, by
-/// its place in the document.
-Meshes read_meshes(const Document& document, Buffers& buffers, Accessors& accessors,
-                   const std::vector<MaterialTraits>& materials);
+/// its place in the document; core::RoomError if they take more memory than that.
+Meshes read_meshes(const Document& document, Buffers& buffers, Accessors& accessors, const std::vector<MaterialTraits>& materials,
+                   std::uint64_t memory_bytes_max);
 
 }  // namespace dmpc::apps::gltf

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "apps/foreign/gltf/counts.h"
 #include "apps/foreign/gltf/extensions.h"
 #include "apps/foreign/gltf/materials.h"
 #include "apps/foreign/gltf/nodes.h"
@@ -18,13 +17,14 @@ namespace fs = std::filesystem;
 /// glTF's numbers are floats, but for those of nodes.
 constexpr double float_rounding = 0x1p-25;
 
-PlacedFile read_document(const Document& document, const OpenNamed& open, const MeshOptions& options) {
+PlacedFile read_document(const Document& document, const OpenNamed& open, const MeshOptions& options,
+                         std::uint64_t memory_bytes_max) {
   PlacedFile file;
   file.coordinate_rounding = float_rounding;
   Buffers buffers(document, open);
   Accessors accessors(document, buffers);
   const std::vector<MaterialTraits> materials = read_materials(document, buffers, file);
-  Meshes meshes = read_meshes(document, buffers, accessors, materials);
+  Meshes meshes = read_meshes(document, buffers, accessors, materials, memory_bytes_max);
   const Pose pose = options.animation ? pose_at(*options.animation, document, accessors, file.notes) : Pose{};
   Nodes nodes = read_nodes(document, accessors, meshes, pose, options.size);
   file.views = std::move(nodes.views);
@@ -42,14 +42,13 @@ PlacedFile read_gltf(const std::string& path, const MeshOptions& options, SceneF
   const std::unique_ptr<FileBytes> bytes = files.open(path);
   const Document document = parse_document(bytes->bytes());
   check_required(document);
-  files.expect(counts_of(document, bytes->bytes().size(), options.copies));
   const OpenNamed open = [&](const std::string& name) {
     const fs::path folder = fs::path(path).parent_path();
     const auto found = files.meant(folder, name);
     const std::unique_ptr<FileBytes> file = files.open((found.empty() ? folder / name : found.front()).string());
     return std::vector<std::byte>(file->bytes().begin(), file->bytes().end());
   };
-  return read_document(document, open, options);
+  return read_document(document, open, options, files.memory_bytes_max());
 }
 
 }  // namespace dmpc::apps::gltf

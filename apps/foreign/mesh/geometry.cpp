@@ -9,8 +9,8 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/smooth.h"
-#include "apps/formats/mesh_counts.h"
 #include "apps/formats/nff_reader.h"
+#include "apps/formats/reading_memory.h"
 #include "core/base/expect.h"
 #include "core/scene/face_normals.h"
 
@@ -70,8 +70,13 @@ GeometrySize size_of(const FaceList& faces) {
   return {faces.corners.size() - 2 * faces.ends.size(), faces.ends.size(), faces.corners.size()};
 }
 
-void check_size(const GeometrySize& size) {
+void check_size(const GeometrySize& size, std::uint64_t memory_bytes) {
   check_database(size.triangles);
+  if (const std::uint64_t bytes = sizeof(core::Object) * size.faces + sizeof(Vec3d) * size.corners; bytes > memory_bytes) {
+    throw core::RoomError("its " + grouped(size.triangles) + " triangles so far take at least " + bytes_text(bytes) +
+                          " of memory, and a file's scene may take " + bytes_text(memory_bytes) +
+                          ": make the scene smaller, or divide it");
+  }
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - std::uint64_t{1};
   if (size.corners > most) {
     throw core::RoomError("with every instance the scene has " + grouped(size.triangles) + " triangles with " +

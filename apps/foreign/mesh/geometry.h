@@ -30,8 +30,8 @@ struct GeometrySize {
 GeometrySize size_of_face(std::uint64_t corners);
 /// Of faces of three or more corners.
 GeometrySize size_of(const FaceList& faces);
-/// Throws core::RoomError if a database, or the indices of a scene, do not reach so far.
-void check_size(const GeometrySize& size);
+/// Of what a scene has so far. Throws core::RoomError if a database, the indices of a scene, or memory does not reach so far.
+void check_size(const GeometrySize& size, std::uint64_t memory_bytes);
 
 /// Adds meshes to a scene. Faces become polygons, or patches where they have vertex normals that are not the face's own, textured
 /// ones if the material has a texture and the mesh has places on it, coloured ones if it has none and the mesh has colours. Faces

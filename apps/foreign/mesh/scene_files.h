@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "apps/formats/mesh_counts.h"
 #include "apps/picture/texture_file.h"
 
 namespace dmpc::apps {
@@ -45,9 +45,8 @@ class SceneFiles {
   virtual void add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height,
                            const std::string& name, const TextureEdges& edges) = 0;
 
-  /// What the scene's file says that it has, once that is known and before it is read. Throws core::RoomError for more than there
-  /// can be.
-  virtual void expect(const MeshCounts& counts) { check_database(counts.triangles_min); }
+  /// That the whole scene may take.
+  virtual std::uint64_t memory_bytes_max() const { return std::numeric_limits<std::uint64_t>::max(); }
   /// 0 to 1.
   virtual void show_progress(float share) = 0;
 };

@@ -80,6 +80,7 @@ constexpr std::array left_out{
 
 class Parser {
  public:
+  explicit Parser(std::uint64_t memory_bytes_max) : memory_bytes_max_(memory_bytes_max) {}
   Geometry read(std::string_view file, const std::function<void(float)>& passed);
 
  private:
@@ -105,6 +106,7 @@ class Parser {
   CornerReader corner_reader_;
   std::vector<Corner> face_;  ///< the one that is read
   GeometrySize size_;
+  std::uint64_t memory_bytes_max_;
   std::uint32_t group_ = 0;        ///< of smoothing, for the faces that follow
   std::uint32_t material_ = none;  ///< the same
   std::unordered_map<std::string, std::uint32_t> names_;
@@ -239,7 +241,7 @@ void Parser::face(LineWords& words) {
 
 void Parser::add_face(const LineWords& words) {
   size_ += size_of_face(face_.size());
-  check_size(size_);
+  check_size(size_, memory_bytes_max_);
   start_run();
   Faces& faces = result_.faces;
   add_named(Named::place, faces.places, words);
@@ -335,6 +337,8 @@ void Parser::other(std::string_view keyword, const LineWords& words) {
 
 }  // namespace
 
-Geometry parse_obj(std::string_view file, const std::function<void(float)>& passed) { return Parser().read(file, passed); }
+Geometry parse_obj(std::string_view file, const std::function<void(float)>& passed, std::uint64_t memory_bytes_max) {
+  return Parser(memory_bytes_max).read(file, passed);
+}
 
 }  // namespace dmpc::apps::obj

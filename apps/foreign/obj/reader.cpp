@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "apps/foreign/obj/counts.h"
 #include "apps/foreign/obj/libraries.h"
 #include "apps/foreign/obj/materials.h"
 #include "apps/foreign/obj/meshes.h"
@@ -17,8 +16,8 @@ namespace {
 
 obj::Geometry read_geometry(const std::string& path, SceneFiles& files) {
   const std::unique_ptr<FileBytes> file = files.open(path);
-  files.expect(obj::counts_of(text_of(*file)));
-  return obj::parse_obj(text_of(*file), [&files](float share) { files.show_progress(share); });
+  return obj::parse_obj(
+      text_of(*file), [&files](float share) { files.show_progress(share); }, files.memory_bytes_max());
 }
 
 void append(std::vector<std::string> more, std::vector<std::string>& all) {

@@ -338,7 +338,13 @@ void Statements::object_instance(const Token& name) {
   }
   Object& shapes = found->second;
   size_ += std::exchange(shapes.is_counted, true) ? shapes.copied : shapes.size;
-  check_size(size_);
+  check_total(size_, name.place);
+  if (const std::uint64_t bytes = (file_.places.size() + shapes.places.size()) * sizeof(ShapePlace);
+      bytes > files_.memory_bytes_max()) {
+    throw core::RoomError(tokens_.text_of(name.place) + ": the places of its shapes take " + bytes_text(bytes) +
+                          " of memory, and a file's scene may take " + bytes_text(files_.memory_bytes_max()) +
+                          ": give it fewer instances, or objects of fewer shapes");
+  }
   for (const ShapePlace& place : shapes.places) {
     const ShapePlace instance{place.shape, composed(state_.ctm, place.world)};
     check_map(name, instance.world);
@@ -347,7 +353,17 @@ void Statements::object_instance(const Token& name) {
   }
 }
 
-void Statements::add_place(const ShapePlace& place, const GeometrySize& size) {
+void Statements::check_total(const GeometrySize& total, const Place& said) const {
+  try {
+    check_size(total, files_.memory_bytes_max());
+  } catch (const core::RoomError& error) {
+    throw core::RoomError(tokens_.text_of(said) + ": " + error.what());
+  }
+}
+
+void Statements::add_place(const ShapePlace& place, const GeometrySize& size, const Place& said) {
+  made_ += size;
+  check_total(made_, said);
   if (open_object_ != nullptr) {
     open_object_->places.push_back(place);
     open_object_->size += size;
@@ -356,7 +372,7 @@ void Statements::add_place(const ShapePlace& place, const GeometrySize& size) {
     return;
   }
   size_ += size;
-  check_size(size_);
+  check_total(size_, said);
   ++file_.shapes[place.shape].uses;
   file_.places.push_back(place);
 }
@@ -492,7 +508,7 @@ void Statements::add_shape(PlacedShape shape, const Parameters& parameters) {
   set_look(shape, parameters);
   const GeometrySize size = size_of_shape(shape);
   file_.shapes.push_back(std::move(shape));
-  add_place({static_cast<std::uint32_t>(file_.shapes.size() - 1), state_.ctm}, size);
+  add_place({static_cast<std::uint32_t>(file_.shapes.size() - 1), state_.ctm}, size, parameters.place());
 }
 
 std::size_t Statements::look_number(const Look& look) {

@@ -110,7 +110,8 @@ class Statements {
   void add_shape(PlacedShape shape, const Parameters& parameters);
   void set_look(PlacedShape& shape, const Parameters& parameters);
   std::size_t look_number(const Look& look);
-  void add_place(const ShapePlace& place, const GeometrySize& size);
+  void add_place(const ShapePlace& place, const GeometrySize& size, const Place& said);
+  void check_total(const GeometrySize& total, const Place& said) const;
   void give_materials();
   void drop_undrawn();
   void check_ended() const;
@@ -130,7 +131,8 @@ class Statements {
   Object* open_object_ = nullptr;
   std::vector<Look> looks_;
   std::map<std::array<double, 5>, std::size_t> look_numbers_;
-  GeometrySize size_;
+  GeometrySize size_;  ///< with every instance that is copied
+  GeometrySize made_;  ///< of all shapes, once
   Film film_;
   std::optional<Camera> camera_;
   bool is_world_ = false, moves_start_ = true;

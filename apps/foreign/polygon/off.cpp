@@ -14,12 +14,11 @@
 #include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/surface.h"
-#include "apps/foreign/polygon/indexed_counts.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
 #include "apps/foreign/polygon/text_words.h"
 #include "apps/foreign/polygon/whole_file.h"
 #include "apps/foreign/text/line_words.h"
-#include "apps/foreign/text/word_count.h"
+#include "apps/formats/reading_memory.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -39,7 +38,6 @@ class OffReader {
   void read_header();
   void read_kind(std::string_view word);
   void read_counts(std::string_view first);
-  void expect_mesh();
   std::uint64_t count_of(std::string_view word, const char* what) const;
   double number_of(std::string_view word, const char* what) const;
   void read_vertex(std::uint64_t number);
@@ -231,23 +229,9 @@ void make_light(std::vector<Color>& colors, std::size_t count) {
   }
 }
 
-/// A word is a coordinate or another number of a vertex, a face's number of corners, or a corner, at most.
-void OffReader::expect_mesh() {
-  const std::uint64_t words = count_words(text_.substr(words_.position())), others = (has_normals_ ? 6 : 3) * vertices_ + faces_,
-                      corners = words - std::min(words, others);
-  progress_.expect(counts_of_indexed({.vertices = vertices_,
-                                      .faces = faces_,
-                                      .corners = corners,
-                                      .has_normals = has_normals_,
-                                      .has_places = has_places_,
-                                      .has_colors = has_colors_ || corners > 3 * faces_,
-                                      .triangles_min = faces_},
-                                     bytes_));
-}
-
 PlacedFile OffReader::read() {
   read_header();
-  expect_mesh();
+  check_database(std::min(faces_, room()));
   mesh_.vertices.reserve(std::min(vertices_, room()));
   for (std::uint64_t i = 0; i < vertices_; ++i) {
     read_vertex(i);

@@ -8,12 +8,12 @@
 #include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
-#include "apps/foreign/polygon/ply_counts.h"
 #include "apps/foreign/polygon/ply_header.h"
 #include "apps/foreign/polygon/ply_row.h"
 #include "apps/foreign/polygon/ply_surfaces.h"
 #include "apps/foreign/polygon/ply_values.h"
 #include "apps/foreign/polygon/whole_file.h"
+#include "apps/formats/reading_memory.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -58,7 +58,6 @@ class PlyReader {
 
   PlacedFile read();
   PolygonMesh read_shape(std::vector<std::string>& notes);
-  const PlyHeader& header() const { return header_; }
 
  private:
   template <class Take>
@@ -260,6 +259,7 @@ void PlyReader::read_faces(const PlyElement& element) {
   }
   face_light_ = row.has_all({red, green, blue}) ? full_light_of(row.type_of(red)) : 0;
   const std::uint64_t room = std::min(element.count, values_->room_for(element));
+  check_database(room);
   mesh_.faces.ends.reserve(room);
   mesh_.faces.corners.reserve(3 * room);
   mesh_.face_materials.reserve(room);
@@ -429,9 +429,7 @@ PlacedFile PlyReader::read() {
 
 PlacedFile read_ply(const std::string& path, SceneFiles& files) {
   return read_whole(path, files, [](std::string_view file, ReadingProgress& progress) {
-    PlyReader reader(without_mark(file), progress);
-    progress.expect(counts_of_ply(reader.header(), without_mark(file)));
-    return reader.read();
+    return PlyReader(without_mark(file), progress).read();
   });
 }
 

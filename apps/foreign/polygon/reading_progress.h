@@ -13,8 +13,6 @@ class ReadingProgress {
   /// `files` outlives it. `bytes`: of the whole file.
   ReadingProgress(SceneFiles& files, std::size_t bytes) : files_(files), bytes_(bytes) {}
 
-  /// What the file says that it has, as SceneFiles::expect().
-  void expect(const MeshCounts& counts) { files_.expect(counts); }
   /// So many bytes are read. Cheap.
   void show(std::size_t position) {
     if (position >= next_) {

@@ -10,8 +10,8 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/surface.h"
-#include "apps/foreign/polygon/indexed_counts.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
+#include "apps/formats/reading_memory.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -121,7 +121,7 @@ void StlBinaryReader::read_facet(std::size_t facet) {
 
 PlacedFile StlBinaryReader::read() {
   const std::size_t count = count_facets();
-  progress_.expect(counts_of_facets(count, file_.size()));
+  check_database(count);
   mesh_.vertices.reserve(3 * count);
   mesh_.faces.corners.reserve(3 * count);
   mesh_.faces.ends.reserve(count);

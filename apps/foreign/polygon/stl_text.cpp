@@ -8,10 +8,8 @@
 
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/surface.h"
-#include "apps/foreign/polygon/indexed_counts.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
 #include "apps/foreign/polygon/text_words.h"
-#include "apps/foreign/text/word_count.h"
 
 namespace dmpc::apps {
 namespace {
@@ -42,8 +40,6 @@ class StlTextReader {
 };
 
 PlacedFile StlTextReader::read() {
-  constexpr std::size_t words_a_facet = 21;
-  progress_.expect(counts_of_facets(count_words(text_) / words_a_facet, text_.size()));
   PlacedFile file{.materials = {{plain_material(), {}}}};
   for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
     if (solids_ > 0 && !is_same(word, "solid")) {

@@ -15,7 +15,7 @@
 #include "apps/formats/landscape/grove.h"
 #include "apps/formats/landscape/mesh.h"
 #include "apps/formats/landscape/paint.h"
-#include "apps/formats/mesh_counts.h"
+#include "apps/formats/reading_memory.h"
 #include "apps/formats/whole_view.h"
 #include "core/base/expect.h"
 #include "core/database/parallel.h"

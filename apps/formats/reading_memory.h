@@ -1,0 +1,16 @@
+// What memory a mesh file takes, and how many triangles a database has room for.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace dmpc::apps {
+
+/// Bytes of memory of dmpc and the file's reader together until the database is there, by the size of the file and its format
+/// ("OBJ"): half to twice as much for triangles that share vertices. 0 for formats whose files name others that hold the meshes.
+std::uint64_t estimated_reading_bytes(const std::string& format, std::uint64_t file_bytes);
+
+/// Throws core::RoomError, with both figures, if so many triangles cannot have a database.
+void check_database(std::uint64_t triangles);
+
+}  // namespace dmpc::apps
