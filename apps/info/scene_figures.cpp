@@ -118,7 +118,7 @@ const char* name_of(core::TexelFormat format) {
 SceneFigures figures_of(const core::Scene& scene) {
   SceneFigures figures{.name = scene.name,
                        .objects = count_objects(scene),
-                       .bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0)),
+                       .bounds = core::bounds_of(scene, core::Parallel(0)),
                        .view = scene.view,
                        .background = scene.background,
                        .meshes = count_meshes(scene),

@@ -11,7 +11,6 @@
 #include "apps/edge/line/words.h"
 #include "apps/scene/staging.h"
 #include "core/picture/microfacet_bound.h"
-#include "core/scene/frame.h"
 
 namespace dmpc::apps {
 namespace {
@@ -175,7 +174,7 @@ core::Transport transport_of(const TransportOptions& options, const core::Vec3d&
     transport.has_sky = true;
     transport.has_gradient = options.sky->zenith.has_value();
     transport.zenith = core::Color(options.sky->zenith.value_or(core::Vec3d{}));
-    transport.up = core::Vec3f(turned(frame.axes, zenith));
+    transport.up = core::Vec3f(zenith);
   }
   if (options.occlusion) {
     const double least = double{std::numeric_limits<float>::min()}, most = double{std::numeric_limits<float>::max()};

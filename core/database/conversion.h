@@ -49,8 +49,8 @@ struct Conversion {
   std::vector<CloseFaces> close_faces;
 };
 
-/// The bounds of what is finite in the scene, in the directions of `axes`.
-Box bounds_of(const Scene& scene, const GridAxes& axes, const Parallel& parallel);
+/// The bounds of what is finite in the scene.
+Box bounds_of(const Scene& scene, const Parallel& parallel);
 
 struct ConversionWishes {
   std::span<const MeshFaces> meshes = {};  ///< of Scene::kept, all of them

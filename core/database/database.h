@@ -26,7 +26,6 @@ struct BuildOptions {
   RecordOrder record_order = RecordOrder::spatial;
   Structure structure = Structure::grid;  ///< other boxes around the same floats: the picture keeps its bits
   VoxelRule voxels = usual_voxels;        ///< for Structure::voxels
-  GridAxes axes = world_axes;  ///< the grid's directions: another grid, so other bits, but the same picture to rounding
   /// Of what shines by itself at most so many are aimed at by paths (core/database/emitters.h). 0: none, as Whitted's has it.
   std::uint32_t emitters_max = 0;
   bool for_paths = false;  ///< surfaces are as pictures by paths show them: Material::microfacets

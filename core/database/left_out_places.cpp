@@ -37,7 +37,7 @@ void check_ids(std::uint64_t count) {
 
 /// What the copies of a box's corners are within, grid-local, as floats have them: rounding keeps their order.
 Box local_reach(const Box& own, const KeptPlace& place, const GridFrame& frame) {
-  const Box reach = reach_of(own, place.world, frame.axes);
+  const Box reach = reach_of(own, place.world);
   return {Vec3d(coordinates_of((reach.low - frame.origin) * frame.scale)),
           Vec3d(coordinates_of((reach.high - frame.origin) * frame.scale))};
 }

@@ -328,15 +328,11 @@ struct LightRecord {
 static_assert(sizeof(LightRecord) == 32);
 
 /// Three unit vectors of the world at right angles, right-handed.
-using GridAxes = std::array<Vec3d, 3>;
-inline constexpr GridAxes world_axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
-
-/// How grid-local coordinates come from the world's: local = (axes world - origin) * scale, scale a power of two that brings the
+/// How grid-local coordinates come from the world's: local = (world - origin) * scale, scale a power of two that brings the
 /// largest extent into (1/2, 1]. Keeps rounding in proportion to the scene, wherever it lies; and to its detail, where that lies
 /// close together beside something large: there local zero is, elsewhere where the grid begins (core/scene/detail.h).
 struct GridFrame {
-  GridAxes axes = world_axes;  ///< the grid's x, y and z; the world's unless asked for the screen's
-  Vec3d origin;                ///< in the directions of `axes`
+  Vec3d origin;
   double scale = 1;
   std::array<std::int32_t, 3> resolution{1, 1, 1};  ///< cells along x, y, z
   float finest_cell = 1;                            ///< edge of a finest cell, grid-local

@@ -28,8 +28,7 @@ inline std::array<Vec3d, 3> inverse_of(const std::array<Vec3d, 3>& rows) {
 inline std::array<Vec3d, 3> rows_in_grid(const Transform& world, double unit, const GridFrame& frame) {
   std::array<Vec3d, 3> rows;
   for (std::size_t row = 0; row < 3; ++row) {
-    rows[row] = (world.rows[0] * frame.axes[row].x + world.rows[1] * frame.axes[row].y + world.rows[2] * frame.axes[row].z) *
-                (unit * frame.scale);
+    rows[row] = world.rows[row] * (unit * frame.scale);
   }
   return rows;
 }

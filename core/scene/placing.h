@@ -35,7 +35,7 @@ class Placing {
   Vec3d corner(const Vec3d& at) const { return to_local(frame_, world_.point(at)); }
   /// Nothing if doubles cannot tell. It faces the side that the mesh's does, in a mirror, too.
   std::optional<FacePlane> plane(const MeshPlane& plane) const {
-    const Vec3d way = turned(frame_.axes, normals_.direction(plane.normal));
+    const Vec3d way = normals_.direction(plane.normal);
     const double size = length(way);
     if (!(size > 0) || !std::isfinite(size)) {
       return std::nullopt;
@@ -45,7 +45,7 @@ class Placing {
   }
   /// Whether faces of a level plane have a coordinate in common here, too, to the bit.
   bool stays_level(const MeshPlane& plane) const {
-    if (!plane.is_level || frame_.axes != world_axes) {
+    if (!plane.is_level) {
       return false;
     }
     for (const Vec3d& row : world_.rows) {

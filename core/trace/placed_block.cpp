@@ -31,7 +31,7 @@ std::array<Vec3f, 3> MeshPlace::normals(const std::array<Vec3f, 3>& of_mesh) con
   std::array<Vec3f, 3> placed;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3d& normal = Vec3d(of_mesh[is_mirrored_ ? 2 - i : i]);
-    placed[i] = unit_normal(turned(frame_.axes, world_normals_.direction(normal)));
+    placed[i] = unit_normal(world_normals_.direction(normal));
   }
   return placed;
 }

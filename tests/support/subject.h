@@ -9,7 +9,6 @@
 #include "core/database/database.h"
 #include "core/picture/background.h"
 #include "core/picture/render.h"
-#include "core/scene/frame.h"
 #include "core/scene/scene.h"
 #include "core/trace/operations.h"
 
@@ -100,11 +99,11 @@ class Subject {
   Outcome outcome_;
 };
 
-/// The subjects of one scene along the world's axes and along the screen's: two grids, two films.
-inline std::array<Subject, 2> along_both_axes(const core::Scene& scene, const Subject::Size& size) {
-  core::BuildOptions world = apps::several_top_cells(scene), screen = world;
-  screen.axes = core::screen_axes(scene.view);
-  return {Subject(scene, size, world), Subject(scene, size, screen)};
+/// The subjects of one scene in coarse cells and in fine ones: two grids, two films.
+inline std::array<Subject, 2> on_two_grids(const core::Scene& scene, const Subject::Size& size) {
+  core::BuildOptions coarse = apps::several_top_cells(scene), fine = coarse;
+  fine.cells_per_primitive *= 3;
+  return {Subject(scene, size, coarse), Subject(scene, size, fine)};
 }
 
 }  // namespace dmpc::tests

@@ -149,14 +149,6 @@ TEST_CASE("what is kept is refined as its copies are: its fine detail is known, 
   }
 }
 
-TEST_CASE("along the screen's axes what is kept shows the same, too") {
-  const Scene scene = balls_in_places(0.3, Arrangement::deep_in_each_other, 4);
-  core::BuildOptions copies = with_copies(), kept = with_instances();
-  copies.axes = kept.axes = core::screen_axes(scene.view);
-  const int side = scaled_edge(32);
-  CHECK(Subject(scene, {side, side}, kept).outcome() == Subject(scene, {side, side}, copies).outcome());
-}
-
 TEST_CASE("paths show the same of what is kept") {
   for (const Arrangement arrangement : arrangements) {
     const Scene scene = balls_in_places(0.3, arrangement, 5);
