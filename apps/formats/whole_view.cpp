@@ -11,7 +11,7 @@
 #include "core/base/box.h"
 #include "core/base/elementary.h"
 #include "core/scene/frame.h"
-#include "core/scene/place_reach.h"
+#include "core/scene/placing.h"
 
 namespace dmpc::apps {
 

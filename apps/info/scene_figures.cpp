@@ -9,7 +9,6 @@
 #include "core/database/parallel.h"
 #include "core/record/texture_layout.h"
 #include "core/scene/kept_meshes.h"
-#include "core/scene/kept_share.h"
 #include "core/scene/placed_objects.h"
 
 namespace dmpc::apps {

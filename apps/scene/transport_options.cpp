@@ -10,7 +10,7 @@
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/line/words.h"
 #include "apps/scene/staging.h"
-#include "core/picture/microfacet_bound.h"
+#include "core/picture/microfacet_lobes.h"
 
 namespace dmpc::apps {
 namespace {

@@ -7,18 +7,14 @@
 #include <optional>
 #include <span>
 
-#include "core/base/altitude.h"
 #include "core/base/box.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "core/base/vec.h"
 #include "core/database/copies_bounds.h"
 #include "core/database/overlap.h"
-#include "core/database/usable_place.h"
-#include "core/record/cone_floats.h"
 #include "core/record/coordinate.h"
 #include "core/record/curved_values.h"
-#include "core/record/passing_surface.h"
-#include "core/record/vanishing.h"
 #include "core/scene/frame.h"
 #include "core/scene/kept_meshes.h"
 #include "core/scene/placing.h"
@@ -69,7 +65,7 @@ void put_passing(PrimitiveValues& primitive, std::size_t first, const Vec3d& pla
 
 double grown(double radius, double by) { return std::copysign(std::max(std::fabs(radius) + by, 0.0), radius); }
 
-/// A sphere that passes by local zero (core/record/passing_surface.h) does so where it did before its centre was rounded.
+/// A sphere that passes by local zero (core/record/curved_values.h) does so where it did before its centre was rounded.
 void settle_passing_sphere(PrimitiveValues& sphere, const Vec3d& center, double radius) {
   put_passing(sphere, 0, center, radius);
   const Vec3d rounded = sphere.curved().vector(0);

@@ -9,8 +9,8 @@
 #include "core/base/units.h"
 #include "core/scene/frame.h"
 #include "core/scene/kept_meshes.h"
-#include "core/scene/place_reach.h"
 #include "core/scene/placed_objects.h"
+#include "core/scene/placing.h"
 
 namespace dmpc::core {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/base/forget.h"
 #include "core/database/coplanar.h"
 #include "core/database/material_records.h"
-#include "core/database/record_order.h"
+#include "core/database/structure.h"
 #include "core/database/texture_records.h"
 #include "core/database/twins.h"
 #include "core/record/directory.h"

@@ -11,9 +11,7 @@
 #include "core/base/expect.h"
 #include "core/database/top_cells.h"
 #include "core/record/coordinate.h"
-#include "core/record/vanishing.h"
 #include "core/scene/frame.h"
-#include "core/scene/place_reach.h"
 #include "core/scene/placing.h"
 
 namespace dmpc::core {

@@ -401,4 +401,14 @@ struct DatabaseHeader {
 };
 static_assert(std::is_trivially_copyable_v<DatabaseHeader>);
 
+/// `rows` points at the block's first value, `stride` is its lane count.
+struct BlockLane {
+  const float* rows;
+  std::size_t stride, lane;
+
+  double value(std::size_t row) const { return double{rows[row * stride + lane]}; }
+  /// A vertex, centre or end, by the row where it starts.
+  Vec3d vector(std::size_t row) const { return {value(row), value(row + 1), value(row + 2)}; }
+};
+
 }  // namespace dmpc::core

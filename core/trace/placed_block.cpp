@@ -5,11 +5,10 @@
 #include <optional>
 
 #include "core/base/vector_width.h"
-#include "core/record/block_lane.h"
 #include "core/record/coordinate.h"
-#include "core/record/vanishing.h"
+#include "core/record/record.h"
 #include "core/scene/frame.h"
-#include "core/scene/mesh_to_grid.h"
+#include "core/scene/placing.h"
 
 namespace dmpc::core {
 namespace {

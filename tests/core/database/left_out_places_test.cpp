@@ -11,7 +11,6 @@
 
 #include "apps/lab/bench/stability/random.h"
 #include "apps/lab/bench/stability/rays.h"
-#include "core/database/copy_limits.h"
 #include "core/database/database.h"
 #include "core/database/top_cells.h"
 #include "core/record/emitter.h"

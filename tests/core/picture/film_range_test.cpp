@@ -1,4 +1,4 @@
-#include "core/picture/film_range.h"
+#include "core/picture/film.h"
 
 #include <doctest/doctest.h>
 

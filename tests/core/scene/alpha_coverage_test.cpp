@@ -1,4 +1,4 @@
-#include "core/scene/alpha_coverage.h"
+#include "core/scene/texture.h"
 
 #include <doctest/doctest.h>
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/picture/disc.h"
 #include "core/picture/emitter_light.h"
+#include "core/picture/sample_pair.h"
 
 namespace dmpc::apps {
 

@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "apps/lab/bench/speed/plain_asker.h"
-#include "core/picture/disc.h"
 #include "core/picture/microfacet.h"
 #include "core/picture/path_step.h"
-#include "core/picture/surface_shares.h"
+#include "core/picture/sample_pair.h"
+#include "core/picture/surface_response.h"
 
 namespace dmpc::apps {
 
