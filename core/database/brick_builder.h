@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/bounds.h"
+#include "core/base/box.h"
 #include "core/base/region.h"
 #include "core/database/brick_tree.h"
 #include "core/database/cut_tree.h"

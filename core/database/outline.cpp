@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/bounds.h"
+#include "core/base/box.h"
 #include "core/base/units.h"
 #include "core/database/brick_builder.h"
 #include "core/database/empty_space.h"
