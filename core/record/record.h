@@ -130,8 +130,8 @@ inline constexpr std::size_t block_lanes = 8;
 /// primitive ids (ascending), then a row of ShadingReference. Grid-local coordinates, floats.
 ///   triangle rows: v0.x v0.y v0.z v1.x .. v2.z
 ///   sphere rows:   centre.x .y .z radius, rests
-///   cone rows:     base.x .y .z radius, apex (or axis: cone_floats.h) .x .y .z radius, rests of the first four, of the last four
-///   instance rows: low.x .y .z high.x .y .z of a box; in place of its ShadingReference the address of its InstanceRecord
+///   cone rows:     base.x .y .z radius, apex (or axis: curved_values.h) .x .y .z radius, rests of the first four, of the last
+///   four instance rows: low.x .y .z high.x .y .z of a box; in place of its ShadingReference the address of its InstanceRecord
 /// Rests: what rounding left of four values, the first lowest: a byte each or, of what passes by local zero, 4 bits a coordinate
 /// and 20 of the radius (core/record/curved_values.h). Behind the rows of a block that has_plane(): the FacePlane of all its
 /// triangles.

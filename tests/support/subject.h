@@ -11,6 +11,7 @@
 #include "core/picture/render.h"
 #include "core/scene/scene.h"
 #include "core/trace/operations.h"
+#include "tests/support/film_of.h"
 
 namespace dmpc::tests {
 
@@ -72,11 +73,9 @@ class Subject {
                    .first_samples = static_cast<std::uint32_t>(size.samples),
                    .transport = size.transport},
                   size.refinement} {
-    core::LocalRecords records(database_.bytes());
-    core::GridTracer tracer(records, settings_.header, core::Skips{});
     core::Operations operations;
     const core::FineDetail detail = settings_.fine_detail(database_);
-    outcome_ = outcome_of(core::render(tracer, settings_, operations, &detail), operations);
+    outcome_ = outcome_of(film_of(database_, settings_, operations, &detail), operations);
     if (size.knows_background) {
       settings_.background = core::find_background(database_, settings_.camera);
     }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/picture/render.h"
-#include "core/scene/frame.h"
+#include "tests/support/film_of.h"
 #include "tests/support/small_scenes.h"
 
 namespace dmpc::tests::tiny_scene_test {
@@ -33,10 +33,8 @@ core::Scene scaled_by(core::Scene scene, double scale) {
 std::uint64_t film_of(const core::Scene& scene) {
   const core::Database database = core::build_database(scene, {});
   const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, 24, 24, 1), {}};
-  core::LocalRecords records(database.bytes());
-  core::GridTracer<core::LocalRecords> tracer(records, settings.header, settings.skips);
   core::Operations operations;
-  const std::uint64_t hash = core::render(tracer, settings, operations).hash();
+  const std::uint64_t hash = film_of(database, settings, operations).hash();
   CHECK(operations.primary_hits > 100);
   return hash;
 }

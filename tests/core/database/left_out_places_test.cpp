@@ -18,8 +18,8 @@
 #include "core/scene/frame.h"
 #include "core/scene/placed_objects.h"
 #include "core/trace/instance_walk.h"
+#include "tests/support/film_of.h"
 #include "tests/support/kept_scenes.h"
-#include "tests/support/path_film.h"
 #include "tests/support/scaled.h"
 
 namespace dmpc::tests::left_out_places_test {

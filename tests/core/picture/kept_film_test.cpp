@@ -11,8 +11,8 @@
 #include "core/families/scenes.h"
 #include "core/picture/render.h"
 #include "core/record/records.h"
+#include "tests/support/film_of.h"
 #include "tests/support/kept_scenes.h"
-#include "tests/support/path_film.h"
 #include "tests/support/scaled.h"
 #include "tests/support/subject.h"
 
