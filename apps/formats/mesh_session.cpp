@@ -17,7 +17,6 @@
 #include "apps/formats/view_faults.h"
 #include "apps/picture/texture_size.h"
 #include "core/base/expect.h"
-#include "core/scene/alpha_coverage.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::apps {

@@ -11,7 +11,7 @@
 #include "core/base/box.h"
 #include "core/base/elementary.h"
 #include "core/scene/frame.h"
-#include "core/scene/place_reach.h"
+#include "core/scene/placing.h"
 
 namespace dmpc::apps {
 
@@ -146,7 +146,7 @@ core::View whole_view(const BoundingSphere& bounds, const UpAxis& up) {
 
 std::vector<core::PointLight> plain_lights(const BoundingSphere& bounds, const core::View& view) {
   constexpr double distance_radii = 1000, key = 0.8, fill = 0.3;
-  const core::GridAxes screen = core::screen_axes(view);
+  const std::array<Vec3d, 3> screen = core::screen_axes(view);
   const Vec3d towards_key = normalize(screen[0] * 0.7 + screen[1] + screen[2]);
   return {{bounds.center + towards_key * (distance_radii * bounds.radius), {key, key, key}, true},
           {view.from, {fill, fill, fill}, true}};

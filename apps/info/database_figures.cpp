@@ -8,7 +8,6 @@
 #include "core/record/emitter.h"
 #include "core/record/instance.h"
 #include "core/record/records.h"
-#include "core/record/voxel_list.h"
 
 namespace dmpc::apps {
 

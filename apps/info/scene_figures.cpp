@@ -9,7 +9,6 @@
 #include "core/database/parallel.h"
 #include "core/record/texture_layout.h"
 #include "core/scene/kept_meshes.h"
-#include "core/scene/kept_share.h"
 #include "core/scene/placed_objects.h"
 
 namespace dmpc::apps {
@@ -118,7 +117,7 @@ const char* name_of(core::TexelFormat format) {
 SceneFigures figures_of(const core::Scene& scene) {
   SceneFigures figures{.name = scene.name,
                        .objects = count_objects(scene),
-                       .bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0)),
+                       .bounds = core::bounds_of(scene, core::Parallel(0)),
                        .view = scene.view,
                        .background = scene.background,
                        .meshes = count_meshes(scene),

@@ -36,7 +36,7 @@ const char* name_of(core::TexelFormat format);
 struct MeshFigures {
   std::uint64_t count = 0, places = 0;
   std::uint64_t triangles = 0, triangles_in_places = 0;  ///< of all of them once; of all places
-  double stored_share = 1;  ///< of the scene's corners, with each mesh once (core/scene/kept_share.h)
+  double stored_share = 1;  ///< of the scene's corners, with each mesh once (core/scene/kept_meshes.h)
 };
 
 struct SceneFigures {

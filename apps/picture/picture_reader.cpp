@@ -16,8 +16,8 @@
 #include "apps/picture/texture_size.h"
 #include "apps/reader/input_file.h"
 #include "core/base/expect.h"
-#include "core/scene/alpha_coverage.h"
 #include "core/scene/sky_texels.h"
+#include "core/scene/texture.h"
 
 namespace dmpc::apps {
 namespace {

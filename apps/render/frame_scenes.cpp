@@ -60,7 +60,7 @@ core::Scene FrameScenes::load_still(OpenedFiles& opened) {
     still_ = {bounds, own_view_};
   }
   if (path_) {
-    path_->set_scene(own_view_, core::bounds_of(scene, core::world_axes, core::Parallel(0)));
+    path_->set_scene(own_view_, core::bounds_of(scene, core::Parallel(0)));
     path_->check(asked_.frames.range->first, asked_.frames.range->last);
   }
   return scene;

@@ -6,7 +6,7 @@
 #include "apps/formats/whole_view.h"
 #include "apps/scene/staging.h"
 #include "core/base/expect.h"
-#include "core/picture/film_range.h"
+#include "core/picture/film.h"
 
 namespace dmpc::apps {
 

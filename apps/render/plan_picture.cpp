@@ -23,7 +23,7 @@ bool follows_checkpoint(const RenderCall& call, const DueFrame& frame, const Due
 
 SceneFacts facts_of(const RenderOptions& options, const core::Scene& scene) {
   SceneFacts facts;
-  facts.bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0));
+  facts.bounds = core::bounds_of(scene, core::Parallel(0));
   facts.up = is_mesh(options.picture.scene) ? options.picture.staging.mesh.up.value_or(UpAxis{}) : up_of(scene.view);
   if (options.report || options.frames.animation) {
     facts.digest = scene_digest(scene);

@@ -21,7 +21,7 @@ const char* name_of(core::Structure structure);
 std::string text_of(const core::VoxelRule& rule);
 
 /// A mesh that stands in several places has a copy in each or is kept once. automatic: kept where that leaves less than half of
-/// the scene to store (core/scene/kept_share.h), once the scene is known.
+/// the scene to store (core/scene/kept_meshes.h), once the scene is known.
 enum class InstancesChoice : std::uint8_t { expand, keep, automatic };
 
 struct DatabaseOptions {

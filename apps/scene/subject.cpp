@@ -8,7 +8,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/input_memory.h"
 #include "apps/edge/system/progress.h"
-#include "core/database/copy_limits.h"
+#include "core/database/database.h"
 #include "core/picture/ray_crowd.h"
 #include "core/scene/frame.h"
 #include "core/scene/kept_meshes.h"

@@ -11,7 +11,7 @@
 #include "core/database/database.h"
 #include "core/picture/pixel_task.h"
 #include "core/picture/rounding_loss.h"
-#include "core/scene/kept_share.h"
+#include "core/scene/kept_meshes.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::apps {

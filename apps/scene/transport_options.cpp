@@ -10,8 +10,7 @@
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/line/words.h"
 #include "apps/scene/staging.h"
-#include "core/picture/microfacet_bound.h"
-#include "core/scene/frame.h"
+#include "core/picture/microfacet_lobes.h"
 
 namespace dmpc::apps {
 namespace {
@@ -175,7 +174,7 @@ core::Transport transport_of(const TransportOptions& options, const core::Vec3d&
     transport.has_sky = true;
     transport.has_gradient = options.sky->zenith.has_value();
     transport.zenith = core::Color(options.sky->zenith.value_or(core::Vec3d{}));
-    transport.up = core::Vec3f(turned(frame.axes, zenith));
+    transport.up = core::Vec3f(zenith);
   }
   if (options.occlusion) {
     const double least = double{std::numeric_limits<float>::min()}, most = double{std::numeric_limits<float>::max()};

@@ -153,7 +153,7 @@ class Viewing {
     core::Scene scene = load(options_.picture, options_.quiet);
     home_ = scene.view;
     check_size();
-    const core::Box bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0));
+    const core::Box bounds = core::bounds_of(scene, core::Parallel(0));
     pivot_ = pivot_of(home_, bounds);
     put_eye_far_away(scene, bounds);
     subject_.emplace(build_subject_quietly(std::move(scene), options_.picture, options_.database));

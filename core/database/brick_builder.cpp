@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/base/expect.h"
-#include "core/database/brick_boxes.h"
 #include "core/database/overlap.h"
 
 namespace dmpc::core {

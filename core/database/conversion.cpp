@@ -7,18 +7,14 @@
 #include <optional>
 #include <span>
 
-#include "core/base/altitude.h"
 #include "core/base/box.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"
+#include "core/base/vec.h"
 #include "core/database/copies_bounds.h"
 #include "core/database/overlap.h"
-#include "core/database/usable_place.h"
-#include "core/record/cone_floats.h"
 #include "core/record/coordinate.h"
 #include "core/record/curved_values.h"
-#include "core/record/passing_surface.h"
-#include "core/record/vanishing.h"
 #include "core/scene/frame.h"
 #include "core/scene/kept_meshes.h"
 #include "core/scene/placing.h"
@@ -69,7 +65,7 @@ void put_passing(PrimitiveValues& primitive, std::size_t first, const Vec3d& pla
 
 double grown(double radius, double by) { return std::copysign(std::max(std::fabs(radius) + by, 0.0), radius); }
 
-/// A sphere that passes by local zero (core/record/passing_surface.h) does so where it did before its centre was rounded.
+/// A sphere that passes by local zero (core/record/curved_values.h) does so where it did before its centre was rounded.
 void settle_passing_sphere(PrimitiveValues& sphere, const Vec3d& center, double radius) {
   put_passing(sphere, 0, center, radius);
   const Vec3d rounded = sphere.curved().vector(0);
@@ -133,7 +129,7 @@ void include_cube(Box& box, const Vec3d& center, double half) {
 class Converter {
  public:
   Converter(const Scene& scene, const GridFrame& frame, bool keeps_corners, Conversion& result)
-      : scene_(scene), frame_(frame), turn_(frame.axes), keeps_corners_(keeps_corners), result_(result) {}
+      : scene_(scene), frame_(frame), keeps_corners_(keeps_corners), result_(result) {}
 
   void add_object(std::uint32_t index) {
     const Object& object = scene_.objects[index];
@@ -172,7 +168,7 @@ class Converter {
   }
 
  private:
-  [[gnu::always_inline]] Vec3d local(const Vec3d& point) const { return turned_to_local(frame_, turn_(point)); }
+  [[gnu::always_inline]] Vec3d local(const Vec3d& point) const { return to_local(frame_, point); }
 
   /// `size`: what it has across before it is rounded, `at` where; asked if it is degenerate.
   template <class Size>
@@ -232,7 +228,7 @@ class Converter {
   void add_normals(const Object& object, const std::array<std::uint32_t, 3>& corners) {
     PatchNormals normals{.normal = {}, .material_bits = object.material};
     for (std::size_t i = 0; i < 3; ++i) {
-      normals.normal[i] = unit_normal(turned(frame_.axes, scene_.normals[object.first_normal + corners[i]]));
+      normals.normal[i] = unit_normal(scene_.normals[object.first_normal + corners[i]]);
     }
     result_.smooth.push_back({static_cast<std::uint32_t>(result_.primitives.size()), normals});
   }
@@ -244,7 +240,7 @@ class Converter {
     textured.normals.material_bits = object.material | PatchNormals::textured_flag;
     for (std::size_t i = 0; i < 3; ++i) {
       const TexturedCorner& corner = scene_.corners[object.first_normal + corners[i]];
-      textured.normals.normal[i] = unit_normal(turned(frame_.axes, corner.normal));
+      textured.normals.normal[i] = unit_normal(corner.normal);
       textured.place[i] = index == Material::no_texture ? corner.place : usable_place(corner.place);
     }
     result_.textured.push_back(
@@ -281,7 +277,7 @@ class Converter {
   PrimitiveValues values_of(const Cone& cone) const {
     const bool inside_only = cone.base_radius < 0 || cone.apex_radius < 0;
     const double low = std::fabs(cone.base_radius) * frame_.scale, high = std::fabs(cone.apex_radius) * frame_.scale;
-    const Vec3d axis = turned(frame_.axes, cone.apex - cone.base) * frame_.scale;
+    const Vec3d axis = (cone.apex - cone.base) * frame_.scale;
     const bool is_flat = length(axis) <= flat_cone_share * std::max(low, high);
     const auto with_sign = [](double radius, bool negative) { return negative ? -radius : radius; };
     const double base_radius = with_sign(low, inside_only), apex_radius = with_sign(high, inside_only != is_flat);
@@ -298,7 +294,6 @@ class Converter {
 
   const Scene& scene_;
   const GridFrame& frame_;
-  Turn turn_;
   bool keeps_corners_;
   Conversion& result_;
 };
@@ -415,20 +410,20 @@ class Steps {
   std::uint32_t next_ = 0;  ///< of Scene::objects
 };
 
-Box bounds_of_points(std::span<const Vec3d> points, const Turn& turn) {
+Box bounds_of_points(std::span<const Vec3d> points) {
   Box box;
   for (const Vec3d& point : points) {
     if (usable(point)) {
-      box.include(turn(point));
+      box.include(point);
     }
   }
   return box;
 }
 
-Box bounds_of_vertices(const std::vector<Vec3d>& vertices, const Turn& turn, const Parallel& parallel) {
+Box bounds_of_vertices(const std::vector<Vec3d>& vertices, const Parallel& parallel) {
   std::vector<Box> boxes(ceil_divide(vertices.size(), chunk_size));
   parallel.for_each_run(vertices.size(), chunk_size, [&](std::size_t first, std::size_t end) {
-    boxes[first / chunk_size] = bounds_of_points(std::span(vertices).subspan(first, end - first), turn);
+    boxes[first / chunk_size] = bounds_of_points(std::span(vertices).subspan(first, end - first));
   });
   Box all;
   for (const Box& box : boxes) {
@@ -482,21 +477,20 @@ void clear(Conversion& conversion) {
 
 }  // namespace
 
-Box bounds_of(const Scene& scene, const GridAxes& axes, const Parallel& parallel) {
-  const Turn turn(axes);
-  Box box = bounds_of_vertices(scene.vertices, turn, parallel);
-  include_copies(box, scene, axes, coordinate_max, parallel);
+Box bounds_of(const Scene& scene, const Parallel& parallel) {
+  Box box = bounds_of_vertices(scene.vertices, parallel);
+  include_copies(box, scene, coordinate_max, parallel);
   for (const Sphere& sphere : scene.spheres) {
     const double r = std::fabs(sphere.radius);
     if (usable(sphere.center) && r < coordinate_max) {
-      include_cube(box, turn(sphere.center), r);
+      include_cube(box, sphere.center, r);
     }
   }
   for (const Cone& cone : scene.cones) {
     const double r = std::max(std::fabs(cone.base_radius), std::fabs(cone.apex_radius));
     for (const Vec3d& end : {cone.base, cone.apex}) {
       if (usable(end) && r < coordinate_max) {
-        include_cube(box, turn(end), r);
+        include_cube(box, end, r);
       }
     }
   }

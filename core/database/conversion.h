@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/base/box.h"
+#include "core/base/vec.h"
 #include "core/database/database.h"
 #include "core/database/mesh_faces.h"
 #include "core/database/parallel.h"
@@ -14,6 +16,23 @@
 #include "core/scene/scene.h"
 
 namespace dmpc::core {
+
+/// A coordinate beyond this share of float's range cannot be brought into a grid.
+inline constexpr double coordinate_max = 1e30;
+
+inline bool usable(const Vec3d& v) {
+  return std::fabs(v.x) < coordinate_max && std::fabs(v.y) < coordinate_max && std::fabs(v.z) < coordinate_max;
+}
+
+/// A place on a texture that is no number counts as the texture's corner; one that is too far away to be told from its
+/// neighbours, too.
+inline std::array<float, 2> usable_place(std::array<float, 2> place) {
+  constexpr float place_max = 0x1p20F;
+  for (float& coordinate : place) {
+    coordinate = std::fabs(coordinate) < place_max ? coordinate : 0.0F;
+  }
+  return place;
+}
 
 /// PrimitiveSource::object of what stands for a place whose copy is left out.
 inline constexpr std::uint32_t source_is_place = 0xffffffffU;
@@ -49,8 +68,8 @@ struct Conversion {
   std::vector<CloseFaces> close_faces;
 };
 
-/// The bounds of what is finite in the scene, in the directions of `axes`.
-Box bounds_of(const Scene& scene, const GridAxes& axes, const Parallel& parallel);
+/// The bounds of what is finite in the scene.
+Box bounds_of(const Scene& scene, const Parallel& parallel);
 
 struct ConversionWishes {
   std::span<const MeshFaces> meshes = {};  ///< of Scene::kept, all of them

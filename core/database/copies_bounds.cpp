@@ -9,8 +9,8 @@
 #include "core/base/units.h"
 #include "core/scene/frame.h"
 #include "core/scene/kept_meshes.h"
-#include "core/scene/place_reach.h"
 #include "core/scene/placed_objects.h"
+#include "core/scene/placing.h"
 
 namespace dmpc::core {
 namespace {
@@ -38,8 +38,7 @@ struct MeshBoxes {
 
 class CopiesBounds {
  public:
-  CopiesBounds(const KeptMeshes& kept, const GridAxes& axes, double coordinate_max)
-      : kept_(kept), axes_(axes), coordinate_max_(coordinate_max) {
+  CopiesBounds(const KeptMeshes& kept, double coordinate_max) : kept_(kept), coordinate_max_(coordinate_max) {
     for (const Scene& mesh : kept.meshes) {
       own_.emplace_back(mesh.vertices);
     }
@@ -69,7 +68,7 @@ class CopiesBounds {
 
  private:
   static bool holds(const Box& box, const Box& reach) { return box.holds(reach.low) && box.holds(reach.high); }
-  Box reach(const KeptPlace& place) const { return reach_of(own_[place.mesh].all, place.world, axes_); }
+  Box reach(const KeptPlace& place) const { return reach_of(own_[place.mesh].all, place.world); }
 
   /// To each side of each axis.
   std::vector<std::size_t> farthest() const {
@@ -96,7 +95,7 @@ class CopiesBounds {
     const std::vector<Vec3d>& vertices = kept_.meshes[place.mesh].vertices;
     const MeshBoxes& own = own_[place.mesh];
     for (std::size_t i = 0; i < own.runs.size(); ++i) {
-      if (!holds(box, reach_of(own.runs[i], place.world, axes_))) {
+      if (!holds(box, reach_of(own.runs[i], place.world))) {
         include(box, place.world, std::span(vertices).subspan(i * own.run, std::min(own.run, vertices.size() - i * own.run)));
       }
     }
@@ -105,22 +104,21 @@ class CopiesBounds {
     for (const Vec3d& vertex : vertices) {
       const Vec3d corner = world.point(vertex);
       if (is_below(corner, coordinate_max_)) {
-        box.include(turned(axes_, corner));
+        box.include(corner);
       }
     }
   }
 
   const KeptMeshes& kept_;
-  const GridAxes& axes_;
   double coordinate_max_;
   std::vector<MeshBoxes> own_;  ///< of each mesh
 };
 
 }  // namespace
 
-void include_copies(Box& box, const Scene& scene, const GridAxes& axes, double coordinate_max, const Parallel& parallel) {
+void include_copies(Box& box, const Scene& scene, double coordinate_max, const Parallel& parallel) {
   if (leaves_copies_out(scene)) {
-    CopiesBounds(*scene.kept, axes, coordinate_max).include_all(box, parallel);
+    CopiesBounds(*scene.kept, coordinate_max).include_all(box, parallel);
   }
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/bounds.h"
+#include "core/base/box.h"
 #include "core/base/vector_width.h"
 #include "core/database/database.h"
 #include "core/record/record.h"

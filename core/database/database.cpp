@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/database/copy_limits.h"
 #include "core/database/database_builder.h"
 #include "core/database/mesh_faces.h"
 #include "core/database/obstacle.h"
@@ -15,7 +14,6 @@
 #include "core/record/directory.h"
 #include "core/record/instance.h"
 #include "core/record/records.h"
-#include "core/record/voxel_list.h"
 #include "core/scene/kept_meshes.h"
 #include "core/scene/placed_objects.h"
 

@@ -6,14 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "core/base/forget.h"
 #include "core/database/obstacle.h"
-#include "core/database/record_order.h"
 #include "core/database/structure.h"
-#include "core/database/voxel_rule.h"
 #include "core/record/curved_values.h"
 #include "core/record/record.h"
 #include "core/scene/scene.h"
@@ -26,7 +25,6 @@ struct BuildOptions {
   RecordOrder record_order = RecordOrder::spatial;
   Structure structure = Structure::grid;  ///< other boxes around the same floats: the picture keeps its bits
   VoxelRule voxels = usual_voxels;        ///< for Structure::voxels
-  GridAxes axes = world_axes;  ///< the grid's directions: another grid, so other bits, but the same picture to rounding
   /// Of what shines by itself at most so many are aimed at by paths (core/database/emitters.h). 0: none, as Whitted's has it.
   std::uint32_t emitters_max = 0;
   bool for_paths = false;  ///< surfaces are as pictures by paths show them: Material::microfacets
@@ -187,5 +185,21 @@ Database build_database(const Scene& scene, const BuildOptions& options);
 /// Builds as the other, and frees the scene's objects on the way: they never lie in memory beside the records. View, lights,
 /// materials and background stay, and of textures all but their texels.
 Database build_database(Scene&& scene, const BuildOptions& options);
+
+/// For a scene that leaves copies out and whose instances are to be kept (BuildOptions::keeps_instances).
+struct CopyLimits {
+  /// No more corners of copies than this are put in on the way: then all is said of them that is said of others. Of more,
+  /// places alone are there (core/database/left_out_places.h), and nobody looks at what rounding does to copies.
+  std::uint64_t corners_max = std::uint64_t{3} << 21U;
+  /// With all copies that are put in the scene may be so large while it becomes primitives.
+  std::uint64_t bytes_max = std::numeric_limits<std::uint64_t>::max();
+  /// Why somebody wants all of them, where that is so, and what to do if they have no room.
+  const char *reason = "", *advice = "";
+};
+
+/// build_database() within other limits. Of more copies than these allow those are put in that have to be there, since something
+/// keeps their mesh or place from being kept (core/database/obstacle.h). Throws RoomError, too, if copies that are put in have no
+/// room.
+Database build_database(Scene&& scene, const BuildOptions& options, const CopyLimits& limits);
 
 }  // namespace dmpc::core

@@ -8,7 +8,7 @@
 #include "core/base/forget.h"
 #include "core/database/coplanar.h"
 #include "core/database/material_records.h"
-#include "core/database/record_order.h"
+#include "core/database/structure.h"
 #include "core/database/texture_records.h"
 #include "core/database/twins.h"
 #include "core/record/directory.h"
@@ -95,10 +95,10 @@ std::vector<Address> DatabaseBuilder::scattered() const {
 }
 
 void DatabaseBuilder::fit() {
-  const Box bounds = bounds_of(scene_, options_.axes, parallel_);
+  const Box bounds = bounds_of(scene_, parallel_);
   object_count_ = core::object_count(scene_);
-  header().frame = fit_frame(bounds, object_count_, options_.cells_per_primitive, options_.axes);
-  if (const auto place = place_of_detail(scene_, options_.axes, bounds)) {
+  header().frame = fit_frame(bounds, object_count_, options_.cells_per_primitive);
+  if (const auto place = place_of_detail(scene_, bounds)) {
     move_zero(header().frame, *place);
   }
   header().background = Color(scene_.background);
@@ -108,7 +108,7 @@ void DatabaseBuilder::fit() {
     const double size = std::max({extent.x, extent.y, extent.z, 1e-30});
     const Vec3d low = (bounds.low - frame().origin) * frame().scale, high = (bounds.high - frame().origin) * frame().scale;
     used_ = high + low - frame().low * 2.0;
-    view_distance_ = std::min(length(turned(options_.axes, scene_.view.from) - bounds.center()) / size, 2 * far_eye_diagonals);
+    view_distance_ = std::min(length(scene_.view.from - bounds.center()) / size, 2 * far_eye_diagonals);
   }
   set_pad();
 }
@@ -234,7 +234,7 @@ void DatabaseBuilder::write_sky_table() {
     return;
   }
   const Vec3d up = zenith_of(scene_);
-  sky_ = sky_records(scene_.sky, turned(options_.axes, sky_middle(up)), turned(options_.axes, up));
+  sky_ = sky_records(scene_.sky, sky_middle(up), up);
   sky_.reference.choices = writer_.allocate_array<EmitterChoice>(sky_.choices.size());
   writer_.write(sky_.reference.choices, 0, std::as_bytes(std::span(sky_.choices)));
   counts().sky_tiles = sky_.tiles.size();

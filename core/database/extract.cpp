@@ -21,7 +21,6 @@
 #include "core/record/emitter.h"
 #include "core/record/sky.h"
 #include "core/record/texture_layout.h"
-#include "core/record/voxel_list.h"
 
 namespace dmpc::core {
 namespace {

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/base/altitude.h"
 #include "core/base/vec.h"
 #include "core/database/database.h"
 #include "core/record/record.h"

@@ -11,9 +11,7 @@
 #include "core/database/obstacle.h"
 #include "core/database/overlap.h"
 #include "core/record/coordinate.h"
-#include "core/record/vanishing.h"
 #include "core/scene/kept_meshes.h"
-#include "core/scene/mesh_to_grid.h"
 #include "core/scene/placing.h"
 
 namespace dmpc::core {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/bounds.h"
+#include "core/base/box.h"
 #include "core/database/conversion.h"
 #include "core/database/mesh_faces.h"
 #include "core/database/mesh_records.h"

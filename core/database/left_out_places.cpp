@@ -11,9 +11,7 @@
 #include "core/base/expect.h"
 #include "core/database/top_cells.h"
 #include "core/record/coordinate.h"
-#include "core/record/vanishing.h"
 #include "core/scene/frame.h"
-#include "core/scene/place_reach.h"
 #include "core/scene/placing.h"
 
 namespace dmpc::core {
@@ -37,7 +35,7 @@ void check_ids(std::uint64_t count) {
 
 /// What the copies of a box's corners are within, grid-local, as floats have them: rounding keeps their order.
 Box local_reach(const Box& own, const KeptPlace& place, const GridFrame& frame) {
-  const Box reach = reach_of(own, place.world, frame.axes);
+  const Box reach = reach_of(own, place.world);
   return {Vec3d(coordinates_of((reach.low - frame.origin) * frame.scale)),
           Vec3d(coordinates_of((reach.high - frame.origin) * frame.scale))};
 }

@@ -11,7 +11,7 @@
 namespace dmpc::core {
 
 std::uint64_t make_lights_spheres(Scene& scene, double radius) {
-  const Box box = bounds_of(scene, world_axes, Parallel(1));
+  const Box box = bounds_of(scene, Parallel(1));
   if (box.empty()) {
     return scene.lights.size();
   }

@@ -22,9 +22,9 @@ class MeshJudge {
   MeshJudge(const Scene& mesh, std::span<const Material> materials, double cells_per_primitive, const Parallel& parallel)
       : mesh_(mesh) {
     mesh_.materials.assign(materials.begin(), materials.end());
-    const Box bounds = bounds_of(mesh_, world_axes, parallel);
+    const Box bounds = bounds_of(mesh_, parallel);
     frame_ = fit_frame(bounds, mesh_.objects.size(), cells_per_primitive);
-    if (const auto place = place_of_detail(mesh_, world_axes, bounds)) {
+    if (const auto place = place_of_detail(mesh_, bounds)) {
       move_zero(frame_, *place);
     }
     conversion_ = convert(mesh_, frame_, parallel, {.keeps_corners = true});

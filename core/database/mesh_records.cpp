@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/database/brick_builder.h"
+#include "core/database/conversion.h"
 #include "core/database/obstacle.h"
-#include "core/database/usable_place.h"
 #include "core/scene/kept_meshes.h"
 
 namespace dmpc::core {

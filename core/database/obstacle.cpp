@@ -6,11 +6,11 @@
 #include <cstdlib>
 
 #include "core/base/box.h"
+#include "core/database/conversion.h"
 #include "core/database/mesh_faces.h"
 #include "core/database/parallel.h"
-#include "core/database/usable_place.h"
 #include "core/scene/kept_meshes.h"
-#include "core/scene/place_reach.h"
+#include "core/scene/placing.h"
 
 namespace dmpc::core {
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/bounds.h"
+#include "core/base/box.h"
 #include "core/base/units.h"
-#include "core/database/brick_boxes.h"
+#include "core/database/brick_builder.h"
 #include "core/database/empty_space.h"
 #include "core/database/placed_boxes.h"
 #include "core/database/record_writer.h"

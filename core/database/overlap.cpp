@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/expect.h"
-#include "core/record/cone_floats.h"
+#include "core/record/curved_values.h"
 
 namespace dmpc::core {
 namespace {

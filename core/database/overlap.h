@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "core/base/bounds.h"
 #include "core/base/box.h"
 #include "core/database/database.h"
 

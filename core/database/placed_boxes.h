@@ -8,7 +8,7 @@
 #include "core/base/vec.h"
 #include "core/record/instance.h"
 #include "core/record/record.h"
-#include "core/scene/mesh_to_grid.h"
+#include "core/scene/placing.h"
 
 namespace dmpc::core {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/database/face.h"
-#include "core/database/plane_place.h"
+#include "core/database/plane_lanes.h"
 
 namespace dmpc::core {
 

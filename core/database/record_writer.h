@@ -30,7 +30,7 @@ class RecordWriter {
  public:
   static constexpr std::uint64_t bytes_max = std::uint64_t{16} << 30U;  ///< what 31 bits of address span
 
-  /// `places`: where the records go, in the order of their allocation (record_order.h), arrays before them apart.
+  /// `places`: where the records go, in the order of their allocation (structure.h), arrays before them apart.
   explicit RecordWriter(std::size_t page_size, std::vector<Address> places = {})
       : page_size_(page_size), places_(std::move(places)) {}
   RecordWriter(std::size_t page_size, Keeps keeps) : page_size_(page_size), keeps_(keeps) {}

@@ -9,8 +9,8 @@
 #include "core/database/block_writer.h"
 #include "core/database/conversion.h"
 #include "core/database/record_writer.h"
+#include "core/database/structure.h"
 #include "core/database/top_cells.h"
-#include "core/database/voxel_rule.h"
 
 namespace dmpc::core {
 

@@ -1,7 +1,6 @@
 // Jacks: three crossed rods with balls at their ends, and eight half-sized copies at the corners of a cube, again and again.
 #include "core/families/families.h"
 #include "core/families/frame.h"
-#include "core/families/stage.h"
 #include "core/families/tessellation.h"
 
 namespace dmpc::core::scenes {

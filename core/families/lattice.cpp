@@ -2,7 +2,6 @@
 #include <array>
 
 #include "core/families/families.h"
-#include "core/families/stage.h"
 
 namespace dmpc::core::scenes {
 namespace {

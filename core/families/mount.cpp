@@ -6,7 +6,6 @@
 #include "core/base/sampling.h"
 #include "core/families/families.h"
 #include "core/families/frame.h"
-#include "core/families/stage.h"
 
 namespace dmpc::core::scenes {
 namespace {

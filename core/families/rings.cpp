@@ -4,7 +4,6 @@
 
 #include "core/families/families.h"
 #include "core/families/frame.h"
-#include "core/families/stage.h"
 
 namespace dmpc::core::scenes {
 namespace {

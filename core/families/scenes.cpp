@@ -5,10 +5,10 @@
 #include <charconv>
 #include <functional>
 
+#include "core/base/elementary.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 #include "core/families/families.h"
-#include "core/families/rounding.h"
 #include "core/families/tessellation.h"
 
 namespace dmpc::core {
@@ -47,6 +47,49 @@ Counts count_sombrero(int n) { return {2 * power(32 * power(2, n - 1) - 1, 2), 0
 Counts count_teapot(int n) { return {64.0 * n * n - 8.0 * n + 1.0 * n * n, 0, 0}; }
 Counts count_tetra(int n) { return {power(4, n), 0, 0}; }
 Counts count_tree(int n) { return {1, power(2, n + 1) - 1, power(2, n + 1) - 1}; }
+
+double rounded(double value) { return round_to_6_digits(value); }
+
+Vec3d rounded(const Vec3d& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
+
+std::vector<Vec3d> rounded(const std::vector<Vec3d>& vectors) {
+  std::vector<Vec3d> result;
+  for (const Vec3d& vector : vectors) {
+    result.push_back(rounded(vector));
+  }
+  return result;
+}
+
+/// Rounds every number to the 6 significant digits of an NFF file, so that a built-in scene and its written file are the same
+/// scene, bit for bit. Its target must outlive it.
+class RoundingSink final : public SceneSink {
+ public:
+  explicit RoundingSink(SceneSink& target) : target_(target) {}
+
+  void background(const Vec3d& color) override { target_.background(rounded(color)); }
+  void view(const View& view) override {
+    target_.view({rounded(view.from), rounded(view.at), rounded(view.up), rounded(view.angle_degrees), rounded(view.hither),
+                  view.width, view.height});
+  }
+  void light(const PointLight& light) override {
+    target_.light({rounded(light.position), rounded(light.color), light.has_color});
+  }
+  void material(const Material& material) override {
+    target_.material({rounded(material.color), rounded(material.diffuse), rounded(material.specular), rounded(material.shine),
+                      rounded(material.transmittance), rounded(material.refraction_index)});
+  }
+  void polygon(const std::vector<Vec3d>& vertices) override { target_.polygon(rounded(vertices)); }
+  void patch(const std::vector<Vec3d>& vertices, const std::vector<Vec3d>& normals) override {
+    target_.patch(rounded(vertices), rounded(normals));
+  }
+  void sphere(const Vec3d& center, double radius) override { target_.sphere(rounded(center), rounded(radius)); }
+  void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) override {
+    target_.cone(rounded(base), rounded(base_radius), rounded(apex), rounded(apex_radius));
+  }
+
+ private:
+  SceneSink& target_;
+};
 
 struct Family {
   std::string_view name;
@@ -261,8 +304,8 @@ void generate_unrounded_scene(const SceneName& name, SceneSink& sink) {
 }
 
 void generate_scene(const SceneName& name, SceneSink& sink) {
-  scenes::RoundingSink rounded(sink);
-  generate_unrounded_scene(name, rounded);
+  RoundingSink rounding(sink);
+  generate_unrounded_scene(name, rounding);
 }
 
 Scene built_in_scene(const SceneName& name) {

@@ -3,7 +3,6 @@
 
 #include "core/base/elementary.h"
 #include "core/families/families.h"
-#include "core/families/stage.h"
 
 namespace dmpc::core::scenes {
 

@@ -1,7 +1,6 @@
 // Tree: branches that fork in two, cones with balls at the joints, under seven lights.
 #include "core/families/families.h"
 #include "core/families/frame.h"
-#include "core/families/stage.h"
 
 namespace dmpc::core::scenes {
 namespace {

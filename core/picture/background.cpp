@@ -8,7 +8,6 @@
 #include "core/record/directory.h"
 #include "core/record/records.h"
 #include "core/record/sky.h"
-#include "core/record/voxel_list.h"
 
 namespace dmpc::core {
 namespace {

@@ -6,9 +6,8 @@
 #include <concepts>
 #include <cstdint>
 
-#include "core/picture/child_lanes.h"
+#include "core/picture/hit_lanes.h"
 #include "core/picture/pixel_task.h"
-#include "core/picture/triangle_lanes.h"
 #include "core/trace/bundle.h"
 
 namespace dmpc::core {

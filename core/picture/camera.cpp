@@ -15,9 +15,9 @@ Camera::Camera(const View& view, const GridFrame& frame, int width, int height, 
   const Vec3d low = frame.low, extent = length(frame.eye_extent) > 0 ? frame.eye_extent : grid_high(frame) - low;
   middle_ = low + extent * 0.5;
   reach_ = length(eye_ - middle_) > far_eye_diagonals * length(extent) ? length(extent) : 0;
-  const GridAxes screen = screen_axes(view);
-  const Vec3d right = turned(frame.axes, screen[0]), up = turned(frame.axes, screen[1]);
-  forward_ = -turned(frame.axes, screen[2]);
+  const std::array<Vec3d, 3> screen = screen_axes(view);
+  const Vec3d right = screen[0], up = screen[1];
+  forward_ = -screen[2];
   // A picture one pixel wide has no spacing of its own: its pixel spans the whole angle.
   const int intervals = std::max(1, std::min(width, height) - 1);
   const double pixel = 2.0 * tan_degrees(view.angle_degrees / 2) / intervals;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/picture/disc.h"
+#include "core/picture/sample_pair.h"
 
 namespace dmpc::core {
 namespace {

@@ -1,5 +1,6 @@
 #include "core/picture/film.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -7,6 +8,7 @@
 #include <span>
 
 #include "core/base/expect.h"
+#include "core/base/vec.h"
 
 namespace dmpc::core {
 namespace {
@@ -57,6 +59,11 @@ std::size_t pixel_count_of(int width, int height) {
 
 Vec3d sum_of(const FixedColor& plane) {
   return {static_cast<double>(plane.channel[0]), static_cast<double>(plane.channel[1]), static_cast<double>(plane.channel[2])};
+}
+
+bool is_full(const PixelSums& sums, std::size_t channel) {
+  return std::any_of(sums.plane.begin(), sums.plane.end(),
+                     [channel](const FixedColor& plane) { return plane.channel[channel] == film_channel_max; });
 }
 
 }  // namespace
@@ -138,6 +145,23 @@ std::uint64_t Film::hash() const {
     has_second() ? hash.add(second_[pixel]) : hash.add_no_light();
   }
   return hash.value();
+}
+
+FilmRange range_of(const Film& film) {
+  FilmRange range;
+  for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
+    const Vec3d radiance = film.radiance(pixel);
+    bool is_cut = false;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      range.brightest = std::max(range.brightest, radiance[channel]);
+      if (is_full(film.sums(pixel), channel)) {
+        range.cut_from = is_cut || range.pixels_cut > 0 ? std::min(range.cut_from, radiance[channel]) : radiance[channel];
+        is_cut = true;
+      }
+    }
+    range.pixels_cut += is_cut ? 1 : 0;
+  }
+  return range;
 }
 
 }  // namespace dmpc::core

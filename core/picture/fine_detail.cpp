@@ -7,9 +7,9 @@
 
 #include "core/base/expect.h"
 #include "core/database/block_values.h"
-#include "core/record/cone_floats.h"
+#include "core/record/coordinate.h"
+#include "core/record/curved_values.h"
 #include "core/record/records.h"
-#include "core/record/vanishing.h"
 
 namespace dmpc::core {
 namespace {

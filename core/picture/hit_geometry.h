@@ -5,7 +5,7 @@
 
 #include "core/picture/hit_state.h"
 #include "core/picture/triangle_hit.h"
-#include "core/record/block_lane.h"
+#include "core/record/record.h"
 
 namespace dmpc::core {
 
@@ -27,7 +27,7 @@ CutEllipse cut_ellipse(const HitState& state, const std::byte* record, const Vec
 // By the largest coordinate and radius: curved surfaces are solved in double from rays that are exact to 2^-49, but other
 // surfaces that go on there may be off by a few times what rounding takes of a value with its rest.
 inline constexpr double curved_clearance = 0x1p-40, curved_going_on = 0x1p-28;
-/// Of one that passes by local zero (core/record/passing_surface.h), far less: others that go on there are off by a share of the
+/// Of one that passes by local zero (core/record/curved_values.h), far less: others that go on there are off by a share of the
 /// way from local zero, and what is next to it may be small.
 inline constexpr double passing_clearance = 0x1p-44, passing_going_on = 0x1p-22;
 

@@ -8,7 +8,6 @@
 #include "core/picture/hit_state.h"
 #include "core/picture/lanes.h"
 #include "core/picture/ray_start.h"
-#include "core/picture/start_rows.h"
 
 namespace dmpc::core {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/picture/disc.h"
+#include "core/picture/sample_pair.h"
 
 namespace dmpc::core {
 namespace {

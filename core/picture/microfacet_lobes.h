@@ -15,6 +15,7 @@
 #include "core/picture/hit_state.h"
 #include "core/picture/path_step.h"
 #include "core/picture/sample_pair.h"
+#include "core/scene/scene.h"
 
 namespace dmpc::core {
 
@@ -57,5 +58,18 @@ class MicrofacetLobes {
   double unreflected_;  ///< the share, of light towards `out_`, that is not reflected but would be straight ahead
   Chances chances_;
 };
+
+struct MicrofacetBound {
+  double direct = 0;     ///< in any channel, pi times MicrofacetLobes::response(): of a point light's
+  double passed_on = 0;  ///< in any channel, the weight of MicrofacetLobes::step()
+};
+
+/// Of a material that has microfacets, whose colour is multiplied by no more than `texture_max`. `facets`: its texture of metal
+/// and roughness, if it has one.
+MicrofacetBound bound_of(const Material& material, double texture_max = 1, const Texture* facets = nullptr);
+
+/// The share of light that it sends on straight ahead, in the brightest channel, if the tiny mirrors lose none: more than 1 gives
+/// more light than comes.
+double sent_on_straight(const Material& material);
 
 }  // namespace dmpc::core

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/picture/disc.h"
 #include "core/picture/microfacet_lobes.h"
 #include "core/picture/ray_start.h"
+#include "core/picture/sample_pair.h"
 #include "core/picture/surface_response.h"
-#include "core/picture/surface_shares.h"
 
 namespace dmpc::core {
 namespace {

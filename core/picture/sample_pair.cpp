@@ -1,5 +1,8 @@
 #include "core/picture/sample_pair.h"
 
+#include <cmath>
+
+#include "core/base/elementary.h"
 #include "core/base/sampling.h"
 
 namespace dmpc::core {
@@ -40,6 +43,8 @@ constexpr std::uint32_t second_dimension_reversed(std::uint32_t index) {
 
 double unit(std::uint32_t digits) { return static_cast<double>(digits) * 0x1p-32; }
 
+constexpr double quarter_of_pi = 0.785398163397448310;
+
 }  // namespace
 
 SamplePair sample_pair(std::uint32_t pixel, std::uint32_t sample, std::uint32_t pair) {
@@ -53,6 +58,21 @@ SamplePair sample_pair(std::uint32_t pixel, std::uint32_t sample, std::uint32_t 
   const auto seed_x = static_cast<std::uint32_t>(seeds), seed_y = static_cast<std::uint32_t>(seeds >> 32U);
   // The first dimension's digits are the index's in reverse.
   return {unit(reversed(permuted(sample, seed_x))), unit(reversed(permuted(second_dimension_reversed(sample), seed_y)))};
+}
+
+DiscPlace on_disc(const SamplePair& pair) {
+  const double a = 2.0 * pair.x - 1.0, b = 2.0 * pair.y - 1.0;
+  const bool is_beside = std::fabs(a) > std::fabs(b);
+  const double radius = is_beside ? a : b, ratio = radius == 0.0 ? 0.0 : (is_beside ? b : a) / radius;
+  const double along = radius * cos_radians(quarter_of_pi * ratio), aside = radius * sin_radians(quarter_of_pi * ratio);
+  return is_beside ? DiscPlace{along, aside, radius * radius} : DiscPlace{aside, along, radius * radius};
+}
+
+Vec3d about_axis(const Vec3d& axis, double x, double y, double along) {
+  const double sign = std::copysign(1.0, axis.z), scale = -1.0 / (sign + axis.z), mixed = axis.x * axis.y * scale;
+  const Vec3d first{1.0 + sign * axis.x * axis.x * scale, sign * mixed, -sign * axis.x};
+  const Vec3d second{mixed, sign + axis.y * axis.y * scale, -axis.y};
+  return first * x + second * y + axis * along;
 }
 
 }  // namespace dmpc::core

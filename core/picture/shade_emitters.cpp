@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/picture/child_ray.h"
 #include "core/picture/emitter_light.h"
+#include "core/picture/ray_start.h"
 #include "core/picture/shade.h"
 #include "core/picture/surface_response.h"
 

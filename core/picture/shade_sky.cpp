@@ -1,7 +1,7 @@
 // Paths below a sky's picture: a hit draws a place on it and aims a shadow ray there, and a ray that meets nothing shows what
 // hits that might have aimed there leave. Both by the density that the other way has there, as with what shines by itself.
-#include "core/picture/child_ray.h"
 #include "core/picture/emitter_light.h"
+#include "core/picture/ray_start.h"
 #include "core/picture/shade.h"
 #include "core/picture/surface_response.h"
 #include "core/scene/sky_cells.h"

@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "core/picture/microfacet_lobes.h"
-#include "core/picture/surface_shares.h"
 
 namespace dmpc::core {
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/altitude.h"
 #include "core/base/vec.h"
 #include "core/record/coordinate.h"
 

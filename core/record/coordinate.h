@@ -1,7 +1,10 @@
-// Coordinates as records and rays have them: floats on a lattice.
+// Coordinates as records and rays have them, floats on a lattice, and what rounding to them leaves nothing of.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "core/base/vec.h"
 
@@ -27,5 +30,27 @@ inline Vec3f coordinates_of(const Vec3d& point) {
 inline constexpr double exact_clearance = 0x1p-47;
 /// What two floats, in which a start is kept, leave of each of its coordinates.
 inline constexpr double start_rounding = 0x1p-48;
+
+/// What is smaller than this, beside a scene of about 1, no ray in floats can tell from a point.
+inline constexpr double size_least = 0x1p-40;
+
+/// Decided on the floats that are stored: area first, which most have, then equal corners, whose area need not come out as 0
+/// where products are fused, then size.
+inline bool leaves_nothing(const std::array<Vec3d, 3>& corner) {
+  const Vec3d &a = corner[0], &b = corner[1], &c = corner[2];
+  const Vec3d area = cross(b - a, c - a);
+  const double squared = dot(area, area);  // at most 9 times the fourth power of the size
+  if (squared > 16 * size_least * size_least * size_least * size_least) {
+    return false;
+  }
+  if (a == b || b == c || c == a || !(squared > 0)) {
+    return true;
+  }
+  double size = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    size = std::max(size, std::max({a[axis], b[axis], c[axis]}) - std::min({a[axis], b[axis], c[axis]}));
+  }
+  return size < size_least;
+}
 
 }  // namespace dmpc::core

@@ -1,5 +1,6 @@
-// Centres and radii of spheres and cones, which mirrors multiply errors of: a float each, and what rounding left: a byte each, or
-// more of it for radii.
+// Values of spheres and cones as records hold them: centres and radii, which mirrors multiply errors of, a float each, and what
+// rounding left: a byte each, or more of it for radii. Of large surfaces that pass by local zero, where the detail of a scene
+// lies then, and of cones as flat as discs.
 #pragma once
 
 #include <algorithm>
@@ -10,11 +11,84 @@
 #include <cstdint>
 
 #include "core/base/vec.h"
-#include "core/record/block_lane.h"
-#include "core/record/passing_surface.h"
 #include "core/record/record.h"
 
 namespace dmpc::core {
+
+/// A cone as thin as this share of its radius is flat: used as a disc or a ring.
+inline constexpr double flat_cone_share = 0x1p-6;
+
+/// Of a flat cone rounding the two ends apart would leave no axis, so the rows of its apex hold the way there from the base, and
+/// the signs of its radii differ.
+inline bool is_flat_cone(float base_radius, float apex_radius) { return std::signbit(base_radius) != std::signbit(apex_radius); }
+/// Either way the base's radius has a negative sign if the cone shows its inside only.
+inline bool shows_inside_only(float base_radius) { return std::signbit(base_radius); }
+
+/// A cone by its rows of a block: base, radius, apex, radius (core/record/record.h).
+struct ConeFloats {
+  explicit ConeFloats(const BlockLane& cone)
+      : base(cone.vector(0)),
+        is_flat(is_flat_cone(cone.rows[3 * cone.stride + cone.lane], cone.rows[7 * cone.stride + cone.lane])),
+        axis(is_flat ? cone.vector(4) : cone.vector(4) - base),
+        apex(is_flat ? base + axis : cone.vector(4)),
+        base_radius(std::fabs(cone.value(3))),
+        apex_radius(std::fabs(cone.value(7))) {}
+
+  double widest() const { return std::max(base_radius, apex_radius); }
+  /// At a share of the way from base to apex.
+  double radius_at(double height) const { return base_radius + (apex_radius - base_radius) * height; }
+
+  Vec3d base;
+  bool is_flat;
+  Vec3d axis, apex;                 ///< axis: from base to apex
+  double base_radius, apex_radius;  ///< without their signs
+};
+
+/// From this radius on, beside a scene of about 1, a body is large.
+inline constexpr float passing_radius_least = 0x1p-6F;
+/// Its surface passes by local zero if it comes nearer to it than this share of its radius.
+inline constexpr double passing_share = 0x1p-8;
+
+/// Whether a surface of this radius passes by local zero; `distance_squared`: from there to its centre or axis.
+inline bool passes_by(double distance_squared, double radius) {
+  const double square = radius * radius;
+  return std::fabs(distance_squared - square) <= 2 * passing_share * square;
+}
+
+inline bool sphere_passes_by(const BlockLane& sphere) {
+  const Vec3d center = sphere.vector(0);
+  return passes_by(dot(center, center), sphere.value(3));
+}
+
+/// Whether a radius, or the larger one of a cone, may be that of a large body.
+inline bool is_large(float base_radius, float apex_radius) {
+  return std::max(std::fabs(base_radius), std::fabs(apex_radius)) >= passing_radius_least;
+}
+
+/// A cone or cylinder that is about as wide as it is far away, between its ends. One that is long beside its radius has its
+/// place across it by all of its ends' bits.
+inline bool cone_passes_by(const ConeFloats& cone) {
+  constexpr double widths_away_max = 8;
+  const double widest = cone.widest();
+  const double farthest = std::max(largest_component(cone.base), largest_component(cone.apex));
+  if (cone.is_flat || !(farthest <= widths_away_max * widest)) {
+    return false;
+  }
+  const double height = -dot(cone.base, cone.axis) / dot(cone.axis, cone.axis);
+  const Vec3d across = cone.base + cone.axis * height;
+  return height >= 0.0 && height <= 1.0 && passes_by(dot(across, across), cone.radius_at(height));
+}
+
+/// Whether a sphere or cone passes by local zero, by its floats alone. The place of such a surface there hangs on few bits of
+/// numbers that are as large as its radius. So its radius makes good what rounding moved its centre, or its ends, by, and has
+/// more of the rests than they (core/record/curved_values.h). In a scene whose grid begins at local zero there is none.
+inline bool passes_by_zero(PrimitiveKind kind, const BlockLane& curved) {
+  const float* const values = curved.rows + curved.lane;
+  if (kind == PrimitiveKind::sphere) {
+    return is_large(values[3 * curved.stride], 0.0F) && sphere_passes_by(curved);
+  }
+  return is_large(values[3 * curved.stride], values[7 * curved.stride]) && cone_passes_by(ConeFloats(curved));
+}
 
 /// What rounding left of a value, in 256ths of a unit in the last place of its float: with it a value is exact to 2^-32, but
 /// where it lies halfway between two floats, to 2^-31.
@@ -29,7 +103,7 @@ inline double with_rest(float rounded, std::int8_t rest) {
   return double{rounded} + static_cast<double>(rest) * (double{power} * 0x1p-31);
 }
 
-/// The rests of a place and a radius that pass by local zero (core/record/passing_surface.h): of each coordinate this many bits
+/// The rests of a place and a radius that pass by local zero (core/record/curved_values.h): of each coordinate this many bits
 /// in place of a byte, lowest first, and of the radius the others. A value is exact to 2^-24 less its bits.
 inline constexpr unsigned passing_place_bits = 4, passing_radius_bits = 32 - 3 * passing_place_bits;
 

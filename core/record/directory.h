@@ -1,4 +1,4 @@
-// Where the directory keeps a top cell's entry: row by row, x fastest, but of voxels z fastest.
+// Where the directory keeps a top cell's entry: row by row, x fastest, but of voxels z fastest; and the lists of voxels.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 
 #include "core/base/units.h"
 #include "core/record/record.h"
+#include "core/record/records.h"
 
 namespace dmpc::core {
 
@@ -75,5 +76,18 @@ constexpr Address reference_address(const DatabaseHeader& header, std::uint64_t 
   return advance(header.references, index / 2 * record_alignment);
 }
 constexpr std::size_t reference_offset(std::uint64_t index) { return index % 2 * sizeof(VoxelReference); }
+
+/// Calls visit(block's address) for all that the list of an occupied voxel names, whose records are here. Requires
+/// header.has_voxels().
+template <Records R, class Visit>
+void for_each_listed(R& records, const DatabaseHeader& header, const DirectoryEntry& voxel, const Visit& visit) {
+  for (std::uint64_t index = voxel.bits;; ++index) {
+    const auto reference = read<VoxelReference>(records.find(reference_address(header, index)) + reference_offset(index));
+    visit(reference.block());
+    if (reference.is_last()) {
+      return;
+    }
+  }
+}
 
 }  // namespace dmpc::core

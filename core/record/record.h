@@ -130,8 +130,8 @@ inline constexpr std::size_t block_lanes = 8;
 /// primitive ids (ascending), then a row of ShadingReference. Grid-local coordinates, floats.
 ///   triangle rows: v0.x v0.y v0.z v1.x .. v2.z
 ///   sphere rows:   centre.x .y .z radius, rests
-///   cone rows:     base.x .y .z radius, apex (or axis: cone_floats.h) .x .y .z radius, rests of the first four, of the last four
-///   instance rows: low.x .y .z high.x .y .z of a box; in place of its ShadingReference the address of its InstanceRecord
+///   cone rows:     base.x .y .z radius, apex (or axis: curved_values.h) .x .y .z radius, rests of the first four, of the last
+///   four instance rows: low.x .y .z high.x .y .z of a box; in place of its ShadingReference the address of its InstanceRecord
 /// Rests: what rounding left of four values, the first lowest: a byte each or, of what passes by local zero, 4 bits a coordinate
 /// and 20 of the radius (core/record/curved_values.h). Behind the rows of a block that has_plane(): the FacePlane of all its
 /// triangles.
@@ -328,15 +328,11 @@ struct LightRecord {
 static_assert(sizeof(LightRecord) == 32);
 
 /// Three unit vectors of the world at right angles, right-handed.
-using GridAxes = std::array<Vec3d, 3>;
-inline constexpr GridAxes world_axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
-
-/// How grid-local coordinates come from the world's: local = (axes world - origin) * scale, scale a power of two that brings the
+/// How grid-local coordinates come from the world's: local = (world - origin) * scale, scale a power of two that brings the
 /// largest extent into (1/2, 1]. Keeps rounding in proportion to the scene, wherever it lies; and to its detail, where that lies
 /// close together beside something large: there local zero is, elsewhere where the grid begins (core/scene/detail.h).
 struct GridFrame {
-  GridAxes axes = world_axes;  ///< the grid's x, y and z; the world's unless asked for the screen's
-  Vec3d origin;                ///< in the directions of `axes`
+  Vec3d origin;
   double scale = 1;
   std::array<std::int32_t, 3> resolution{1, 1, 1};  ///< cells along x, y, z
   float finest_cell = 1;                            ///< edge of a finest cell, grid-local
@@ -404,5 +400,15 @@ struct DatabaseHeader {
   constexpr bool has_voxels() const { return references != no_address; }
 };
 static_assert(std::is_trivially_copyable_v<DatabaseHeader>);
+
+/// `rows` points at the block's first value, `stride` is its lane count.
+struct BlockLane {
+  const float* rows;
+  std::size_t stride, lane;
+
+  double value(std::size_t row) const { return double{rows[row * stride + lane]}; }
+  /// A vertex, centre or end, by the row where it starts.
+  Vec3d vector(std::size_t row) const { return {value(row), value(row + 1), value(row + 2)}; }
+};
 
 }  // namespace dmpc::core

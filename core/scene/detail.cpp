@@ -40,20 +40,20 @@ double quantile(std::vector<Weighted>& all, double share) {
   return at->value;
 }
 
-Box box_of(const PlacedObject& placed, const Turn& turn) {
+Box box_of(const PlacedObject& placed) {
   const Scene& scene = placed.pools();
   const Object& object = placed.object();
   Box box;
   if (object.kind == ObjectKind::sphere) {
     const Sphere& sphere = scene.spheres[object.first];
-    box.include(turn(sphere.center), std::fabs(sphere.radius));
+    box.include(sphere.center, std::fabs(sphere.radius));
   } else if (object.kind == ObjectKind::cone) {
     const Cone& cone = scene.cones[object.first];
-    box.include(turn(cone.base), std::fabs(cone.base_radius));
-    box.include(turn(cone.apex), std::fabs(cone.apex_radius));
+    box.include(cone.base, std::fabs(cone.base_radius));
+    box.include(cone.apex, std::fabs(cone.apex_radius));
   } else {
     for (std::uint32_t i = 0; i < object.vertex_count; ++i) {
-      box.include(turn(placed.vertex(i)));
+      box.include(placed.vertex(i));
     }
   }
   return box;
@@ -65,13 +65,12 @@ struct Detail {
 };
 
 /// The details of all objects but those that are left out of the bounds, being degenerate or too far away.
-std::vector<Detail> details_of(const Scene& scene, const GridAxes& axes, const Box& bounds, double extent) {
+std::vector<Detail> details_of(const Scene& scene, const Box& bounds, double extent) {
   std::vector<Detail> details;
   const PlacedObjects objects(scene);
-  const Turn turn(axes);
   objects.for_each(
       [&](const PlacedObject& object) {
-        const Box box = box_of(object, turn);
+        const Box box = box_of(object);
         const double size = largest_component(box.high - box.low);
         if (size > 0 && size <= 2 * extent && bounds.holds(box.center())) {
           const double share = std::max(size / extent, least_share);
@@ -107,9 +106,9 @@ bool are_spread(const std::vector<Detail>& details, const Box& bounds, double re
 
 }  // namespace
 
-std::optional<Vec3d> place_of_detail(const Scene& scene, const GridAxes& axes, const Box& bounds) {
+std::optional<Vec3d> place_of_detail(const Scene& scene, const Box& bounds) {
   const double extent = bounds.empty() ? 0 : largest_component(bounds.high - bounds.low);
-  const std::vector<Detail> details = extent > 0 ? details_of(scene, axes, bounds, extent) : std::vector<Detail>();
+  const std::vector<Detail> details = extent > 0 ? details_of(scene, bounds, extent) : std::vector<Detail>();
   if (details.empty() || are_spread(details, bounds, close_share * extent)) {
     return std::nullopt;
   }

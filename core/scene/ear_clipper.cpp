@@ -1,8 +1,10 @@
 #include "core/scene/ear_clipper.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace dmpc::core {
@@ -10,6 +12,14 @@ namespace {
 
 /// A corner that turns right by more is no better than another.
 constexpr double turn_min = -1;
+
+constexpr std::uint32_t leaf_corners = 8;
+/// Fewer are looked through one by one. A box leaves out what rounding alone puts into a triangle, and small polygons stay what
+/// they have always been.
+constexpr std::uint32_t listed_corners = 64;
+
+/// What sums of a few products may lose; far more than doubles do.
+constexpr double rounding = 0x1p-44;
 
 }  // namespace
 
@@ -100,6 +110,114 @@ std::vector<CornerTriangle> EarClipper::triangles() {
   const std::uint32_t first = first_left(), second = corners_[first].after;
   result.push_back({first, second, corners_[second].after});
   return result;
+}
+
+CornerTree::CornerTree(const FlatPolygon& polygon)
+    : polygon_(polygon), order_(polygon.count()), is_left_(polygon.count(), 1), leaf_(polygon.count()) {
+  std::iota(order_.begin(), order_.end(), 0U);
+  nodes_.push_back({.box = box_of(0, polygon.count()), .first = 0, .end = polygon.count(), .left = polygon.count()});
+  for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+    split(node);
+  }
+}
+
+CornerTree::Box CornerTree::box_of(std::uint32_t first, std::uint32_t end) const {
+  Box box;
+  for (std::size_t side = 0; side < 2; ++side) {
+    box.low[side] = box.high[side] = polygon_.coordinate(order_[first], side);
+    for (std::uint32_t i = first; i < end; ++i) {
+      box.low[side] = std::min(box.low[side], polygon_.coordinate(order_[i], side));
+      box.high[side] = std::max(box.high[side], polygon_.coordinate(order_[i], side));
+    }
+  }
+  return box;
+}
+
+/// In the middle of its longer side, into halves.
+void CornerTree::split(std::uint32_t node) {
+  nodes_[node].is_one_place = std::all_of(order_.begin() + nodes_[node].first, order_.begin() + nodes_[node].end,
+                                          [&](std::uint32_t i) { return polygon_.same_place(i, order_[nodes_[node].first]); });
+  const Node whole = nodes_[node];
+  if (polygon_.count() <= listed_corners || whole.end - whole.first <= leaf_corners || whole.is_one_place) {
+    for (std::uint32_t i = whole.first; i < whole.end; ++i) {
+      leaf_[order_[i]] = node;
+    }
+    return;
+  }
+  const std::size_t side = whole.box.high[0] - whole.box.low[0] >= whole.box.high[1] - whole.box.low[1] ? 0 : 1;
+  const std::uint32_t middle = (whole.first + whole.end) / 2;
+  const auto at = [this](std::uint32_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(whole.first), at(middle), at(whole.end),
+                   [&](std::uint32_t a, std::uint32_t b) { return polygon_.coordinate(a, side) < polygon_.coordinate(b, side); });
+  nodes_[node].children = static_cast<std::uint32_t>(nodes_.size());
+  for (const auto& [first, end] : {std::array{whole.first, middle}, std::array{middle, whole.end}}) {
+    nodes_.push_back({.box = box_of(first, end), .parent = node, .first = first, .end = end, .left = end - first});
+  }
+}
+
+void CornerTree::remove(std::uint32_t corner) {
+  is_left_[corner] = 0;
+  for (std::uint32_t node = leaf_[corner]; node != none; node = nodes_[node].parent) {
+    --nodes_[node].left;
+  }
+  Node& leaf = nodes_[leaf_[corner]];
+  while (leaf.first < leaf.end && is_left_[order_[leaf.first]] == 0) {
+    ++leaf.first;
+  }
+}
+
+bool CornerTree::Query::misses(const Box& other) const {
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (other.high[side] < box.low[side] || other.low[side] > box.high[side]) {
+      return true;
+    }
+  }
+  return std::any_of(edges.begin(), edges.end(), [&](const Edge& edge) {
+    const double farthest = edge.offset + std::max(edge.slope[0] * other.low[0], edge.slope[0] * other.high[0]) +
+                            std::max(edge.slope[1] * other.low[1], edge.slope[1] * other.high[1]);
+    return farthest < 0;
+  });
+}
+
+CornerTree::Query CornerTree::query_for(const CornerTriangle& triangle) const {
+  Query query{.triangle = triangle, .box = {}};
+  const auto at = [&](std::size_t corner, std::size_t side) { return polygon_.coordinate(triangle[corner % 3], side); };
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto [low, high] = std::minmax({at(0, side), at(1, side), at(2, side)});
+    query.box.low[side] = low;
+    query.box.high[side] = high;
+  }
+  const Box& all = nodes_[0].box;
+  const double reach = std::max({std::fabs(all.low[0]), std::fabs(all.high[0]), std::fabs(all.low[1]), std::fabs(all.high[1])});
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double u = polygon_.sign() * (at(k + 1, 0) - at(k, 0)), v = polygon_.sign() * (at(k + 1, 1) - at(k, 1));
+    query.edges[k] = {{-v, u}, v * at(k, 0) - u * at(k, 1) + rounding * reach * (std::fabs(u) + std::fabs(v))};
+  }
+  return query;
+}
+
+std::optional<std::uint32_t> CornerTree::hindrance_in(const Node& node, const Query& query) {
+  ++nodes_visited_;
+  if (node.left == 0 || (nodes_.size() > 1 && query.misses(node.box))) {
+    return std::nullopt;
+  }
+  if (node.children != none) {
+    const auto found = hindrance_in(nodes_[node.children], query);
+    return found ? found : hindrance_in(nodes_[node.children + 1], query);
+  }
+  for (std::uint32_t i = node.first; i < node.end; ++i) {
+    if (is_left_[order_[i]] != 0 && polygon_.hinders(order_[i], query.triangle)) {
+      return order_[i];
+    }
+    if (node.is_one_place) {
+      break;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> CornerTree::hindrance(const CornerTriangle& triangle) {
+  return hindrance_in(nodes_[0], query_for(triangle));
 }
 
 }  // namespace dmpc::core

@@ -1,6 +1,7 @@
 // A polygon that loses one ear after the other.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <queue>
@@ -8,10 +9,64 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/corner_tree.h"
 #include "core/scene/flat_polygon.h"
 
 namespace dmpc::core {
+
+/// The corners of a polygon that are left, as a k-d tree (J. L. Bentley, "Multidimensional Binary Search Trees Used for
+/// Associative Searching", 1975); of few corners a list.
+class CornerTree {
+ public:
+  /// `polygon` outlives the tree.
+  explicit CornerTree(const FlatPolygon& polygon);
+
+  void remove(std::uint32_t corner);
+  /// A corner that hinders the triangle from being cut off, if there is one.
+  std::optional<std::uint32_t> hindrance(const CornerTriangle& triangle);
+  /// Nodes of the tree that all questions so far have visited.
+  std::uint64_t nodes_visited() const { return nodes_visited_; }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffU;
+
+  struct Box {
+    std::array<double, 2> low{}, high{};
+  };
+  struct Node {
+    Box box;
+    std::uint32_t parent = none;
+    std::uint32_t children = none;  ///< the first of two
+    std::uint32_t first = 0, end = 0;
+    std::uint32_t left = 0;     ///< corners in it that have not been removed
+    bool is_one_place = false;  ///< where they all lie: one speaks for all
+  };
+
+  /// What a node may hold of a triangle, but for rounding: where none of three straight lines has it on its right.
+  struct Query {
+    /// The turn at (u, v) is at most offset + slope[0] u + slope[1] v.
+    struct Edge {
+      std::array<double, 2> slope{};
+      double offset = 0;
+    };
+    const CornerTriangle& triangle;
+    Box box;
+    std::array<Edge, 3> edges{};
+
+    bool misses(const Box& other) const;
+  };
+
+  Query query_for(const CornerTriangle& triangle) const;
+  Box box_of(std::uint32_t first, std::uint32_t end) const;
+  void split(std::uint32_t node);
+  std::optional<std::uint32_t> hindrance_in(const Node& node, const Query& query);
+
+  const FlatPolygon& polygon_;
+  std::vector<std::uint32_t> order_;  ///< corners, each node's next to each other
+  std::vector<std::uint8_t> is_left_;
+  std::vector<std::uint32_t> leaf_;  ///< of each corner
+  std::vector<Node> nodes_;
+  std::uint64_t nodes_visited_ = 0;
+};
 
 /// Cuts off the first ear in the order of the corners, again and again (G. Meisters, "Polygons Have Ears", 1975), or, where
 /// rounding or self-intersection leaves none, the corner that turns left most. A corner that is no ear remembers one that hinders

@@ -48,14 +48,13 @@ Vec3d enlarged(const Vec3d& way) { return largest_component(way) < 0x1p-500 ? wa
 
 }  // namespace
 
-GridAxes screen_axes(const View& view) {
+std::array<Vec3d, 3> screen_axes(const View& view) {
   const Vec3d forward = normalize(enlarged(view.at - view.from)), right = normalize(cross(forward, enlarged(view.up)));
   return {right, cross(right, forward), -forward};
 }
 
-GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells_per_primitive, const GridAxes& axes) {
+GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells_per_primitive) {
   GridFrame frame;
-  frame.axes = axes;
   if (bounds.empty()) {
     frame.finest_cell = 1.0F / finest_per_cell;
     return frame;

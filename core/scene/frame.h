@@ -1,6 +1,7 @@
 // The grid's place in the world and its resolution.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -10,15 +11,14 @@
 
 namespace dmpc::core {
 
-/// A frame for `primitive_count` primitives within `bounds` (in the directions of `axes`), with about `cells_per_primitive`
+/// A frame for `primitive_count` primitives within `bounds`, with about `cells_per_primitive`
 /// cubic cells each. The grid starts a fixed odd share of a cell outside the bounds, so that regular scenes do not put all
 /// their vertices on corners of cells; flat scenes are given a thickness of 1e-4 of their largest extent, and no scene is
 /// thinner than 2^-36 of its largest coordinate: within less, doubles could not say where its parts are. Bounds scaled by a power
 /// of two give the same frame, scaled, to the last bit.
-GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells_per_primitive,
-                    const GridAxes& axes = world_axes);
+GridFrame fit_frame(const Box& bounds, std::size_t primitive_count, double cells_per_primitive);
 
-/// Makes a place, in the directions of the frame's axes, local zero. The grid stays where it is.
+/// Makes a place local zero. The grid stays where it is.
 inline void move_zero(GridFrame& frame, const Vec3d& place) {
   frame.low = frame.low + (frame.origin - place) * frame.scale;
   frame.origin = place;
@@ -35,25 +35,9 @@ inline constexpr double far_eye_diagonals = 4;
 double insertion_pad(const GridFrame& frame, double distance, std::int32_t layers = 0);
 
 /// The screen's axes: right, up, and from the scene towards the eye.
-GridAxes screen_axes(const View& view);
+std::array<Vec3d, 3> screen_axes(const View& view);
 
-/// A direction of the world in the grid's axes. World axes keep its bits, but for the sign of a zero.
-inline Vec3d turned(const GridAxes& axes, const Vec3d& v) { return {dot(axes[0], v), dot(axes[1], v), dot(axes[2], v)}; }
-
-/// turned() of many, for nothing where axes are the world's.
-class Turn {
- public:
-  explicit Turn(const GridAxes& axes) : axes_(axes), is_none_(axes == world_axes) {}
-  [[gnu::always_inline]] Vec3d operator()(const Vec3d& v) const { return is_none_ ? v : turned(axes_, v); }
-
- private:
-  const GridAxes& axes_;
-  bool is_none_;
-};
-
-/// A point that has been turned in grid-local coordinates, not rounded.
-inline Vec3d turned_to_local(const GridFrame& frame, const Vec3d& turned) { return (turned - frame.origin) * frame.scale; }
-/// A world point.
-inline Vec3d to_local(const GridFrame& frame, const Vec3d& point) { return turned_to_local(frame, turned(frame.axes, point)); }
+/// A point of the world in grid-local coordinates, not rounded.
+inline Vec3d to_local(const GridFrame& frame, const Vec3d& point) { return (point - frame.origin) * frame.scale; }
 
 }  // namespace dmpc::core

@@ -70,21 +70,6 @@ ExpandedSize size_with(const Scene& scene, const Instances& instances, const Cou
 
 constexpr std::uint32_t nowhere = 0xffffffffU;
 
-/// What an instance does to every object of its mesh, which is not kept.
-struct Placing {
-  explicit Placing(const Transform& to_world)
-      : world(to_world), normals(to_world.of_normals()), determinant(to_world.determinant()) {}
-
-  /// Which of an object's corners becomes the i-th.
-  std::uint32_t corner(const Object& object, std::uint32_t i) const {
-    return placed_corner(determinant < 0, object.vertex_count, i);
-  }
-
-  const Transform& world;
-  Transform normals;
-  double determinant;
-};
-
 /// Takes a mesh out of a scene by itself, and decides what its normals say: both have none where those are the faces' own.
 class MeshTaker {
  public:
@@ -172,8 +157,8 @@ class Expansion {
     }
   }
 
-  /// Calls `own` with each object that stands where it is, `placed` with each of an instance's and its Placing, and `left` with
-  /// each instance whose mesh is kept, and as what, in order.
+  /// Calls `own` with each object that stands where it is, `placed` with each of an instance's and its CopyPlacing, and `left`
+  /// with each instance whose mesh is kept, and as what, in order.
   template <class Left, class Own, class Placed>
   void for_each(const Left& left, const Own& own, const Placed& placed) const {
     auto place = instances_.places.begin();
@@ -185,7 +170,7 @@ class Expansion {
           continue;
         }
         const SharedMesh& shared = instances_.meshes[place->mesh];
-        const Placing placing(place->world);
+        const CopyPlacing placing(place->world);
         for (std::size_t object = shared.first; object < shared.end; ++object) {
           placed(old_[object], placing);
         }
@@ -223,10 +208,10 @@ class Expansion {
           const auto corners = std::span(old).subspan(object.first, object.vertex_count);
           all.insert(all.end(), corners.begin(), corners.end());
         },
-        [&](const Object& object, const Placing& placing) {
+        [&](const Object& object, const CopyPlacing& placing) {
           add(object);
           for (std::uint32_t i = 0; i < object.vertex_count; ++i) {
-            all.push_back(placing.world.point(old[object.first + placing.corner(object, i)]));
+            all.push_back(placing.point(old[object.first + placing.corner(object, i)]));
           }
         });
   }
@@ -247,7 +232,7 @@ class Expansion {
                  append(result, scene_.corners, std::span(corners).subspan(object.first_normal, object.vertex_count));
                }
              },
-             [&](const Object& object, const Placing& placing) {
+             [&](const Object& object, const CopyPlacing& placing) {
                Object& result = scene_.objects[next++];
                if (object.kind == ObjectKind::patch) {
                  place_patch(result, object, placing, normals);
@@ -265,23 +250,23 @@ class Expansion {
 
   /// Fills placed_ by `normal(i)`, or leaves it empty where `result` looks the same without.
   template <class Normal>
-  void place_normals(const Object& result, const Placing& placing, const Normal& normal) {
+  void place_normals(const Object& result, const CopyPlacing& placing, const Normal& normal) {
     placed_.clear();
-    if (placing.determinant == 0) {
+    if (placing.presses_flat()) {
       return;
     }
     bool is_flat = true;
     for (std::uint32_t i = 0; i < result.vertex_count; ++i) {
       const Vec3d& before = normal(placing.corner(result, i));
       is_flat = is_flat && before == Vec3d{};
-      placed_.push_back(placing.normals.direction(before));
+      placed_.push_back(placing.normal(before));
     }
     if (is_flat || are_the_faces_own(placed_, std::span(scene_.vertices).subspan(result.first, result.vertex_count))) {
       placed_.clear();
     }
   }
 
-  void place_patch(Object& result, const Object& object, const Placing& placing, const std::vector<Vec3d>& normals) {
+  void place_patch(Object& result, const Object& object, const CopyPlacing& placing, const std::vector<Vec3d>& normals) {
     place_normals(result, placing, [&](std::uint32_t i) -> const Vec3d& { return normals[object.first_normal + i]; });
     if (placed_.empty()) {
       result.kind = ObjectKind::polygon;
@@ -291,7 +276,8 @@ class Expansion {
     }
   }
 
-  void place_textured(Object& result, const Object& object, const Placing& placing, const std::vector<TexturedCorner>& corners) {
+  void place_textured(Object& result, const Object& object, const CopyPlacing& placing,
+                      const std::vector<TexturedCorner>& corners) {
     place_normals(result, placing, [&](std::uint32_t i) -> const Vec3d& { return corners[object.first_normal + i].normal; });
     result.first_normal = static_cast<std::uint32_t>(scene_.corners.size());
     for (std::uint32_t i = 0; i < object.vertex_count; ++i) {

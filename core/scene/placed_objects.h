@@ -21,6 +21,8 @@ class CopyPlacing {
   std::uint32_t corner(const Object& object, std::uint32_t i) const {
     return placed_corner(is_mirrored_, object.vertex_count, i);
   }
+  /// To nothing, or to a plane or line: then there are no normals.
+  bool presses_flat() const { return world_->determinant() == 0; }
   Vec3d point(const Vec3d& of_mesh) const { return world_->point(of_mesh); }
   Vec3d normal(const Vec3d& of_mesh) const { return normals_.direction(of_mesh); }
 

@@ -1,16 +1,69 @@
-// What a place does to a mesh, grid-local.
+// What a place does to a mesh: how far it reaches, and the way of its corners, planes and records into the grid.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 
+#include "core/base/box.h"
+#include "core/base/vec.h"
+#include "core/record/instance.h"
 #include "core/record/record.h"
 #include "core/scene/frame.h"
 #include "core/scene/transform.h"
 
 namespace dmpc::core {
+
+inline Vec3d magnitudes(const Vec3d& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+
+/// A box that holds all corners of a mesh with the box `own`, as doubles have them in their place.
+/// Numbers that are none where doubles end, which no other box holds.
+inline Box reach_of(const Box& own, const Transform& world) {
+  constexpr double rounding = 0x1p-40;  // of what is added up: far more than doubles lose
+  const Vec3d middle = world.point(own.center()), half = own.half(), largest = magnitudes(own.center()) + half;
+  Box reach;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Vec3d way = magnitudes(world.rows[axis]);
+    const double away = dot(way, half) + (dot(way, largest) + std::fabs(world.shift[axis])) * rounding;
+    reach.low[axis] = middle[axis] - away;
+    reach.high[axis] = middle[axis] + away;
+  }
+  return reach;
+}
+
+inline Transform transform_of(const InstanceRecord& instance) {
+  const auto& world = instance.world;
+  return {.rows = {{{world[0], world[1], world[2]}, {world[3], world[4], world[5]}, {world[6], world[7], world[8]}}},
+          .shift = {world[9], world[10], world[11]}};
+}
+
+/// By columns, of a linear part that can_be_kept().
+inline std::array<Vec3d, 3> inverse_of(const std::array<Vec3d, 3>& rows) {
+  const double share = 1 / dot(rows[0], cross(rows[1], rows[2]));
+  return {cross(rows[1], rows[2]) * share, cross(rows[2], rows[0]) * share, cross(rows[0], rows[1]) * share};
+}
+
+/// The linear part of the way into the grid from a mesh's records, which have this unit.
+inline std::array<Vec3d, 3> rows_in_grid(const Transform& world, double unit, const GridFrame& frame) {
+  std::array<Vec3d, 3> rows;
+  for (std::size_t row = 0; row < 3; ++row) {
+    rows[row] = world.rows[row] * (unit * frame.scale);
+  }
+  return rows;
+}
+
+/// For boxes, in double: rows m + shift of a point m in units of the mesh's records. Corners of triangles are placed by Placing
+/// (core/scene/placing.h), in another order of operations.
+struct MeshToGrid {
+  MeshToGrid(const InstanceRecord& instance, const GridFrame& frame)
+      : rows(rows_in_grid(transform_of(instance), double{instance.unit}, frame)),
+        shift(to_local(frame, transform_of(instance).shift)) {}
+
+  std::array<Vec3d, 3> rows;
+  Vec3d shift;
+};
 
 /// As records have it: of unit length to rounding, or 0 if it has no direction.
 inline Vec3f unit_normal(const Vec3d& normal) {
@@ -35,7 +88,7 @@ class Placing {
   Vec3d corner(const Vec3d& at) const { return to_local(frame_, world_.point(at)); }
   /// Nothing if doubles cannot tell. It faces the side that the mesh's does, in a mirror, too.
   std::optional<FacePlane> plane(const MeshPlane& plane) const {
-    const Vec3d way = turned(frame_.axes, normals_.direction(plane.normal));
+    const Vec3d way = normals_.direction(plane.normal);
     const double size = length(way);
     if (!(size > 0) || !std::isfinite(size)) {
       return std::nullopt;
@@ -45,7 +98,7 @@ class Placing {
   }
   /// Whether faces of a level plane have a coordinate in common here, too, to the bit.
   bool stays_level(const MeshPlane& plane) const {
-    if (!plane.is_level || frame_.axes != world_axes) {
+    if (!plane.is_level) {
       return false;
     }
     for (const Vec3d& row : world_.rows) {

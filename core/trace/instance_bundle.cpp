@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/base/bounds.h"
+#include "core/base/box.h"
 #include "core/base/vector_width.h"
 #include "core/trace/mesh_ray.h"
 

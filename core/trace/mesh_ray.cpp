@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "core/base/vector_width.h"
-#include "core/scene/mesh_to_grid.h"
+#include "core/scene/placing.h"
 
 namespace dmpc::core {
 namespace {

@@ -5,11 +5,10 @@
 #include <optional>
 
 #include "core/base/vector_width.h"
-#include "core/record/block_lane.h"
 #include "core/record/coordinate.h"
-#include "core/record/vanishing.h"
+#include "core/record/record.h"
 #include "core/scene/frame.h"
-#include "core/scene/mesh_to_grid.h"
+#include "core/scene/placing.h"
 
 namespace dmpc::core {
 namespace {
@@ -31,7 +30,7 @@ std::array<Vec3f, 3> MeshPlace::normals(const std::array<Vec3f, 3>& of_mesh) con
   std::array<Vec3f, 3> placed;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3d& normal = Vec3d(of_mesh[is_mirrored_ ? 2 - i : i]);
-    placed[i] = unit_normal(turned(frame_.axes, world_normals_.direction(normal)));
+    placed[i] = unit_normal(world_normals_.direction(normal));
   }
   return placed;
 }

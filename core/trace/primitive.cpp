@@ -6,9 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/record/block_lane.h"
-#include "core/record/cone_floats.h"
 #include "core/record/curved_values.h"
+#include "core/record/record.h"
 
 namespace dmpc::core {
 namespace {

@@ -115,7 +115,7 @@ Hit try_ray(const Subject& subject, const Ray& ray) {
 void try_mesh(const std::uint8_t* data, std::size_t size) {
   tests::Bytes bytes(data, size);
   const core::Scene scene = tests::mesh_scene(bytes);
-  const Subject subject{core::build_database(scene, tests::mesh_options(bytes, scene))};
+  const Subject subject{core::build_database(scene, tests::mesh_options(bytes))};
   tests::MeshRays rays(bytes, subject.database);
   for (std::size_t i = 0; i < rays_max && !bytes.empty(); ++i) {
     const Ray ray = rays.next();

@@ -130,15 +130,13 @@ inline core::Scene mesh_scene(Bytes& bytes) {
 }
 
 /// Coarse grids and fine ones.
-inline core::BuildOptions mesh_options(Bytes& bytes, const core::Scene& scene) {
+inline core::BuildOptions mesh_options(Bytes& bytes) {
   constexpr std::array<std::size_t, 4> page_sizes{512, 1024, 4096, 65536};
   constexpr std::array<double, 4> densities{1, 32, 512, 4096};
   core::BuildOptions options;
   options.page_size_bytes = page_sizes[bytes.below(page_sizes.size())];
   options.cells_per_primitive = densities[bytes.below(densities.size())];
-  if (bytes.byte() % 4 == 1) {
-    options.axes = core::screen_axes(scene.view);
-  }
+  bytes.byte();  // which kept inputs have here
   return options;
 }
 

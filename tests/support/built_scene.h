@@ -8,6 +8,7 @@
 #include "core/picture/camera.h"
 #include "core/picture/render.h"
 #include "core/scene/scene.h"
+#include "tests/support/film_of.h"
 
 namespace dmpc::tests {
 
@@ -18,11 +19,7 @@ struct BuiltScene {
         database(core::build_database(scene, {.page_size_bytes = page_size_bytes})),
         settings{database.header(), core::Camera(scene.view, database.header().frame, side, side, 1), {}} {}
 
-  core::Film reference(core::Operations& operations) const {
-    core::LocalRecords records(database.bytes());
-    core::GridTracer<core::LocalRecords> tracer(records, database.header(), {});
-    return core::render(tracer, settings, operations);
-  }
+  core::Film reference(core::Operations& operations) const { return film_of(database, settings, operations); }
 
   core::Scene scene;
   core::Database database;

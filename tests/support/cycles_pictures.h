@@ -12,7 +12,7 @@
 
 #include "apps/lab/bench/stability/cells.h"
 #include "core/picture/transport.h"
-#include "tests/support/path_film.h"
+#include "tests/support/film_of.h"
 #include "tests/support/scaled.h"
 
 namespace dmpc::tests::cycles {

@@ -1,6 +1,9 @@
 // Pictures by paths of scenes whose light can be told on paper.
 #pragma once
 
+#include <doctest/doctest.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -13,7 +16,7 @@
 #include "core/picture/transport.h"
 #include "core/scene/frame.h"
 #include "core/scene/scene.h"
-#include "tests/support/path_film.h"
+#include "tests/support/film_of.h"
 
 namespace dmpc::tests {
 
@@ -90,6 +93,13 @@ inline double standard_error(const core::Film& film) {
   return std::sqrt(squares / count / (count - 1));
 }
 
+/// No pixel, of one sample each, finds more light than may be found.
+inline void check_bounded(const core::Film& film, double bound) {
+  for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
+    CHECK(largest_component(film.radiance(pixel)) <= bound * (1 + 1e-6));
+  }
+}
+
 inline core::Material grey(double albedo, double emission = 0) {
   return {.color = {albedo, albedo, albedo}, .diffuse = 1, .emission = {emission, emission, emission}};
 }
@@ -140,5 +150,20 @@ inline double rmse(const std::vector<double>& picture, const std::vector<double>
   }
   return std::sqrt(squares / static_cast<double>(picture.size()));
 }
+
+/// Pictures of one light: found by aiming at it and by meeting it by chance, weighed, and by either alone.
+struct WaysToLight {
+  std::vector<double> reference, both, aimed, met;
+
+  /// They have one mean, and both vary little more than the better: its variance times `bar` at most.
+  void check(double bar) const {
+    const double root = std::sqrt(static_cast<double>(both.size()));
+    for (const std::vector<double>* const way : {&both, &aimed, &met}) {
+      CHECK(std::fabs(mean_of(*way) - mean_of(reference)) < 4 * (rmse(*way, reference) + rmse(both, reference) / 8) / root);
+    }
+    const double better = std::min(rmse(aimed, reference), rmse(met, reference));
+    CHECK(rmse(both, reference) * rmse(both, reference) < bar * better * better);
+  }
+};
 
 }  // namespace dmpc::tests

@@ -1,6 +1,8 @@
 // Rays against a whole database: through the grid, and by brute force with the same primitive routines.
 #pragma once
 
+#include <doctest/doctest.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -21,6 +23,13 @@ namespace dmpc::tests {
 /// Builds with a page size that is neither the least nor the greatest, and with several top cells.
 inline core::Database database_of(const core::Scene& scene) {
   return core::build_database(scene, apps::several_top_cells(scene));
+}
+
+/// Two walks have looked at the same cells, bricks and primitives.
+inline void check_same_walk(const core::Operations& one, const core::Operations& other) {
+  CHECK(one.cell_steps == other.cell_steps);
+  CHECK(one.brick_reads == other.brick_reads);
+  CHECK(one.primitive_tests == other.primitive_tests);
 }
 
 /// A triangle by the scalar routines.

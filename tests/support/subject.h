@@ -9,9 +9,9 @@
 #include "core/database/database.h"
 #include "core/picture/background.h"
 #include "core/picture/render.h"
-#include "core/scene/frame.h"
 #include "core/scene/scene.h"
 #include "core/trace/operations.h"
+#include "tests/support/film_of.h"
 
 namespace dmpc::tests {
 
@@ -73,11 +73,9 @@ class Subject {
                    .first_samples = static_cast<std::uint32_t>(size.samples),
                    .transport = size.transport},
                   size.refinement} {
-    core::LocalRecords records(database_.bytes());
-    core::GridTracer tracer(records, settings_.header, core::Skips{});
     core::Operations operations;
     const core::FineDetail detail = settings_.fine_detail(database_);
-    outcome_ = outcome_of(core::render(tracer, settings_, operations, &detail), operations);
+    outcome_ = outcome_of(film_of(database_, settings_, operations, &detail), operations);
     if (size.knows_background) {
       settings_.background = core::find_background(database_, settings_.camera);
     }
@@ -100,11 +98,11 @@ class Subject {
   Outcome outcome_;
 };
 
-/// The subjects of one scene along the world's axes and along the screen's: two grids, two films.
-inline std::array<Subject, 2> along_both_axes(const core::Scene& scene, const Subject::Size& size) {
-  core::BuildOptions world = apps::several_top_cells(scene), screen = world;
-  screen.axes = core::screen_axes(scene.view);
-  return {Subject(scene, size, world), Subject(scene, size, screen)};
+/// The subjects of one scene in coarse cells and in fine ones: two grids, two films.
+inline std::array<Subject, 2> on_two_grids(const core::Scene& scene, const Subject::Size& size) {
+  core::BuildOptions coarse = apps::several_top_cells(scene), fine = coarse;
+  fine.cells_per_primitive *= 3;
+  return {Subject(scene, size, coarse), Subject(scene, size, fine)};
 }
 
 }  // namespace dmpc::tests

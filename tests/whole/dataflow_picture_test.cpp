@@ -68,7 +68,7 @@ core::Scene seen_edge_on() {
 
 /// Every pair of choices occurs in some run.
 void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
-  const std::array<Subject, 2> subjects = along_both_axes(scene, size);
+  const std::array<Subject, 2> subjects = on_two_grids(scene, size);
   for (const auto& row :
        pairwise({std::size(node_counts), std::size(ray_batches), std::size(ray_credits), std::size(queues), 2, 2, 2, 2, 2})) {
     RunOptions options{.computer = {.node_count = node_counts[row[0]]}};
@@ -93,7 +93,7 @@ void check_pairwise(const core::Scene& scene, const Subject::Size& size) {
 
 }  // namespace
 
-TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and axes give the picture of glass and of gears") {
+TEST_CASE("dataflow: any nodes, batches, credits, queues, balances, skips and grids give the picture of glass and of gears") {
   check_pairwise(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
   check_pairwise(built_in("gears-2"), {scaled_edge(16), scaled_edge(16)});
 }
@@ -112,7 +112,7 @@ TEST_CASE("dataflow: places that are shared and asked for, however few, give the
 }
 
 TEST_CASE("dataflow: lists of tested objects, however long, give the picture of mirrors and glass with fewer tests") {
-  const std::array<Subject, 2> subjects = along_both_axes(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
+  const std::array<Subject, 2> subjects = on_two_grids(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
   for (const Subject& subject : subjects) {
     std::uint64_t tests_without = 0, tests_before = ~std::uint64_t{0};
     for (const std::uint32_t names : {0U, 1U, 3U, 8U}) {
@@ -132,7 +132,7 @@ TEST_CASE("dataflow: lists of tested objects, however long, give the picture of 
 }
 
 TEST_CASE("dataflow: several regions a node, that stay or move, alone or in bundles, give the picture of mirrors and glass") {
-  const std::array<Subject, 2> subjects = along_both_axes(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
+  const std::array<Subject, 2> subjects = on_two_grids(mirrors_and_glass(), {scaled_edge(20), scaled_edge(20)});
   for (const Balance balance : {Balance::scattered, Balance::moving}) {
     for (const std::uint32_t nodes : {1U, 2U, 5U, 8U}) {
       for (const std::uint32_t regions : {2U, 4U, 16U}) {

@@ -9,6 +9,7 @@
 #include "core/picture/shade.h"
 #include "dataflow/run.h"
 #include "svm/run.h"
+#include "tests/support/film_of.h"
 #include "tests/support/same_sums.h"
 #include "tests/support/small_scenes.h"
 
@@ -46,11 +47,9 @@ struct Picture {
                  refinement} {}
 
   core::Film film() const {
-    core::LocalRecords records(database.bytes());
-    core::GridTracer<core::LocalRecords> tracer(records, settings.header, settings.skips);
     core::Operations operations;
     const core::FineDetail detail = settings.fine_detail(database);
-    return core::render(tracer, settings, operations, &detail);
+    return film_of(database, settings, operations, &detail);
   }
 };
 

@@ -168,11 +168,11 @@ TEST_CASE("interleaved pixels, with pages at home at the host or with the nodes,
   }
 }
 
-TEST_CASE("svm, replicated and dataflow give one film along the world's axes, and one along the screen's") {
+TEST_CASE("svm, replicated and dataflow give one film on a coarse grid, and one on a fine one") {
   for (const core::Scene& scene : {tests::mirrors_and_glass(), tests::glass_on_floor(true, true)}) {
     CAPTURE(scene.name);
     for (const Subject& subject :
-         tests::along_both_axes(scene, {.width = scaled_edge(20), .height = scaled_edge(16), .samples = 2})) {
+         tests::on_two_grids(scene, {.width = scaled_edge(20), .height = scaled_edge(16), .samples = 2})) {
       check_strategies(subject);
     }
   }

@@ -1,6 +1,7 @@
 // Where hits of a crowded picture send one of two rays, every strategy sends the same one.
 #include <doctest/doctest.h>
 
+#include "tests/support/film_of.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
 
@@ -12,12 +13,10 @@ TEST_CASE("every strategy chooses the same rays of a crowded picture") {
   core::RenderSettings settings{database.header(),
                                 core::Camera(scene.view, database.header().frame, 20, 20, 2),
                                 {.one_child_from = 2, .depth_max = 8, .first_samples = 2}};
-  core::LocalRecords records(database.bytes());
-  core::GridTracer<core::LocalRecords> tracer(records, settings.header, settings.skips);
   core::Operations operations, of_both;
-  const std::uint64_t expected = core::render(tracer, settings, operations).hash();
+  const std::uint64_t expected = film_of(database, settings, operations).hash();
   settings.shade.one_child_from = 0;
-  CHECK(core::render(tracer, settings, of_both).hash() != expected);
+  CHECK(film_of(database, settings, of_both).hash() != expected);
   CHECK(operations.rays[1] + operations.rays[2] < of_both.rays[1] + of_both.rays[2]);
   settings.shade.one_child_from = 2;
   CHECK(svm::run_svm(database, settings, {.computer = {.node_count = 3}}, {}).film.hash() == expected);

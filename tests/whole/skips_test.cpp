@@ -10,6 +10,7 @@
 
 #include "core/picture/render.h"
 #include "nodes/machine.h"
+#include "tests/support/film_of.h"
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
@@ -40,10 +41,8 @@ Subject subject_of(const core::Scene& scene, Subject::Size size = {16, 12}) {
 }
 
 Operations reference(const Subject& subject, const core::RenderSettings& settings) {
-  core::LocalRecords records(subject.database().bytes());
-  core::GridTracer tracer(records, settings.header, settings.skips);
   Operations operations;
-  core::render(tracer, settings, operations);
+  tests::film_of(subject.database(), settings, operations);
   return operations;
 }
 

@@ -10,6 +10,7 @@
 #include "dataflow/run.h"
 #include "svm/run.h"
 #include "tests/support/covering_faces.h"
+#include "tests/support/film_of.h"
 #include "tests/support/mesh_surfaces.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
@@ -56,11 +57,8 @@ void check_strategies(const Subject& subject, std::uint32_t nodes) {
 }
 
 core::Operations reference(const Subject& subject, const core::Skips& skips) {
-  core::LocalRecords records(subject.database().bytes());
-  const core::RenderSettings settings = subject.settings(skips);
-  core::GridTracer tracer(records, settings.header, settings.skips);
   core::Operations operations;
-  core::render(tracer, settings, operations);
+  film_of(subject.database(), subject.settings(skips), operations);
   return operations;
 }
 

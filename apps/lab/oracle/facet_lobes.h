@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "core/base/vec.h"
-#include "core/picture/disc.h"
 #include "core/picture/microfacet.h"
 #include "core/picture/path_step.h"
 #include "core/picture/sample_pair.h"

@@ -60,7 +60,7 @@ Loaded load(const StudyOptions& options, const TableFiles& files, Interrupt& int
   const bool is_kept = std::holds_alternative<SystemsStudy>(options.study) || std::holds_alternative<FramesStudy>(options.study);
   auto kept = is_kept ? std::optional(scene) : std::nullopt;
   const core::View view = scene.view;
-  const core::Box bounds = core::bounds_of(scene, core::world_axes, core::Parallel(0));
+  const core::Box bounds = core::bounds_of(scene, core::Parallel(0));
   return {build_subject(std::move(scene), options.picture, options.database, true), digest, std::move(kept), view, bounds};
 }
 

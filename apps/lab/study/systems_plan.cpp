@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/run/strategy_options.h"
-#include "core/database/voxel_rule.h"
+#include "core/database/structure.h"
 
 namespace dmpc::apps {
 namespace {

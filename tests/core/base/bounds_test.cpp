@@ -1,4 +1,4 @@
-#include "core/base/bounds.h"
+#include "core/base/box.h"
 
 #include <doctest/doctest.h>
 

@@ -14,6 +14,7 @@
 #include "core/database/face_stack.h"
 #include "core/picture/render.h"
 #include "tests/support/close_faces.h"
+#include "tests/support/film_of.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 #include "tests/support/small_scenes.h"
@@ -342,11 +343,7 @@ TEST_CASE("where more planes lie next to each other than there is time for, the 
 
 core::Film rendered(const Scene& scene) {
   const Database database = database_of(scene);
-  core::LocalRecords records(database.bytes());
-  core::GridTracer<core::LocalRecords> tracer(records, database.header(), {});
-  core::Operations operations;
-  const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, 48, 48, 1), {}};
-  return render(tracer, settings, operations);
+  return film_of(database, {database.header(), core::Camera(scene.view, database.header().frame, 48, 48, 1), {}});
 }
 
 /// Pixels that differ by more than a 100th.

@@ -55,11 +55,11 @@ TEST_CASE("primitives keep the order of their objects, and smooth ones their num
 TEST_CASE("the bounds of a scene hold what is finite in it") {
   Scene scene;
   SceneBuilder builder(scene);
-  CHECK(bounds_of(scene, world_axes, Parallel(1)).empty());
+  CHECK(bounds_of(scene, Parallel(1)).empty());
   builder.sphere({1, 2, 3}, -0.5);
   builder.sphere({1e300, 0, 0}, 1);
   builder.polygon({{0, 0, 0}, {4, 0, 0}, {0, 1, 0}});
-  const Box box = bounds_of(scene, world_axes, Parallel(2));
+  const Box box = bounds_of(scene, Parallel(2));
   CHECK(box.low == Vec3d{0, 0, 0});
   CHECK(box.high == Vec3d{4, 2.5, 3.5});
 }
@@ -73,7 +73,7 @@ TEST_CASE("a vertex of which a number is none, or too large, bounds nothing, and
     builder.polygon({{odd, 9, 9}, {-9, odd, 9}, {9, -9, odd}});
     builder.polygon({{0, 0, 0}, {0, 0, -2}, {0, 1, 0}});
     CAPTURE(odd);
-    const Box box = bounds_of(scene, world_axes, Parallel(1));
+    const Box box = bounds_of(scene, Parallel(1));
     CHECK(box.low == Vec3d{0, 0, -2});
     CHECK(box.high == Vec3d{4, 1, 0});
   }

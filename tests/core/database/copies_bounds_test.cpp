@@ -20,7 +20,6 @@ namespace dmpc::tests::copies_bounds_test {
 namespace {
 
 using core::Box;
-using core::GridAxes;
 using core::Scene;
 using core::Transform;
 using core::Vec3d;
@@ -36,11 +35,9 @@ Pair pair_of(const InstancedScene& made) {
   return pair;
 }
 
-GridAxes leaning() { return core::screen_axes({.from = {3, 1, 2}, .at = {0, 0.5, 0}, .up = {0, 1, 0.2}}); }
-
 bool same(const Box& a, const Box& b) { return a.low == b.low && a.high == b.high; }
 
-Box bounds(const Scene& scene, const GridAxes& axes) { return bounds_of(scene, axes, core::Parallel(1)); }
+Box bounds(const Scene& scene) { return bounds_of(scene, core::Parallel(1)); }
 
 /// A rug of the size of 2 by 2 in these places.
 InstancedScene rugs(const std::vector<Transform>& places) {
@@ -54,13 +51,11 @@ InstancedScene rugs(const std::vector<Transform>& places) {
 
 }  // namespace
 
-TEST_CASE("a scene that leaves copies out has the bounds of the expanded one, along the world's axes and along others") {
+TEST_CASE("a scene that leaves copies out has the bounds of the expanded one") {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     CAPTURE(seed);
     const Pair pair = pair_of(instanced_scene(seed));
-    for (const GridAxes& axes : {core::world_axes, leaning()}) {
-      CHECK(same(bounds(pair.left, axes), bounds(pair.expanded, axes)));
-    }
+    CHECK(same(bounds(pair.left), bounds(pair.expanded)));
   }
 }
 
@@ -71,9 +66,9 @@ TEST_CASE("so it has of thousands of places next to each other, on however many 
     places.push_back(turned_place(random.between(0.01, 0.02), random.in_box(-1, 1), random.below(2) == 0));
   }
   const Pair pair = pair_of(rugs(places));
-  const Box expected = bounds(pair.expanded, core::world_axes);
-  CHECK(same(bounds(pair.left, core::world_axes), expected));
-  CHECK(same(bounds_of(pair.left, core::world_axes, core::Parallel(4)), expected));
+  const Box expected = bounds(pair.expanded);
+  CHECK(same(bounds(pair.left), expected));
+  CHECK(same(bounds_of(pair.left, core::Parallel(4)), expected));
 }
 
 TEST_CASE("what lies where no grid reaches does not count, nor does what is no number") {
@@ -81,7 +76,7 @@ TEST_CASE("what lies where no grid reaches does not count, nor does what is no n
   const Transform here{}, far{.shift = {1e31, 0, 0}}, partly{.shift = {1e30, 0, 0}}, nowhere{.shift = {0, none, 0}};
   for (const auto& places : std::vector<std::vector<Transform>>{{here, far}, {far, far}, {partly, here}, {nowhere, here, here}}) {
     const Pair pair = pair_of(rugs(places));
-    CHECK(same(bounds(pair.left, core::world_axes), bounds(pair.expanded, core::world_axes)));
+    CHECK(same(bounds(pair.left), bounds(pair.expanded)));
   }
 }
 
@@ -90,11 +85,11 @@ TEST_CASE("the grid's frame is the expanded scene's, its number of cells and whe
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     CAPTURE(seed);
     const Pair pair = pair_of(instanced_scene(seed));
-    const Box box = bounds(pair.expanded, core::world_axes);
+    const Box box = bounds(pair.expanded);
     CHECK(object_count(pair.left) == pair.expanded.objects.size());
-    const auto place = place_of_detail(pair.expanded, core::world_axes, box);
+    const auto place = place_of_detail(pair.expanded, box);
     with_detail += place ? 1 : 0;
-    CHECK(place_of_detail(pair.left, core::world_axes, box) == place);
+    CHECK(place_of_detail(pair.left, box) == place);
   }
   CHECK(with_detail > 5);
 }
@@ -107,10 +102,10 @@ TEST_CASE("of more objects than are looked at for detail the same ones are looke
   }
   places.push_back(turned_place(1, {}, false));
   const Pair pair = pair_of(rugs(places));
-  const Box box = bounds(pair.expanded, core::world_axes);
-  const auto place = place_of_detail(pair.expanded, core::world_axes, box);
+  const Box box = bounds(pair.expanded);
+  const auto place = place_of_detail(pair.expanded, box);
   REQUIRE(place);
-  CHECK(place_of_detail(pair.left, core::world_axes, box) == place);
+  CHECK(place_of_detail(pair.left, box) == place);
 }
 
 TEST_CASE("a database is the expanded scene's, to the last byte") {

@@ -130,20 +130,6 @@ TEST_CASE("the blocks of a tree are parts of its group that no two share") {
   }
 }
 
-TEST_CASE("a brick has 1 to 8 children") {
-  Cutter cutter = scattered(5000, 2);
-  const CutTree tree = tree_of(cutter, 5000);
-  std::vector<const CutTree*> open = {&tree};
-  while (!open.empty()) {
-    const auto children = open.back()->children();
-    open.pop_back();
-    CHECK(children.size() >= 2);
-    CHECK(children.size() <= brick_children_max);
-    std::copy_if(children.begin(), children.end(), std::back_inserter(open),
-                 [](const CutTree* child) { return !child->is_block(); });
-  }
-}
-
 TEST_CASE("neighbours share a brick, and what is far away takes a place of its own") {
   Cutter cutter = clusters({0, 1000, 2000, 3000, 4000, 5000, 6000, 7000, 7002, 7004});
   const CutTree tree = tree_of(cutter, 80);
@@ -178,19 +164,6 @@ TEST_CASE("two kinds stay apart and are known as such") {
   for (const Group& block : blocks) {
     CHECK((block.kind == PrimitiveKind::sphere) == (block.first >= 30));
   }
-}
-
-TEST_CASE("a tree is the same on any number of threads") {
-  const Parallel two(2);
-  Cutter cutter = scattered(30'000, 4), again = scattered(30'000, 4);
-  const CutTree tree = tree_of(cutter, 30'000);
-  const CutTree other(again, again.group(PrimitiveKind::triangle, 0, 30'000), two);
-  std::vector<Group> blocks, others;
-  add_blocks(tree, blocks);
-  add_blocks(other, others);
-  REQUIRE(blocks.size() == others.size());
-  CHECK(std::equal(blocks.begin(), blocks.end(), others.begin(),
-                   [](const Group& a, const Group& b) { return a.first == b.first && a.last == b.last; }));
 }
 
 }  // namespace cut_tree_test

@@ -3,10 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
+#include <map>
 #include <random>
 #include <vector>
 
 #include "apps/lab/bench/stability/cells.h"
+#include "apps/lab/bench/stability/random.h"
+#include "core/database/address_map.h"
 #include "core/picture/camera.h"
 #include "core/trace/traversal.h"
 #include "tests/support/border_scene.h"
@@ -14,6 +17,8 @@
 #include "tests/support/small_scenes.h"
 
 namespace extract_test {
+
+using namespace dmpc::core;
 
 namespace {
 
@@ -219,6 +224,24 @@ TEST_CASE("a part of several regions answers in each of them as that region's ow
   CHECK(joint.header.region == some[0]);
   CHECK(core::measure_part(database, some).record_bytes == joint.record_bytes);
   CHECK(core::measure_part(database, some).holds == joint.holds);
+}
+
+TEST_CASE("an address keeps the place that it was given, among thousands") {
+  AddressMap map;
+  std::map<std::uint32_t, Address> twin;
+  dmpc::apps::Random random(7);
+  for (std::uint32_t i = 0; i < 20'000; ++i) {
+    // Neighbours by 5, as records of 40 bytes lie, and others.
+    const auto from = static_cast<std::uint32_t>(i % 2 == 0 ? 5 * random.below(3000) : random.below(0x7fffffff));
+    const auto [to, is_new] = map.find_or_add(Address{from});
+    CHECK(is_new == !twin.contains(from));
+    if (is_new) {
+      CHECK(to == no_address);
+      to = twin[from] = Address{i};
+    }
+    CHECK(to == twin.at(from));
+  }
+  CHECK(map.size() == twin.size());
 }
 
 }  // namespace extract_test

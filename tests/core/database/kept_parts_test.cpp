@@ -269,9 +269,7 @@ long double furthest_in_mesh(const core::Transform& world, const core::GridFrame
   std::array<Wide, 3> columns{};
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        columns[axis][row] += static_cast<long double>(frame.axes[row][k]) * world.rows[k][axis] * unit * frame.scale;
-      }
+      columns[axis][row] = static_cast<long double>(world.rows[row][axis]) * unit * frame.scale;
     }
   }
   long double furthest = 0;

@@ -11,7 +11,6 @@
 
 #include "apps/lab/bench/stability/random.h"
 #include "apps/lab/bench/stability/rays.h"
-#include "core/database/copy_limits.h"
 #include "core/database/database.h"
 #include "core/database/top_cells.h"
 #include "core/record/emitter.h"
@@ -19,8 +18,8 @@
 #include "core/scene/frame.h"
 #include "core/scene/placed_objects.h"
 #include "core/trace/instance_walk.h"
+#include "tests/support/film_of.h"
 #include "tests/support/kept_scenes.h"
-#include "tests/support/path_film.h"
 #include "tests/support/scaled.h"
 
 namespace dmpc::tests::left_out_places_test {
@@ -86,7 +85,7 @@ std::uint64_t film(const Database& database, const core::View& view, core::Trans
 
 bool are_alike(const core::GridFrame& a, const core::GridFrame& b) {
   return a.origin == b.origin && a.scale == b.scale && a.low == b.low && a.resolution == b.resolution &&
-         a.finest_cell == b.finest_cell && a.eye_extent == b.eye_extent && a.axes == b.axes;
+         a.finest_cell == b.finest_cell && a.eye_extent == b.eye_extent;
 }
 
 /// The ids and chances of what paths aim at.
@@ -143,7 +142,6 @@ TEST_CASE("what is built without copies has the ids, the grid and the films of w
       CAPTURE(++seed);
       const Scene left = furnished(size, arrangement, seed, Copies::left_out);
       BuildOptions options = with_instances();
-      options.axes = seed % 2 == 0 ? core::screen_axes(left.view) : core::world_axes;
       options.for_paths = seed % 3 == 0;
       options.emitters_max = options.for_paths ? 16 : 0;
       const Database light = built(left, options, none), whole = built(left, options, all);
@@ -188,7 +186,7 @@ TEST_CASE("what copies that are left out would touch of cells is what copies tou
     const core::LeftOutPlaces places(left, faces, parallel);
     std::int64_t most = 0;
     for (const double cells : {0.125, 1.0, 64.0}) {
-      const core::GridFrame frame = core::fit_frame(core::bounds_of(left, core::world_axes, parallel), 8000, cells);
+      const core::GridFrame frame = core::fit_frame(core::bounds_of(left, parallel), 8000, cells);
       const core::Conversion conversion = core::convert(whole, frame, parallel, {.meshes = faces});
       std::vector<core::PrimitiveValues> copies;
       for (std::size_t i = 0; i < conversion.primitives.size(); ++i) {
@@ -233,7 +231,7 @@ TEST_CASE("where no list has room for what copies touch, the look at them ends, 
   const Scene left = long_straws(Copies::left_out);
   const auto faces = core::faces_of_meshes(left, 0.125, parallel);
   const core::LeftOutPlaces places(left, faces, parallel);
-  const core::GridFrame frame = core::fit_frame(core::bounds_of(left, core::world_axes, parallel), 8000, 64);
+  const core::GridFrame frame = core::fit_frame(core::bounds_of(left, parallel), 8000, 64);
   const double pad = core::insertion_pad(frame, 1);
   std::vector<core::PrimitiveValues> one(1);
   for (const bool is_exact : {false, true}) {

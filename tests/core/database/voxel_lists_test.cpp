@@ -17,7 +17,6 @@
 #include "core/database/database.h"
 #include "core/record/directory.h"
 #include "core/record/records.h"
-#include "core/record/voxel_list.h"
 #include "tests/support/small_scenes.h"
 
 namespace voxel_lists_test {

@@ -188,16 +188,11 @@ TEST_CASE("to aim alone, to meet by chance alone, and both, weighed, have one me
     for (const int bounces : {0, 2}) {
       CAPTURE(bounces);
       const Studio aiming(scene, many), meeting(scene);
-      const std::vector<double> reference = aiming.square(side, 2048, bounces, 3);
-      const std::vector<double> both = aiming.square(side, samples, bounces, 1);
-      const std::vector<double> aimed = aiming.square(side, samples, bounces, 1, aiming_alone);
-      const std::vector<double> met = meeting.square(side, samples, bounces, 1);
-      const double root = std::sqrt(static_cast<double>(side * side));
-      for (const std::vector<double>* const way : {&both, &aimed, &met}) {
-        CHECK(std::fabs(mean_of(*way) - mean_of(reference)) < 4 * (rmse(*way, reference) + rmse(both, reference) / 8) / root);
-      }
-      const double better = std::min(rmse(aimed, reference), rmse(met, reference));
-      CHECK(rmse(both, reference) * rmse(both, reference) < (slowness == 1 ? 1.1 : 2.0) * better * better);
+      WaysToLight{.reference = aiming.square(side, 2048, bounces, 3),
+                  .both = aiming.square(side, samples, bounces, 1),
+                  .aimed = aiming.square(side, samples, bounces, 1, aiming_alone),
+                  .met = meeting.square(side, samples, bounces, 1)}
+          .check(slowness == 1 ? 1.1 : 2.0);
     }
   }
 }
@@ -307,11 +302,7 @@ TEST_CASE("254 bounces, behind which no ray can look for what shines, bring what
 TEST_CASE("no sample finds more light than the bound says where paths aim at what shines") {
   for (const Scene& scene : {lit_by_two(), below_ball({0.1, 0, 0.6}, 0.5), hollow_ball(0.9, {-0.3, -0.2, 0.1}, 0.02)}) {
     for (const int bounces : {0, 1, 5}) {
-      const double bound = radiance_bound(scene, bounces + 2, paths);
-      const Film film = Studio(scene, many).film(24, 1, paths, bounces);
-      for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
-        CHECK(largest_component(film.radiance(pixel)) <= bound * (1 + 1e-6));
-      }
+      check_bounded(Studio(scene, many).film(24, 1, paths, bounces), radiance_bound(scene, bounces + 2, paths));
     }
   }
 }

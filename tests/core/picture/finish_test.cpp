@@ -10,6 +10,7 @@
 #include "core/picture/render.h"
 #include "core/record/records.h"
 #include "core/scene/texel.h"
+#include "tests/support/film_of.h"
 #include "tests/support/mesh_surfaces.h"
 
 namespace finish_test {
@@ -29,11 +30,7 @@ Vec3d seen(Scene scene, int depth_max = 5) {
   scene.view = {.from = {0, 0, 2}, .at = {0, 0, 0}, .up = {0, 1, 0}};
   const Database database = build_database(scene, {});
   const Camera camera(scene.view, database.header().frame, 1, 1, 1);
-  const RenderSettings settings{database.header(), camera, {.depth_max = depth_max, .pixel_share = 0}, {}};
-  LocalRecords records(database.bytes());
-  GridTracer<LocalRecords> tracer(records, settings.header, settings.skips);
-  Operations operations;
-  return render(tracer, settings, operations).radiance(0);
+  return film_of(database, {database.header(), camera, {.depth_max = depth_max, .pixel_share = 0}, {}}).radiance(0);
 }
 
 /// A triangle in z = 0 around the view's middle, which is the middle of its corners.

@@ -11,8 +11,8 @@
 #include "core/families/scenes.h"
 #include "core/picture/render.h"
 #include "core/record/records.h"
+#include "tests/support/film_of.h"
 #include "tests/support/kept_scenes.h"
-#include "tests/support/path_film.h"
 #include "tests/support/scaled.h"
 #include "tests/support/subject.h"
 
@@ -147,14 +147,6 @@ TEST_CASE("what is kept is refined as its copies are: its fine detail is known, 
     CHECK(kept.outcome() == copies.outcome());
     CHECK(kept.outcome().rays[0] > 2U * static_cast<unsigned>(side) * static_cast<unsigned>(side));
   }
-}
-
-TEST_CASE("along the screen's axes what is kept shows the same, too") {
-  const Scene scene = balls_in_places(0.3, Arrangement::deep_in_each_other, 4);
-  core::BuildOptions copies = with_copies(), kept = with_instances();
-  copies.axes = kept.axes = core::screen_axes(scene.view);
-  const int side = scaled_edge(32);
-  CHECK(Subject(scene, {side, side}, kept).outcome() == Subject(scene, {side, side}, copies).outcome());
 }
 
 TEST_CASE("paths show the same of what is kept") {

@@ -11,10 +11,9 @@
 
 #include "core/base/elementary.h"
 #include "core/base/sampling.h"
-#include "core/picture/child_lanes.h"
 #include "core/picture/hit_geometry.h"
+#include "core/picture/hit_lanes.h"
 #include "core/picture/light_fall.h"
-#include "core/picture/triangle_lanes.h"
 #include "core/record/record.h"
 
 namespace lanes_test {

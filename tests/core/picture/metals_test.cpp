@@ -9,8 +9,8 @@
 
 #include "core/database/database.h"
 #include "tests/support/faceted_surfaces.h"
+#include "tests/support/film_of.h"
 #include "tests/support/microfacet_hits.h"
-#include "tests/support/path_film.h"
 #include "tests/support/path_studio.h"
 #include "tests/support/scaled.h"
 #include "tests/support/small_scenes.h"
@@ -121,7 +121,6 @@ TEST_CASE(
     "what shines above tiny mirrors has one mean, aimed at, met by chance, or both; both vary little more than the better") {
   constexpr Transport aiming_alone{.kind = TransportKind::paths, .only_aims = true};
   const int side = scaled_edge(8), samples = 64;
-  const double root = std::sqrt(static_cast<double>(side * side));
   for (const auto& [metallic, alpha] : {std::pair{1.0, 0.05}, {1.0, 0.5}, {0.0, 0.1}}) {
     CAPTURE(metallic);
     CAPTURE(alpha);
@@ -131,14 +130,11 @@ TEST_CASE(
     builder.sphere({0.3, 0.2, 1}, 0.4);
     scene.view = {.from = {0, -3, 1.2}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle_degrees = 30};
     const Studio aiming(scene, 10), meeting(scene);
-    const std::vector<double> reference = aiming.square(side, 2048, 0, 3), both = aiming.square(side, samples, 0, 1);
-    const std::vector<double> aimed = aiming.square(side, samples, 0, 1, aiming_alone), met = meeting.square(side, samples, 0, 1);
-    const auto sum = [](const std::vector<double>& light) { return std::accumulate(light.begin(), light.end(), 0.0); };
-    for (const std::vector<double>* const way : {&both, &aimed, &met}) {
-      CHECK(std::fabs(sum(*way) - sum(reference)) < 4 * (rmse(*way, reference) + rmse(both, reference) / 8) * root);
-    }
-    const double better = std::min(rmse(aimed, reference), rmse(met, reference));
-    CHECK(rmse(both, reference) * rmse(both, reference) < (slowness == 1 ? 1.1 : 2.0) * better * better);
+    WaysToLight{.reference = aiming.square(side, 2048, 0, 3),
+                .both = aiming.square(side, samples, 0, 1),
+                .aimed = aiming.square(side, samples, 0, 1, aiming_alone),
+                .met = meeting.square(side, samples, 0, 1)}
+        .check(slowness == 1 ? 1.1 : 2.0);
   }
 }
 
@@ -209,11 +205,7 @@ TEST_CASE("no sample finds more light than the bound says") {
   builder.material(grey(0, 5));
   builder.sphere({1, -1.2, 1.5}, 0.3);
   for (const int bounces : {0, 2, 6}) {
-    const double bound = radiance_bound(scene, bounces + 2, white_sky);
-    const Film film = film_of(scene, 16, 1, white_sky, bounces);
-    for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
-      CHECK(largest_component(film.radiance(pixel)) <= bound * (1 + 1e-6));
-    }
+    check_bounded(film_of(scene, 16, 1, white_sky, bounces), radiance_bound(scene, bounces + 2, white_sky));
   }
 }
 

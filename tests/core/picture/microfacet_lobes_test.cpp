@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "core/base/sampling.h"
-#include "core/picture/microfacet_bound.h"
 #include "tests/support/microfacet_hits.h"
 
 namespace microfacet_lobes_test {

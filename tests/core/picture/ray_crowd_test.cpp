@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/picture/render.h"
+#include "tests/support/film_of.h"
 #include "tests/support/shooting.h"
 #include "tests/support/small_scenes.h"
 
@@ -42,10 +43,8 @@ struct Picture {
 
   /// With the rays that it took.
   std::pair<Film, std::uint64_t> rendered() const {
-    LocalRecords records(database.bytes());
-    GridTracer<LocalRecords> tracer(records, settings.header, settings.skips);
     Operations operations;
-    Film film = render(tracer, settings, operations);
+    Film film = film_of(database, settings, operations);
     return {std::move(film), operations.rays[1] + operations.rays[2]};
   }
 };

@@ -10,6 +10,7 @@
 #include "core/database/database.h"
 #include "core/picture/render.h"
 #include "tests/support/film_error.h"
+#include "tests/support/film_of.h"
 #include "tests/support/small_scenes.h"
 
 namespace refinement_test {
@@ -94,11 +95,7 @@ Scene disc() {
 
 Film rendered(const Scene& scene, int side, int samples, const RefinementOptions& refinement) {
   const Database database = build_database(scene, {});
-  LocalRecords records(database.bytes());
-  GridTracer<LocalRecords> tracer(records, database.header(), {});
-  Operations operations;
-  return render(tracer, {database.header(), Camera(scene.view, database.header().frame, side, side, samples), {}, refinement},
-                operations);
+  return film_of(database, {database.header(), Camera(scene.view, database.header().frame, side, side, samples), {}, refinement});
 }
 
 }  // namespace

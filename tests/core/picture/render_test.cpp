@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/support/film_of.h"
 #include "tests/support/shooting.h"
 
 namespace render_test {
@@ -21,11 +22,9 @@ struct Picture {
 
 Picture rendered(const Scene& scene, int side, int samples, const ShadeOptions& shade = {}) {
   const Database database = database_of(scene);
-  LocalRecords records(database.bytes());
-  GridTracer<LocalRecords> tracer(records, database.header(), {});
   Operations operations;
-  const RenderSettings settings{database.header(), Camera(scene.view, database.header().frame, side, side, samples), shade};
-  Film film = render(tracer, settings, operations);
+  Film film =
+      film_of(database, {database.header(), Camera(scene.view, database.header().frame, side, side, samples), shade}, operations);
   return {std::move(film), operations};
 }
 

@@ -94,17 +94,13 @@ TEST_CASE("to aim at a sky alone, to meet it by chance alone, and both, weighed,
         CAPTURE(sun);
         CAPTURE(bounces);
         const Studio studio(below(sunny_texels(48, sun), ball_on_floor(material)));
-        const std::vector<double> reference = studio.square(side, 1024, bounces, 3, below_sky);
-        const std::vector<double> both = studio.square(side, samples, bounces, 1, below_sky);
-        const std::vector<double> aimed = studio.square(side, samples, bounces, 1, aiming_alone);
-        const std::vector<double> met = studio.square(side, samples, bounces, 1, meeting_alone);
-        const double root = std::sqrt(static_cast<double>(side * side));
-        for (const std::vector<double>* const way : {&both, &aimed, &met}) {
-          CHECK(std::fabs(mean_of(*way) - mean_of(reference)) < 4 * (rmse(*way, reference) + rmse(both, reference) / 8) / root);
-        }
-        const double better = std::min(rmse(aimed, reference), rmse(met, reference));
-        const double bar = slowness != 1 ? 3 : sun > 0 ? 1.25 : 1.75;  // half of what is aimed at lies below the floor
-        CHECK(rmse(both, reference) * rmse(both, reference) < bar * better * better);
+        WaysToLight{.reference = studio.square(side, 1024, bounces, 3, below_sky),
+                    .both = studio.square(side, samples, bounces, 1, below_sky),
+                    .aimed = studio.square(side, samples, bounces, 1, aiming_alone),
+                    .met = studio.square(side, samples, bounces, 1, meeting_alone)}
+            .check(slowness != 1 ? 3
+                   : sun > 0     ? 1.25
+                                 : 1.75);  // half of what is aimed at lies below the floor
       }
     }
   }
@@ -124,11 +120,7 @@ TEST_CASE("the eye, a mirror and glass see a picture's sky as it is") {
 TEST_CASE("no sample finds more light than the bound says below a picture with a sun") {
   for (const int bounces : {0, 1, 5}) {
     const Scene scene = below(sunny_texels(48, 300), ball_on_floor(grey(0.9)));
-    const double bound = radiance_bound(scene, bounces + 2, below_sky);
-    const Film film = Studio(scene).film(24, 1, below_sky, bounces);
-    for (std::uint32_t pixel = 0; pixel < film.pixel_count(); ++pixel) {
-      CHECK(largest_component(film.radiance(pixel)) <= bound * (1 + 1e-6));
-    }
+    check_bounded(Studio(scene).film(24, 1, below_sky, bounces), radiance_bound(scene, bounces + 2, below_sky));
   }
 }
 

@@ -7,6 +7,7 @@
 #include "core/picture/render.h"
 #include "core/record/records.h"
 #include "tests/support/checked_floor.h"
+#include "tests/support/film_of.h"
 
 namespace textured_light_test {
 
@@ -24,10 +25,7 @@ Film picture_of(const Scene& scene, int side, int samples, double error = 0) {
                                 {.pixel_share = database.records().textured > 0 ? 1.0 / (error > 0 ? 2 : 1) : 0,
                                  .first_samples = static_cast<std::uint32_t>(samples)},
                                 {.error = error}};
-  LocalRecords records(database.bytes());
-  GridTracer<LocalRecords> tracer(records, settings.header, settings.skips);
-  Operations operations;
-  return render(tracer, settings, operations);
+  return film_of(database, settings);
 }
 
 constexpr int side = 32;

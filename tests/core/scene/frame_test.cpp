@@ -129,4 +129,16 @@ TEST_CASE("the insertion pad grows with the distance of the rays and never vanis
   CHECK(insertion_pad(frame, 1000) > insertion_pad(frame, 100));
 }
 
+TEST_CASE("the screen's axes are a right-handed frame with x to the right and y up") {
+  const View view{.from = {0.3, -4, 2}, .at = {0, 0, 0.5}, .up = {0, 0, 1}};
+  const std::array<Vec3d, 3> axes = screen_axes(view);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(dot(axes[i], axes[i]) == doctest::Approx(1));
+    CHECK(std::fabs(dot(axes[i], axes[(i + 1) % 3])) < 1e-15);
+  }
+  CHECK(dot(cross(axes[0], axes[1]), axes[2]) == doctest::Approx(1));
+  CHECK(dot(axes[1], view.up) > 0);
+  CHECK(dot(axes[2], view.at - view.from) < 0);
+}
+
 }  // namespace frame_test

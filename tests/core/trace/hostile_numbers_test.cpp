@@ -7,6 +7,7 @@
 #include "apps/lab/bench/stability/mesh.h"
 #include "apps/lab/bench/stability/random.h"
 #include "core/picture/render.h"
+#include "tests/support/film_of.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
 
@@ -48,11 +49,7 @@ Vec3d odd_point(Random& random) {
 
 /// Renders a few pixels: every ray must come to an end.
 void render_small(const Database& database, const View& view) {
-  LocalRecords records(database.bytes());
-  GridTracer<LocalRecords> tracer(records, database.header(), {});
-  Operations operations;
-  const RenderSettings settings{database.header(), Camera(view, database.header().frame, 8, 8, 1), {}};
-  CHECK(render(tracer, settings, operations).pixel_count() == 64);
+  CHECK(film_of(database, {database.header(), Camera(view, database.header().frame, 8, 8, 1), {}}).pixel_count() == 64);
 }
 
 }  // namespace

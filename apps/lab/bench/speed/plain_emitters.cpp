@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/picture/emitter_light.h"
+#include "core/picture/sample_pair.h"
 
 namespace dmpc::apps {
 

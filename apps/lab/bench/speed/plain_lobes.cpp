@@ -6,7 +6,7 @@
 
 #include "apps/lab/bench/speed/plain_asker.h"
 #include "core/picture/path_step.h"
-#include "core/picture/surface_shares.h"
+#include "core/picture/surface_response.h"
 
 namespace dmpc::apps {
 

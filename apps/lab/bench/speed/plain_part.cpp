@@ -249,7 +249,7 @@ void light_and_polish(core::Scene& scene) {
   for (core::Material& material : scene.materials) {
     polish(material);
   }
-  const core::Box box = core::bounds_of(scene, core::world_axes, core::Parallel(1));
+  const core::Box box = core::bounds_of(scene, core::Parallel(1));
   if (!box.empty()) {
     core::make_lights_spheres(scene, light_share * 2 * length(box.half()));
   }

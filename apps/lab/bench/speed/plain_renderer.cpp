@@ -19,7 +19,7 @@
 #include "core/picture/emitter_light.h"
 #include "core/picture/path_step.h"
 #include "core/picture/sample_pair.h"
-#include "core/picture/surface_shares.h"
+#include "core/picture/surface_response.h"
 #include "core/record/sky.h"
 
 namespace dmpc::apps {

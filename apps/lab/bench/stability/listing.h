@@ -10,7 +10,6 @@
 #include "core/database/database.h"
 #include "core/record/directory.h"
 #include "core/record/records.h"
-#include "core/record/voxel_list.h"
 
 namespace dmpc::apps {
 

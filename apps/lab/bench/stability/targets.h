@@ -8,7 +8,7 @@
 #include "apps/lab/bench/stability/random.h"
 #include "apps/lab/bench/stability/rays.h"
 #include "core/database/database.h"
-#include "core/record/cone_floats.h"
+#include "core/record/curved_values.h"
 
 namespace dmpc::apps {
 

@@ -5,6 +5,7 @@
 #include "apps/lab/oracle/accurate/ray_log.h"
 #include "core/base/expect.h"
 #include "core/picture/emitter_light.h"
+#include "core/picture/sample_pair.h"
 #include "core/record/emitter.h"
 #include "core/record/records.h"
 

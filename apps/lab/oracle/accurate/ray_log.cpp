@@ -76,8 +76,8 @@ class NotingTracer {
   }
   AccurateRay in_world(const core::Ray& ray, const LoggedRay& noted) const {
     const Vec3d origin = ray.full_origin() * (1 / frame_.scale) + frame_.origin, direction = normalize(ray.full_direction());
-    return {.origin = along_axes(origin),
-            .direction = along_axes(direction),
+    return {.origin = origin,
+            .direction = direction,
             .t_max = noted.t_max,
             .ignored_body = ray.ignored_primitive == core::no_primitive ? core::no_primitive : bodies_[ray.ignored_primitive],
             .weight = Vec3d(ray.weight),
@@ -86,7 +86,6 @@ class NotingTracer {
             .light = noted.light,
             .cone = core::cone_width(ray) / frame_.scale};
   }
-  Vec3d along_axes(const Vec3d& v) const { return frame_.axes[0] * v.x + frame_.axes[1] * v.y + frame_.axes[2] * v.z; }
   /// The light that a shadow ray goes to: of those after the last one of this hit, the one nearest to the ray's end.
   std::uint32_t next_light(const core::Ray& ray) {
     const Vec3d end = ray.full_origin() + ray.full_direction() * static_cast<double>(ray.t_max);

@@ -12,7 +12,6 @@
 #include "apps/edge/system/interrupt.h"
 #include "apps/run/strategy_options.h"
 #include "apps/scene/subject.h"
-#include "core/database/record_order.h"
 #include "core/database/structure.h"
 #include "core/trace/charge.h"
 #include "dataflow/ray_options.h"

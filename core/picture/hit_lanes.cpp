@@ -1,6 +1,7 @@
-#include "core/picture/triangle_lanes.h"
+#include "core/picture/hit_lanes.h"
 
 #include "core/picture/hit_geometry.h"
+#include "core/picture/ray_start.h"
 #include "core/picture/triangle_hit.h"
 #include "core/record/record.h"
 
@@ -63,6 +64,38 @@ void TriangleLanes::read_all(VectorWidth width) {
     read_surface(state, record_[lane]);
   }
   count_ = 0;
+}
+
+template <bool is_bent>
+[[gnu::always_inline]] inline void ChildLanes::send_lanes() {
+  for (std::size_t first = 0; first < count_; first += group_lanes) {
+    for (std::size_t lane = first; lane < first + group_lanes; ++lane) {
+      const Vec3d direction = get(direction_, lane), normal = get(normal_, lane);
+      const Vec3d towards =
+          normalize(is_bent ? bent_direction(direction, normal, index_[lane]) : mirrored_direction(direction, normal));
+      const Vec3d true_normal = starts_.true_normal(lane);
+      Ray ray;
+      leave(ray, starts_.point(lane), true_normal, towards, start_towards(towards, true_normal, starts_.clearance(lane)));
+      rays_.put(lane, ray);
+    }
+  }
+}
+
+void ChildLanes::fill_up() {
+  core::fill_up(direction_, count_);
+  core::fill_up(normal_, count_);
+  core::fill_up(index_, count_);
+  starts_.fill_up(count_);
+}
+
+void ChildLanes::mirror(VectorWidth width) {
+  fill_up();
+  run_by(width, [&] { send_lanes<false>(); });
+}
+
+void ChildLanes::bend(VectorWidth width) {
+  fill_up();
+  run_by(width, [&] { send_lanes<true>(); });
 }
 
 }  // namespace dmpc::core

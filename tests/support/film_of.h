@@ -1,4 +1,4 @@
-// The film of a database in one call, by the reference renderer along paths.
+// The film of a database in one call, by the reference renderer.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +28,21 @@ struct PathPicture {
   }
 };
 
-/// `operations` are added to.
+/// By the reference renderer; `operations` are added to. `detail`: as core::render() has it.
+inline core::Film film_of(const core::Database& database, const core::RenderSettings& settings, core::Operations& operations,
+                          const core::FineDetail* detail = nullptr) {
+  core::LocalRecords records(database.bytes());
+  core::GridTracer tracer(records, settings.header, settings.skips);
+  return core::render(tracer, settings, operations, detail);
+}
+inline core::Film film_of(const core::Database& database, const core::RenderSettings& settings) {
+  core::Operations operations;
+  return film_of(database, settings, operations);
+}
+
 inline core::Film film_of(const core::Database& database, const core::View& view, const PathPicture& picture,
                           core::Operations& operations) {
-  core::LocalRecords records(database.bytes());
-  core::GridTracer<core::LocalRecords> tracer(records, database.header(), picture.skips);
-  return core::render(tracer, picture.settings(database, view), operations);
+  return film_of(database, picture.settings(database, view), operations);
 }
 
 inline core::Film film_of(const core::Database& database, const core::View& view, const PathPicture& picture) {

@@ -1,4 +1,4 @@
-#include "core/database/record_order.h"
+#include "core/database/structure.h"
 
 #include <numeric>
 #include <utility>
