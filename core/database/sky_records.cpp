@@ -12,7 +12,7 @@ namespace dmpc::core {
 namespace {
 
 /// Of the mean strength: what places have at least, so that the least of them are drawn as often as they should be.
-constexpr double share_min = 0x1p-20;
+constexpr double sky_share_min = 0x1p-20;
 
 /// Rows close, and beyond the poles is the row that ends there. What lies beyond the last cells is of no account.
 TextureTile tile_at(const SkyTexels& sky, std::uint32_t tile_column, std::uint32_t tile_row) {
@@ -58,7 +58,7 @@ SkyRecords sky_records(const SkyTexels& sky, const Vec3d& middle, const Vec3d& u
   }
   constexpr double all_directions = 4 * std::numbers::pi;
   const double strength = strength_of(records);
-  reference.least_strength = static_cast<float>(strength / all_directions * share_min);
+  reference.least_strength = static_cast<float>(strength / all_directions * sky_share_min);
   reference.density = static_cast<float>(1 / (strength + all_directions * double{reference.least_strength}));
   std::vector<double> weights;
   weights.reserve(records.tiles.size());

@@ -54,7 +54,7 @@ constexpr double own_share = 4;
 
 Vec3d vector_of(const std::array<float, 3>& color) { return {double{color[0]}, double{color[1]}, double{color[2]}}; }
 
-std::array<float, 3> rounded(const Vec3d& color) {
+std::array<float, 3> as_floats(const Vec3d& color) {
   return {static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z)};
 }
 
@@ -96,7 +96,7 @@ void ErrorEstimate::resume(std::span<const PixelPast> past) {
 
 void ErrorEstimate::take_means(const Film& film) {
   for (std::uint32_t pixel = 0; pixel < past_.size(); ++pixel) {
-    past_[pixel].mean = rounded(film.scaled_mean(pixel));
+    past_[pixel].mean = as_floats(film.scaled_mean(pixel));
   }
 }
 
@@ -106,7 +106,7 @@ void ErrorEstimate::end_pass(const Film& film, const Pass& pass) {
     if (pass.has(pixel)) {
       note_evidence(film, pass, pixel);
       note_changes(film, pass, pixel);
-      past_[pixel].mean = rounded(film.scaled_mean(pixel));
+      past_[pixel].mean = as_floats(film.scaled_mean(pixel));
     }
   }
   find_falls();

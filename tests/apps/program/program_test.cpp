@@ -328,7 +328,7 @@ TEST_CASE("what dataflow reduces to fit the memory is said before") {
 
 TEST_CASE("wrong usage ends with status 2 and a hint") {
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{}, {"paint"}, {"machine"}, {"render", "tetra-1", "-o", "a.png", "--ray-batch=2"}}) {
+       {std::vector<std::string>{}, {"paint"}, {"render"}, {"machine"}, {"render", "tetra-1", "-o", "a.png", "--ray-batch=2"}}) {
     const Result result = run(arguments);
     CHECK(result.status == 2);
     CHECK(contains(result.errors, "--help"));

@@ -10,7 +10,7 @@ namespace dmpc::apps::html {
 
 namespace {
 
-std::string bytes_of(std::string_view digits) {
+std::string from_hexadecimal(std::string_view digits) {
   std::string bytes;
   for (std::size_t at = 0; at + 1 < digits.size(); at += 2) {
     unsigned value = 0;
@@ -23,7 +23,7 @@ std::string bytes_of(std::string_view digits) {
 std::string sources_of(std::span<const WebPart> parts) {
   std::string sources;
   for (const WebPart& part : parts) {
-    sources += " 'sha256-" + base64(bytes_of(part.sha256)) + "'";
+    sources += " 'sha256-" + base64(from_hexadecimal(part.sha256)) + "'";
   }
   return sources.empty() ? " 'none'" : sources;
 }
