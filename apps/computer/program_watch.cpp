@@ -39,7 +39,7 @@ ProgramWatch::ProgramWatch(const ProgramOptions& options, const Vocabulary& voca
   }
   if (vocabulary.has_pages()) {
     watch_pages(options, run);
-  } else if (options.report && run.node_count <= readable_nodes_max) {
+  } else if (options.report && run.node_count <= html::readable_nodes_max) {
     look_on(pairs_, run.node_count);
   }
 }

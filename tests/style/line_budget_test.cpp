@@ -28,23 +28,23 @@ using Rows = std::vector<Row>;
 
 // What was there on 2026-11-28, and 3 %.
 const Rows sources = {
-    {"apps", 23'090},           {"apps/computer", 5'800},   {"apps/edge", 15'400},
-    {"apps/foreign", 14'830},   {"apps/lab", 2'320},        {"apps/lab/bench", 9'990},
-    {"apps/lab/oracle", 5'060}, {"apps/lab/study", 10'150}, {"apps/main", 230},
-    {"apps/manual", 310},       {"apps/modules", 670},      {"apps/policy", 650},
-    {"core", 28'870},           {"core/base", 1'560},       {"dataflow", 9'100},
-    {"nodes", 10'010},          {"nodes/pictures", 490},    {"svm", 3'380},
-    {"svm/forest", 630},        {"svm/pages", 3'740},
+    {"apps", 22'750},           {"apps/computer", 5'670},   {"apps/edge", 15'290},
+    {"apps/foreign", 14'420},   {"apps/lab", 2'280},        {"apps/lab/bench", 8'630},
+    {"apps/lab/oracle", 4'670}, {"apps/lab/study", 10'150}, {"apps/main", 230},
+    {"apps/manual", 280},       {"apps/modules", 670},      {"apps/policy", 620},
+    {"core", 28'400},           {"core/base", 1'530},       {"dataflow", 9'090},
+    {"nodes", 9'910},           {"nodes/pictures", 490},    {"svm", 3'380},
+    {"svm/forest", 620},        {"svm/pages", 3'700},
 };
 const Rows tests = {
-    {"tests", 6'060},           {"tests/apps", 16'200},        {"tests/apps/computer", 2'210},
-    {"tests/apps/edge", 6'250}, {"tests/apps/foreign", 5'920}, {"tests/apps/lab", 11'620},
-    {"tests/core", 18'040},     {"tests/dataflow", 8'100},     {"tests/nodes", 8'890},
-    {"tests/support", 5'000},   {"tests/svm", 5'560},          {"tests/whole", 4'380},
+    {"tests", 5'850},           {"tests/apps", 15'910},        {"tests/apps/computer", 2'210},
+    {"tests/apps/edge", 6'160}, {"tests/apps/foreign", 5'930}, {"tests/apps/lab", 11'120},
+    {"tests/core", 17'760},     {"tests/dataflow", 8'000},     {"tests/nodes", 8'450},
+    {"tests/support", 5'100},   {"tests/svm", 5'370},          {"tests/whole", 3'980},
 };
 
 /// Of all sources together, whatever the rows add up to.
-constexpr std::size_t sources_max = 142'000;
+constexpr std::size_t sources_max = 140'000;
 
 /// The row of a file: the longest folder that it lies in.
 const Row* row_of(const std::string& file, const Rows& rows) {
@@ -100,7 +100,7 @@ TEST_CASE("no library has more lines than its budget") { CHECK(faults_of(count_b
 
 TEST_CASE("no library's tests have more lines than their budget") { CHECK(faults_of(count_below({"tests"}), tests) == Faults{}); }
 
-TEST_CASE("all sources together have at most 142,000 lines") {
+TEST_CASE("all sources together have at most 140,000 lines") {
   const auto counts = count_below(layers);
   const auto add = [](std::size_t sum, const auto& file) { return sum + file.second; };
   CHECK(std::accumulate(counts.begin(), counts.end(), std::size_t{0}, add) <= sources_max);

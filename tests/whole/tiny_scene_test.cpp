@@ -34,7 +34,7 @@ std::uint64_t film_of(const core::Scene& scene) {
   const core::Database database = core::build_database(scene, {});
   const core::RenderSettings settings{database.header(), core::Camera(scene.view, database.header().frame, 24, 24, 1), {}};
   core::Operations operations;
-  const std::uint64_t hash = film_of(database, settings, operations).hash();
+  const std::uint64_t hash = tests::film_of(database, settings, operations).hash();
   CHECK(operations.primary_hits > 100);
   return hash;
 }

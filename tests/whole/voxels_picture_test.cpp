@@ -58,7 +58,7 @@ void check_strategies(const Subject& subject, std::uint32_t nodes) {
 
 core::Operations reference(const Subject& subject, const core::Skips& skips) {
   core::Operations operations;
-  film_of(subject.database(), subject.settings(skips), operations);
+  tests::film_of(subject.database(), subject.settings(skips), operations);
   return operations;
 }
 

@@ -28,7 +28,8 @@ def balance(
     "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None,
     bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None,
     light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure:
-    Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text | None = None, plots: Text | None = None
+    Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None,
+    plots: Text | None = None
 ) -> pandas.DataFrame:
     """How evenly the work of rays that travel is shared out."""
     return studying.study("balance", ["scene"], locals())
@@ -45,7 +46,7 @@ def traffic(
     "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None,
     sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None,
     page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents",
-    "voxels"] | None = None, voxels: Text | None = None, report: Text | None = None, plots: Text | None = None
+    "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """What travels when rays do, beside what travels when pages do."""
     return studying.study("traffic", ["scene"], locals())
@@ -62,8 +63,8 @@ def cache(
     no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] |
     None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None,
     occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None,
-    record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text
-    | None = None, report: Text | None = None, plots: Text | None = None
+    record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels:
+    Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How often pages are missed with caches of every size and policy."""
     return studying.study("cache", ["scene"], locals())
@@ -87,7 +88,7 @@ def speedup(
     Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
     Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size:
     Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None
-    = None, voxels: Text | None = None, report: Text | None = None, plots: Text | None = None
+    = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How much faster a modelled machine gets by more nodes."""
     return studying.study("speedup", ["scene"], locals())
@@ -105,8 +106,8 @@ def systems(
     "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] |
     None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None =
     None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,
-    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text | None = None, plots: Text |
-    None = None
+    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None =
+    None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """The systems that the 1994 article classifies, side by side on one machine."""
     return studying.study("systems", ["scene"], locals())
@@ -124,8 +125,8 @@ def frames(
     "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] |
     None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None =
     None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,
-    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Text | None = None, report: Text | None = None, plots: Text |
-    None = None
+    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None =
+    None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """What frames of a moving camera fetch and send, with caches warm and cold."""
     return studying.study("frames", ["scene"], locals())

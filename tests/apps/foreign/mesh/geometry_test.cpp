@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
 #include "core/base/expect.h"
 
 namespace dmpc::apps::geometry_test {
@@ -132,10 +133,18 @@ TEST_CASE("a face with more corners than an object has room for is refused by it
 }
 
 TEST_CASE("a scene has room for as many corners as 32 bits count, and no more") {
-  CHECK_NOTHROW(check_size({}));
-  CHECK_NOTHROW(check_size({.triangles = 1, .faces = 1, .corners = 4'294'967'294}));
-  CHECK_THROWS_WITH_AS(check_size({.triangles = 1'431'655'765, .faces = 1'431'655'765, .corners = 4'294'967'295}),
+  constexpr std::uint64_t unbounded = std::numeric_limits<std::uint64_t>::max();
+  CHECK_NOTHROW(check_size({}, unbounded));
+  CHECK_NOTHROW(check_size({.triangles = 1, .faces = 1, .corners = 4'294'967'294}, unbounded));
+  CHECK_THROWS_WITH_AS(check_size({.triangles = 1'431'655'765, .faces = 1'431'655'765, .corners = 4'294'967'295}, unbounded),
                        doctest::Contains("1,431,655,765 triangles"), core::RoomError);
+}
+
+TEST_CASE("a scene has as much memory as it is given, and no more") {
+  constexpr std::uint64_t taken = sizeof(core::Object) + 3 * sizeof(core::Vec3d);
+  CHECK_NOTHROW(check_size(size_of_face(3), taken));
+  CHECK_THROWS_WITH_AS(check_size(size_of_face(3), taken - 1), doctest::Contains("its 1 triangles so far take at least"),
+                       core::RoomError);
 }
 
 TEST_CASE("sizes add up") {
