@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/base/expect.h"
-#include "core/base/large_pages.h"
+#include "core/base/filling.h"
 #include "nodes/byte_source.h"
 #include "nodes/layout.h"
 #include "nodes/local_memory.h"

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "core/base/large_pages.h"
+#include "core/base/filling.h"
 
 namespace dmpc::apps {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "core/base/large_pages.h"
+#include "core/base/filling.h"
 #include "core/base/units.h"
 
 namespace dmpc::core {
@@ -25,7 +25,7 @@ void* map(std::size_t bytes) {
   return mapped == MAP_FAILED ? nullptr : mapped;
 }
 
-/// In small pages, of which none is set aside before something in it is touched, unless core/base/large_pages.h wishes for large
+/// In small pages, of which none is set aside before something in it is touched, unless core/base/filling.h wishes for large
 /// ones. As map().
 void* map_small(std::size_t length) {
   void* const first = map(length);

@@ -220,7 +220,12 @@ OutputFile::OutputFile(const fs::path& path, const Settings& settings, Files& fi
       target_(settings.replaces == Replaces::name ? path : file_behind(path)),
       temporary_(target_) {
   open();
-  stream_.emplace(files_, file_);
+  try {
+    stream_.emplace(files_, file_);
+  } catch (...) {  // no destructor will
+    drop();
+    throw;
+  }
 }
 
 void OutputFile::open() {
@@ -253,7 +258,9 @@ void OutputFile::make(const fs::path& temporary) {
   }
 }
 
-OutputFile::~OutputFile() {
+OutputFile::~OutputFile() { drop(); }
+
+void OutputFile::drop() {
   close();
   if (is_temporary() && !is_renamed_) {
     files_.remove(temporary_);

@@ -114,6 +114,8 @@ class OutputFile {
   void open();
   void make(const std::filesystem::path& temporary);
   int close();
+  /// Leaves no file that was not finished.
+  void drop();
   void sync_folder() const;
   [[noreturn]] void fail(const std::string& what, int error) const;
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+
 #include "core/base/expect.h"
 
 namespace dmpc::apps::geometry_test {

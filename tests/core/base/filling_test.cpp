@@ -1,4 +1,4 @@
-#include "core/base/large_pages.h"
+#include "core/base/filling.h"
 
 #include <doctest/doctest.h>
 #include <sys/mman.h>
@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-namespace dmpc::core::large_pages_test {
+namespace dmpc::core::filling_test {
 namespace {
 
 constexpr std::size_t page_bytes = 4096;
@@ -39,4 +39,4 @@ TEST_CASE("bytes that are about to be filled take nothing of what lies beside th
 }
 #endif
 
-}  // namespace dmpc::core::large_pages_test
+}  // namespace dmpc::core::filling_test
