@@ -18,7 +18,6 @@
 #include "apps/foreign/polygon/text_words.h"
 #include "apps/foreign/polygon/whole_file.h"
 #include "apps/foreign/text/line_words.h"
-#include "apps/formats/reading_memory.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -231,7 +230,7 @@ void make_light(std::vector<Color>& colors, std::size_t count) {
 
 PlacedFile OffReader::read() {
   read_header();
-  check_database(std::min(faces_, room()));
+  progress_.check_triangles(std::min(faces_, room()));
   mesh_.vertices.reserve(std::min(vertices_, room()));
   for (std::uint64_t i = 0; i < vertices_; ++i) {
     read_vertex(i);

@@ -13,7 +13,6 @@
 #include "apps/foreign/polygon/ply_surfaces.h"
 #include "apps/foreign/polygon/ply_values.h"
 #include "apps/foreign/polygon/whole_file.h"
-#include "apps/formats/reading_memory.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -259,7 +258,7 @@ void PlyReader::read_faces(const PlyElement& element) {
   }
   face_light_ = row.has_all({red, green, blue}) ? full_light_of(row.type_of(red)) : 0;
   const std::uint64_t room = std::min(element.count, values_->room_for(element));
-  check_database(room);
+  progress_.check_triangles(room);
   mesh_.faces.ends.reserve(room);
   mesh_.faces.corners.reserve(3 * room);
   mesh_.face_materials.reserve(room);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
+#include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/mesh/scene_files.h"
 
 namespace dmpc::apps {
@@ -13,6 +15,8 @@ class ReadingProgress {
   /// `files` outlives it. `bytes`: of the whole file.
   ReadingProgress(SceneFiles& files, std::size_t bytes) : files_(files), bytes_(bytes) {}
 
+  /// Throws as check_size() where the file has so many triangles. Cheap.
+  void check_triangles(std::uint64_t count) const { check_size({count, count, 3 * count}, files_.memory_bytes_max()); }
   /// So many bytes are read. Cheap.
   void show(std::size_t position) {
     if (position >= next_) {

@@ -11,7 +11,6 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/surface.h"
 #include "apps/foreign/polygon/indexed_mesh.h"
-#include "apps/formats/reading_memory.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -121,7 +120,7 @@ void StlBinaryReader::read_facet(std::size_t facet) {
 
 PlacedFile StlBinaryReader::read() {
   const std::size_t count = count_facets();
-  check_database(count);
+  progress_.check_triangles(count);
   mesh_.vertices.reserve(3 * count);
   mesh_.faces.corners.reserve(3 * count);
   mesh_.faces.ends.reserve(count);

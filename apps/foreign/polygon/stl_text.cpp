@@ -37,6 +37,7 @@ class StlTextReader {
   TextWords words_;
   ReadingProgress& progress_;
   std::size_t solids_ = 0;
+  std::uint64_t facets_ = 0;
 };
 
 PlacedFile StlTextReader::read() {
@@ -60,6 +61,7 @@ void StlTextReader::read_solid(PlacedFile& file) {
       words_.fail("the file is cut short: it does not end with 'endsolid'");
     }
     expect(word, "facet");
+    progress_.check_triangles(++facets_);
     read_facet(mesh);
     progress_.show(words_.position());
   }

@@ -11,13 +11,18 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "apps/foreign/obj/reader.h"
 #include "apps/foreign/pbrt/reader.h"
+#include "apps/foreign/polygon/off.h"
+#include "apps/foreign/polygon/ply.h"
+#include "apps/foreign/polygon/stl.h"
 #include "apps/formats/reading_memory.h"
 #include "tests/support/forked_process.h"
 #include "tests/support/mesh_files.h"
@@ -202,6 +207,23 @@ TEST_CASE("reading takes no more than twice the memory that is estimated, and 64
   }
 }
 #endif
+
+TEST_CASE("a file whose triangles take more memory than a scene may is refused before they are made") {
+  const std::map<std::string, PlacedFile (*)(const std::string&, SceneFiles&)> readers = {
+      {"obj", read_obj}, {"ply", read_ply}, {"stl", read_stl}, {"off", read_off}};
+  for (const auto& [name, write] : formats()) {
+    CAPTURE(name);
+    std::ostringstream text;
+    write(text, Sheet{10});
+    const auto read = readers.at(name.substr(name.size() - 3));
+    BoundedFile enough(text.str(), 1U << 20U), little(text.str(), 10'000);
+    CHECK_NOTHROW(read(name, enough));
+    CHECK_THROWS_WITH_AS(read(name, little), doctest::Contains("triangles so far take at least"), core::RoomError);
+  }
+  const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
+  BoundedFile text("solid\n" + facet + facet + "endsolid\n", 150);
+  CHECK_THROWS_WITH_AS(read_stl("a.stl", text), doctest::Contains("its 2 triangles so far"), core::RoomError);
+}
 
 TEST_CASE("a total of all shapes so far, and of all places of instances, is refused at the line where memory would end") {
   const std::string world = "WorldBegin\n", cylinders = "Shape \"cylinder\"\nShape \"cylinder\"\nShape \"cylinder\"\n";
