@@ -164,8 +164,7 @@ class PrimitiveReader {
       if (mode < Mode::triangles) {
         read.thin_faces = face_count(mode, source.indices.size());
       } else {
-        const std::uint64_t faces = face_count(mode, source.indices.size());
-        size_ += {faces, faces, 3 * faces};
+        size_ += size_of_triangles(face_count(mode, source.indices.size()));
         apps::check_size(size_, memory_bytes_max_);
         add_vertices(source, materials_[read.mesh.material].coordinates, read.mesh);
         read.mesh.faces = triangles_of(mode, std::move(source.indices));

@@ -66,6 +66,8 @@ bool shows_nothing(const core::Material& material) {
 
 GeometrySize size_of_face(std::uint64_t corners) { return corners < 3 ? GeometrySize{} : GeometrySize{corners - 2, 1, corners}; }
 
+GeometrySize size_of_triangles(std::uint64_t count) { return {count, count, 3 * count}; }
+
 GeometrySize size_of(const FaceList& faces) {
   return {faces.corners.size() - 2 * faces.ends.size(), faces.ends.size(), faces.corners.size()};
 }

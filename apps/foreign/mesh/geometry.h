@@ -28,6 +28,7 @@ struct GeometrySize {
   GeometrySize& operator+=(const GeometrySize& other) { return core::add_counts(*this, other); }
 };
 GeometrySize size_of_face(std::uint64_t corners);
+GeometrySize size_of_triangles(std::uint64_t count);
 /// Of faces of three or more corners.
 GeometrySize size_of(const FaceList& faces);
 /// Of what a scene has so far. Throws core::RoomError if a database, the indices of a scene, or memory does not reach so far.

@@ -16,7 +16,7 @@ class ReadingProgress {
   ReadingProgress(SceneFiles& files, std::size_t bytes) : files_(files), bytes_(bytes) {}
 
   /// Throws as check_size() where the file has so many triangles. Cheap.
-  void check_triangles(std::uint64_t count) const { check_size({count, count, 3 * count}, files_.memory_bytes_max()); }
+  void check_triangles(std::uint64_t count) const { check_size(size_of_triangles(count), files_.memory_bytes_max()); }
   /// So many bytes are read. Cheap.
   void show(std::size_t position) {
     if (position >= next_) {

@@ -24,6 +24,8 @@
 #include "apps/foreign/polygon/ply.h"
 #include "apps/foreign/polygon/stl.h"
 #include "apps/formats/reading_memory.h"
+#include "tests/fuzz/input_files.h"
+#include "tests/support/complaint.h"
 #include "tests/support/forked_process.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/packed_gltf.h"
@@ -31,6 +33,7 @@
 
 namespace dmpc::apps::reading_memory_test {
 
+using tests::complaint_of;
 using tests::contains;
 using tests::TemporaryFolder;
 
@@ -137,42 +140,20 @@ std::string path_to_read, format_to_read;
 }
 
 /// One file, and a bound of memory.
-class BoundedFile final : public SceneFiles {
+class BoundedFile final : public fuzz::InputFiles {
  public:
-  BoundedFile(std::string text, std::uint64_t memory_bytes) : text_(std::move(text)), memory_bytes_(memory_bytes) {}
-
-  std::unique_ptr<FileBytes> open(const std::string& /*path*/) override { return std::make_unique<Bytes>(text_); }
-  bool exists(const std::string& /*path*/) override { return false; }
-  std::vector<std::filesystem::path> meant(const std::filesystem::path& /*folder*/, const std::string& /*name*/) override {
-    return {};
-  }
-  void add_texture(const std::string& /*path*/, const TextureEdges& /*edges*/) override {}
-  void add_texture(std::span<const std::byte> /*file*/, const std::string& /*name*/, const std::string& /*format_hint*/,
-                   const TextureEdges& /*edges*/) override {}
-  void add_texture(std::span<const std::uint32_t> /*texels*/, std::uint32_t /*width*/, std::uint32_t /*height*/,
-                   const std::string& /*name*/, const TextureEdges& /*edges*/) override {}
+  /// `text` outlives it.
+  BoundedFile(const std::string& name, const std::string& text, std::uint64_t memory_bytes)
+      : InputFiles(name, std::as_bytes(std::span(text))), memory_bytes_(memory_bytes) {}
   std::uint64_t memory_bytes_max() const override { return memory_bytes_; }
-  void show_progress(float /*share*/) override {}
 
  private:
-  struct Bytes final : FileBytes {
-    explicit Bytes(const std::string& text) : text_(text) {}
-    std::span<const std::byte> bytes() const override { return std::as_bytes(std::span(text_)); }
-    const std::string& text_;
-  };
-
-  std::string text_;
   std::uint64_t memory_bytes_;
 };
 
 std::string pbrt_refusal(const std::string& text, std::uint64_t memory_bytes) {
-  BoundedFile file(text, memory_bytes);
-  try {
-    pbrt::read_pbrt("a.pbrt", {}, file);
-  } catch (const core::RoomError& error) {
-    return error.what();
-  }
-  return "";
+  BoundedFile file("a.pbrt", text, memory_bytes);
+  return complaint_of<core::RoomError>([&] { pbrt::read_pbrt("a.pbrt", {}, file); });
 }
 
 void make_sparse(const std::filesystem::path& path, const std::string& head, std::uint64_t bytes) {
@@ -181,12 +162,7 @@ void make_sparse(const std::filesystem::path& path, const std::string& head, std
 }
 
 std::string refusal_of(const std::string& path) {
-  try {
-    read_mesh_file(path);
-  } catch (const core::RoomError& error) {
-    return error.what();
-  }
-  return "";
+  return complaint_of<core::RoomError>([&] { read_mesh_file(path); });
 }
 
 }  // namespace
@@ -213,16 +189,18 @@ TEST_CASE("a file whose triangles take more memory than a scene may is refused b
       {"obj", read_obj}, {"ply", read_ply}, {"stl", read_stl}, {"off", read_off}};
   for (const auto& [name, write] : formats()) {
     CAPTURE(name);
-    std::ostringstream text;
-    write(text, Sheet{10});
+    std::ostringstream file;
+    write(file, Sheet{10});
+    const std::string text = file.str();
     const auto read = readers.at(name.substr(name.size() - 3));
-    BoundedFile enough(text.str(), 1U << 20U), little(text.str(), 10'000);
+    BoundedFile enough(name, text, 1U << 20U), little(name, text, 10'000);
     CHECK_NOTHROW(read(name, enough));
     CHECK_THROWS_WITH_AS(read(name, little), doctest::Contains("triangles so far take at least"), core::RoomError);
   }
   const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
-  BoundedFile text("solid\n" + facet + facet + "endsolid\n", 150);
-  CHECK_THROWS_WITH_AS(read_stl("a.stl", text), doctest::Contains("its 2 triangles so far"), core::RoomError);
+  const std::string text = "solid\n" + facet + facet + "endsolid\n";
+  BoundedFile two("a.stl", text, 150);
+  CHECK_THROWS_WITH_AS(read_stl("a.stl", two), doctest::Contains("its 2 triangles so far"), core::RoomError);
 }
 
 TEST_CASE("a total of all shapes so far, and of all places of instances, is refused at the line where memory would end") {

@@ -89,16 +89,14 @@ std::string title_of(const ErrorOptions& options) {
 std::vector<std::string> explanations(bool are_by_paths) {
   const std::string unclaimed =
       "; a row whose RMSE is less than 10 times the reference's own error claims nothing and is on no Pareto front; plots show "
-      "what "
-      "is left of it, hollow, between what is left if that error were twice as large, a tenth at least, and all of it.";
+      "what is left of it, hollow, between what is left if that error were twice as large, a tenth at least, and all of it.";
   return {
       are_by_paths
           ? "Errors are against the converged picture by our own arithmetic, of other samples than those of all rows" + unclaimed
           : "Errors without a word before them are against the converged picture in double precision" + unclaimed,
       are_by_paths
           ? "Seconds are those of processors. Fewer bounces are darker, which is an error that no samples take away; roulette, "
-            "and "
-            "meeting by chance what shines, are none."
+            "and meeting by chance what shines, are none."
           : "Deterministic errors are those of the knob alone: against the picture with the same samples and the knob at its "
             "exact position, of arithmetic against the same samples in double precision.",
       "Adaptive sampling is asked for no smaller error than the reference's own.",

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,11 @@ namespace {
 
 const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", named = three + "vt 0 0\nvn 0 0 1\n";
 
+constexpr std::uint64_t unbounded = std::numeric_limits<std::uint64_t>::max();
+
 Geometry parse(const std::string& text) {
-  return parse_obj(text, [](float) {});
+  return parse_obj(
+      text, [](float) {}, unbounded);
 }
 
 std::string refusal(const std::string& text) {
@@ -163,10 +167,13 @@ TEST_CASE("much of what is small or long is read in one go") {
 
 TEST_CASE("how much has passed is heard, up to all") {
   float last = 0;
-  parse_obj(three, [&last](float share) {
-    CHECK(share > last);
-    last = share;
-  });
+  parse_obj(
+      three,
+      [&last](float share) {
+        CHECK(share > last);
+        last = share;
+      },
+      unbounded);
   CHECK(last == 1);
 }
 
