@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "tests/support/mesh_files.h"
@@ -41,6 +42,23 @@ class GltfDocument {
     accessors_.push_back("{" + members + (members.empty() ? "" : ",") + R"("componentType":)" + std::to_string(component_type) +
                          R"(,"count":)" + std::to_string(count) + R"(,"type":")" + type + "\"}");
     return accessors_.size() - 1;
+  }
+  /// Of rows of `width` numbers, as they are; returns its number as text.
+  template <class List>
+  std::string add(const List& numbers, std::size_t width, const std::string& more = "") {
+    using T = typename List::value_type;
+    constexpr int type = std::is_floating_point_v<T> ? 5126
+                                                     : 5120 +
+                                                           (sizeof(T) == 4   ? 5
+                                                            : sizeof(T) == 2 ? 2
+                                                                             : 0) +
+                                                           (std::is_unsigned_v<T> && sizeof(T) < 4 ? 1 : 0);
+    std::string bytes;
+    for (const T& number : numbers) {
+      bytes += bytes_of(number);
+    }
+    const std::string kind = width == 1 ? "SCALAR" : width == 16 ? "MAT4" : "VEC" + std::to_string(width);
+    return std::to_string(accessor(view(bytes), type, numbers.size() / width, kind, more));
   }
 
   /// One mesh with this one primitive; `more` are further members of the outermost object.

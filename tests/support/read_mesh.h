@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/formats/mesh_file.h"
-#include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -17,13 +17,8 @@ inline apps::MeshFile read_mesh(const std::string& name, const std::string& text
 }
 
 /// What is said of a file that is refused; empty if it is read.
-inline std::string mesh_refusal(const std::string& name, const std::string& text) {
-  try {
-    read_mesh(name, text);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+inline std::string mesh_refusal(const std::string& name, const std::string& text, const apps::MeshOptions& options = {}) {
+  return complaint_of([&] { read_mesh(name, text, options); });
 }
 
 inline bool notes(const apps::MeshFile& file, const std::string& what) {

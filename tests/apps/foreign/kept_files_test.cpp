@@ -43,11 +43,6 @@ std::pair<std::vector<float>, std::vector<std::uint32_t>> sheet() {
 }
 
 template <class T>
-std::string bytes_of(const std::vector<T>& numbers) {
-  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T)};
-}
-
-template <class T>
 std::string listed(const std::vector<T>& numbers) {
   std::string text;
   for (const T number : numbers) {
@@ -63,25 +58,21 @@ constexpr const char* places[] = {R"("translation":[0,0,0])", R"("translation":[
 std::string gltf_sheets(bool are_instances) {
   const auto [points, corners] = sheet();
   tests::GltfDocument document;
-  const std::size_t positions = document.accessor(document.view(bytes_of(points)), 5126, points.size() / 3, "VEC3");
-  const std::size_t indices = document.accessor(document.view(bytes_of(corners)), 5125, corners.size(), "SCALAR");
+  const std::string positions = document.add(points, 3), indices = document.add(corners, 1);
   if (are_instances) {
-    const std::size_t moves =
-        document.accessor(document.view(bytes_of(std::vector<float>{0, 0, 0, 1, 0.3F, -2, -1, 0.2F, -1})), 5126, 3, "VEC3");
-    const std::size_t turns =
-        document.accessor(document.view(bytes_of(std::vector<float>{0, 0, 0, 1, 0.6F, 0, 0, 0.8F, 0, 0, 0, 1})), 5126, 3, "VEC4");
-    const std::size_t sizes =
-        document.accessor(document.view(bytes_of(std::vector<float>{1, 1, 1, 1, 1, 1, 1, 1, -0.5F})), 5126, 3, "VEC3");
-    document.node = R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":)" + std::to_string(moves) +
-                    R"(,"ROTATION":)" + std::to_string(turns) + R"(,"SCALE":)" + std::to_string(sizes) + "}}}}";
+    using Floats = std::vector<float>;
+    const std::string moves = document.add(Floats{0, 0, 0, 1, 0.3F, -2, -1, 0.2F, -1}, 3);
+    const std::string turns = document.add(Floats{0, 0, 0, 1, 0.6F, 0, 0, 0.8F, 0, 0, 0, 1}, 4);
+    const std::string sizes = document.add(Floats{1, 1, 1, 1, 1, 1, 1, 1, -0.5F}, 3);
+    document.node = R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":)" + moves +
+                    R"(,"ROTATION":)" + turns + R"(,"SCALE":)" + sizes + "}}}}";
   } else {
     document.node = R"({"children":[1,2,3]})";
     for (const char* const place : places) {
       document.node += std::string(R"(,{"mesh":0,)") + place + "}";
     }
   }
-  return document.text(R"({"attributes":{"POSITION":)" + std::to_string(positions) + R"(},"indices":)" + std::to_string(indices) +
-                       "}");
+  return document.text(R"({"attributes":{"POSITION":)" + positions + R"(},"indices":)" + indices + "}");
 }
 
 std::string pbrt_sheets() {

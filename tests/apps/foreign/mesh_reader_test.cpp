@@ -9,8 +9,7 @@
 #include "apps/scene/staging.h"
 #include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/text.h"
+#include "tests/support/read_mesh.h"
 
 namespace dmpc::apps::mesh_reader_test {
 
@@ -19,34 +18,16 @@ using core::Scene;
 using core::Vec3d;
 using tests::contains;
 using tests::Gltf;
+using tests::mesh_refusal;
+using tests::notes;
 
 namespace {
 
 MeshFile read(const std::string& name, const std::string& text, const MeshOptions& options = {}) {
-  const tests::TemporaryFolder folder;
-  tests::write_text(folder / name, text);
-  return read_mesh_file(folder / name, options);
+  return tests::read_mesh(name, text, options);
 }
 
 MeshFile read(const Gltf& gltf, const MeshOptions& options = {}) { return read("a.gltf", gltf.text(), options); }
-
-std::string complaint(const std::string& name, const std::string& text) {
-  try {
-    read(name, text);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-bool notes(const MeshFile& file, const std::string& what) {
-  for (const std::string& note : file.notes) {
-    if (contains(note, what)) {
-      return true;
-    }
-  }
-  return false;
-}
 
 const std::vector<Vec3d> triangle = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}};
 
@@ -211,47 +192,41 @@ TEST_CASE("what cannot be read is refused, by the file's name") {
   CHECK_THROWS_WITH_AS(read_mesh_file(folder / "none.obj"), doctest::Contains("none.obj: cannot be opened: No such file"),
                        core::InputError);
   CHECK_THROWS_WITH_AS(read_mesh_file(folder.path()), doctest::Contains("is a folder"), core::InputError);
-  CHECK(contains(complaint("a.obj", ""), "a.obj: "));
-  CHECK(contains(complaint("a.gltf", "{\"asset\""), "a.gltf: "));
-  CHECK(contains(complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n"),
+  CHECK(contains(mesh_refusal("a.obj", ""), "a.obj: "));
+  CHECK(contains(mesh_refusal("a.gltf", "{\"asset\""), "a.gltf: "));
+  CHECK(contains(mesh_refusal("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n"),
                  "line 4: the face has vertex 7, which does not exist"));
 }
 
-TEST_CASE("a missing buffer is named") { CHECK(contains(complaint("a.gltf", Gltf{}.json("wheels.bin")), "wheels.bin")); }
+TEST_CASE("a missing buffer is named") { CHECK(contains(mesh_refusal("a.gltf", Gltf{}.json("wheels.bin")), "wheels.bin")); }
 
 TEST_CASE("a missing material library is an error, or said, once, and the mesh shown without it") {
   const std::string text = "mtllib paint.mtl\nmtllib paint.mtl\nusemtl red\n" + tests::triangle_obj;
-  CHECK(tests::count(complaint("a.obj", text), "paint.mtl is missing") == 1);
+  CHECK(tests::count(mesh_refusal("a.obj", text), "paint.mtl is missing") == 1);
   const MeshFile file = read("a.obj", text, {.allows_missing = true});
   CHECK(file.scene.objects.size() == 1);
   CHECK(notes(file, "paint.mtl is missing"));
 }
 
 TEST_CASE("a file without triangles is refused") {
-  CHECK(contains(complaint("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"), "no triangle"));
-  CHECK(contains(complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n"), "no triangle"));
+  CHECK(contains(mesh_refusal("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"), "no triangle"));
+  CHECK(contains(mesh_refusal("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n"), "no triangle"));
 }
 
 TEST_CASE("a coordinate that is not finite is refused, with its mesh and vertex") {
   Gltf gltf;
   gltf.corners[3] = std::nanf("");
-  CHECK(contains(complaint("a.gltf", gltf.text()), "wheel"));
-  CHECK(contains(complaint("a.gltf", gltf.text()), "vertex 1 has a coordinate that is not a number"));
+  CHECK(contains(mesh_refusal("a.gltf", gltf.text()), "wheel"));
+  CHECK(contains(mesh_refusal("a.gltf", gltf.text()), "vertex 1 has a coordinate that is not a number"));
   gltf.corners[3] = std::numeric_limits<float>::infinity();
-  CHECK(contains(complaint("a.gltf", gltf.text()), "vertex 1"));
+  CHECK(contains(mesh_refusal("a.gltf", gltf.text()), "vertex 1"));
   gltf.corners[3] = 1e31F;
-  CHECK(contains(complaint("a.gltf", gltf.text()), "beyond 1e30"));
-}
-
-TEST_CASE("an index of a vertex that does not exist is refused") {
-  std::string text = tests::triangle_ply;
-  text.replace(text.find("3 0 1 2"), 7, "3 0 1 9");
-  CHECK(contains(complaint("a.ply", text), "face 0 has a vertex that does not exist"));
+  CHECK(contains(mesh_refusal("a.gltf", gltf.text()), "beyond 1e30"));
 }
 
 TEST_CASE("a transform that is not finite is refused, with its node") {
   const Gltf gltf{.nodes = R"([{"mesh":0,"name":"press","scale":[1e200,1e200,1]}])"};
-  CHECK(contains(complaint("a.gltf", gltf.text()), "'press' is not finite"));
+  CHECK(contains(mesh_refusal("a.gltf", gltf.text()), "'press' is not finite"));
 }
 
 TEST_CASE("a node of scale 0 hides what stands at it and below, and nothing else") {
@@ -262,7 +237,7 @@ TEST_CASE("a node of scale 0 hides what stands at it and below, and nothing else
   REQUIRE(file.scene.objects.size() == 1);
   CHECK(file.scene.vertices.size() == 3);
   CHECK(file.scene.vertices[0] == Vec3d{0, 0, 3});
-  CHECK(contains(complaint("a.gltf", Gltf{.nodes = R"([{"mesh":0,"scale":[0,0,0]}])"}.text()), "no triangle"));
+  CHECK(contains(mesh_refusal("a.gltf", Gltf{.nodes = R"([{"mesh":0,"scale":[0,0,0]}])"}.text()), "no triangle"));
 }
 
 TEST_CASE("what is pressed flat shows its plane, with the plane's own normals") {

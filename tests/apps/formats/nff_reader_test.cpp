@@ -4,14 +4,13 @@
 #include <malloc.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "apps/formats/nff_tokens.h"
-#include "core/base/expect.h"
+#include "tests/support/complaint.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nff_reader_test {
 
@@ -29,12 +28,7 @@ core::Scene read_text(const std::string& text) {
 
 /// The message of the error that `text` must cause; empty if it causes none.
 std::string message_of(const std::string& text) {
-  try {
-    read_text(text);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { read_text(text); });
 }
 
 /// What stands on the line after a complete view is wrong: the message names line 8 and says `part`.
@@ -210,17 +204,17 @@ TEST_CASE("cutting any tail off a small file is an error or leaves a valid begin
 }
 
 TEST_CASE("an empty file and a file without a view are refused") {
-  CHECK(message_of("").starts_with("a.nff:1: the file is empty"));
-  CHECK(message_of(" \n# only a comment\n").find("the file is empty") != std::string::npos);
-  CHECK(message_of("s 0 0 0 1\n").find("a.nff:1: the file ends without a view; add 'v'") != std::string::npos);
+  tests::check_complaints(message_of, {{"", "a.nff:1: the file is empty"},
+                                       {" \n# only a comment\n", "the file is empty"},
+                                       {"s 0 0 0 1\n", "a.nff:1: the file ends without a view; add 'v'"}});
 }
 
 TEST_CASE("a view with a part missing, twice, or unknown is refused") {
-  CHECK(message_of("v from 0 0 1 at 0 0 0 up 0 1 0 angle 45 hither 1\ns 0 0 0 1")
-            .starts_with("a.nff:2: found 's', expected 'resolution' of v (view)"));
-  CHECK(message_of("v from 0 0 1 from 0 0 1").find("found 'from', expected 'at'") != std::string::npos);
-  CHECK(message_of("v eye 0 0 1").find("found 'eye', expected 'from'") != std::string::npos);
-  CHECK(message_of("v from 0 0 1").find("the file ends here, expected 'at'") != std::string::npos);
+  tests::check_complaints(message_of, {{"v from 0 0 1 at 0 0 0 up 0 1 0 angle 45 hither 1\ns 0 0 0 1",
+                                        "a.nff:2: found 's', expected 'resolution' of v (view)"},
+                                       {"v from 0 0 1 from 0 0 1", "found 'from', expected 'at'"},
+                                       {"v eye 0 0 1", "found 'eye', expected 'from'"},
+                                       {"v from 0 0 1", "the file ends here, expected 'at'"}});
 }
 
 TEST_CASE("a second view or background is refused with the line of the first") {
@@ -228,42 +222,34 @@ TEST_CASE("a second view or background is refused with the line of the first") {
   CHECK(message_of("b 0 0 0\nb 0 0 0\n").find("a.nff:2: found a second 'b' (the first stands on line 1)") == 0);
 }
 
-TEST_CASE("a resolution below 1, too large, or broken is refused") {
-  for (const char* line :
-       {"resolution 0 48", "resolution 64 0", "resolution -1 48", "resolution 64 48.5", "resolution 65536 1"}) {
-    CHECK(message_of(view_with("resolution", line)).find("expected an integer from 1 to 65535") != std::string::npos);
-  }
-  CHECK(read_text(view_with("resolution", "resolution 64.0 1e2")).view.height == 100);
-}
-
-TEST_CASE("a resolution of too many pixels is refused with its line") {
-  CHECK(message_of(view_with("resolution", "resolution 65535 4097"))
-            .starts_with("a.nff:7: found the resolution 65535 4097 of v (view), expected at most 268435456 pixels in all"));
-  CHECK(message_of(view_with("resolution", "resolution 65535 4096")).empty());
-  CHECK(message_of(view_with("resolution", "resolution 16384 16384")).empty());
-}
-
-TEST_CASE("a view farther out than numbers reach is refused as such") {
+TEST_CASE("a view that makes no picture is refused, by the part that is wrong") {
+  const std::string integer = "expected an integer from 1 to 65535",
+                    degrees = "as the angle of v (view), expected degrees between 0";
+  const std::string pixels = "a.nff:7: found the resolution 65535 4097 of v (view), expected at most 268435456 pixels in all";
   const std::string far = "found -1e+308 as a coordinate of at of v (view), expected a number from -1e30 to 1e30";
-  CHECK(message_of(view_with("at", "at 0 -1e308 0")).find(far) != std::string::npos);
-  CHECK(message_of(view_with("from", "from 1e308 0 5")).find("as a coordinate of from of v (view)") != std::string::npos);
-  CHECK(message_of(view_with("from", "from 1.1e30 0 0")).find("too large") != std::string::npos);
-  CHECK(message_of(view_with("from", "from 1e30 0 -1e30")).empty());
-}
-
-TEST_CASE("an angle outside 0 to 180 degrees is refused") {
-  for (const char* line : {"angle 0", "angle -45", "angle 180", "angle 360"}) {
-    CHECK(message_of(view_with("angle", line)).find("as the angle of v (view), expected degrees between 0 and 180") !=
-          std::string::npos);
-  }
-}
-
-TEST_CASE("a view without a direction or an upright is refused") {
-  CHECK(message_of(view_with("at", "at 0 0 5")).find("at the same point") != std::string::npos);
-  CHECK(message_of(view_with("up", "up 0 0 -3")).find("parallel") != std::string::npos);
-  CHECK(message_of(view_with("up", "up 0 0 0")).find("zero or parallel") != std::string::npos);
-  CHECK(message_of(view_with("up", "up 0 1e-300 0")).empty());
-  CHECK(message_of(view_with("up", "up 1e300 1e300 0")).empty());
+  const auto complaint = [](const std::string& line) { return message_of(view_with(line.substr(0, line.find(' ')), line)); };
+  tests::check_complaints(complaint, {{"resolution 0 48", integer},
+                                      {"resolution 64 0", integer},
+                                      {"resolution -1 48", integer},
+                                      {"resolution 64 48.5", integer},
+                                      {"resolution 65536 1", integer},
+                                      {"resolution 65535 4097", pixels},
+                                      {"resolution 65535 4096", ""},
+                                      {"resolution 16384 16384", ""},
+                                      {"at 0 -1e308 0", far},
+                                      {"from 1e308 0 5", "as a coordinate of from of v (view)"},
+                                      {"from 1.1e30 0 0", "too large"},
+                                      {"from 1e30 0 -1e30", ""},
+                                      {"angle 0", degrees},
+                                      {"angle -45", degrees},
+                                      {"angle 180", degrees},
+                                      {"angle 360", degrees},
+                                      {"at 0 0 5", "at the same point"},
+                                      {"up 0 0 -3", "parallel"},
+                                      {"up 0 0 0", "zero or parallel"},
+                                      {"up 0 1e-300 0", ""},
+                                      {"up 1e300 1e300 0", ""}});
+  CHECK(read_text(view_with("resolution", "resolution 64.0 1e2")).view.height == 100);
 }
 
 TEST_CASE("colours and shares outside their range are refused") {
@@ -293,28 +279,28 @@ TEST_CASE("degenerate objects are kept for the database to count") {
 }
 
 TEST_CASE("a file is read, and a path that is a folder or leads nowhere is refused by name") {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / "dmpc_nff_reader_test.nff";
-  std::ofstream(path) << view << "s 0 0 0 1\n";
-  CHECK(apps::read_nff_file(path.string()).objects.size() == 1);
-  std::filesystem::remove(path);
-  CHECK_THROWS_WITH_AS(apps::read_nff_file(path.string()), doctest::Contains("cannot be opened: No such file"), core::InputError);
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder / "a.nff", view + "s 0 0 0 1\n");
+  CHECK(apps::read_nff_file(folder / "a.nff").objects.size() == 1);
+  CHECK_THROWS_WITH_AS(apps::read_nff_file(folder / "b.nff"), doctest::Contains("cannot be opened: No such file"),
+                       core::InputError);
   CHECK_THROWS_WITH_AS(apps::read_nff_file("/"), doctest::Contains("/: is a folder"), core::InputError);
 }
 
 TEST_CASE("progress counts the bytes of a file, up to what it has") {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / "dmpc_nff_reader_progress_test.nff";
-  std::ofstream(path) << view;
+  const tests::TemporaryFolder folder;
+  std::string text = view;
   for (int i = 0; i < 3000; ++i) {
-    std::ofstream(path, std::ios::app) << "s 0 0 0 1\n";
+    text += "s 0 0 0 1\n";
   }
-  const std::uint64_t size = std::filesystem::file_size(path);
+  tests::write_text(folder / "a.nff", text);
+  const std::uint64_t size = text.size();
   std::vector<std::uint64_t> steps;
-  apps::read_nff_file(path.string(), apps::picture_pixels_max, [&](std::uint64_t done, std::uint64_t total) {
+  apps::read_nff_file(folder / "a.nff", apps::picture_pixels_max, [&](std::uint64_t done, std::uint64_t total) {
     CHECK(done <= total);
     CHECK(total == size);
     steps.push_back(done);
   });
-  std::filesystem::remove(path);
   REQUIRE(steps.size() >= 2);
   CHECK(steps[0] < steps[1]);
   CHECK(steps[0] > size / 4);

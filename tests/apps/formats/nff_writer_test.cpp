@@ -1,12 +1,10 @@
 #include "apps/formats/nff_writer.h"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <bit>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
@@ -17,6 +15,7 @@
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
 #include "tests/support/same_scene.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nff_writer_test {
 
@@ -35,24 +34,6 @@ std::string written(const core::Scene& scene) {
 core::Scene read_back(const std::string& text) {
   std::istringstream input(text);
   return apps::read_nff(input, "written");
-}
-
-/// A folder of its own for a test, gone at its end.
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("dmpc_nff_writer_test" + std::to_string(::getpid()));
-  Folder() { std::filesystem::create_directory(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::size_t entries() const {
-    return static_cast<std::size_t>(
-        std::distance(std::filesystem::directory_iterator(path), std::filesystem::directory_iterator()));
-  }
-};
-
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 }  // namespace
@@ -115,34 +96,34 @@ TEST_CASE("the generator's own stream is written, with a material wherever the S
 }
 
 TEST_CASE("a scene is written to a file whole, by its final name only") {
-  const Folder folder;
-  const std::string path = (folder.path / "rings.nff").string();
+  const TemporaryFolder folder;
+  const std::string path = folder / "rings.nff";
   const core::SceneName name = core::parse_scene_name("rings-1");
   apps::write_nff_file(path, [&](core::SceneSink& sink) { core::generate_scene(name, sink); });
-  CHECK(folder.entries() == 1);
+  CHECK(folder.entry_count() == 1);
   CHECK(same_objects(apps::load_scene(path), core::built_in_scene(name)));
 }
 
 TEST_CASE("a failure while writing leaves the old file as it was and nothing else") {
-  const Folder folder;
-  const std::string path = (folder.path / "old.nff").string();
-  std::ofstream(path) << "old";
+  const TemporaryFolder folder;
+  const std::string path = folder / "old.nff";
+  write_text(path, "old");
   const auto fail_halfway = [](core::SceneSink& sink) {
     sink.sphere({}, 1);
     throw std::runtime_error("halfway");
   };
   CHECK_THROWS_WITH(apps::write_nff_file(path, fail_halfway), "halfway");
-  CHECK(content(path) == "old");
-  CHECK(folder.entries() == 1);
+  CHECK(file_text(path) == "old");
+  CHECK(folder.entry_count() == 1);
 }
 
 TEST_CASE("a file that cannot be written is refused by name") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto nothing = [](core::SceneSink&) {};
-  CHECK_THROWS_WITH_AS(apps::write_nff_file((folder.path / "none/a.nff").string(), nothing),
-                       doctest::Contains("none/a.nff: cannot be written"), core::InputError);
-  CHECK_THROWS_AS(apps::write_nff_file(folder.path.string(), nothing), core::InputError);
-  CHECK(folder.entries() == 0);
+  CHECK_THROWS_WITH_AS(apps::write_nff_file(folder / "none/a.nff", nothing), doctest::Contains("none/a.nff: cannot be written"),
+                       core::InputError);
+  CHECK_THROWS_AS(apps::write_nff_file(folder.path().string(), nothing), core::InputError);
+  CHECK(folder.entry_count() == 0);
 }
 
 TEST_CASE("a full disk is an error") {

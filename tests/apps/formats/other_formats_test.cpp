@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "apps/formats/mesh_file.h"
-#include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/text.h"
 
 namespace dmpc::apps::other_formats_test {
@@ -13,12 +13,7 @@ namespace {
 using tests::contains;
 
 std::string complaint(const std::string& path) {
-  try {
-    read_mesh_file(path);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { read_mesh_file(path); });
 }
 
 }  // namespace

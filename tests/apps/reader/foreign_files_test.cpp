@@ -26,7 +26,7 @@
 #include "apps/picture/picture_reader.h"
 #include "apps/reader/file_access.h"
 #include "apps/reader/process.h"
-#include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/forked_process.h"
 #include "tests/support/hostile_files.h"
 
@@ -36,15 +36,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using apps::read_mesh_file;
-
-std::string complaint_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::string mesh_complaint(const std::string& path, const apps::MeshOptions& options = {}, std::uint64_t seconds = 1) {
   return complaint_of([&] { read_mesh_file(path, options, false, {.seconds = seconds, .wall_factor = 30}); });
@@ -56,6 +47,14 @@ bool says(const std::string& text, const std::string& part) {
     MESSAGE(text);
   }
   return found;
+}
+
+std::string repeated(int count, const std::string& line) {
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    text += line;
+  }
+  return text;
 }
 
 /// A port of this computer that somebody listens at.
@@ -80,6 +79,14 @@ class Ear {
 };
 
 void write_wood(const fs::path& path) { apps::write_image(path, apps::Image(2, 2)); }
+
+std::string picture_complaint(apps::PictureReader& reader, const fs::path& path) {
+  return complaint_of([&] { reader.read_image(apps::open_picture(path)); });
+}
+
+std::string nff_complaint(const std::string& path) {
+  return complaint_of([&] { apps::read_nff_file(path); });
+}
 
 }  // namespace
 
@@ -167,26 +174,14 @@ TEST_CASE("nothing lies below a folder whose name is too long to be told") {
         }).status() == 0);
 }
 
-TEST_CASE("a file of materials that is mentioned 3,000 times is soon read") {
-  const TemporaryFolder folder;
-  const std::string scene = write_textured_triangle(folder, "t.png");
-  write_wood(folder / "t.png");
-  std::string mentions;
-  for (int i = 0; i < 3000; ++i) {
-    mentions += "mtllib a.mtl\n";
-  }
-  write_text(scene, mentions + file_text(scene));
-  CHECK(mesh_complaint(scene, {}, 5) == "");  // instrumented, on a busy machine
-}
-
 TEST_CASE("a reader gets so much time on the wall, and messages renew nothing") {
   const TemporaryFolder folder;
   const std::string scene = write_textured_triangle(folder, "t.png");
   write_wood(folder / "t.png");
   const apps::ReaderLimits none{.wall_factor = 0};
   CHECK(says(complaint_of([&] { read_mesh_file(scene, {}, false, none); }), "the reader of OBJ files took more than 0 seconds"));
-  CHECK(says(complaint_of([&] { apps::PictureReader(none).read_image(apps::open_picture(folder / "t.png")); }),
-             "t.png: the reader of png took more than 0 seconds"));
+  apps::PictureReader pictures(none);
+  CHECK(says(picture_complaint(pictures, folder / "t.png"), "t.png: the reader of png took more than 0 seconds"));
 }
 
 /// The process of this one that was started last; what the system says of its limit on processor time, in seconds.
@@ -216,8 +211,7 @@ TEST_CASE("a reader gets so much processor time, and all pictures together their
   CHECK(last_child() == process);
   CHECK(processor_seconds_of(process) >= first);
   ::kill(process, SIGXCPU);
-  CHECK(says(complaint_of([&] { reader.read_image(apps::open_picture(folder / "a.png")); }),
-             "took more than 7 seconds of processor time"));
+  CHECK(says(picture_complaint(reader, folder / "a.png"), "took more than 7 seconds of processor time"));
 }
 
 /// A DDS of plain pixels, with these masks of red, green, blue and alpha: OpenImageIO looks for the lowest bit of each.
@@ -251,7 +245,8 @@ TEST_CASE("a DDS whose pixels have no bits of a colour is refused before it is r
   constexpr std::uint32_t colors = 0x40, alpha = 0x1;
   const auto complaint = [&](std::uint32_t flags, const std::array<std::uint32_t, 4>& masks) {
     write_text(folder / "a.dds", dds_with_masks(flags, masks));
-    return complaint_of([&] { apps::PictureReader({.seconds = 2}).read_image(apps::open_picture(folder / "a.dds")); });
+    apps::PictureReader reader({.seconds = 2});
+    return picture_complaint(reader, folder / "a.dds");
   };
   CHECK(complaint(colors, {0xff0000, 0xff00, 0xff, 0}) == "");
   CHECK(says(complaint(colors, {0xff0000, 0xff00, 0, 0}), "a.dds: cannot be read as a picture: its pixels have no bits of blue"));
@@ -263,8 +258,8 @@ TEST_CASE("where pictures have taken the time of all, further ones are not begun
   const TemporaryFolder folder;
   write_wood(folder / "a.png");
   apps::PictureReader reader({.seconds = 0, .bytes_a_second = std::uint64_t{1} << 40U});
-  const std::string text = complaint_of([&] { reader.read_image(apps::open_picture(folder / "a.png")); });
-  CHECK(says(text, "a.png: is not read: pictures before it have taken the 0 seconds of processor time"));
+  CHECK(says(picture_complaint(reader, folder / "a.png"),
+             "a.png: is not read: pictures before it have taken the 0 seconds of processor time"));
 }
 
 TEST_CASE("questions about files are on the scene's budget, however many there are") {
@@ -287,12 +282,8 @@ TEST_CASE("a file of materials that is named again at once is asked for once") {
   const TemporaryFolder folder;
   const std::string scene = write_textured_triangle(folder, "t.png");
   write_wood(folder / "t.png");
-  std::string libraries;
-  for (int i = 0; i < 20'000; ++i) {
-    libraries += "mtllib a.mtl\n";
-  }
-  write_text(scene, libraries + file_text(scene));
-  CHECK(mesh_complaint(scene, {}, 2) == "");
+  write_text(scene, repeated(20'000, "mtllib a.mtl\n") + file_text(scene));
+  CHECK(mesh_complaint(scene, {}, 5) == "");  // instrumented, on a busy machine
 }
 
 /// Whether the process that was started last has that library.
@@ -370,7 +361,7 @@ TEST_CASE("a crash of the reader of pictures is an error of the picture, which i
   apps::PictureReader reader;
   reader.read_image(apps::open_picture(folder / "a.png"));
   ::kill(last_child(), SIGSEGV);
-  const std::string text = complaint_of([&] { reader.read_image(apps::open_picture(folder / "a.png")); });
+  const std::string text = picture_complaint(reader, folder / "a.png");
   CHECK(says(text, "a.png: the reader of png "));
   CHECK(says(text, "the file is damaged"));
 #if !defined(__SANITIZE_ADDRESS__)  // which makes an exit of a crash
@@ -494,24 +485,19 @@ TEST_CASE("a picture that says to be larger than its file can hold is refused") 
 TEST_CASE("a device is no scene, and neither is a pipe that nobody writes to") {
   const TemporaryFolder folder;
   for (const std::string device : {"/dev/zero", "/dev/urandom", "/dev/null"}) {
-    CHECK(says(complaint_of([&] { apps::read_nff_file(device); }), device + ": is a device or the like"));
+    CHECK(says(nff_complaint(device), device + ": is a device or the like"));
   }
   REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-  CHECK(says(complaint_of([&] { apps::read_nff_file(folder / "pipe"); }), "nobody writes to"));
+  CHECK(says(nff_complaint(folder / "pipe"), "nobody writes to"));
 }
 
 TEST_CASE("a line that does not end, and endless comments, are refused") {
   const TemporaryFolder folder;
   write_text(folder / "zeros", "");
   fs::resize_file(folder / "zeros", std::uint64_t{1} << 40U);
-  CHECK(says(complaint_of([&] { apps::read_nff_file(folder / "zeros"); }), "zeros:1: found a line of more than 16 MiB"));
-  std::string comments;
-  const std::string line = "#" + std::string(1U << 20U, '.') + "\n";
-  for (int i = 0; i < 65; ++i) {
-    comments += line;
-  }
-  write_text(folder / "comments", comments);
-  CHECK(says(complaint_of([&] { apps::read_nff_file(folder / "comments"); }), "nothing but blanks and comments"));
+  CHECK(says(nff_complaint(folder / "zeros"), "zeros:1: found a line of more than 16 MiB"));
+  write_text(folder / "comments", repeated(65, "#" + std::string(1U << 20U, '.') + "\n"));
+  CHECK(says(nff_complaint(folder / "comments"), "nothing but blanks and comments"));
 }
 
 TEST_CASE("a scene may come through a pipe, however slowly") {

@@ -14,8 +14,7 @@
 #include "core/base/srgb.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/packed_gltf.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/text.h"
+#include "tests/support/read_mesh.h"
 
 namespace dmpc::tests::gltf_facet_texture_test {
 
@@ -40,16 +39,14 @@ apps::MeshFile read(const std::string& material, const apps::MeshOptions& option
   apps::write_image(folder / "a.png", apps::Image(4, 4));
   write_facets(folder / "b.png");
   GltfDocument document;
-  const std::size_t positions = document.accessor(document.view(bytes_of(triangle_corners)), 5126, 3, "VEC3");
-  const std::size_t places =
-      document.accessor(document.view(bytes_of(std::array<float, 6>{0, 0, 1, 0, 0, 0.5F})), 5126, 3, "VEC2");
-  write_text(folder / "a.gltf",
-             document.text(R"({"material":0,"attributes":{"POSITION":)" + std::to_string(positions) + R"(,"TEXCOORD_0":)" +
-                               std::to_string(places) + R"(,"TEXCOORD_1":)" + std::to_string(places) + "}}",
-                           R"("materials":[{)" + material +
-                               R"(}],"textures":[{"source":0},{"source":1,"sampler":0},{"source":2},{}],)"
-                               R"("samplers":[{"wrapS":33071}],)"
-                               R"("images":[{"uri":"a.png"},{"uri":"b.png"},{"uri":"nowhere.png"}])"));
+  const std::string positions = document.add(triangle_corners, 3);
+  const std::string places = document.add(std::array<float, 6>{0, 0, 1, 0, 0, 0.5F}, 2);
+  write_text(folder / "a.gltf", document.text(R"({"material":0,"attributes":{"POSITION":)" + positions + R"(,"TEXCOORD_0":)" +
+                                                  places + R"(,"TEXCOORD_1":)" + places + "}}",
+                                              R"("materials":[{)" + material +
+                                                  R"(}],"textures":[{"source":0},{"source":1,"sampler":0},{"source":2},{}],)"
+                                                  R"("samplers":[{"wrapS":33071}],)"
+                                                  R"("images":[{"uri":"a.png"},{"uri":"b.png"},{"uri":"nowhere.png"}])"));
   return apps::read_mesh_file(folder / "a.gltf", options);
 }
 
@@ -63,9 +60,7 @@ std::string transformed(double offset) {
 }
 
 bool says_mean(const apps::MeshFile& file) {
-  return std::count(file.notes.begin(), file.notes.end(),
-                    "materials whose texture of metal and roughness is shown by its mean, as it does not lie where that of their "
-                    "colour does: 1") == 1;
+  return notes(file, "roughness is shown by its mean, as it does not lie where that of their colour does: 1");
 }
 
 }  // namespace
@@ -84,7 +79,7 @@ TEST_CASE("metal and roughness are what their texture says, beside that of the c
   CHECK(texture.wrap_s == core::TextureWrap::clamp);
   CHECK(texture.wrap_t == core::TextureWrap::repeat);
   CHECK_FALSE(says_mean(file));
-  CHECK(std::none_of(file.notes.begin(), file.notes.end(), [](const auto& note) { return contains(note, "not used"); }));
+  CHECK_FALSE(notes(file, "not used"));
 }
 
 TEST_CASE("where it lies elsewhere than the colour's, or that has none, its mean multiplies the factors, and that is said") {
@@ -116,7 +111,7 @@ TEST_CASE("a picture of metal and roughness that is missing is an error, or by -
   CHECK_FALSE(plain.scene.materials.at(0).microfacets.have_texture());
   CHECK(plain.scene.materials.at(0).microfacets.metallic == 1);
   const apps::MeshFile none = read(metal(R"("index":0)", R"("index":3)"));
-  CHECK(std::count(none.notes.begin(), none.notes.end(), "textures that name no picture, left out: 1") == 1);
+  CHECK(notes(none, "textures that name no picture, left out: 1"));
   CHECK(none.scene.materials.at(0).microfacets.metallic == 1);
 }
 
@@ -134,7 +129,7 @@ TEST_CASE("a material of specular and glossiness has no metal, whatever texture 
   CHECK(facets.metallic == 0);
   CHECK(facets.roughness == Approx(0.75));
   CHECK_FALSE(facets.have_texture());
-  CHECK(std::count(file.notes.begin(), file.notes.end(), "textures not used, since they are not of a surface's colour: 1") == 1);
+  CHECK(notes(file, "textures not used, since they are not of a surface's colour: 1"));
 }
 
 }  // namespace dmpc::tests::gltf_facet_texture_test

@@ -29,22 +29,18 @@ std::array<Place, 3> places_by(const std::string& info, const std::string& image
   const TemporaryFolder folder;
   apps::write_image(folder / "a.png", apps::Image(2, 2));
   GltfDocument document;
-  const std::size_t positions = document.accessor(document.view(bytes_of(triangle_corners)), 5126, 3, "VEC3");
-  const std::size_t first =
-      document.accessor(document.view(bytes_of(std::array<float, 6>{0, 0, 1, 0, 0, 0.5F})), 5126, 3, "VEC2");
+  const std::string positions = document.add(triangle_corners, 3);
+  const std::string first = document.add(std::array<float, 6>{0, 0, 1, 0, 0, 0.5F}, 2);
   const std::size_t second = document.accessor(
       document.view(bytes_of(std::array<std::uint8_t, 12>{51, 51, 0, 0, 51, 51, 0, 0, 51, 51}), R"("byteStride":4)"), 5121, 3,
       "VEC2", R"("normalized":true)");
   std::string picture = image;
   if (image == "within") {
-    std::ifstream stream(folder / "a.png", std::ios::binary);
-    std::ostringstream bytes;
-    bytes << stream.rdbuf();
-    picture = R"({"mimeType":"png","bufferView":)" + std::to_string(document.view(bytes.str())) + "}";
+    picture = R"({"mimeType":"png","bufferView":)" + std::to_string(document.view(file_text(folder / "a.png"))) + "}";
   }
   write_text(folder / "a.gltf",
-             document.text(R"({"material":0,"attributes":{"POSITION":)" + std::to_string(positions) + R"(,"TEXCOORD_0":)" +
-                               std::to_string(first) + R"(,"TEXCOORD_1":)" + std::to_string(second) + "}}",
+             document.text(R"({"material":0,"attributes":{"POSITION":)" + positions + R"(,"TEXCOORD_0":)" + first +
+                               R"(,"TEXCOORD_1":)" + std::to_string(second) + "}}",
                            R"("materials":[{)" + material + R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0)" + info +
                                R"(}}}],"textures":[{"source":0}],"images":[)" + picture + "]"));
   const apps::MeshFile file = apps::read_mesh_file(folder / "a.gltf");

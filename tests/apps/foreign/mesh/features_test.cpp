@@ -10,6 +10,7 @@
 #include "apps/picture/image_file.h"
 #include "core/base/expect.h"
 #include "tests/support/mesh_files.h"
+#include "tests/support/read_mesh.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps::features_test {
@@ -22,11 +23,7 @@ Notes notes_of(const std::string& model) { return read_mesh_file(std::string(DMP
 
 bool has(const Notes& notes, const std::string& note) { return std::find(notes.begin(), notes.end(), note) != notes.end(); }
 
-Notes notes_of_text(const std::string& name, const std::string& text) {
-  const tests::TemporaryFolder folder;
-  tests::write_text(folder / name, text);
-  return read_mesh_file(folder / name).notes;
-}
+Notes notes_of_text(const std::string& name, const std::string& text) { return tests::read_mesh(name, text).notes; }
 
 }  // namespace
 
@@ -58,12 +55,9 @@ TEST_CASE("what is not shown is said once a kind, with its count") {
 
 TEST_CASE("glass that colours what shines through it is said, grey glass is not") {
   const auto glass = [](const std::string& color) {
-    const tests::TemporaryFolder folder;
-    tests::write_text(folder / "a.gltf",
-                      tests::Gltf{.materials = R"([{"pbrMetallicRoughness":{"baseColorFactor":)" + color +
-                                               R"(},"extensions":{"KHR_materials_transmission":{"transmissionFactor":1}}}])"}
-                          .text());
-    return has(read_mesh_file(folder / "a.gltf").notes, "materials that colour what shines through them, shown without that: 1");
+    const tests::Gltf gltf{.materials = R"([{"pbrMetallicRoughness":{"baseColorFactor":)" + color +
+                                        R"(},"extensions":{"KHR_materials_transmission":{"transmissionFactor":1}}}])"};
+    return has(notes_of_text("a.gltf", gltf.text()), "materials that colour what shines through them, shown without that: 1");
   };
   CHECK(glass("[1,0,0,1]"));
   CHECK(!glass("[0.5,0.5,0.5,1]"));
@@ -89,12 +83,9 @@ TEST_CASE(
 
 TEST_CASE("what is cut away altogether is said, and a mask that cuts nothing is not") {
   const auto masked = [](const std::string& alpha) {
-    const tests::TemporaryFolder folder;
-    tests::write_text(folder / "a.gltf",
-                      tests::Gltf{.materials = R"([{"alphaMode":"MASK","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,)" +
-                                               alpha + R"(]}},{"alphaMode":"MASK"}])"}
-                          .text());
-    return read_mesh_file(folder / "a.gltf").notes;
+    const tests::Gltf gltf{.materials = R"([{"alphaMode":"MASK","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,)" + alpha +
+                                        R"(]}},{"alphaMode":"MASK"}])"};
+    return notes_of_text("a.gltf", gltf.text());
   };
   CHECK(has(masked("0.25"), "materials cut away altogether by their alpha, whose faces are left out: 1"));
   CHECK(masked("0.5").size() == 1);  // the view

@@ -19,31 +19,18 @@ namespace {
 
 /// The triangle, and a node (of `placed`) with the first of `lights`.
 MeshFile lit(const std::string& lights, const std::string& placed = R"("translation":[0,0,7])", const MeshOptions& options = {}) {
-  const tests::TemporaryFolder folder;
   tests::Gltf gltf{.nodes = R"([{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}},)" + placed + "}]",
                    .roots = "[0,1]"};
   gltf.more = R"("extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":)" + lights + "}}";
-  tests::write_text(folder / "a.gltf", gltf.text());
-  return read_mesh_file(folder / "a.gltf", options);
+  return tests::read_mesh("a.gltf", gltf.text(), options);
 }
 
 /// The triangle seen by the first of `cameras`.
 MeshFile seen(const std::string& cameras, const std::string& placed = R"("translation":[0,0,5])",
               const MeshOptions& options = {}) {
-  const tests::TemporaryFolder folder;
   tests::Gltf gltf{.nodes = R"([{"mesh":0},{"camera":0,)" + placed + "}]", .roots = "[0,1]"};
   gltf.more = R"("cameras":)" + cameras;
-  tests::write_text(folder / "a.gltf", gltf.text());
-  return read_mesh_file(folder / "a.gltf", options);
-}
-
-bool says(const MeshFile& file, const std::string& what) {
-  for (const std::string& note : file.notes) {
-    if (tests::contains(note, what)) {
-      return true;
-    }
-  }
-  return false;
+  return tests::read_mesh("a.gltf", gltf.text(), options);
 }
 
 }  // namespace
@@ -53,7 +40,7 @@ TEST_CASE("a point light stands where its node is, and that it has fall-off is s
   REQUIRE(file.scene.lights.size() == 1);
   CHECK(file.scene.lights[0].position == Vec3d{0, 0, 7});
   CHECK(file.scene.lights[0].color == Vec3d{0.5, 0.25, 0});
-  CHECK(says(file, "fall-off with distance is ignored: 1"));
+  CHECK(tests::notes(file, "fall-off with distance is ignored: 1"));
 }
 
 TEST_CASE("a light of a thousand candela is as bright as one can be") {
@@ -65,13 +52,13 @@ TEST_CASE("a directional light stands far away on the side that it comes from") 
   REQUIRE(file.scene.lights.size() == 1);
   CHECK(file.scene.lights[0].position.z > 1000);
   CHECK(file.scene.lights[0].position.x == Approx(1));
-  CHECK(says(file, "far away: 1"));
+  CHECK(tests::notes(file, "far away: 1"));
 }
 
 TEST_CASE("a spot is taken for a point light, and that is said") {
   const MeshFile file = lit(R"([{"type":"spot","spot":{"outerConeAngle":0.5}}])");
   CHECK(file.scene.lights.at(0).position == Vec3d{0, 0, 7});
-  CHECK(says(file, "spot lights taken for point lights without fall-off: 1"));
+  CHECK(tests::notes(file, "spot lights taken for point lights without fall-off: 1"));
 }
 
 TEST_CASE("nothing is said of a file's lights where others take their place, nor of its view") {
@@ -84,25 +71,21 @@ TEST_CASE("nothing is said of a file's lights where others take their place, nor
 TEST_CASE("a light that is dark does not count, and that is said") {
   const MeshFile file = lit(R"([{"type":"point","intensity":0}])");
   CHECK(file.scene.lights.size() == 2);
-  CHECK(says(file, "lights without any brightness left out, so that plain ones take their place: 1"));
-  CHECK_FALSE(says(file, "fall-off"));
+  CHECK(tests::notes(file, "lights without any brightness left out, so that plain ones take their place: 1"));
+  CHECK_FALSE(tests::notes(file, "fall-off"));
 }
 
 TEST_CASE("below a sky a file's own lights shine, and no plain ones") {
   const std::string place = R"("translation":[0,0,7])";
   const MeshFile file = lit(R"([{"type":"point","intensity":0}])", place, {.is_below_sky = true});
   CHECK(file.scene.lights.empty());
-  CHECK(says(file, "lights without any brightness left out: 1"));
+  CHECK(tests::notes(file, "lights without any brightness left out: 1"));
   CHECK(lit(R"([{"type":"point"}])", place, {.is_below_sky = true}).scene.lights.size() == 1);
 }
 
 TEST_CASE("what shines is a light by paths, so that no plain ones take the place of those that are not there") {
   const tests::Gltf gltf{.materials = R"([{"emissiveFactor":[1,0.5,0]}])"};
-  const auto read = [&](const MeshOptions& options) {
-    const tests::TemporaryFolder folder;
-    tests::write_text(folder / "a.gltf", gltf.text());
-    return read_mesh_file(folder / "a.gltf", options).scene;
-  };
+  const auto read = [&](const MeshOptions& options) { return tests::read_mesh("a.gltf", gltf.text(), options).scene; };
   CHECK(read({.is_by_paths = true}).lights.empty());
   CHECK(read({}).lights.size() == 2);
   CHECK(lit(R"([{"type":"point","intensity":0}])", R"("translation":[0,0,7])", {.is_by_paths = true}).scene.lights.size() == 2);
@@ -159,7 +142,7 @@ TEST_CASE("the vertical angle spans the rows of the picture that is asked for, f
 
 TEST_CASE("a camera without perspective is not taken, and that is said") {
   const MeshFile file = seen(R"([{"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"zfar":9,"znear":0.1}}])");
-  CHECK(says(file, "camera is not taken"));
+  CHECK(tests::notes(file, "camera is not taken"));
   CHECK(file.scene.view.up == Vec3d{0, 1, 0});
 }
 
@@ -168,10 +151,10 @@ TEST_CASE("of several cameras the first that makes a picture is taken, and which
   const std::string flat = R"({"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"zfar":9,"znear":0.1}})";
   const std::string second = R"("translation":[0,0,5],"children":[2]},{"name":"eye","translation":[0,0,2],"camera":1)";
   const MeshFile file = seen("[" + flat + "," + camera + "]", second);
-  CHECK(says(file, "camera 2 of 2 is taken, the first that has a perspective and a direction, 'eye'"));
+  CHECK(tests::notes(file, "camera 2 of 2 is taken, the first that has a perspective and a direction, 'eye'"));
   CHECK(file.scene.view.from == Vec3d{0, 0, 7});
-  CHECK(says(seen("[" + flat + "," + flat + "]", second), "none of the file's 2 cameras is taken"));
-  CHECK(says(seen("[" + camera + "," + camera + "]", R"("children":[2]},{"camera":1)"), "the first of 2 cameras"));
+  CHECK(tests::notes(seen("[" + flat + "," + flat + "]", second), "none of the file's 2 cameras is taken"));
+  CHECK(tests::notes(seen("[" + camera + "," + camera + "]", R"("children":[2]},{"camera":1)"), "the first of 2 cameras"));
 }
 
 }  // namespace dmpc::apps::lights_test

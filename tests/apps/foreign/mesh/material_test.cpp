@@ -8,6 +8,7 @@
 #include "apps/foreign/mesh/surface.h"
 #include "apps/formats/mesh_file.h"
 #include "tests/support/mesh_files.h"
+#include "tests/support/read_mesh.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::apps::material_test {
@@ -27,12 +28,9 @@ Material from_mtl(const std::string& lines) {
 }
 
 Material from_gltf(const std::string& material) {
-  const tests::TemporaryFolder folder;
-  tests::write_text(folder / "a.gltf",
-                    tests::Gltf{.materials = "[" + material + "]",
-                                .more = R"("extensionsUsed":["KHR_materials_transmission","KHR_materials_ior"])"}
-                        .text());
-  return read_mesh_file(folder / "a.gltf").scene.materials.at(0);
+  const tests::Gltf gltf{.materials = "[" + material + "]",
+                         .more = R"("extensionsUsed":["KHR_materials_transmission","KHR_materials_ior"])"};
+  return tests::read_mesh("a.gltf", gltf.text()).scene.materials.at(0);
 }
 
 bool near(const Vec3d& a, const Vec3d& b) { return length(a - b) < 1e-6; }
@@ -179,9 +177,7 @@ TEST_CASE("MTL: Pr or Pm makes tiny mirrors, rough and no metal unless said, who
 TEST_CASE("formats that say nothing of metal and roughness have no tiny mirrors") {
   for (const auto& [name, text] : {std::pair{"a.ply", tests::triangle_ply}, {"a.obj", tests::triangle_obj}}) {
     CAPTURE(name);
-    const tests::TemporaryFolder folder;
-    tests::write_text(folder / name, text);
-    for (const Material& material : read_mesh_file(folder / name).scene.materials) {
+    for (const Material& material : tests::read_mesh(name, text).scene.materials) {
       CHECK(material.microfacets == core::Microfacets{});
     }
   }
@@ -196,11 +192,9 @@ TEST_CASE("glTF: a factor, and its strength, is light of the surface's own, unle
 
 TEST_CASE("glTF: a mask with a constant alpha leaves all or nothing") {
   const auto masked = [](const std::string& alpha, const std::string& more) {
-    const tests::TemporaryFolder folder;
-    tests::write_text(folder / "a.gltf", tests::Gltf{.materials = R"([{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,)" +
-                                                                  alpha + R"(]},"alphaMode":"MASK")" + more + "}]"}
-                                             .text());
-    return read_mesh_file(folder / "a.gltf");
+    const tests::Gltf gltf{.materials = R"([{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,)" + alpha +
+                                        R"(]},"alphaMode":"MASK")" + more + "}]"};
+    return tests::read_mesh("a.gltf", gltf.text());
   };
   CHECK(masked("0.3", "").scene.objects.empty());
   CHECK(masked("0.5", "").scene.objects.size() == 1);

@@ -14,7 +14,7 @@
 #include "apps/foreign/mesh_reader.h"
 #include "apps/formats/scene_blocks.h"
 #include "tests/fuzz/input_files.h"
-#include "tests/support/mesh_files.h"
+#include "tests/support/packed_gltf.h"
 #include "tests/support/read_mesh.h"
 #include "tests/support/same_scene.h"
 
@@ -84,29 +84,26 @@ void check_same(const Gltf& gltf, const MeshOptions& options = {}) {
 
 /// A bumpy sheet of side x side squares in as many places.
 std::string sheet(std::uint32_t side, std::uint32_t count) {
-  std::string points, faces;
+  std::vector<float> points;
+  std::vector<std::uint32_t> faces;
   for (std::uint32_t i = 0; i < (side + 1) * (side + 1); ++i) {
     const auto x = static_cast<float>(i % (side + 1)), z = static_cast<float>(i / (side + 1));
-    points += tests::bytes_of(std::array<float, 3>{x, std::fmod(x * z, 3.0F), z});
+    points.insert(points.end(), {x, std::fmod(x * z, 3.0F), z});
   }
   for (std::uint32_t square = 0; square < side * side; ++square) {
     const std::uint32_t a = square / side * (side + 1) + square % side, b = a + side + 1;
-    faces += tests::bytes_of(std::array<std::uint32_t, 6>{a, a + 1, b, b, a + 1, b + 1});
+    faces.insert(faces.end(), {a, a + 1, b, b, a + 1, b + 1});
   }
-  std::string nodes, roots;
+  tests::GltfDocument document;
+  const std::string positions = document.add(points, 3), indices = document.add(faces, 1);
+  std::string children;
+  document.node = R"({"children":[)";
   for (std::uint32_t i = 0; i < count; ++i) {
-    nodes += (i > 0 ? "," : "") + (R"({"mesh":0,"translation":[)" + std::to_string(i)) + ",0,0]}";
-    roots += (i > 0 ? "," : "") + std::to_string(i);
+    document.node += (i > 0 ? "," : "") + std::to_string(i + 1);
+    children += R"(,{"mesh":0,"translation":[)" + std::to_string(i) + ",0,0]}";
   }
-  const auto text = [](std::size_t number) { return std::to_string(number); };
-  return R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[)" + roots + R"(]}],"nodes":[)" + nodes +
-         R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[)"
-         R"({"bufferView":0,"componentType":5126,"count":)" +
-         text(points.size() / 12) + R"(,"type":"VEC3"},{"bufferView":1,"componentType":5125,"count":)" + text(faces.size() / 4) +
-         R"(,"type":"SCALAR"}],"bufferViews":[{"buffer":0,"byteLength":)" + text(points.size()) +
-         R"(},{"buffer":0,"byteOffset":)" + text(points.size()) + R"(,"byteLength":)" + text(faces.size()) +
-         R"(}],"buffers":[{"byteLength":)" + text(points.size() + faces.size()) +
-         R"(,"uri":"data:application/octet-stream;base64,)" + tests::base64(points + faces) + "\"}]}";
+  document.node += "]}" + children;
+  return document.text(R"({"attributes":{"POSITION":)" + positions + R"(},"indices":)" + indices + "}");
 }
 
 }  // namespace

@@ -5,12 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
-#include "apps/formats/mesh_file.h"
-#include "core/base/expect.h"
 #include "tests/support/packed_gltf.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/text.h"
+#include "tests/support/read_mesh.h"
 
 namespace dmpc::tests::skin_test {
 
@@ -30,43 +28,28 @@ struct Rig {
 
   std::string text() const {
     GltfDocument document;
-    const auto index = [](std::size_t i) { return std::to_string(i); };
-    const std::string attributes =
-        R"({"attributes":{"POSITION":)" + index(document.accessor(document.view(bytes_of(triangle_corners)), 5126, 3, "VEC3")) +
-        R"(,"NORMAL":)" +
-        index(document.accessor(document.view(bytes_of(std::array<float, 9>{0, 0, 1, 0, 1, 0, 1, 0, 0})), 5126, 3, "VEC3")) +
-        R"(,"JOINTS_0":)" + index(document.accessor(document.view(bytes_of(joints)), 5121, 3, "VEC4")) + R"(,"WEIGHTS_0":)" +
-        index(document.accessor(document.view(bytes_of(weights)), 5126, 3, "VEC4")) + "}}";
+    const std::array<float, 9> normals{0, 0, 1, 0, 1, 0, 1, 0, 0};
+    const std::string attributes = R"({"attributes":{"POSITION":)" + document.add(triangle_corners, 3) + R"(,"NORMAL":)" +
+                                   document.add(normals, 3) + R"(,"JOINTS_0":)" + document.add(joints, 4) + R"(,"WEIGHTS_0":)" +
+                                   document.add(weights, 4) + "}}";
     document.node = nodes;
-    std::string bytes;
+    std::vector<float> matrices;
     for (const char scale : binds) {
       const auto s = static_cast<float>(scale - '0');
-      bytes += bytes_of(std::array<float, 16>{s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, 0, 0, 0, 1});
+      matrices.insert(matrices.end(), {s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, 0, 0, 0, 1});
     }
     std::string bound = skins;
     if (!binds.empty()) {
-      const std::size_t matrices = document.accessor(document.view(bytes), 5126, binds.size(), "MAT4");
-      bound.insert(bound.find('{') + 1, R"("inverseBindMatrices":)" + index(matrices) + ",");
+      bound.insert(bound.find('{') + 1, R"("inverseBindMatrices":)" + document.add(matrices, 16) + ",");
     }
     std::string text = document.text(attributes, R"("skins":)" + bound);
     return text.replace(text.find(R"("nodes":[0])"), 11, R"("nodes":[)" + roots + "]");
   }
 };
 
-MeshFile read(const std::string& text) {
-  const TemporaryFolder folder;
-  write_text(folder / "a.gltf", text);
-  return apps::read_mesh_file(folder / "a.gltf");
-}
+MeshFile read(const std::string& text) { return read_mesh("a.gltf", text); }
 
-std::string complaint(const Rig& rig) {
-  try {
-    read(rig.text());
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
-}
+std::string complaint(const Rig& rig) { return mesh_refusal("a.gltf", rig.text()); }
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 #include "apps/formats/mesh_file.h"
 #include "apps/picture/image_file.h"
 #include "core/scene/scene.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/read_mesh.h"
 
 namespace dmpc::tests::textures_test {
 
@@ -26,10 +26,6 @@ MeshFile model(const std::string& name) { return read_mesh_file(std::string(DMPC
 std::size_t textured_count(const core::Scene& scene) {
   return static_cast<std::size_t>(std::count_if(scene.objects.begin(), scene.objects.end(),
                                                 [](const core::Object& object) { return object.kind == ObjectKind::textured; }));
-}
-
-bool mentions(const std::vector<std::string>& notes, const std::string& part) {
-  return std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
 /// A square with a texture, given by OBJ and MTL with blanks in the texture's name.
@@ -97,7 +93,7 @@ TEST_CASE("a texture that may be missing is named, once, and the rest is shown i
   CHECK(textured_count(file.scene) == 0);
   CHECK(std::count_if(file.notes.begin(), file.notes.end(),
                       [](const std::string& note) { return note.find("gone.png") != std::string::npos; }) == 1);
-  CHECK(mentions(file.notes, "; what it covers has its plain colour"));
+  CHECK(notes(file, "; what it covers has its plain colour"));
 }
 
 TEST_CASE("textures beside a glTF file, within one as text, and within a .glb are the same") {

@@ -10,6 +10,7 @@
 namespace dmpc::apps::off_test {
 
 using core::Vec3d;
+using tests::check_complaints;
 using tests::contains;
 using tests::mesh_refusal;
 using tests::notes;
@@ -20,10 +21,11 @@ namespace {
 const std::string vertices = "0 0 0\n2 0 0\n0 1 0\n";
 const std::vector<Vec3d> triangle = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}};
 
-/// What is said of a face that ends so.
-std::string face_refusal(const std::string& face) { return mesh_refusal("a.off", "OFF\n3 1 0\n" + vertices + face); }
+const std::string one_face = "OFF\n3 1 0\n" + vertices;
 
-MeshFile read_face(const std::string& face) { return read_mesh("a.off", "OFF\n3 1 0\n" + vertices + face); }
+std::string refusal(const std::string& text) { return mesh_refusal("a.off", text); }
+
+MeshFile read_face(const std::string& face) { return read_mesh("a.off", one_face + face); }
 
 Vec3d color_of_object(const MeshFile& file, std::size_t object) { return tests::material_of_object(file, object).color; }
 
@@ -40,10 +42,10 @@ TEST_CASE("an OFF file may count behind its first word, leave edges and that wor
 }
 
 TEST_CASE("OFF files in binary and of other dimensions are refused by name") {
-  CHECK(contains(mesh_refusal("a.off", "OFF BINARY\n123"), "line 1: OFF in binary is not read"));
-  CHECK(contains(mesh_refusal("a.off", "4OFF\n3 1 0\n"), "line 1: '4OFF' has vertices of other than three coordinates"));
-  CHECK(contains(mesh_refusal("a.off", "nOFF\n3\n3 1 0\n"), "'nOFF' has vertices of other than three coordinates"));
-  CHECK(contains(mesh_refusal("a.off", "solid"), "line 1: found 'solid', expected OFF"));
+  check_complaints(refusal, {{"OFF BINARY\n123", "line 1: OFF in binary is not read"},
+                             {"4OFF\n3 1 0\n", "line 1: '4OFF' has vertices of other than three coordinates"},
+                             {"nOFF\n3\n3 1 0\n", "'nOFF' has vertices of other than three coordinates"},
+                             {"solid", "line 1: found 'solid', expected OFF"}});
 }
 
 TEST_CASE("a face of OFF has its colour, of 255 or of 1, and with alpha, which is said") {
@@ -74,15 +76,15 @@ TEST_CASE("normals of NOFF are shown, texture coordinates of STOFF are not, of w
 }
 
 TEST_CASE("what is wrong in OFF is refused with its line") {
-  CHECK(contains(face_refusal("3 0 1 3\n"), "line 6: face 0 has a vertex that does not exist, 3: there are 3"));
-  CHECK(contains(face_refusal("3 0 1 -1\n"), "line 6: face 0 has a vertex that does not exist, -1"));
-  CHECK(contains(face_refusal("3 0 1\n"), "the file is cut short: it ends within face 0 of 1"));
-  CHECK(contains(face_refusal("3 0 1 2 1 2\n"), "line 6: there are 2 numbers of a colour; expected 3 or 4"));
-  CHECK(contains(face_refusal("3 0 1 2 1 2 300\n"), "line 6: a colour has 300"));
-  CHECK(contains(face_refusal("3 0 1 2x\n"), "line 6: found '2x', expected the number of a vertex"));
-  CHECK(contains(face_refusal("4294967295 0 1 2\n"), "the file is cut short"));
-  CHECK(contains(mesh_refusal("a.off", "OFF\n353535235358 6 0\n0 0 0\n"), "line 2: the file is cut short: it says that it has"));
-  CHECK(contains(mesh_refusal("a.off", "OFF\n3 0 0\n" + vertices), "there is no mesh in it"));
+  check_complaints(refusal, {{one_face + "3 0 1 3\n", "line 6: face 0 has a vertex that does not exist, 3: there are 3"},
+                             {one_face + "3 0 1 -1\n", "line 6: face 0 has a vertex that does not exist, -1"},
+                             {one_face + "3 0 1\n", "the file is cut short: it ends within face 0 of 1"},
+                             {one_face + "3 0 1 2 1 2\n", "line 6: there are 2 numbers of a colour; expected 3 or 4"},
+                             {one_face + "3 0 1 2 1 2 300\n", "line 6: a colour has 300"},
+                             {one_face + "3 0 1 2x\n", "line 6: found '2x', expected the number of a vertex"},
+                             {one_face + "4294967295 0 1 2\n", "the file is cut short"},
+                             {"OFF\n353535235358 6 0\n0 0 0\n", "line 2: the file is cut short: it says that it has"},
+                             {"OFF\n3 0 0\n" + vertices, "there is no mesh in it"}});
 }
 
 TEST_CASE("points and lines of OFF, and what stands behind its last face, are said") {

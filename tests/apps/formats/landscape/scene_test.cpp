@@ -15,6 +15,7 @@
 #include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "core/scene/placed_objects.h"
+#include "tests/support/complaint.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -85,12 +86,7 @@ TEST_CASE("ten million instanced triangles are no memory to speak of, and a grov
   const Scene left = landscape_scene("grove-7", Copies::left_out);
   CHECK(object_count(left) > 10'000'000);
   CHECK(left.vertices.size() < 4'000'000);
-  std::string text;
-  try {
-    landscape_scene("grove-10", Copies::put);
-  } catch (const core::RoomError& error) {
-    text = error.what();
-  }
+  const std::string text = tests::complaint_of<core::RoomError>([] { landscape_scene("grove-10", Copies::put); });
   CHECK(tests::contains(text, "grove-10: its 740,014,080 triangles need a database of at least"));
 }
 
