@@ -7,16 +7,6 @@
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
-namespace {
-
-Packer& add_edges(Packer& fields, const TextureEdges& edges) {
-  return fields.add(edges.s).add(edges.t).add(edges.alpha).add(edges.cutoff);
-}
-
-std::string_view as_text(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
-
-}  // namespace
-
 Message AskedFiles::ask(Saying question, const Packer& fields) {
   std::optional<Message> message;
   if (!line_.send(question, fields) || !(message = line_.receive(true))) {
@@ -45,43 +35,33 @@ std::vector<std::filesystem::path> AskedFiles::meant(const std::filesystem::path
   return paths;
 }
 
-void AskedFiles::ask_for_texture(Saying question, const Packer& fields) {
-  const Message message = ask(question, fields);
+void AskedFiles::ask_for_texture(Saying question, Packer fields, const TextureEdges& edges) {
+  const Message message = ask(question, fields.add(edges.s).add(edges.t).add(edges.alpha).add(edges.cutoff));
   if (message.saying != Saying::yes) {
     throw core::InputError(Unpacker(message.bytes).take_text());
   }
 }
 
-void AskedFiles::send_bytes(std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const std::size_t count = std::min(bytes.size(), message_bytes_max);
-    if (!line_.send(Saying::bytes, as_text(bytes.first(count)))) {
-      throw HungUp();
-    }
-    bytes = bytes.subspan(count);
+void AskedFiles::send(std::span<const std::byte> bytes) {
+  if (!send_bytes(bytes, line_)) {
+    throw HungUp();
   }
 }
 
 void AskedFiles::add_texture(const std::string& path, const TextureEdges& edges) {
-  Packer fields;
-  fields.add_text(path);
-  ask_for_texture(Saying::texture_file, add_edges(fields, edges));
+  ask_for_texture(Saying::texture_file, Packer().add_text(path), edges);
 }
 
 void AskedFiles::add_texture(std::span<const std::byte> file, const std::string& name, const std::string& format_hint,
                              const TextureEdges& edges) {
-  send_bytes(file);
-  Packer fields;
-  fields.add_text(name).add_text(format_hint);
-  ask_for_texture(Saying::texture_bytes, add_edges(fields, edges));
+  send(file);
+  ask_for_texture(Saying::texture_bytes, Packer().add_text(name).add_text(format_hint), edges);
 }
 
 void AskedFiles::add_texture(std::span<const std::uint32_t> texels, std::uint32_t width, std::uint32_t height,
                              const std::string& name, const TextureEdges& edges) {
-  send_bytes(std::as_bytes(texels));
-  Packer fields;
-  fields.add_text(name).add(width).add(height);
-  ask_for_texture(Saying::texture_texels, add_edges(fields, edges));
+  send(std::as_bytes(texels));
+  ask_for_texture(Saying::texture_texels, Packer().add_text(name).add(width).add(height), edges);
 }
 
 /// A tenth of a percent more is worth a word.

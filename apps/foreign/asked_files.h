@@ -26,8 +26,8 @@ class AskedFiles final : public SceneFiles {
 
  private:
   Message ask(Saying question, const Packer& fields);
-  void ask_for_texture(Saying question, const Packer& fields);
-  void send_bytes(std::span<const std::byte> bytes);
+  void ask_for_texture(Saying question, Packer fields, const TextureEdges& edges);
+  void send(std::span<const std::byte> bytes);
 
   Line& line_;
   std::uint64_t memory_bytes_max_;

@@ -70,12 +70,12 @@ Imf::FrameBuffer places_for(const RawPicture& picture, const Names& channels, co
   return places;
 }
 
-/// Of what is no number, and of one alpha, OpenImageIO makes a byte in two ways.
-bool are_plain_numbers(const RawPicture& picture) {
+/// Of what is none OpenImageIO makes a byte in two ways.
+bool are_numbers(const RawPicture& picture) {
   for (std::size_t place = 0; place < picture.values.size(); place += sizeof(float)) {
     float value = 0;
     std::memcpy(&value, picture.values.data() + place, sizeof(value));
-    if (std::isnan(value) || value * 255 == 0x1.fffffep-2F) {
+    if (std::isnan(value)) {
       return false;
     }
   }
@@ -108,7 +108,7 @@ std::optional<RawPicture> picture_of(std::span<const std::byte> file, std::uint6
   Imf::InputPart part(parts, 0);
   part.setFrameBuffer(places_for(picture, channels, window, picture.values.data()));
   part.readPixels(window.min.y, window.max.y);
-  return are_plain_numbers(picture) ? std::optional(std::move(picture)) : std::nullopt;
+  return are_numbers(picture) ? std::optional(std::move(picture)) : std::nullopt;
 }
 
 }  // namespace

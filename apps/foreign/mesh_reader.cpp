@@ -1,9 +1,9 @@
 #include "apps/foreign/mesh_reader.h"
 
 #include <array>
-#include <filesystem>
 #include <string_view>
 
+#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/obj/reader.h"
 #include "apps/foreign/pbrt/reader.h"
@@ -11,7 +11,6 @@
 #include "apps/foreign/polygon/off.h"
 #include "apps/foreign/polygon/ply.h"
 #include "apps/foreign/polygon/stl.h"
-#include "apps/foreign/text/small_letters.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
 
@@ -32,20 +31,20 @@ struct MeshFormat {
 };
 
 constexpr std::array mesh_formats{
-    MeshFormat{".glb", gltf::read_gltf},           MeshFormat{".gltf", gltf::read_gltf},
-    MeshFormat{".obj", without_options<read_obj>}, MeshFormat{".off", without_options<read_off>},
-    MeshFormat{".pbrt", pbrt::read_pbrt},          MeshFormat{".gz", pbrt::read_pbrt},
-    MeshFormat{".ply", without_options<read_ply>}, MeshFormat{".stl", without_options<read_stl>},
+    MeshFormat{"glb", gltf::read_gltf},           MeshFormat{"gltf", gltf::read_gltf},
+    MeshFormat{"obj", without_options<read_obj>}, MeshFormat{"off", without_options<read_off>},
+    MeshFormat{"pbrt", pbrt::read_pbrt},          MeshFormat{"gz", pbrt::read_pbrt},
+    MeshFormat{"ply", without_options<read_ply>}, MeshFormat{"stl", without_options<read_stl>},
 };
 
 PlacedFile read(const std::string& path, const MeshOptions& options, SceneFiles& files) {
-  const std::string ending = in_small_letters(std::filesystem::path(path).extension().string());
+  const std::string ending = ending_of(path);
   for (const MeshFormat& format : mesh_formats) {
     if (ending == format.ending) {
       return format.reader(path, options, files);
     }
   }
-  throw core::InputError("its name does not say what it is: nothing that ends in '" + ending + "' is read here");
+  throw core::InputError("its name does not say what it is: nothing that ends in '." + ending + "' is read here");
 }
 
 }  // namespace

@@ -12,52 +12,24 @@
 namespace dmpc::apps {
 namespace {
 
-template <class T>
-std::optional<T> take_choice(Unpacker& fields) {
-  const bool has_value = fields.take_flag();
-  const auto value = fields.take<double>();
-  return has_value ? std::optional<T>(static_cast<T>(value)) : std::nullopt;
-}
-
-std::optional<UpAxis> take_up(Unpacker& fields) {
-  const std::optional<std::size_t> axis = take_choice<std::size_t>(fields);
-  const bool is_negative = fields.take_flag();
-  return axis ? std::optional(UpAxis{*axis, is_negative}) : std::nullopt;
-}
-
-std::optional<Resolution> take_size(Unpacker& fields) {
-  const std::optional<int> width = take_choice<int>(fields);
-  const auto height = static_cast<int>(fields.take<double>());
-  return width ? std::optional(Resolution{*width, height}) : std::nullopt;
-}
-
-AnimationMoment take_moment(Unpacker& fields) {
-  AnimationMoment moment{.name = fields.take_text()};
-  moment.seconds = fields.take<double>();
-  moment.frames_per_second = fields.take<double>();
-  if (fields.take_flag()) {
-    const auto center = fields.take<core::Vec3d>();
-    const auto radius = fields.take<double>();
-    moment.still = StillScene{{center, radius}, fields.take<core::View>()};
-  }
-  return moment;
-}
-
+/// As apps/formats/mesh_session.cpp packs them.
 MeshOptions take_options(Unpacker& fields) {
   MeshOptions options;
-  options.scale = take_choice<double>(fields);
-  options.up = take_up(fields);
-  options.smooth_degrees = take_choice<double>(fields);
-  options.size = take_size(fields);
-  options.allows_missing = fields.take_flag();
-  options.is_seen_otherwise = fields.take_flag();
-  options.is_lit_otherwise = fields.take_flag();
-  options.is_below_sky = fields.take_flag();
-  options.is_below_own_sky = fields.take_flag();
-  options.is_by_paths = fields.take_flag();
-  options.copies = fields.take_flag() ? core::Copies::left_out : core::Copies::put;
+  options.scale = fields.take_optional<double>();
+  options.up = fields.take_optional<UpAxis>();
+  options.smooth_degrees = fields.take_optional<double>();
+  options.size = fields.take_optional<Resolution>();
+  for (bool* const flag : {&options.allows_missing, &options.is_seen_otherwise, &options.is_lit_otherwise, &options.is_below_sky,
+                           &options.is_below_own_sky, &options.is_by_paths}) {
+    *flag = fields.take_flag();
+  }
+  options.copies = fields.take_choice(core::Copies::left_out);
   if (!fields.is_empty()) {
-    options.animation = take_moment(fields);
+    AnimationMoment& moment = options.animation.emplace();
+    moment.name = fields.take_text();
+    moment.seconds = fields.take<double>();
+    moment.frames_per_second = fields.take<double>();
+    moment.still = fields.take_optional<StillScene>();
   }
   return options;
 }

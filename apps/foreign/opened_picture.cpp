@@ -32,16 +32,12 @@ void add_bytes(const OpenedPicture& opened, int count, std::vector<std::uint32_t
   });
 }
 
-void add_fine(const OpenedPicture& opened, int count, std::vector<std::uint32_t>& texels) {
-  const auto light = [](float value) { return core::linear_from_srgb(double{value}); };
+void add_floats(const OpenedPicture& opened, int count, core::TexelFormat format, std::vector<std::uint32_t>& texels) {
+  const auto light = [is_srgb = format == core::TexelFormat::fine_srgb](float value) {
+    return is_srgb ? core::linear_from_srgb(double{value}) : double{value};
+  };
   for_each_texel(opened.floats(count), count, [&](float red, float green, float blue) {
-    texels.push_back(core::encoded(core::TexelFormat::fine_srgb, {light(red), light(green), light(blue)}));
-  });
-}
-
-void add_light(const OpenedPicture& opened, int count, std::vector<std::uint32_t>& texels) {
-  for_each_texel(opened.floats(count), count, [&](float red, float green, float blue) {
-    texels.push_back(core::encoded(core::TexelFormat::shared_exponent, {double{red}, double{green}, double{blue}}));
+    texels.push_back(core::encoded(format, {light(red), light(green), light(blue)}));
   });
 }
 
@@ -81,10 +77,11 @@ core::Texture texture_of(const OpenedPicture& opened, const EncodedPicture& pict
   const PictureForm form = opened.form();
   core::Texture texture{.name = picture.name, .format = form.format, .levels = {{form.width, form.height, {}}}};
   texture.levels.front().texels.reserve(std::size_t{form.width} * form.height);
-  const auto add = form.format == core::TexelFormat::srgb        ? add_bytes
-                   : form.format == core::TexelFormat::fine_srgb ? add_fine
-                                                                 : add_light;
-  add(opened, channels_of(form), texture.levels.front().texels);
+  if (form.format == core::TexelFormat::srgb) {
+    add_bytes(opened, channels_of(form), texture.levels.front().texels);
+  } else {
+    add_floats(opened, channels_of(form), form.format, texture.levels.front().texels);
+  }
   if (picture.alpha == TextureAlpha::kept) {
     add_alpha(opened.alpha(), picture.format == "openexr", texture);
   }

@@ -1,14 +1,25 @@
-// A picture that a library has opened, and what becomes of it, whichever library that was.
+// A picture's file, the picture that a library has opened, and what becomes of it, whichever library that was.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
-#include "apps/foreign/encoded_picture.h"
 #include "apps/picture/image_file.h"
+#include "apps/picture/texture_file.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::apps {
+
+/// Before anybody has looked into it.
+struct EncodedPicture {
+  std::span<const std::byte> bytes;            ///< the whole file
+  std::string name;                            ///< for messages
+  std::string format;                          ///< OpenImageIO's name (apps/picture/picture_format.h)
+  TextureAlpha alpha = TextureAlpha::ignored;  ///< of a texture, if some of it is not 1
+};
 
 /// What a picture is opened for.
 enum class PictureUse : std::uint8_t {

@@ -11,7 +11,7 @@ namespace dmpc::apps {
 namespace {
 
 void send_head(std::uint32_t width, std::uint32_t height, core::TexelFormat format, bool hides_alpha, Line& line) {
-  line.send(Saying::picture, Packer().add(width).add(height).add(format).add(static_cast<std::uint8_t>(hides_alpha)));
+  line.send(Saying::picture, Packer().add(width).add(height).add(format).add_flag(hides_alpha));
 }
 
 void send_texture(const OpenedPicture& opened, const EncodedPicture& picture, Line& line) {

@@ -72,9 +72,6 @@ void move(PolygonMesh& mesh, const Transform& world, bool is_turned) {
 
 /// `scale`: of the coordinates of the world.
 void put_in_place(PolygonMesh& mesh, const Transform& world, double scale, bool is_turned, const FileMaterial& material) {
-  if (material.material.texture == core::Material::no_texture) {
-    mesh.places.clear();
-  }
   if (is_turned || !stands_still(world)) {
     move(mesh, scaled(world, scale), is_turned);
   } else {
@@ -108,15 +105,9 @@ void judge_missing(const std::vector<std::string>& missing, const MeshOptions& o
 
 /// One line for all textures that are not where the file says.
 void note_other_names(const std::vector<std::string>& names, std::vector<std::string>& notes) {
-  constexpr std::size_t shown = 4;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
-    list += (i > 0 ? ", " : "") + names[i];
-  }
   if (!names.empty()) {
     notes.push_back(grouped(names.size()) + (names.size() == 1 ? " texture was" : " textures were") +
-                    " found under other names: " + list +
-                    (names.size() > shown ? " and " + grouped(names.size() - shown) + " more" : ""));
+                    " found under other names: " + first_of(names));
   }
 }
 
@@ -189,6 +180,9 @@ class PlacedScene {
     for (const ShapePlace& place : file_.places) {
       const PlacedShape& shape = file_.shapes[place.shape];
       used[shape.mesh.material] = true;
+      for (const FaceRun& run : shape.mesh.runs) {
+        used[run.material] = true;
+      }
       used[shape.back.value_or(shape.mesh.material)] = true;
     }
     return used;
@@ -244,7 +238,7 @@ class PlacedScene {
     result_.instances = writer.instances();
     result_.bounds = sphere_around(result_.vertices, result_.scene.objects, result_.instances, result_.scene.spheres);
     for (const PolygonMesh& back : backs_) {
-      writer.add(behind(back), file_.materials[back.material].material);
+      writer.add(behind(back), file_.materials);
     }
     if (!writer.has_area()) {
       refuse_without_area(file_, result_.notes);
@@ -267,7 +261,7 @@ class PlacedScene {
       PolygonMesh mesh = std::move(shape.mesh);
       shape.mesh.material = mesh.material;
       put_in_place(mesh, {}, 1, shape.is_turned, material);
-      shared_.emplace(place.shape, writer.add_shared(std::move(mesh), material.material));
+      shared_.emplace(place.shape, writer.add_shared(std::move(mesh), file_.materials));
     }
     const Transform world = scaled(place.world, scale_);
     if (const auto shared = shared_.find(place.shape); shared != shared_.end()) {
@@ -288,7 +282,7 @@ class PlacedScene {
       backs_.push_back(mesh);
       backs_.back().material = *shape.back;
     }
-    writer.add(std::move(mesh), material.material);
+    writer.add(std::move(mesh), file_.materials);
   }
 
   /// In its own coordinates, of which nothing is left behind in its last place.

@@ -41,7 +41,7 @@ void get_ready(Line& line, Matter matter) {
   Packer fields;
   fields.add(protocol);
   for (const bool flag : {confinement.are_calls_filtered, confinement.are_limits_set, confinement.are_files_forbidden}) {
-    fields.add(static_cast<std::uint8_t>(flag));
+    fields.add_flag(flag);
   }
   line.send(Saying::ready, fields);
 }

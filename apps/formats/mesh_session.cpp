@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -51,18 +52,6 @@ std::uint64_t bytes_around(const std::string& path) {
     bytes += entry.is_regular_file(error) ? entry.file_size(error) : 0;
   }
   return bytes;
-}
-
-void add(Packer& fields, const auto& choice, double value) {
-  fields.add(static_cast<std::uint8_t>(choice.has_value())).add(value);
-}
-
-void add(Packer& fields, const AnimationMoment& moment) {
-  fields.add_text(moment.name);
-  fields.add(moment.seconds).add(moment.frames_per_second).add(static_cast<std::uint8_t>(moment.still.has_value()));
-  if (moment.still) {
-    fields.add(moment.still->bounds.center).add(moment.still->bounds.radius).add(moment.still->view);
-  }
 }
 
 std::string format_of(const std::string& path) {
@@ -141,68 +130,65 @@ void MeshSession::note_alpha() {
 
 void MeshSession::ask() {
   Packer fields;
-  fields.add_text(path_);
-  fields.add(reader_memory_bytes_max());
-  add(fields, options_.scale, options_.scale.value_or(1));
-  const UpAxis up = options_.up.value_or(UpAxis{});
-  add(fields, options_.up, static_cast<double>(up.axis));
-  fields.add(static_cast<std::uint8_t>(up.is_negative));
-  add(fields, options_.smooth_degrees, options_.smooth_degrees.value_or(0));
-  const Resolution size = options_.size.value_or(Resolution{});
-  add(fields, options_.size, static_cast<double>(size.width));
-  fields.add(static_cast<double>(size.height));
+  fields.add_text(path_).add(reader_memory_bytes_max());
+  fields.add_optional(options_.scale).add_optional(options_.up).add_optional(options_.smooth_degrees).add_optional(options_.size);
   for (const bool flag : {options_.allows_missing, options_.is_seen_otherwise, options_.is_lit_otherwise, options_.is_below_sky,
-                          options_.is_below_own_sky, options_.is_by_paths, options_.copies == core::Copies::left_out}) {
-    fields.add(static_cast<std::uint8_t>(flag));
+                          options_.is_below_own_sky, options_.is_by_paths}) {
+    fields.add_flag(flag);
   }
-  if (options_.animation) {
-    add(fields, *options_.animation);
+  fields.add(options_.copies);
+  if (const auto& moment = options_.animation) {
+    fields.add_text(moment->name).add(moment->seconds).add(moment->frames_per_second).add_optional(moment->still);
   }
   process_.send(Saying::read_mesh, fields);
 }
 
 bool MeshSession::answer(const Message& message) {
+  static const std::map<Saying, void (MeshSession::*)(const Message&)> answers = {
+      {Saying::open, &MeshSession::answer_question},
+      {Saying::exists, &MeshSession::answer_question},
+      {Saying::meant, &MeshSession::answer_question},
+      {Saying::progress, &MeshSession::show},
+      {Saying::lies_here, &MeshSession::take_over},
+      {Saying::bytes, &MeshSession::add_bytes},
+      {Saying::texture_file, &MeshSession::answer_texture},
+      {Saying::texture_bytes, &MeshSession::answer_texture},
+      {Saying::texture_texels, &MeshSession::answer_texture},
+      {Saying::sky, &MeshSession::add_sky},
+      {Saying::bounds, &MeshSession::take_bounds},
+      {Saying::note, &MeshSession::add_note}};
+  if (message.saying == Saying::done) {
+    return true;
+  }
+  if (message.saying == Saying::bad_input) {
+    throw core::InputError(Unpacker(message.bytes).take_text());
+  }
+  if (message.saying == Saying::no_room) {
+    throw core::RoomError(Unpacker(message.bytes).take_text());
+  }
   if (receiver_.take(message)) {
     return false;
   }
-  Unpacker fields(message.bytes);
-  switch (message.saying) {
-    case Saying::open:
-    case Saying::exists:
-    case Saying::meant:
-      answer_question(message);
-      return false;
-    case Saying::progress:
-      show(fields);
-      return false;
-    case Saying::lies_here:
-      take_over(fields);
-      return false;
-    case Saying::bytes:
-      add_bytes(message.bytes);
-      return false;
-    case Saying::texture_file:
-    case Saying::texture_bytes:
-    case Saying::texture_texels:
-      answer_texture(message);
-      return false;
-    case Saying::sky:
-      add_sky(fields);
-      return false;
-    case Saying::bounds:
-      take_bounds(fields);
-      return false;
-    case Saying::note:
-      add_note(fields);
-      return false;
-    case Saying::done:
-      return true;
-    case Saying::bad_input:
-      throw core::InputError(fields.take_text());
-    case Saying::no_room:
-      throw core::RoomError(fields.take_text());
-    default:
-      throw Nonsense("what its reader says of it is nonsense");
+  const auto found = answers.find(message.saying);
+  if (found == answers.end()) {
+    throw Nonsense("what its reader says of it is nonsense");
+  }
+  (this->*found->second)(message);
+  return false;
+}
+
+/// Says "no" where a file cannot be had; all else that may be thrown is no matter of that file alone.
+void MeshSession::refuse_if_missing(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const ReaderDeath&) {
+    throw;
+  } catch (const Nonsense&) {
+    throw;
+  } catch (const core::RoomError&) {  // nothing is missing
+    throw;
+  } catch (const core::InputError& error) {
+    process_.send(Saying::no, Packer().add_text(error.what()));
   }
 }
 
@@ -221,20 +207,26 @@ void MeshSession::answer_question(const Message& message) {
 }
 
 void MeshSession::answer_open(const std::string& path) {
-  try {
-    const std::size_t known = access_.opened().paths().size();
-    const InputFile file = access_.open(path);
-    const bool is_new = access_.opened().paths().size() > known;  // else it would get time for each of a thousand mentions
+  refuse_if_missing([&] {
+    const auto [file, is_new] = open(path);
     current_ = path;
     pictures_.add_bytes(is_new ? file.bytes : 0);
     process_.send(Saying::file, Packer().add(file.bytes), &file.descriptor, is_new ? file.bytes : 0);
-  } catch (const ReaderDeath&) {
-    throw;
-  } catch (const core::RoomError&) {
-    throw;
-  } catch (const core::InputError& error) {
-    process_.send(Saying::no, Packer().add_text(error.what()));
-  }
+  });
+}
+
+/// And whether for the first time: else it would get time for each of a thousand mentions.
+std::pair<InputFile, bool> MeshSession::open(const std::string& path) {
+  const std::size_t known = access_.opened().paths().size();
+  InputFile file = access_.open(path);
+  return {std::move(file), access_.opened().paths().size() > known};
+}
+
+PictureFile MeshSession::open_picture(const std::string& path) {
+  auto [file, is_new] = open(path);
+  std::string ending = fs::path(path).extension().string();
+  ending.erase(0, 1);
+  return {std::move(file.descriptor), file.bytes, path, ending, is_new};
 }
 
 void MeshSession::answer_meant(Unpacker fields) {
@@ -249,19 +241,11 @@ void MeshSession::answer_meant(Unpacker fields) {
 }
 
 void MeshSession::answer_texture(const Message& message) {
-  try {
+  refuse_if_missing([&] {
     receiver_.add(texture_of(message));
-  } catch (const Nonsense&) {
-    throw;
-  } catch (const core::RoomError&) {  // nothing is missing
-    throw;
-  } catch (const core::InputError& error) {
-    bytes_.clear();
-    process_.send(Saying::no, Packer().add_text(error.what()));
-    return;
-  }
+    process_.send(Saying::yes);
+  });
   bytes_.clear();
-  process_.send(Saying::yes);
 }
 
 core::Texture MeshSession::texture_of(const Message& message) {
@@ -274,13 +258,9 @@ core::Texture MeshSession::texture_of(const Message& message) {
 core::Texture MeshSession::texture_of_file(Unpacker fields) {
   const std::string path = fields.take_text();
   const TextureEdges edges = take_edges(fields);
-  const std::size_t known = access_.opened().paths().size();
-  InputFile file = access_.open(path);
-  const bool is_new = access_.opened().paths().size() > known;
-  budget_.add_bytes(is_new ? file.bytes : 0);
-  std::string ending = fs::path(path).extension().string();
-  ending.erase(0, 1);
-  return pictures_.read_texture({std::move(file.descriptor), file.bytes, path, ending, is_new}, edges);
+  const PictureFile file = open_picture(path);
+  budget_.add_bytes(file.is_new ? file.bytes : 0);
+  return pictures_.read_texture(file, edges);
 }
 
 core::Texture MeshSession::texture_of_bytes(Unpacker fields) {
@@ -308,7 +288,8 @@ core::Texture MeshSession::texture_of_texels(Unpacker fields) {
 }
 
 /// Where that cannot be, the same comes in messages from then on. Copying takes time of dmpc's own, too.
-void MeshSession::take_over(Unpacker fields) {
+void MeshSession::take_over(const Message& message) {
+  Unpacker fields(message.bytes);
   Unpacker::require(can_copy_);
   ProcessorStopwatch stopwatch(CLOCK_THREAD_CPUTIME_ID);
   const Saying list = fields.take_choice(Saying::spheres);
@@ -327,13 +308,14 @@ void MeshSession::spend(ProcessorStopwatch& stopwatch) {
   budget_.spend(std::chrono::duration_cast<ReadingBudget::Time>(std::chrono::duration<double>(stopwatch.lap())));
 }
 
-void MeshSession::add_bytes(const std::string& bytes) {
-  Unpacker::require(bytes_.size() + bytes.size() <= texture_bytes_max);
-  bytes_ += bytes;
+void MeshSession::add_bytes(const Message& message) {
+  Unpacker::require(bytes_.size() + message.bytes.size() <= texture_bytes_max);
+  bytes_ += message.bytes;
 }
 
 /// A picture, which no reader of meshes sees.
-void MeshSession::add_sky(Unpacker fields) {
+void MeshSession::add_sky(const Message& message) {
+  Unpacker fields(message.bytes);
   const std::string path = fields.take_text();
   MeshSky sky{.name = path, .image = {}, .rows = {}, .scale = {}};
   for (core::Vec3d& row : sky.rows) {
@@ -342,14 +324,12 @@ void MeshSession::add_sky(Unpacker fields) {
   sky.scale = fields.take<core::Vec3d>();
   fields.finish();
   Unpacker::require(options_.is_below_own_sky && result_.skies.size() < skies_max);
-  InputFile file = access_.open(path);
-  std::string ending = fs::path(path).extension().string();
-  ending.erase(0, 1);
-  sky.image = pictures_.read_sky({std::move(file.descriptor), file.bytes, path, ending, true});
+  sky.image = pictures_.read_sky(open_picture(path));
   result_.skies.push_back(std::move(sky));
 }
 
-void MeshSession::take_bounds(Unpacker fields) {
+void MeshSession::take_bounds(const Message& message) {
+  Unpacker fields(message.bytes);
   const auto center = fields.take<core::Vec3d>();
   const auto radius = fields.take<double>();
   fields.finish();
@@ -357,8 +337,8 @@ void MeshSession::take_bounds(Unpacker fields) {
   result_.bounds = {center, radius};
 }
 
-void MeshSession::add_note(Unpacker fields) {
-  result_.notes.push_back(fields.take_text());
+void MeshSession::add_note(const Message& message) {
+  result_.notes.push_back(Unpacker(message.bytes).take_text());
   note_bytes_ += result_.notes.back().size() + 1;
   Unpacker::require(note_bytes_ <= note_bytes_max);
 }
@@ -376,8 +356,8 @@ void MeshSession::say_memory() const {
   }
 }
 
-void MeshSession::show(Unpacker fields) {
-  const auto share = static_cast<double>(fields.take<float>());
+void MeshSession::show(const Message& message) {
+  const auto share = static_cast<double>(Unpacker(message.bytes).take<float>());
   const std::uint64_t total = std::max<std::uint64_t>(file_bytes_, 1);
   progress_.update(static_cast<std::uint64_t>((share >= 0 && share <= 1 ? share : 0) * static_cast<double>(total)), total);
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
@@ -29,22 +31,25 @@ class MeshSession {
   bool answer(const Message& message);
   /// About files, on the budget.
   void answer_question(const Message& message);
+  void refuse_if_missing(const std::function<void()>& act);
   void answer_open(const std::string& path);
+  std::pair<InputFile, bool> open(const std::string& path);
+  PictureFile open_picture(const std::string& path);
   void answer_meant(Unpacker fields);
   void answer_texture(const Message& message);
   core::Texture texture_of(const Message& message);
   core::Texture texture_of_file(Unpacker fields);
   core::Texture texture_of_bytes(Unpacker fields);
   core::Texture texture_of_texels(Unpacker fields);
-  void take_over(Unpacker fields);
+  void take_over(const Message& message);
   void spend(ProcessorStopwatch& stopwatch);
-  void add_bytes(const std::string& bytes);
-  void add_sky(Unpacker fields);
-  void take_bounds(Unpacker fields);
-  void add_note(Unpacker fields);
+  void add_bytes(const Message& message);
+  void add_sky(const Message& message);
+  void take_bounds(const Message& message);
+  void add_note(const Message& message);
   void note_alpha();
   void say_memory() const;
-  void show(Unpacker fields);
+  void show(const Message& message);
 
   std::string path_;
   MeshOptions options_;

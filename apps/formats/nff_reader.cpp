@@ -65,6 +65,7 @@ class NffReader {
   core::SceneBuilder& objects();
   void forbid_second(std::size_t& line, const char* keyword);
   void expect_range(double value, double low, double high, const char* what);
+  void check_color(const Vec3d& color, double high, const char* what);
 
   NffTokens tokens_;
   core::SceneBuilder builder_;
@@ -88,6 +89,12 @@ void NffReader::expect_range(double value, double low, double high, const char* 
   if (!(value >= low && value <= high)) {
     const std::string range = high < unbounded ? "between 0 and 1" : "of 0 or more";
     tokens_.fail("found " + number_text(value) + " as " + what + ", expected a number " + range + "; correct it");
+  }
+}
+
+void NffReader::check_color(const Vec3d& color, double high, const char* what) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    expect_range(color[i], 0, high, what);
   }
 }
 
@@ -125,9 +132,7 @@ void NffReader::read_entity() {
 void NffReader::read_background() {
   forbid_second(background_line_, "b");
   const Vec3d color = vector("b (background)", "a colour component");
-  for (std::size_t i = 0; i < 3; ++i) {
-    expect_range(color[i], 0, 1, "a colour component of b (background)");
-  }
+  check_color(color, 1, "a colour component of b (background)");
   builder_.background(color);
 }
 
@@ -215,9 +220,7 @@ void NffReader::read_light() {
   if (tokens_.next_is_number()) {
     light.has_color = true;
     light.color = vector("l (light)", "a colour component");
-    for (std::size_t i = 0; i < 3; ++i) {
-      expect_range(light.color[i], 0, unbounded, "a colour component of l (light)");
-    }
+    check_color(light.color, unbounded, "a colour component of l (light)");
   }
   tokens_.skip_numbers_on_line();
   builder_.light(light);
@@ -250,9 +253,7 @@ core::SceneBuilder& NffReader::objects() {
 }
 
 void NffReader::check_material(const core::Material& material) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    expect_range(material.color[i], 0, 1, "a colour component of f (material)");
-  }
+  check_color(material.color, 1, "a colour component of f (material)");
   expect_range(material.diffuse, 0, unbounded, "Kd of f (material)");
   expect_range(material.specular, 0, 1, "Ks of f (material)");
   expect_range(material.shine, 0, unbounded, "Shine of f (material)");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "apps/edge/line/small_letters.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -69,10 +70,9 @@ constexpr std::array other_formats{
 };
 
 const OtherFormat* format_of_path(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  const auto* const found = std::find_if(other_formats.begin(), other_formats.end(),
-                                         [&](const OtherFormat& format) { return ending == "." + std::string(format.ending); });
+  const auto* const found =
+      std::find_if(other_formats.begin(), other_formats.end(),
+                   [ending = ending_of(path)](const OtherFormat& format) { return format.ending == ending; });
   return found == other_formats.end() ? nullptr : found;
 }
 

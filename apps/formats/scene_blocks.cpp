@@ -24,7 +24,6 @@ namespace {
 
 using core::Vec3d;
 
-constexpr double coordinate_max = 1e30;
 constexpr std::size_t lights_a_message = 1000;
 /// More than any scene has: whoever sends more wants nothing but our memory.
 constexpr std::size_t lights_max = std::size_t{1} << 20U, textures_max = std::size_t{1} << 16U;
@@ -88,7 +87,7 @@ bool send_lights(const std::vector<core::PointLight>& lights, Line& line) {
   for (std::size_t first = 0; first < lights.size(); first += lights_a_message) {
     Packer fields;
     for (const core::PointLight& light : std::span(lights).subspan(first, std::min(lights_a_message, lights.size() - first))) {
-      fields.add(light.position).add(light.color).add(static_cast<std::uint8_t>(light.has_color));
+      fields.add(light.position).add(light.color).add_flag(light.has_color);
     }
     if (!line.send(Saying::lights, fields)) {
       return false;
@@ -97,39 +96,36 @@ bool send_lights(const std::vector<core::PointLight>& lights, Line& line) {
   return true;
 }
 
-std::uint64_t count_of(const auto& pool) { return pool.size(); }
-
-bool is_point(const Vec3d& point) {
-  return std::abs(point.x) < coordinate_max && std::abs(point.y) < coordinate_max && std::abs(point.z) < coordinate_max;
+/// Calls take(saying, list) for each that is announced, in order.
+template <class Vertices, class Take>
+void for_each_list(core::Scene& scene, std::vector<Vec3d>& points, std::vector<Vertices>& vertices, core::Instances& instances,
+                   const Take& take) {
+  take(Saying::materials, scene.materials);
+  take(Saying::objects, scene.objects);
+  take(Saying::points, points);
+  take(Saying::vertices, vertices);
+  take(Saying::normals, scene.normals);
+  take(Saying::corners, scene.corners);
+  take(Saying::meshes, instances.meshes);
+  take(Saying::places, instances.places);
 }
 
-bool is_light(const Vec3d& color) { return is_point(color) && std::min({color.x, color.y, color.z}) >= 0; }
+bool is_light(const Vec3d& color) { return is_in_reach(color) && std::min({color.x, color.y, color.z}) >= 0; }
 
 bool is_share(double value) { return value >= 0 && value <= 1; }
-bool is_weight(double value) { return value >= 0 && value < coordinate_max; }
+bool is_weight(double value) { return value >= 0 && value < view_coordinate_max; }
 
 }  // namespace
 
 bool send_scene(core::Scene& scene, IndexedVertices& vertices, core::Instances& instances, Line& line, Handing handing) {
-  const Packer head = Packer()
-                          .add(scene.view)
-                          .add(scene.zenith)
-                          .add(scene.background)
-                          .add(scene.coordinate_rounding)
-                          .add(count_of(scene.materials))
-                          .add(count_of(scene.objects))
-                          .add(count_of(vertices.points))
-                          .add(count_of(vertices.indices))
-                          .add(count_of(scene.normals))
-                          .add(count_of(scene.corners))
-                          .add(count_of(instances.meshes))
-                          .add(count_of(instances.places));
+  Packer head;
+  head.add(scene.view).add(scene.zenith).add(scene.background).add(scene.coordinate_rounding);
+  const auto for_each = [&](const auto& take) { for_each_list(scene, vertices.points, vertices.indices, instances, take); };
+  for_each([&head](Saying /*saying*/, const auto& list) { head.add(std::uint64_t{list.size()}); });
   BlockSender blocks(line, handing);
-  return line.send(Saying::scene, head) && send_lights(scene.lights, line) && blocks.send(scene.materials, Saying::materials) &&
-         blocks.send(scene.objects, Saying::objects) && blocks.send(vertices.points, Saying::points) &&
-         blocks.send(vertices.indices, Saying::vertices) && blocks.send(scene.normals, Saying::normals) &&
-         blocks.send(scene.corners, Saying::corners) && blocks.send(scene.spheres, Saying::spheres) &&
-         blocks.send(instances.meshes, Saying::meshes) && blocks.send(instances.places, Saying::places);
+  bool is_taken = line.send(Saying::scene, head) && send_lights(scene.lights, line);
+  for_each([&](Saying saying, auto& list) { is_taken = is_taken && blocks.send(list, saying); });
+  return is_taken && blocks.send(scene.spheres, Saying::spheres);
 }
 
 bool SceneReceiver::take(const Message& message) {
@@ -153,26 +149,15 @@ bool SceneReceiver::take(const Message& message) {
 
 bool SceneReceiver::take_from(Saying saying, std::uint64_t bytes, const Fill& fill) {
   Unpacker::require(has_head_ && ((saying >= Saying::materials && saying <= Saying::vertices) || saying == Saying::spheres));
-  switch (saying) {
-    case Saying::materials:
-      return append(scene_.materials, announced_.materials, bytes, fill);
-    case Saying::objects:
-      return append(scene_.objects, announced_.objects, bytes, fill);
-    case Saying::points:
-      return append(points_, announced_.points, bytes, fill);
-    case Saying::normals:
-      return append(scene_.normals, announced_.normals, bytes, fill);
-    case Saying::corners:
-      return append(scene_.corners, announced_.corners, bytes, fill);
-    case Saying::spheres:
-      return append(scene_.spheres, announced_.objects, bytes, fill);
-    case Saying::meshes:
-      return append(instances_.meshes, announced_.meshes, bytes, fill);
-    case Saying::places:
-      return append(instances_.places, announced_.places, bytes, fill);
-    default:
-      return append_vertices(bytes, fill);
-  }
+  bool is_filled = saying == Saying::spheres    ? append(scene_.spheres, announced_[Saying::objects], bytes, fill)
+                   : saying == Saying::vertices ? append_vertices(bytes, fill)
+                                                : false;
+  for_each_list(scene_, points_, scene_.vertices, instances_, [&](Saying each, auto& list) {
+    if (each == saying && each != Saying::vertices) {
+      is_filled = append(list, announced_[each], bytes, fill);
+    }
+  });
+  return is_filled;
 }
 
 void SceneReceiver::add(core::Texture texture) {
@@ -188,21 +173,12 @@ void SceneReceiver::take_head(Unpacker fields) {
   scene_.background = fields.take<Vec3d>();
   scene_.coordinate_rounding = fields.take<double>();
   Unpacker::require(scene_.coordinate_rounding >= 0 && scene_.coordinate_rounding < 1);
-  const auto reserve = [this, &fields](auto& pool) {
-    const auto count = fields.take<std::uint64_t>();
+  for_each_list(scene_, points_, scene_.vertices, instances_, [&](Saying each, auto& list) {
+    const auto count = announced_[each] = fields.take<std::uint64_t>();
     Unpacker::require(count < std::numeric_limits<std::uint32_t>::max());
-    pool.reserve(std::min(count, limits_.believed_bytes / sizeof(pool[0])));
-    return count;
-  };
-  announced_.materials = reserve(scene_.materials);
-  Unpacker::require(announced_.materials <= materials_max);
-  announced_.objects = reserve(scene_.objects);
-  announced_.points = reserve(points_);
-  announced_.vertices = reserve(scene_.vertices);
-  announced_.normals = reserve(scene_.normals);
-  announced_.corners = reserve(scene_.corners);
-  announced_.meshes = reserve(instances_.meshes);
-  announced_.places = reserve(instances_.places);
+    list.reserve(std::min(count, limits_.believed_bytes / sizeof(list[0])));
+  });
+  Unpacker::require(announced_[Saying::materials] <= materials_max);
   fields.finish();
 }
 
@@ -210,7 +186,7 @@ void SceneReceiver::take_lights(Unpacker fields) {
   for (std::size_t i = 0; i < lights_a_message && !fields.is_empty(); ++i) {
     core::PointLight light{.position = fields.take<Vec3d>(), .color = fields.take<Vec3d>()};
     light.has_color = fields.take_flag();
-    Unpacker::require(is_point(light.position) && is_light(light.color) && scene_.lights.size() < lights_max);
+    Unpacker::require(is_in_reach(light.position) && is_light(light.color) && scene_.lights.size() < lights_max);
     scene_.lights.push_back(light);
   }
   fields.finish();
@@ -238,7 +214,7 @@ bool SceneReceiver::append_vertices(std::uint64_t bytes, const Fill& fill) {
   std::vector<Vec3d>& vertices = scene_.vertices;
   const std::size_t before = vertices.size();
   const std::uint64_t end = before + bytes / sizeof(std::uint32_t);
-  Unpacker::require(end > before && bytes % sizeof(std::uint32_t) == 0 && end <= announced_.vertices);
+  Unpacker::require(end > before && bytes % sizeof(std::uint32_t) == 0 && end <= announced_[Saying::vertices]);
   std::vector<std::uint32_t> piece;
   while (vertices.size() < end) {
     piece.resize(std::min<std::size_t>(index_piece_bytes / sizeof(std::uint32_t), end - vertices.size()));
@@ -274,7 +250,7 @@ void SceneReceiver::check_object(const core::Object& object) const {
   Unpacker::require(object.material < scene_.materials.size());
   if (object.kind == ObjectKind::sphere) {
     const auto is_there = [](const core::Sphere& sphere) {
-      return is_point(sphere.center) && std::abs(sphere.radius) < coordinate_max && sphere.radius != 0;
+      return is_in_reach(sphere.center) && std::abs(sphere.radius) < view_coordinate_max && sphere.radius != 0;
     };
     Unpacker::require(object.first < scene_.spheres.size() && is_there(scene_.spheres[object.first]) &&
                       !scene_.materials[object.material].microfacets.have_texture());
@@ -361,7 +337,7 @@ void SceneReceiver::settle_instances() {
                           (copies_ == core::Copies::put ? ", or have dmpc render keep each once (--instances=keep)" : ""));
   }
   core::settle(scene_, std::exchange(instances_, {}), copies_);
-  Unpacker::require(std::all_of(scene_.vertices.begin(), scene_.vertices.end(), is_point));
+  Unpacker::require(std::ranges::all_of(scene_.vertices, [](const Vec3d& point) { return is_in_reach(point); }));
   check_copies();
 }
 
@@ -375,11 +351,7 @@ void SceneReceiver::check_copies() const {
     boxes.push_back(core::Box::around(mesh.vertices));
   }
   for (const core::KeptPlace& place : scene_.kept->places) {
-    const core::Box& box = boxes[place.mesh];
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      const auto side = [&](unsigned axis) { return ((corner >> axis) & 1U) == 0 ? box.low[axis] : box.high[axis]; };
-      Unpacker::require(is_point(place.world.point({side(0), side(1), side(2)})));
-    }
+    Unpacker::require(is_in_reach(boxes[place.mesh], place.world));
   }
 }
 
@@ -388,7 +360,8 @@ core::Scene SceneReceiver::finish() {
   const core::View& view = scene_.view;
   Unpacker::require(has_head_ && view.width >= 1 && view.height >= 1 && view.width <= resolution_max &&
                     view.height <= resolution_max && std::int64_t{view.width} * view.height <= picture_pixels_max);
-  Unpacker::require(!fault_of(view) && is_point(view.from) && is_point(view.at) && is_point(view.up) && is_weight(view.hither));
+  Unpacker::require(!fault_of(view) && is_in_reach(view.from) && is_in_reach(view.at) && is_in_reach(view.up) &&
+                    is_weight(view.hither));
   Unpacker::require(is_light(scene_.background));
   for (core::Material& material : scene_.materials) {
     check_material(material);
@@ -397,7 +370,7 @@ core::Scene SceneReceiver::finish() {
   check_facet_textures();
   core::settle_facet_textures(scene_);
   check_objects();
-  Unpacker::require(std::all_of(points_.begin(), points_.end(), is_point));
+  Unpacker::require(std::ranges::all_of(points_, [](const Vec3d& point) { return is_in_reach(point); }));
   core::forget(points_);
   settle_instances();
   return std::exchange(scene_, {});

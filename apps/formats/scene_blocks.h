@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,10 +60,6 @@ class SceneReceiver {
  private:
   void take_head(Unpacker fields);
   void take_lights(Unpacker fields);
-  /// How many entries there will be of each pool.
-  struct Announced {
-    std::uint64_t materials = 0, objects = 0, points = 0, vertices = 0, normals = 0, corners = 0, meshes = 0, places = 0;
-  };
 
   template <class T>
   static bool append(std::vector<T>& pool, std::uint64_t announced, std::uint64_t bytes, const Fill& fill);
@@ -80,8 +77,8 @@ class SceneReceiver {
   core::Copies copies_;
   core::Scene scene_;
   core::Instances instances_;
-  std::vector<core::Vec3d> points_;  ///< of the scene's vertices
-  Announced announced_;
+  std::vector<core::Vec3d> points_;            ///< of the scene's vertices
+  std::map<Saying, std::uint64_t> announced_;  ///< how many entries there will be of each list
   bool has_head_ = false;
 };
 

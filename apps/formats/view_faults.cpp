@@ -17,7 +17,18 @@ Vec3d to_unit_size(const Vec3d& a) {
 }  // namespace
 
 bool is_in_reach(const Vec3d& point) {
-  return std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) <= view_coordinate_max && is_finite(point);
+  return std::abs(point.x) <= view_coordinate_max && std::abs(point.y) <= view_coordinate_max &&
+         std::abs(point.z) <= view_coordinate_max;
+}
+
+bool is_in_reach(const core::Box& box, const core::Transform& world) {
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const auto side = [&](unsigned axis) { return ((corner >> axis) & 1U) == 0 ? box.low[axis] : box.high[axis]; };
+    if (!is_in_reach(world.point({side(0), side(1), side(2)}))) {
+      return false;
+    }
+  }
+  return true;
 }
 
 std::optional<ViewFault> fault_of(const core::View& view) {

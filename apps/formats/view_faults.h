@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/base/box.h"
 #include "core/scene/scene.h"
+#include "core/scene/transform.h"
 
 namespace dmpc::apps {
 
@@ -12,6 +14,8 @@ namespace dmpc::apps {
 inline constexpr double view_coordinate_max = 1e30;
 /// Whether all coordinates are numbers within it.
 bool is_in_reach(const core::Vec3d& point);
+/// Whether all corners are in this place.
+bool is_in_reach(const core::Box& box, const core::Transform& world);
 
 enum class ViewFault : std::uint8_t {
   angle,      ///< not between 0 and 180 degrees, both excluded

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -31,6 +32,12 @@ class Packer {
     add(static_cast<std::uint32_t>(text.size()));
     bytes_.append(text);
     return *this;
+  }
+
+  Packer& add_flag(bool flag) { return add(static_cast<std::uint8_t>(flag)); }
+  template <class T>
+  Packer& add_optional(const std::optional<T>& value) {
+    return add_flag(value.has_value()).add(value.value_or(T{}));
   }
 
   const std::string& bytes() const { return bytes_; }
@@ -64,6 +71,13 @@ class Unpacker {
     const auto value = take<std::uint8_t>();
     require(value <= 1);
     return value == 1;
+  }
+  /// Of what is believed, alone: T may have flags.
+  template <class T>
+  std::optional<T> take_optional() {
+    const bool has_value = take_flag();
+    const T value = take<T>();
+    return has_value ? std::optional(value) : std::nullopt;
   }
   bool is_empty() const { return bytes_.empty(); }
   void finish() const { require(bytes_.empty()); }

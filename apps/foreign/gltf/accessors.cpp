@@ -134,6 +134,31 @@ void for_each_replaced(Buffers& buffers, const Part& accessor, std::size_t eleme
   }
 }
 
+/// The numbers of all its elements, `width` each, as `take` makes them of bytes. `stored`: the type whose bytes stay as they are.
+template <class T, class Take>
+std::vector<T> numbers_of(Buffers& buffers, const Part& accessor, std::size_t width, Number stored, const Take& take) {
+  const Number type = number_of(accessor);
+  const std::uint64_t count = accessor.get("count").as_whole();
+  check_count(accessor, count);
+  const std::size_t number_bytes = bytes_of(type), element_bytes = width * number_bytes;
+  const Row row = accessor.find("bufferView") ? row_of(buffers, accessor, count, element_bytes) : Row{};
+  std::vector<T> numbers(count * width);
+  const auto take_element = [&](std::size_t i, const std::byte* bytes) {
+    for (std::size_t k = 0; k < width; ++k) {
+      numbers[i * width + k] = take(bytes + k * number_bytes, type);
+    }
+  };
+  if (type == stored && row.stride == element_bytes && count > 0) {  // most files' vertices, and large ones' indices
+    std::memcpy(numbers.data(), row[0], count * element_bytes);
+  } else {
+    for (std::size_t i = 0; i < count && row.stride > 0; ++i) {
+      take_element(i, row[i]);
+    }
+  }
+  for_each_replaced(buffers, accessor, element_bytes, take_element);
+  return numbers;
+}
+
 }  // namespace
 
 const Part& Accessors::accessor(const Part& where) const { return accessors_[where.as_index(count(), "accessors")]; }
@@ -147,50 +172,19 @@ Values Accessors::values(const Part& where, std::size_t width, std::size_t other
     where.fail("refers to " + part.where() + ", whose type is " + part.get("type").as_text() + "; expected " +
                std::to_string(width) + " numbers");
   }
-  const Number type = number_of(part);
-  const bool is_normalized = part.flag("normalized");
-  const std::uint64_t count = part.get("count").as_whole();
-  check_count(part, count);
-  const std::size_t element_bytes = numbers * bytes_of(type);
-  const Row row = part.find("bufferView") ? row_of(buffers_, part, count, element_bytes) : Row{};
-  Values values{numbers, std::vector<float>(count * numbers)};
-  const auto take = [&](std::size_t i, const std::byte* bytes) {
-    for (std::size_t k = 0; k < numbers; ++k) {
-      values.numbers[i * numbers + k] = float_at(bytes + k * bytes_of(type), type, is_normalized);
-    }
+  const auto take = [is_normalized = part.flag("normalized")](const std::byte* bytes, Number type) {
+    return float_at(bytes, type, is_normalized);
   };
-  if (type == Number::float32 && row.stride == element_bytes && count > 0) {  // most files' vertices
-    std::memcpy(values.numbers.data(), row[0], count * element_bytes);
-  } else {
-    for (std::size_t i = 0; i < count && row.stride > 0; ++i) {
-      take(i, row[i]);
-    }
-  }
-  for_each_replaced(buffers_, part, element_bytes, take);
-  return values;
+  return {numbers, numbers_of<float>(buffers_, part, numbers, Number::float32, take)};
 }
 
 std::vector<std::uint32_t> Accessors::indices(const Part& where) {
   const Part& part = accessor(where);
-  const Number type = number_of(part);
   if (width_of(part) != 1) {
     where.fail("refers to " + part.where() + ", whose type is " + part.get("type").as_text() + "; expected SCALAR");
   }
-  check_is_index(part, type);
-  const std::uint64_t count = part.get("count").as_whole();
-  check_count(part, count);
-  const Row row = part.find("bufferView") ? row_of(buffers_, part, count, bytes_of(type)) : Row{};
-  std::vector<std::uint32_t> indices(count);
-  if (type == Number::uint32 && row.stride == sizeof(std::uint32_t) && count > 0) {  // most large files'
-    std::memcpy(indices.data(), row[0], count * sizeof(std::uint32_t));
-  } else {
-    for (std::size_t i = 0; i < count && row.stride > 0; ++i) {
-      indices[i] = index_at(row[i], type);
-    }
-  }
-  for_each_replaced(buffers_, part, bytes_of(type),
-                    [&](std::size_t i, const std::byte* bytes) { indices[i] = index_at(bytes, type); });
-  return indices;
+  check_is_index(part, number_of(part));
+  return numbers_of<std::uint32_t>(buffers_, part, 1, Number::uint32, index_at);
 }
 
 }  // namespace dmpc::apps::gltf

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -20,10 +21,7 @@ using Numbers = std::vector<double>;
 enum class Interpolation : std::uint8_t { step, linear, cubic };
 
 Interpolation interpolation_of(const Part& sampler) {
-  const std::string text = sampler.text("interpolation", "LINEAR");
-  if (text != "STEP" && text != "LINEAR" && text != "CUBICSPLINE") {
-    sampler.get("interpolation").fail("is '" + clipped(text) + "', expected STEP, LINEAR or CUBICSPLINE");
-  }
+  const std::string text = sampler.choice("interpolation", {"STEP", "LINEAR", "CUBICSPLINE"}, "LINEAR");
   return text == "STEP" ? Interpolation::step : text == "LINEAR" ? Interpolation::linear : Interpolation::cubic;
 }
 
@@ -157,12 +155,9 @@ Numbers Sampler::on_spline(std::size_t key, double u) const {
 std::string name_of(const Part& animation) { return clipped(animation.text("name", animation.where())); }
 
 std::string names_of(const std::vector<Part>& animations) {
-  constexpr std::size_t shown = 20;
-  std::string names;
-  for (std::size_t i = 0; i < std::min(animations.size(), shown); ++i) {
-    names += (i > 0 ? ", " : "") + name_of(animations[i]);
-  }
-  return names + (animations.size() > shown ? " and " + grouped(animations.size() - shown) + " more" : "");
+  std::vector<std::string> names;
+  std::transform(animations.begin(), animations.end(), std::back_inserter(names), name_of);
+  return first_of(names, 20);
 }
 
 const Part& animation_called(const std::string& name, const std::vector<Part>& animations) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/foreign/gltf/accessors.h"
-#include "apps/formats/animation_moment.h"
+#include "apps/formats/mesh_options.h"
 
 namespace dmpc::apps::gltf {
 

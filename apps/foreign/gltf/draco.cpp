@@ -1,11 +1,11 @@
-#include "apps/foreign/gltf/draco.h"
-
 #include <draco/compression/decode.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
+
+#include "apps/foreign/gltf/primitive.h"
 
 namespace dmpc::apps::gltf {
 namespace {

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "apps/edge/line/words.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "core/base/expect.h"
 
@@ -45,14 +46,6 @@ const std::map<std::string, std::string> materials = {
     {"KHR_materials_unlit", "unlit materials, shown in the light"},
     {"KHR_materials_volume", "materials that absorb light within, shown without that"}};
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
-}
-
 std::vector<std::string> names_in(const Document& document, const std::string& key, const auto& is_wanted) {
   std::vector<std::string> names;
   for (const Part& part : document.root().list(key)) {
@@ -69,7 +62,7 @@ std::vector<std::string> names_in(const Document& document, const std::string& k
 void check_required(const Document& document) {
   const auto names = names_in(document, "extensionsRequired", [](const std::string& name) { return !shown.contains(name); });
   if (!names.empty()) {
-    throw core::InputError("requires what is not shown here: " + joined(names) +
+    throw core::InputError("requires what is not shown here: " + joined(names, ", ") +
                            "; export it without that, or take it out of the file's extensionsRequired");
   }
 }
@@ -87,7 +80,7 @@ void note_extensions(const Document& document, std::vector<std::string>& notes) 
   const auto unknown = names_in(document, "extensionsUsed",
                                 [](const std::string& name) { return !shown.contains(name) && !materials.contains(name); });
   if (!unknown.empty()) {
-    notes.push_back("extensions of glTF that are not shown: " + joined(unknown));
+    notes.push_back("extensions of glTF that are not shown: " + joined(unknown, ", "));
   }
 }
 

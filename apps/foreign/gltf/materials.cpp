@@ -7,7 +7,6 @@
 #include <map>
 #include <string_view>
 
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/surface.h"
 #include "core/base/elementary.h"
@@ -70,13 +69,7 @@ Base base_of(const Part& source, const Part& empty) {
   return {base, base, "baseColorFactor", "baseColorTexture", "metallicRoughnessTexture", false};
 }
 
-std::string alpha_mode(const Part& source) {
-  std::string mode = source.text("alphaMode", "OPAQUE");
-  if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") {
-    source.get("alphaMode").fail("is '" + clipped(mode, 40) + "', expected OPAQUE, MASK or BLEND");
-  }
-  return mode;
-}
+std::string alpha_mode(const Part& source) { return source.choice("alphaMode", {"OPAQUE", "MASK", "BLEND"}, "OPAQUE"); }
 
 /// Numbers of a material, of which those outside of what they may be are brought into it.
 class Factors {

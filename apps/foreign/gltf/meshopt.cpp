@@ -21,13 +21,6 @@ void check(const Part& packing, const Layout& layout) {
   const bool has_filter_stride = layout.filter == "OCTAHEDRAL"   ? layout.stride == 4 || layout.stride == 8
                                  : layout.filter == "QUATERNION" ? layout.stride == 8
                                                                  : true;
-  if (!is_list && layout.mode != "ATTRIBUTES") {
-    packing.fail("the mode is '" + layout.mode + "', expected ATTRIBUTES, TRIANGLES or INDICES");
-  }
-  if (layout.filter != "NONE" && layout.filter != "OCTAHEDRAL" && layout.filter != "QUATERNION" &&
-      layout.filter != "EXPONENTIAL") {
-    packing.fail("the filter is '" + layout.filter + "', expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
-  }
   if (!has_stride || !has_filter_stride || (is_list && layout.filter != "NONE") ||
       (layout.mode == "TRIANGLES" && layout.count % 3 != 0)) {
     packing.fail("mode, filter, byteStride and count do not go together");
@@ -57,8 +50,9 @@ void apply_filter(const Layout& layout, std::vector<std::byte>& result) {
 std::optional<Part> packing_of(const Part& view) { return view.extension("EXT_meshopt_compression"); }
 
 std::vector<std::byte> unpacked(const Part& packing, std::span<const std::byte> packed) {
-  const Layout layout{packing.get("mode").as_text(), packing.text("filter", "NONE"), packing.get("count").as_whole(),
-                      packing.get("byteStride").as_whole()};
+  const Layout layout{packing.choice("mode", {"ATTRIBUTES", "TRIANGLES", "INDICES"}),
+                      packing.choice("filter", {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"}, "NONE"),
+                      packing.get("count").as_whole(), packing.get("byteStride").as_whole()};
   check(packing, layout);
   // A byte stands for at most 16 elements (of four bytes, all alike), so a number too large is no call for memory.
   if (layout.count > (packed.size() + 1) * 64) {

@@ -200,11 +200,7 @@ FileView view_of(const Part& source, const Standing& at, const std::optional<Res
 }
 
 FileLightKind kind_of(const Part& source) {
-  const Part type = source.get("type");
-  const std::string text = type.as_text();
-  if (text != "directional" && text != "point" && text != "spot") {
-    type.fail("is '" + text + "', expected directional, point or spot");
-  }
+  const std::string text = source.choice("type", {"directional", "point", "spot"});
   return text == "point" ? FileLightKind::point : text == "spot" ? FileLightKind::spot : FileLightKind::distant;
 }
 

@@ -1,7 +1,10 @@
 #include "apps/foreign/gltf/part.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "apps/edge/line/shown_text.h"
+#include "apps/edge/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps::gltf {
@@ -92,6 +95,15 @@ double Part::number(const std::string& key, double fallback) const {
 std::string Part::text(const std::string& key, const std::string& fallback) const {
   const auto found = find(key);
   return found ? found->as_text() : fallback;
+}
+
+std::string Part::choice(const std::string& key, const std::vector<std::string>& names, const std::string& fallback) const {
+  const std::string found = fallback.empty() ? get(key).as_text() : text(key, fallback);
+  if (std::find(names.begin(), names.end(), found) == names.end()) {
+    get(key).fail("is '" + clipped(found, 40) + "', expected " + joined({names.begin(), names.end() - 1}, ", ") + " or " +
+                  names.back());
+  }
+  return found;
 }
 
 bool Part::flag(const std::string& key) const {

@@ -35,6 +35,8 @@ class Part {
   std::uint64_t whole(const std::string& key, std::uint64_t fallback) const;
   double number(const std::string& key, double fallback) const;
   std::string text(const std::string& key, const std::string& fallback) const;
+  /// One of `names`; without a fallback it has to be there.
+  std::string choice(const std::string& key, const std::vector<std::string>& names, const std::string& fallback = "") const;
   bool flag(const std::string& key) const;
   /// As many numbers as the fallback has.
   std::vector<double> numbers(const std::string& key, std::vector<double> fallback) const;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "apps/foreign/gltf/draco.h"
-
 namespace dmpc::apps::gltf {
 namespace {
 

@@ -23,6 +23,10 @@ inline constexpr std::size_t color_width = 4, opaque_color_width = 3;
 /// the document, for attributes of different counts and indices out of range.
 Primitive read_primitive(const Part& primitive, Accessors& accessors, Buffers& buffers);
 
+/// One packed by Draco. `widths`: the attributes to read, and how many numbers each has. Throws core::InputError for bytes that
+/// Draco cannot unpack.
+Primitive read_draco(const Part& packing, Buffers& buffers, const std::map<std::string, std::size_t>& widths);
+
 /// The first number of attributes that are called `name`_0, `name`_1, ... and follow each other.
 std::size_t set_count(const Part& attributes, const std::string& name);
 

@@ -1,11 +1,15 @@
-// Sentences about what of a file is not shown, by how much there is of it.
+// Sentences about what of a file is not shown, by how much there is of it, or by name.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/shown_text.h"
+#include "apps/edge/line/words.h"
 
 namespace dmpc::apps {
 
@@ -13,6 +17,27 @@ namespace dmpc::apps {
 inline void note_count(std::vector<std::string>& notes, const std::string& what, std::uint64_t count) {
   if (count > 0) {
     notes.push_back(what + ": " + grouped(count));
+  }
+}
+
+/// "a, b, c, d and 3 more".
+inline std::string first_of(const std::vector<std::string>& names, std::size_t shown = 4) {
+  const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), shown));
+  return joined({names.begin(), end}, ", ") + (names.size() > shown ? " and " + grouped(names.size() - shown) + " more" : "");
+}
+
+/// "'a', 'b', 'c', 'd' and 3 more".
+inline std::string name_list(std::vector<std::string> names) {
+  for (std::string& name : names) {
+    name = "'" + clipped(name, 60) + "'";
+  }
+  return first_of(names);
+}
+
+/// Appends "WHAT: NAMES" unless there is none.
+inline void note_names(std::vector<std::string>& notes, const std::string& what, const std::vector<std::string>& names) {
+  if (!names.empty()) {
+    notes.push_back(what + ": " + name_list(names));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "apps/foreign/mesh/smooth.h"
 #include "apps/formats/nff_reader.h"
 #include "apps/formats/reading_memory.h"
+#include "apps/formats/view_faults.h"
 #include "core/base/expect.h"
 #include "core/scene/face_normals.h"
 
@@ -18,12 +19,6 @@ namespace dmpc::apps {
 namespace {
 
 using core::Vec3d;
-
-constexpr double coordinate_max = 1e30;
-
-bool is_usable(const Vec3d& v) {
-  return std::abs(v.x) < coordinate_max && std::abs(v.y) < coordinate_max && std::abs(v.z) < coordinate_max;
-}
 
 bool spans_an_area(const std::vector<Vec3d>& corners) {
   for (std::size_t i = 2; i < corners.size(); ++i) {
@@ -41,7 +36,7 @@ Vec3d clamped(const Vec3d& color) {
 
 void check_vertices(const PolygonMesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (!is_usable(mesh.vertices[i])) {
+    if (!is_in_reach(mesh.vertices[i])) {
       throw core::InputError(mesh.name + ": vertex " + std::to_string(i) +
                              " has a coordinate that is not a number, infinite or beyond 1e30; correct the file");
     }
@@ -49,9 +44,8 @@ void check_vertices(const PolygonMesh& mesh) {
 }
 
 void check_faces(const FaceList& faces, const std::string& name) {
-  std::uint32_t first = 0;
   for (std::size_t i = 0; i < faces.ends.size(); ++i) {
-    if (faces.ends[i] - std::exchange(first, faces.ends[i]) > polygon_vertices_max) {
+    if (faces.ends[i] - faces.begin_of(i) > polygon_vertices_max) {
       throw core::InputError(name + ": face " + std::to_string(i) + " has too many corners, more than 65535; correct the file");
     }
   }
@@ -60,6 +54,15 @@ void check_faces(const FaceList& faces, const std::string& name) {
 bool shows_nothing(const core::Material& material) {
   return material.transmittance >= 1 && material.diffuse <= 0 && material.specular <= 0 && material.tinted_specular <= 0 &&
          material.emission == Vec3d{} && !(material.refraction_index > 1);
+}
+
+/// For smooth_normals(): each run is one.
+std::vector<std::uint32_t> groups_of(const std::vector<FaceRun>& runs) {
+  std::vector<std::uint32_t> groups;
+  for (std::size_t i = 0; i < runs.size() && runs.size() > 1; ++i) {
+    groups.resize(runs[i].end, static_cast<std::uint32_t>(i + 1));
+  }
+  return groups;
 }
 
 }  // namespace
@@ -86,14 +89,14 @@ void check_size(const GeometrySize& size, std::uint64_t memory_bytes) {
   }
 }
 
-void GeometryWriter::add(PolygonMesh mesh, core::Material material) {
+void GeometryWriter::add(PolygonMesh mesh, std::span<const FileMaterial> materials) {
   is_shared_ = false;
   if (!mesh.faces.ends.empty()) {
-    add_objects(std::move(mesh), material);
+    add_objects(std::move(mesh), materials);
   }
 }
 
-std::optional<std::uint32_t> GeometryWriter::add_shared(PolygonMesh mesh, core::Material material) {
+std::optional<std::uint32_t> GeometryWriter::add_shared(PolygonMesh mesh, std::span<const FileMaterial> materials) {
   core::expect(!smooth_degrees_, "a mesh whose normals are reckoned anew is not shared");
   if (mesh.faces.ends.empty()) {
     return std::nullopt;
@@ -110,7 +113,7 @@ std::optional<std::uint32_t> GeometryWriter::add_shared(PolygonMesh mesh, core::
   for (const std::uint32_t vertex : mesh.faces.corners) {
     shared.box.include(mesh.vertices[vertex]);
   }
-  add_objects(std::move(mesh), material);
+  add_objects(std::move(mesh), materials);
   shared.unplaced = taken_since(unplaced_, unplaced);
   shared.unseen = taken_since(unseen_, unseen);
   shared.without_colors = taken_since(meshes_without_colors_, without_colors);
@@ -121,12 +124,8 @@ std::optional<std::uint32_t> GeometryWriter::add_shared(PolygonMesh mesh, core::
 
 void GeometryWriter::place(std::uint32_t mesh, const core::Transform& world) {
   const Shared& shared = shared_.at(mesh);
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    const core::Box& box = shared.box;
-    const auto side = [&](unsigned axis) { return ((corner >> axis) & 1U) == 0 ? box.low[axis] : box.high[axis]; };
-    if (!is_usable(world.point({side(0), side(1), side(2)}))) {
-      throw core::InputError(shared.name + ": a node takes it beyond 1e30; correct the transforms of the file");
-    }
+  if (!is_in_reach(shared.box, world)) {
+    throw core::InputError(shared.name + ": a node takes it beyond 1e30; correct the transforms of the file");
   }
   has_area_ = has_area_ || has_area_in(instances_.meshes[mesh], world);
   unplaced_ += shared.unplaced;
@@ -151,32 +150,42 @@ bool GeometryWriter::has_area_in(const core::SharedMesh& mesh, const core::Trans
 }
 
 /// A mesh that has faces.
-void GeometryWriter::add_objects(PolygonMesh mesh, core::Material material) {
+void GeometryWriter::add_objects(PolygonMesh mesh, std::span<const FileMaterial> materials) {
   check_faces(mesh.faces, mesh.name);
   check_vertices(mesh);
+  if (mesh.runs.empty()) {
+    mesh.runs = {{.end = mesh.faces.ends.size(), .material = mesh.material}};
+  }
   if (smooth_degrees_) {
-    smooth_ = smooth_normals(mesh.vertices, mesh.faces, *smooth_degrees_);
+    smooth_ = smooth_normals(mesh.vertices, mesh.faces, *smooth_degrees_, groups_of(mesh.runs));
     mesh.normals.clear();
   }
-  if (mesh.places.empty()) {
-    unplaced_ += material.texture == core::Material::no_texture ? 0 : 1;
-    material.texture = core::Material::no_texture;
-  } else if (material.texture == core::Material::no_texture) {
-    mesh.places.clear();
+  std::size_t first = 0;
+  for (const FaceRun& run : mesh.runs) {
+    add_run(mesh, run, std::exchange(first, run.end), materials[run.material].material);
   }
-  if (material.texture == core::Material::no_texture && material.microfacets.have_texture()) {
+  keep_vertices(std::move(mesh.vertices), std::move(mesh.faces.corners));
+}
+
+void GeometryWriter::add_run(const PolygonMesh& mesh, const FaceRun& run, std::size_t first_face, core::Material material) {
+  const bool has_texture = material.texture != core::Material::no_texture, has_places = run.has_places && !mesh.places.empty();
+  has_places_ = has_texture && has_places;
+  unplaced_ += has_texture && !has_places ? 1 : 0;
+  material.texture = has_places_ ? material.texture : core::Material::no_texture;
+  if (!has_places_ && material.microfacets.have_texture()) {
     material.microfacets.use = core::FacetTexture::mean;
   }
-  if (material.texture == core::Material::no_texture && mesh.alphas.empty()) {
+  if (!has_places_ && mesh.alphas.empty()) {
     material.alpha = core::AlphaUse::none;
     material.alpha_cutoff = 0;
   }
   hides_colors_ = false;
   unseen_ += shows_nothing(material) ? 1 : 0;
   builder_.material(material);
-  const bool is_plain = !smooth_degrees_ && mesh.normals.empty() && mesh.places.empty() && mesh.colors.empty();
-  std::size_t first = 0;
-  for (const std::uint32_t end : mesh.faces.ends) {
+  const bool is_plain = !smooth_degrees_ && mesh.normals.empty() && !has_places_ && mesh.colors.empty();
+  std::size_t first = mesh.faces.begin_of(first_face);
+  for (std::size_t face = first_face; face < run.end; ++face) {
+    const std::size_t end = mesh.faces.ends[face];
     if (is_plain && (has_area_ || is_shared_)) {
       builder_.polygon(end - first);
     } else {
@@ -185,11 +194,10 @@ void GeometryWriter::add_objects(PolygonMesh mesh, core::Material material) {
     first = end;
   }
   meshes_without_colors_ += hides_colors_ ? 1 : 0;
-  keep_vertices(std::move(mesh.vertices), std::move(mesh.faces.corners));
 }
 
 void GeometryWriter::add(const core::Sphere& sphere, core::Material material) {
-  if (!is_usable(sphere.center) || !(std::abs(sphere.radius) < coordinate_max && sphere.radius != 0)) {
+  if (!is_in_reach(sphere.center) || !(std::abs(sphere.radius) <= view_coordinate_max && sphere.radius != 0)) {
     throw core::InputError("a sphere has a centre or a radius that is not a number, infinite or beyond 1e30; correct the file");
   }
   material.texture = core::Material::no_texture;
@@ -234,8 +242,8 @@ bool GeometryWriter::set_one_color(const PolygonMesh& mesh, const core::Material
       face_colors_.contains(color) || (face_colors_.size() < face_colors_max && face_colors_.insert(color).second);
   if (is_one) {
     face.color = face.color * clamped(one);
-    face.alpha = mesh.places.empty() ? core::AlphaUse::none : face.alpha;
-    face.alpha_cutoff = mesh.places.empty() ? 0 : face.alpha_cutoff;
+    face.alpha = has_places_ ? face.alpha : core::AlphaUse::none;
+    face.alpha_cutoff = has_places_ ? face.alpha_cutoff : 0;
   }
   builder_.material(face);
   return is_one;
@@ -257,8 +265,8 @@ void GeometryWriter::add_face(const PolygonMesh& mesh, const core::Material& mat
     }
   }
   const bool has_colors = !mesh.colors.empty() && !set_one_color(mesh, material, first, end);
-  hides_colors_ = hides_colors_ || (has_colors && !mesh.places.empty());
-  if (!mesh.places.empty() || has_colors) {
+  hides_colors_ = hides_colors_ || (has_colors && has_places_);
+  if (has_places_ || has_colors) {
     add_corners(mesh, material, first, end);
   } else {
     add_flat_or_smooth(end - first);
@@ -280,8 +288,8 @@ void GeometryWriter::add_corners(const PolygonMesh& mesh, const core::Material& 
     const Vec3d normal = face_normals_.empty() ? Vec3d{} : face_normals_[i - first];
     const std::size_t at = mesh.of_corner(i);
     const double alpha = mesh.alphas.empty() || material.alpha == core::AlphaUse::none ? 1 : mesh.alphas[at];
-    face_corners_.push_back(mesh.places.empty() ? core::colored_corner(normal, mesh.colors[at], alpha)
-                                                : core::TexturedCorner{normal, mesh.places[at]});
+    face_corners_.push_back(has_places_ ? core::TexturedCorner{normal, mesh.places[at]}
+                                        : core::colored_corner(normal, mesh.colors[at], alpha));
   }
   builder_.textured(face_corners_.size(), face_corners_);
 }

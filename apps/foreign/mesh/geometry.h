@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "apps/foreign/mesh/polygon_mesh.h"
+#include "apps/foreign/mesh/placed_file.h"
 #include "apps/formats/indexed_vertices.h"
 #include "core/base/box.h"
 #include "core/base/counts.h"
@@ -45,13 +46,14 @@ class GeometryWriter {
   GeometryWriter(core::Scene& scene, IndexedVertices& vertices, std::optional<double> smooth_degrees)
       : scene_(scene), builder_(scene), vertices_(vertices), smooth_degrees_(smooth_degrees) {}
 
-  /// A mesh without places loses the material's texture. Throws core::InputError with the mesh's name for a coordinate that is
-  /// not finite or beyond 1e30, an index of a vertex that does not exist, or a polygon with too many corners.
-  void add(PolygonMesh mesh, core::Material material);
+  /// `materials`: of which its faces name some; one without places loses its texture. Throws core::InputError with the mesh's
+  /// name for a coordinate that is not finite or beyond 1e30, an index of a vertex that does not exist, or a polygon with too
+  /// many corners.
+  void add(PolygonMesh mesh, std::span<const FileMaterial> materials);
 
   /// Adds a mesh in coordinates of its own, which stands nowhere yet. Returns what place() calls it; nothing if it has no faces.
   /// Throws as add() does. Not with smooth_degrees: how sharp an edge is depends on the place.
-  std::optional<std::uint32_t> add_shared(PolygonMesh mesh, core::Material material);
+  std::optional<std::uint32_t> add_shared(PolygonMesh mesh, std::span<const FileMaterial> materials);
   /// Puts a shared mesh in a place, behind all that came before in the file's order. Throws core::InputError with the mesh's name
   /// if that takes it beyond 1e30.
   void place(std::uint32_t mesh, const core::Transform& world);
@@ -81,7 +83,9 @@ class GeometryWriter {
     std::uint64_t unplaced = 0, unseen = 0, without_colors = 0;  ///< what each of its places counts for
   };
 
-  void add_objects(PolygonMesh mesh, core::Material material);
+  void add_objects(PolygonMesh mesh, std::span<const FileMaterial> materials);
+  /// Its faces from this one on.
+  void add_run(const PolygonMesh& mesh, const FaceRun& run, std::size_t first_face, core::Material material);
   bool has_area_in(const core::SharedMesh& mesh, const core::Transform& world) const;
   /// The face of these corners.
   void add_face(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end);
@@ -97,7 +101,8 @@ class GeometryWriter {
   core::Instances instances_;
   std::vector<Shared> shared_;  ///< by Instances::meshes
   bool is_shared_ = false;      ///< what is being added
-  bool has_area_ = false, hides_colors_ = false;
+  bool has_area_ = false;
+  bool has_places_ = false, hides_colors_ = false;  ///< of the run that is being added
   std::uint64_t unplaced_ = 0, unseen_ = 0, meshes_without_colors_ = 0;
   std::set<std::array<double, 3>> face_colors_;  ///< of faces of one colour
   std::vector<core::Vec3d> face_vertices_, face_normals_;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace dmpc::apps {
 struct FaceList {
   std::vector<std::uint32_t> corners;  ///< indices of vertices
   std::vector<std::uint32_t> ends;     ///< of each face: one past its last corner
+
+  std::size_t begin_of(std::size_t face) const { return face == 0 ? 0 : ends[face - 1]; }
 };
 
 /// Three corners a face.
@@ -29,9 +32,16 @@ inline FaceList triangle_list(std::vector<std::uint32_t> corners) {
   return faces;
 }
 
+/// Faces that follow one another and look alike.
+struct FaceRun {
+  std::size_t end = 0;       ///< one past the last
+  std::size_t material = 0;  ///< index into PlacedFile::materials
+  bool has_places = true;    ///< on the material's texture, if the mesh has any
+};
+
 struct PolygonMesh {
   std::string name;                          ///< "mesh 3 'wheel'", for messages
-  std::size_t material = 0;                  ///< index into PlacedFile::materials
+  std::size_t material = 0;                  ///< likewise of all faces, or of the first run
   std::vector<core::Vec3d> vertices;         ///< in coordinates of its own
   FaceList faces;                            ///< each of at least 3 corners, of vertices that exist
   bool is_by_vertex = false;                 ///< what follows is each vertex's, not each corner's
@@ -39,9 +49,29 @@ struct PolygonMesh {
   std::vector<std::array<float, 2>> places;  ///< on the texture, t downwards, or none
   std::vector<core::Vec3d> colors;           ///< linear, 0 to 1, by which the material's is multiplied, or none
   std::vector<double> alphas;                ///< of `colors`, 0 to 1, or none where all are 1
+  std::vector<FaceRun> runs;                 ///< all faces, in order; or none
 
   /// The index of what a corner has among normals, places, colors and alphas.
   std::size_t of_corner(std::size_t corner) const { return is_by_vertex ? faces.corners[corner] : corner; }
+  /// Each corner gets what its vertex has.
+  void spread_to_corners() {
+    const auto spread = [this](auto& list) {
+      if (!list.empty()) {
+        std::remove_reference_t<decltype(list)> all;
+        all.reserve(faces.corners.size());
+        for (const std::uint32_t vertex : faces.corners) {
+          all.push_back(list[vertex]);
+        }
+        list = std::move(all);
+      }
+    };
+    if (std::exchange(is_by_vertex, false)) {
+      spread(normals);
+      spread(places);
+      spread(colors);
+      spread(alphas);
+    }
+  }
   /// Makes a face look to the other side.
   void turn(std::size_t first_corner, std::size_t end) {
     const auto reverse = [&](auto& list) {

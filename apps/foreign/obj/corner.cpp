@@ -4,7 +4,6 @@
 #include <string>
 
 #include "apps/edge/line/parsed_number.h"
-#include "apps/edge/line/shown_text.h"
 #include "apps/foreign/obj/geometry.h"
 #include "core/base/expect.h"
 
@@ -15,7 +14,7 @@ constexpr std::array<const char*, named_count> nouns{"vertex", "texture coordina
 constexpr std::uint64_t index_max = none - 1;
 
 [[noreturn]] void refuse_corner(std::string_view word, const LineWords& words) {
-  words.refuse("expected a corner such as 3, 3/1, 3//2 or 3/1/2, found '" + clipped(word, 60) + "'");
+  words.fail_at(word, "a corner such as 3, 3/1, 3//2 or 3/1/2");
 }
 
 std::string missing_one(std::size_t kind, std::int64_t index, const std::string& why) {
@@ -32,15 +31,15 @@ std::uint32_t CornerReader::index(std::string_view text, std::size_t kind, const
   const std::int64_t value = *found;
   const auto count = static_cast<std::int64_t>(so_far[kind]);
   if (value == 0) {
-    words.refuse(missing_one(kind, 0, "they are counted from 1"));
+    words.fail(missing_one(kind, 0, "they are counted from 1"));
   }
   if (value < -count) {
-    words.refuse(missing_one(kind, value, "there are " + std::to_string(count) + " before it"));
+    words.fail(missing_one(kind, value, "there are " + std::to_string(count) + " before it"));
   }
   const auto place = static_cast<std::uint64_t>(value > 0 ? value - 1 : count + value);
   std::vector<Later>& later = later_[kind];
   if (value > count && (later.empty() || place > later.back().index)) {
-    later.push_back({place, words.line_number()});
+    later.push_back({place, words.line()});
   }
   return static_cast<std::uint32_t>(std::min(place, index_max));  // one beyond is refused by check_named()
 }

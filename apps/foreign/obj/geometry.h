@@ -7,21 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "apps/foreign/mesh/polygon_mesh.h"
 #include "core/base/vec.h"
 
 namespace dmpc::apps::obj {
 
 inline constexpr std::uint32_t none = 0xffffffffU;
 
-/// Faces of three or more corners, one after the other. All of a face have a place, or none, and so with normals.
-struct Faces {
-  std::vector<std::uint32_t> vertices;  ///< a corner each
-  std::vector<std::uint32_t> places;    ///< a corner each, or `none`; empty until a corner has one
-  std::vector<std::uint32_t> normals;   ///< a corner each, or `none`; empty until a corner has one
-  std::vector<std::uint32_t> ends;      ///< of each face: one past its last corner
-  std::vector<std::uint32_t> groups;    ///< of each face: its smoothing group, 0 for none; empty if there is none in the file
+/// All corners of a face have a place, or none, and so with normals.
+struct Faces : FaceList {
+  std::vector<std::uint32_t> places;   ///< a corner each, or `none`; empty until a corner has one
+  std::vector<std::uint32_t> normals;  ///< a corner each, or `none`; empty until a corner has one
+  std::vector<std::uint32_t> groups;   ///< of each face: its smoothing group, 0 for none; empty if there is none in the file
 
-  std::size_t begin_of(std::size_t face) const { return face == 0 ? 0 : ends[face - 1]; }
   bool has_places(std::size_t face) const { return !places.empty() && places[begin_of(face)] != none; }
   bool has_normals(std::size_t face) const { return !normals.empty() && normals[begin_of(face)] != none; }
 };
@@ -41,6 +39,16 @@ struct Geometry {
   std::vector<std::string> material_names;  ///< as usemtl says them, once each
   std::vector<std::string> libraries;       ///< what follows mtllib, once each
   std::vector<std::string> notes;           ///< what is not shown, a sentence each
+
+  /// Calls take(face, index of its run) for each.
+  template <class Take>
+  void for_each_face(const Take& take) const {
+    std::size_t run = 0;
+    for (std::uint32_t face = 0; face < faces.ends.size(); ++face) {
+      run += run + 1 < runs.size() && runs[run + 1].first_face == face ? 1 : 0;
+      take(face, run);
+    }
+  }
 };
 
 }  // namespace dmpc::apps::obj

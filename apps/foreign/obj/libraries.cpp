@@ -3,8 +3,8 @@
 #include <memory>
 #include <utility>
 
-#include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
+#include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/text/line_words.h"
 #include "apps/formats/named_file.h"
 #include "core/base/expect.h"
@@ -95,9 +95,7 @@ const MtlMaterial* Libraries::find(const std::string& name) const {
 }
 
 void Libraries::note_repeated(std::vector<std::string>& all) const {
-  if (repeated_ > 0) {
-    all.push_back("materials that are there again, of which the first is shown: " + grouped(repeated_));
-  }
+  note_count(all, "materials that are there again, of which the first is shown", repeated_);
 }
 
 }  // namespace dmpc::apps::obj

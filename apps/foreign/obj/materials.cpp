@@ -9,80 +9,72 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/surface.h"
-#include "apps/foreign/text/name_list.h"
 
 namespace dmpc::apps::obj {
 namespace {
 
 using core::Vec3d;
 
-/// What of the materials that some face has is not shown.
-class Losses {
- public:
-  void add(const MtlMaterial& material);
-  void note(std::vector<std::string>& notes) const;
-
- private:
-  std::set<std::string> textures_;
-  std::map<std::string, std::uint64_t> options_;
-  std::uint64_t emissive_ = 0, light_textures_ = 0, coated_ = 0, filtered_ = 0, other_colors_ = 0, contradictory_ = 0,
-                beyond_ = 0, dark_ = 0, beyond_shine_ = 0, beyond_shares_ = 0, beyond_index_ = 0, without_exponent_ = 0,
-                otherwise_lit_ = 0, halos_ = 0;
-};
-
 bool is_beyond_unit(double share) { return share < 0 || share > 1; }
 bool is_beyond_unit(const Vec3d& v) { return is_beyond_unit(v.x) || is_beyond_unit(v.y) || is_beyond_unit(v.z); }
 
-/// How much of something there is: d, Tr, Pr and Pm.
-bool has_share_beyond_unit(const MtlMaterial& material) {
-  const auto& m = material;
-  return is_beyond_unit(m.d.value_or(0)) || is_beyond_unit(m.transparency.value_or(0)) ||
-         is_beyond_unit(m.roughness.value_or(0)) || is_beyond_unit(m.metallic.value_or(0));
+constexpr Vec3d white{1, 1, 1};
+
+/// What of a material is not shown.
+struct Loss {
+  std::string what;
+  bool (*is_there)(const MtlMaterial&);
+};
+
+const std::vector<Loss>& losses() {
+  static const std::vector<Loss> all = {
+      {"materials that shine by themselves, and light other things by paths, not by --transport=whitted",
+       [](const auto& m) { return !(emission_of(m) == Vec3d{}); }},
+      {"materials whose own light is a texture's, shown without it", [](const auto& m) { return m.has_light_texture; }},
+      {"materials with a clear coat, shown without it", [](const auto& m) { return m.has_clear_coat; }},
+      {"materials that colour what shines through them (Tf), shown without that",
+       [](const auto& m) { return opacity_of(m) < 1 && m.filter.value_or(white) != white; }},
+      {"materials with colours by spectral curves or CIE XYZ, which are not followed",
+       [](const auto& m) { return m.has_other_colors; }},
+      {"materials whose d and Tr contradict each other, shown by d", contradicts_itself},
+      {"materials with a Ks and no Ns, shown without a highlight", lacks_exponent},
+      {"materials with an illum other than 1 to 9, shaded all the same",
+       [](const auto& m) { return m.illumination.value_or(1) < 1 || m.illumination.value_or(1) > 9; }},
+      {"materials with d -halo, as opaque at their edges as elsewhere", [](const auto& m) { return m.has_halo; }},
+      {"materials with colours outside 0 to 1, brought into it",
+       [](const auto& m) { return is_beyond_unit(m.diffuse.value_or(white)) || is_beyond_unit(m.specular); }},
+      {"materials with a d, Tr, Pr or Pm outside 0 to 1, brought into it",
+       [](const auto& m) {
+         return is_beyond_unit(m.d.value_or(0)) || is_beyond_unit(m.transparency.value_or(0)) ||
+                is_beyond_unit(m.roughness.value_or(0)) || is_beyond_unit(m.metallic.value_or(0));
+       }},
+      {"materials with an Ns outside 0 to " + grouped(shine_max) + ", brought into it",
+       [](const auto& m) { return m.shine < 0 || m.shine > shine_max; }},
+      {"materials with a Ke below 0, taken for 0",
+       [](const auto& m) {
+         return std::min({m.emission.x, m.emission.y, m.emission.z}) < 0;
+       }},
+      {"materials with an Ni of 0 or less, shown as if they had none", [](const auto& m) { return !(m.refraction_index > 0); }}};
+  return all;
 }
 
-void Losses::add(const MtlMaterial& material) {
-  const Vec3d white{1, 1, 1};
-  textures_.insert(material.other_textures.begin(), material.other_textures.end());
-  if (material.texture) {
-    for (const std::string& option : material.texture->left_out) {
-      ++options_[option];
+/// Of materials that some face has.
+void note_losses(const std::vector<MtlMaterial>& materials, std::vector<std::string>& notes) {
+  std::set<std::string> textures;
+  std::map<std::string, std::uint64_t> options;
+  for (const MtlMaterial& material : materials) {
+    textures.insert(material.other_textures.begin(), material.other_textures.end());
+    for (const std::string& option : material.texture ? material.texture->left_out : std::vector<std::string>()) {
+      ++options[option];
     }
   }
-  emissive_ += emission_of(material) == Vec3d{} ? 0 : 1;
-  light_textures_ += material.has_light_texture ? 1 : 0;
-  coated_ += material.has_clear_coat ? 1 : 0;
-  filtered_ += opacity_of(material) < 1 && material.filter.value_or(white) != white ? 1 : 0;
-  other_colors_ += material.has_other_colors ? 1 : 0;
-  contradictory_ += contradicts_itself(material) ? 1 : 0;
-  without_exponent_ += lacks_exponent(material) ? 1 : 0;
-  otherwise_lit_ += material.illumination.value_or(1) < 1 || material.illumination.value_or(1) > 9 ? 1 : 0;
-  halos_ += material.has_halo ? 1 : 0;
-  beyond_ += is_beyond_unit(material.diffuse.value_or(white)) || is_beyond_unit(material.specular) ? 1 : 0;
-  dark_ += std::min({material.emission.x, material.emission.y, material.emission.z}) < 0 ? 1 : 0;
-  beyond_shine_ += material.shine < 0 || material.shine > shine_max ? 1 : 0;
-  beyond_shares_ += has_share_beyond_unit(material) ? 1 : 0;
-  beyond_index_ += material.refraction_index > 0 ? 0 : 1;
-}
-
-void Losses::note(std::vector<std::string>& notes) const {
-  note_count(notes, "textures not used, since they are not of a surface's colour", textures_.size());
-  for (const auto& [option, count] : options_) {
+  note_count(notes, "textures not used, since they are not of a surface's colour", textures.size());
+  for (const auto& [option, count] : options) {
     note_count(notes, "textures' option " + option + ", which is not followed", count);
   }
-  note_count(notes, "materials that shine by themselves, and light other things by paths, not by --transport=whitted", emissive_);
-  note_count(notes, "materials whose own light is a texture's, shown without it", light_textures_);
-  note_count(notes, "materials with a clear coat, shown without it", coated_);
-  note_count(notes, "materials that colour what shines through them (Tf), shown without that", filtered_);
-  note_count(notes, "materials with colours by spectral curves or CIE XYZ, which are not followed", other_colors_);
-  note_count(notes, "materials whose d and Tr contradict each other, shown by d", contradictory_);
-  note_count(notes, "materials with a Ks and no Ns, shown without a highlight", without_exponent_);
-  note_count(notes, "materials with an illum other than 1 to 9, shaded all the same", otherwise_lit_);
-  note_count(notes, "materials with d -halo, as opaque at their edges as elsewhere", halos_);
-  note_count(notes, "materials with colours outside 0 to 1, brought into it", beyond_);
-  note_count(notes, "materials with a d, Tr, Pr or Pm outside 0 to 1, brought into it", beyond_shares_);
-  note_count(notes, "materials with an Ns outside 0 to " + grouped(shine_max) + ", brought into it", beyond_shine_);
-  note_count(notes, "materials with a Ke below 0, taken for 0", dark_);
-  note_count(notes, "materials with an Ni of 0 or less, shown as if they had none", beyond_index_);
+  for (const Loss& loss : losses()) {
+    note_count(notes, loss.what, static_cast<std::uint64_t>(std::ranges::count_if(materials, loss.is_there)));
+  }
 }
 
 class Resolver {
@@ -101,7 +93,7 @@ class Resolver {
   const Geometry& geometry_;
   const Libraries& libraries_;
   Materials result_;
-  Losses losses_;
+  std::vector<MtlMaterial> used_;
   std::map<const MtlMaterial*, std::uint32_t> known_;
   std::vector<std::string> unknown_;
 };
@@ -116,15 +108,12 @@ MtlMaterial Resolver::colored(MtlMaterial material) const {
 
 std::uint32_t Resolver::add(const MtlMaterial& source) {
   FileMaterial material{.material = shown_material(colored(source))};
-  MaterialUse use{.name = source.name.empty() ? "what has no material" : "what has material '" + clipped(source.name, 60) + "'",
-                  .texture = std::nullopt};
   if (source.texture) {
     material.texture = TextureUse{.path = source.texture->name, .edges = source.texture->edges};
     material.texture->edges.alpha = TextureAlpha::said;
-    use.texture = source.texture->place;
   }
   result_.list.push_back(std::move(material));
-  result_.uses.push_back(std::move(use));
+  result_.places.push_back(source.texture ? source.texture->place : TexturePlace{});
   return static_cast<std::uint32_t>(result_.list.size() - 1);
 }
 
@@ -136,8 +125,8 @@ std::uint32_t Resolver::index_of(std::uint32_t name) {
   }
   const auto [known, is_new] = known_.try_emplace(source, 0);
   if (is_new) {
-    known->second = add(source == nullptr ? MtlMaterial{} : *source);
-    losses_.add(source == nullptr ? MtlMaterial{} : *source);
+    used_.push_back(source == nullptr ? MtlMaterial{} : *source);
+    known->second = add(used_.back());
   }
   return known->second;
 }
@@ -146,22 +135,17 @@ void Resolver::judge_textures() {
   std::vector<bool> is_placed(result_.list.size());
   std::uint64_t plain_faces = 0;
   std::vector<std::uint64_t> plain(result_.list.size());
-  for (std::size_t run = 0; run < geometry_.runs.size(); ++run) {
-    const bool is_last = run + 1 == geometry_.runs.size();
-    const std::size_t end = is_last ? geometry_.faces.ends.size() : geometry_.runs[run + 1].first_face;
-    for (std::size_t face = geometry_.runs[run].first_face; face < end; ++face) {
-      const bool has_places = geometry_.faces.has_places(face);
-      const std::uint32_t material = result_.of_runs[run];
-      is_placed[material] = is_placed[material] || has_places;
-      plain[material] += has_places ? 0 : 1;
-    }
-  }
+  geometry_.for_each_face([&](std::uint32_t face, std::size_t run) {
+    const bool has_places = geometry_.faces.has_places(face);
+    const std::uint32_t material = result_.of_runs[run];
+    is_placed[material] = is_placed[material] || has_places;
+    plain[material] += has_places ? 0 : 1;
+  });
   std::set<std::string> without;
   for (std::size_t i = 0; i < result_.list.size(); ++i) {
     if (result_.list[i].texture && !is_placed[i]) {
       without.insert(result_.list[i].texture->path);
       result_.list[i].texture.reset();
-      result_.uses[i].texture.reset();
     }
     plain_faces += result_.list[i].texture ? plain[i] : 0;
   }
@@ -180,7 +164,7 @@ Materials Resolver::resolve() {
   }
   note_names(result_.notes, "materials that are named and in no file of materials, shown grey", unknown_);
   judge_textures();
-  losses_.note(result_.notes);
+  note_losses(used_, result_.notes);
   return std::move(result_);
 }
 

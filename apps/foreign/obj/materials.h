@@ -8,13 +8,12 @@
 #include "apps/foreign/mesh/placed_file.h"
 #include "apps/foreign/obj/geometry.h"
 #include "apps/foreign/obj/libraries.h"
-#include "apps/foreign/obj/meshes.h"
 
 namespace dmpc::apps::obj {
 
 struct Materials {
-  std::vector<FileMaterial> list;  ///< those that some face has, in the order of the faces
-  std::vector<MaterialUse> uses;   ///< of each
+  std::vector<FileMaterial> list;    ///< those that some face has, in the order of the faces
+  std::vector<TexturePlace> places;  ///< of each: where its faces' places lie on its texture
   std::vector<std::uint32_t> of_runs;
   std::vector<std::string> notes;  ///< what is not shown of them, a sentence each
 };

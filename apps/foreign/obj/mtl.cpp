@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
+#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/mesh/surface.h"
 #include "apps/foreign/obj/tally.h"
 #include "apps/foreign/text/line_words.h"
-#include "apps/foreign/text/small_letters.h"
 #include "apps/foreign/text/text_lines.h"
 
 namespace dmpc::apps::obj {
@@ -41,12 +42,12 @@ class MtlParser {
 
  private:
   void statement(const std::string& keyword, LineWords& words);
-  bool color_statement(const std::string& keyword, LineWords& words);
-  bool number_statement(const std::string& keyword, LineWords& words);
-  void texture(const std::string& keyword, const LineWords& words);
-  void begin(const LineWords& words);
+  bool value_statement(const std::string& keyword, LineWords& words);
+  void texture(const std::string& keyword, LineWords& words);
+  void begin(LineWords& words);
   void finish();
   std::optional<Vec3d> color(LineWords& words);
+  double opacity(LineWords& words);
   static double number(LineWords& words);
 
   const std::function<void(MtlMaterial)>& take_;
@@ -78,22 +79,22 @@ void MtlParser::statement(const std::string& keyword, LineWords& words) {
     return begin(words);
   }
   if (!material_) {
-    words.refuse("expected 'newmtl NAME' before '" + clipped(keyword, 60) + "'");
+    words.fail("expected 'newmtl NAME' before '" + clipped(keyword, 60) + "'");
   }
   if (is_texture(keyword)) {
     return texture(keyword, words);
   }
-  const bool is_known = color_statement(keyword, words) || number_statement(keyword, words) ||
-                        std::find(passed_over.begin(), passed_over.end(), keyword) != passed_over.end();
-  if (!is_known && unknown_.count++ == 0) {
-    unknown_.first = "'" + clipped(keyword, 60) + "' in line " + std::to_string(words.line_number());
+  const bool is_known =
+      value_statement(keyword, words) || std::find(passed_over.begin(), passed_over.end(), keyword) != passed_over.end();
+  if (!is_known) {
+    unknown_.add(keyword, words.line());
   }
 }
 
-void MtlParser::begin(const LineWords& words) {
+void MtlParser::begin(LineWords& words) {
   finish();
   material_.emplace();
-  material_->name = words.rest();
+  material_->name = words.rest_of_line();
 }
 
 void MtlParser::finish() {
@@ -120,60 +121,48 @@ std::optional<Vec3d> MtlParser::color(LineWords& words) {
   return color;
 }
 
-bool MtlParser::color_statement(const std::string& keyword, LineWords& words) {
-  MtlMaterial& material = *material_;
-  if (keyword == "kd") {
-    material.diffuse = color(words);
-  } else if (keyword == "ks") {
-    material.specular = color(words).value_or(Vec3d{});
-  } else if (keyword == "ke") {
-    material.emission = color(words).value_or(Vec3d{});
-  } else if (keyword == "tf") {
-    material.filter = color(words);
-  } else {
-    return false;
-  }
-  return true;
-}
-
 double MtlParser::number(LineWords& words) {
   const double value = words.number();
   words.expect_end();
   return value;
 }
 
-bool MtlParser::number_statement(const std::string& keyword, LineWords& words) {
-  MtlMaterial& material = *material_;
-  if (keyword == "ns") {
-    material.shine = number(words);
-  } else if (keyword == "ni") {
-    material.refraction_index = number(words);
-  } else if (keyword == "d") {
-    LineWords ahead = words;
-    material.has_halo = ahead.next() == "-halo";
-    words = material.has_halo ? ahead : words;
-    material.d = number(words);
-  } else if (keyword == "tr") {
-    material.transparency = number(words);
-  } else if (keyword == "illum") {
-    material.illumination = static_cast<int>(std::clamp(number(words), -1.0, 11.0));
-  } else if (keyword == "pr") {
-    material.roughness = number(words);
-  } else if (keyword == "pm") {
-    material.metallic = number(words);
-  } else if (keyword == "pc") {
-    material.has_clear_coat = number(words) > 0;
-  } else {
-    return false;
+/// Whether it is one that says a colour or a number.
+bool MtlParser::value_statement(const std::string& keyword, LineWords& words) {
+  using Statement = void (*)(MtlMaterial & material, MtlParser & parser, LineWords & words);
+  static const std::map<std::string_view, Statement> statements = {
+      {"kd", [](auto& material, auto& parser, auto& words) { material.diffuse = parser.color(words); }},
+      {"ks", [](auto& material, auto& parser, auto& words) { material.specular = parser.color(words).value_or(Vec3d{}); }},
+      {"ke", [](auto& material, auto& parser, auto& words) { material.emission = parser.color(words).value_or(Vec3d{}); }},
+      {"tf", [](auto& material, auto& parser, auto& words) { material.filter = parser.color(words); }},
+      {"ns", [](auto& material, auto&, auto& words) { material.shine = number(words); }},
+      {"ni", [](auto& material, auto&, auto& words) { material.refraction_index = number(words); }},
+      {"d", [](auto& material, auto& parser, auto& words) { material.d = parser.opacity(words); }},
+      {"tr", [](auto& material, auto&, auto& words) { material.transparency = number(words); }},
+      {"illum", [](auto& material, auto&,
+                   auto& words) { material.illumination = static_cast<int>(std::clamp(number(words), -1.0, 11.0)); }},
+      {"pr", [](auto& material, auto&, auto& words) { material.roughness = number(words); }},
+      {"pm", [](auto& material, auto&, auto& words) { material.metallic = number(words); }},
+      {"pc", [](auto& material, auto&, auto& words) { material.has_clear_coat = number(words) > 0; }}};
+  const auto found = statements.find(keyword);
+  if (found != statements.end()) {
+    found->second(*material_, *this, words);
   }
-  return true;
+  return found != statements.end();
 }
 
-void MtlParser::texture(const std::string& keyword, const LineWords& words) {
-  TextureWords said = texture_words(words.rest());
+double MtlParser::opacity(LineWords& words) {
+  LineWords ahead = words;
+  material_->has_halo = ahead.next() == "-halo";
+  words = material_->has_halo ? ahead : words;
+  return number(words);
+}
+
+void MtlParser::texture(const std::string& keyword, LineWords& words) {
+  TextureWords said = texture_words(words.rest_of_line());
   if (said.name.size() > name_bytes_max) {
-    words.refuse("the name of a texture has " + grouped(said.name.size()) + " bytes, and no file's has more than " +
-                 grouped(name_bytes_max));
+    words.fail("the name of a texture has " + grouped(said.name.size()) + " bytes, and no file's has more than " +
+               grouped(name_bytes_max));
   }
   if (keyword != "map_kd") {
     if (!said.name.empty()) {
@@ -181,7 +170,7 @@ void MtlParser::texture(const std::string& keyword, const LineWords& words) {
       material_->has_light_texture = material_->has_light_texture || keyword == "map_ke";
     }
   } else if (without_remark(said.name).empty()) {
-    first_nameless_ = nameless_++ == 0 ? words.line_number() : first_nameless_;
+    first_nameless_ = nameless_++ == 0 ? words.line() : first_nameless_;
   } else {
     material_->texture = std::move(said);
   }

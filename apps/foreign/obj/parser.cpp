@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <unordered_map>
@@ -10,15 +9,15 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
-#include "apps/edge/line/shown_text.h"
+#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/obj/corner.h"
 #include "apps/foreign/obj/tally.h"
 #include "apps/foreign/text/line_words.h"
-#include "apps/foreign/text/small_letters.h"
 #include "apps/foreign/text/text_lines.h"
 #include "apps/formats/nff_reader.h"
+#include "apps/formats/view_faults.h"
 #include "core/base/expect.h"
 #include "core/base/srgb.h"
 
@@ -27,7 +26,6 @@ namespace {
 
 using core::Vec3d;
 
-constexpr double coordinate_bound = 1e30;
 constexpr std::size_t libraries_max = 1000;
 constexpr const char* thin = "points and lines left out";
 constexpr const char* free_form = "statements about free-form curves and surfaces left out";
@@ -90,8 +88,8 @@ class Parser {
   void normal(LineWords& words);
   void face(LineWords& words);
   void smoothing(LineWords& words);
-  void material(const LineWords& words);
-  void library(const LineWords& words);
+  void material(LineWords& words);
+  void library(LineWords& words);
   void other(std::string_view keyword, const LineWords& words);
 
   Vec3d coordinates(LineWords& words);
@@ -155,9 +153,9 @@ Vec3d Parser::coordinates(LineWords& words) {
   Vec3d v;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     v[axis] = words.number();
-    if (!(std::abs(v[axis]) < coordinate_bound)) {
-      words.refuse("a coordinate is beyond 1e30; correct the file");
-    }
+  }
+  if (!is_in_reach(v)) {
+    words.fail("a coordinate is beyond 1e30; correct the file");
   }
   return v;
 }
@@ -173,9 +171,8 @@ void Parser::vertex(LineWords& words) {
     } else if (fourth != 1) {
       position = position * (1 / fourth);
     }
-    if (!(std::abs(position.x) < coordinate_bound && std::abs(position.y) < coordinate_bound &&
-          std::abs(position.z) < coordinate_bound)) {
-      words.refuse("divided by its weight a coordinate is beyond 1e30; correct the file");
+    if (!is_in_reach(position)) {
+      words.fail("divided by its weight a coordinate is beyond 1e30; correct the file");
     }
     words.expect_end();
   }
@@ -211,10 +208,8 @@ void Parser::place(LineWords& words) {
     words.number();
     words.expect_end();
   }
-  for (const double coordinate : place) {
-    if (!(std::abs(coordinate) < coordinate_bound)) {
-      words.refuse("a texture coordinate is beyond 1e30; correct the file");
-    }
+  if (!is_in_reach({place[0], place[1], 0})) {
+    words.fail("a texture coordinate is beyond 1e30; correct the file");
   }
   result_.places.push_back(place);
 }
@@ -230,7 +225,7 @@ void Parser::face(LineWords& words) {
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     face_.push_back(corner_reader_.read(word, words, so_far));
     if (face_.size() > std::size_t{polygon_vertices_max}) {
-      words.refuse("the face has too many corners, more than " + grouped(polygon_vertices_max) + "; divide it");
+      words.fail("the face has too many corners, more than " + grouped(polygon_vertices_max) + "; divide it");
     }
   }
   if (face_.size() < 3) {
@@ -247,7 +242,7 @@ void Parser::add_face(const LineWords& words) {
   add_named(Named::place, faces.places, words);
   add_named(Named::normal, faces.normals, words);
   for (const Corner& corner : face_) {
-    faces.vertices.push_back(corner[0]);
+    faces.corners.push_back(corner[0]);
   }
   if (group_ != 0) {
     faces.groups.resize(faces.ends.size());
@@ -255,7 +250,7 @@ void Parser::add_face(const LineWords& words) {
   if (group_ != 0 || !faces.groups.empty()) {
     faces.groups.push_back(group_);
   }
-  faces.ends.push_back(static_cast<std::uint32_t>(faces.vertices.size()));
+  faces.ends.push_back(static_cast<std::uint32_t>(faces.corners.size()));
 }
 
 void Parser::add_named(Named what, std::vector<std::uint32_t>& list, const LineWords& words) {
@@ -263,13 +258,13 @@ void Parser::add_named(Named what, std::vector<std::uint32_t>& list, const LineW
   const auto has_one = [kind](const Corner& corner) { return corner[kind] != none; };
   const bool has_any = std::any_of(face_.begin(), face_.end(), has_one);
   if (has_any && !std::all_of(face_.begin(), face_.end(), has_one)) {
-    words.refuse(std::string("the face has a ") + (what == Named::place ? "texture coordinate" : "normal") +
-                 " at some corners and none at others; expected it at all or at none");
+    words.fail(std::string("the face has a ") + (what == Named::place ? "texture coordinate" : "normal") +
+               " at some corners and none at others; expected it at all or at none");
   }
   if (!has_any && list.empty()) {
     return;
   }
-  list.resize(result_.faces.vertices.size(), none);
+  list.resize(result_.faces.corners.size(), none);
   for (const Corner& corner : face_) {
     list.push_back(corner[kind]);
   }
@@ -293,32 +288,32 @@ void Parser::smoothing(LineWords& words) {
   } else {
     const std::int64_t group = words.integer();
     if (group < std::numeric_limits<std::int32_t>::min() || group > std::numeric_limits<std::uint32_t>::max()) {
-      words.refuse("expected a smoothing group, a number of 32 bits, or 'off', found " + std::to_string(group));
+      words.fail_at(std::to_string(group), "a smoothing group, a number of 32 bits, or 'off'");
     }
     group_ = static_cast<std::uint32_t>(group);
   }
   words.expect_end();
 }
 
-void Parser::material(const LineWords& words) {
+void Parser::material(LineWords& words) {
   const auto [known, is_new] =
-      names_.try_emplace(std::string(words.rest()), static_cast<std::uint32_t>(result_.material_names.size()));
+      names_.try_emplace(std::string(words.rest_of_line()), static_cast<std::uint32_t>(result_.material_names.size()));
   if (is_new) {
     result_.material_names.push_back(known->first);
   }
   material_ = known->second;
 }
 
-void Parser::library(const LineWords& words) {
-  const std::string_view names = words.rest();
+void Parser::library(LineWords& words) {
+  const std::string_view names = words.rest_of_line();
   if (without_remark(names).empty()) {
-    words.refuse("expected the name of a file of materials, found the end of the line");
+    words.fail_at("", "the name of a file of materials");
   }
   if (!libraries_.insert(std::string(names)).second) {
     return;
   }
   if (libraries_.size() > libraries_max) {
-    words.refuse("more than " + grouped(libraries_max) + " files of materials are named; join them");
+    words.fail("more than " + grouped(libraries_max) + " files of materials are named; join them");
   }
   result_.libraries.emplace_back(names);
 }
@@ -330,8 +325,8 @@ void Parser::other(std::string_view keyword, const LineWords& words) {
     if (known->words != nullptr) {
       tally_.add(known->words);
     }
-  } else if (unknown_.count++ == 0) {
-    unknown_.first = "'" + clipped(keyword, 60) + "' in line " + std::to_string(words.line_number());
+  } else {
+    unknown_.add(keyword, words.line());
   }
 }
 

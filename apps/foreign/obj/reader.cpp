@@ -8,7 +8,7 @@
 
 #include "apps/foreign/obj/libraries.h"
 #include "apps/foreign/obj/materials.h"
-#include "apps/foreign/obj/meshes.h"
+#include "apps/foreign/obj/mesh.h"
 #include "apps/foreign/obj/parser.h"
 
 namespace dmpc::apps {
@@ -38,11 +38,11 @@ PlacedFile read_obj(const std::string& path, SceneFiles& files) {
   append(std::move(libraries.notes), result.notes);
   libraries.note_repeated(result.notes);
   append(std::move(materials.notes), result.notes);
-  result.materials = std::move(materials.list);
   result.missing = std::move(libraries.missing);
-  for (PolygonMesh& mesh : obj::meshes_of(std::move(geometry), materials.of_runs, materials.uses)) {
-    result.add(std::move(mesh));
+  if (!geometry.runs.empty()) {
+    result.add(obj::mesh_of(std::move(geometry), materials));
   }
+  result.materials = std::move(materials.list);
   return result;
 }
 

@@ -4,9 +4,8 @@
 #include <array>
 #include <cstddef>
 
-#include "apps/foreign/mesh/trimmed.h"
+#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/text/line_words.h"
-#include "apps/foreign/text/small_letters.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::apps::obj {
@@ -27,6 +26,13 @@ constexpr std::array options{
     Option{"-cc", 0, "off", {}},         Option{"-clamp", 0, "off", {}},     Option{"-imfchan", 0, "", {}},
     Option{"-type", 0, "", {}},
 };
+
+/// Without the blanks around it.
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
+  return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+}
 
 /// The first word, and what follows it.
 struct Split {

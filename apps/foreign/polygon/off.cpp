@@ -14,22 +14,18 @@
 #include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/surface.h"
-#include "apps/foreign/polygon/indexed_mesh.h"
-#include "apps/foreign/polygon/text_words.h"
-#include "apps/foreign/polygon/whole_file.h"
+#include "apps/foreign/polygon/face_looks.h"
+#include "apps/foreign/polygon/reading_progress.h"
 #include "apps/foreign/text/line_words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
 
-/// Of a face that says none, until all are read.
-constexpr Color no_off_color = {-1, -1, -1};
-
 class OffReader {
  public:
   OffReader(std::string_view text, ReadingProgress& progress)
-      : text_(text), words_(text, 1, '#'), progress_(progress), bytes_(text.size()) {}
+      : text_(text), words_(text, 1, {}), progress_(progress), bytes_(text.size()) {}
 
   PlacedFile read();
 
@@ -48,12 +44,13 @@ class OffReader {
   std::uint64_t room() const { return (bytes_ - words_.position()) / 2 + 1; }
 
   std::string_view text_;
-  TextWords words_;
+  LineWords words_;
   ReadingProgress& progress_;
   std::size_t bytes_;
   bool has_colors_ = false, has_normals_ = false, has_places_ = false;
   std::uint64_t vertices_ = 0, faces_ = 0, thin_ = 0, from_map_ = 0, see_through_ = 0;
-  IndexedMesh mesh_{.name = "the mesh"};
+  PolygonMesh mesh_{.name = "the mesh", .is_by_vertex = true};
+  FaceLooks looks_;
   std::vector<double> numbers_;  ///< of the line
   std::vector<std::uint32_t> corners_;
 };
@@ -150,7 +147,7 @@ std::optional<Color> OffReader::off_color(std::size_t begin) {
     if (!(numbers_[begin + i] >= 0 && numbers_[begin + i] <= 255)) {
       words_.fail("a colour has " + rounded(numbers_[begin + i]) + "; expected numbers from 0 to 1, or to 255");
     }
-    return static_cast<float>(numbers_[begin + i]);
+    return double{static_cast<float>(numbers_[begin + i])};
   };
   see_through_ += count == 4 && (numbers_[begin + 3] < 1 || (numbers_[begin + 3] > 1 && numbers_[begin + 3] < 255)) ? 1 : 0;
   return Color{from_zero(0), from_zero(1), from_zero(2)};
@@ -177,8 +174,7 @@ void OffReader::read_vertex(std::uint64_t number) {
   }
   numbers_.resize(numbers_.size() - places);
   if (const auto color = off_color(own)) {
-    mesh_.colors.resize(mesh_.vertices.size(), no_off_color);
-    mesh_.colors.back() = *color;
+    set_last(mesh_.colors, mesh_.vertices.size(), *color);
   }
 }
 
@@ -211,20 +207,9 @@ void OffReader::read_face(std::uint64_t number) {
     ++thin_;
     return;
   }
-  mesh_.add_face(corners_);
+  add_face(corners_, mesh_);
   if (const auto color = off_color(0)) {
-    mesh_.face_colors.resize(mesh_.faces.ends.size(), no_off_color);
-    mesh_.face_colors.back() = *color;
-  }
-}
-
-void make_light(std::vector<Color>& colors, std::size_t count) {
-  if (!colors.empty()) {
-    colors.resize(count, no_off_color);
-  }
-  const double full = full_light(colors);
-  for (Color& color : colors) {
-    color = color == no_off_color ? colour_of_none : linear_color(color, full);
+    set_last(looks_.colors, mesh_.faces.ends.size(), *color);
   }
 }
 
@@ -248,14 +233,12 @@ PlacedFile OffReader::read() {
   note("colours whose alpha is not shown", see_through_);
   const std::string_view rest = words_.next();
   note("bytes behind the last face, which are not looked at", rest.empty() ? 0 : bytes_ - words_.position() + rest.size());
-  if (!mesh_.colors.empty() && !mesh_.face_colors.empty()) {
-    note("colours of faces, which are not shown beside those of vertices", std::exchange(mesh_.face_colors, {}).size());
-  }
-  make_light(mesh_.colors, mesh_.vertices.size());
-  make_light(mesh_.face_colors, mesh_.faces.ends.size());
-  const bool has_colors = !mesh_.colors.empty() || !mesh_.face_colors.empty();
+  looks_.give_way_to(mesh_, file.notes);
+  make_linear(mesh_.colors, mesh_.vertices.size(), full_light(mesh_.colors));
+  make_linear(looks_.colors, mesh_.faces.ends.size(), full_light(looks_.colors));
+  const bool has_colors = !mesh_.colors.empty() || !looks_.colors.empty();
   file.materials = {{has_colors ? plain_material({1, 1, 1}) : plain_material(), {}}};
-  add_meshes(std::move(mesh_), file);
+  add_mesh(std::move(mesh_), std::move(looks_), file);
   return file;
 }
 

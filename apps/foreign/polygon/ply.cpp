@@ -7,12 +7,12 @@
 #include "apps/edge/line/shown_text.h"
 #include "apps/edge/system/byte_order_mark.h"
 #include "apps/foreign/mesh/count_note.h"
-#include "apps/foreign/polygon/indexed_mesh.h"
+#include "apps/foreign/polygon/face_looks.h"
 #include "apps/foreign/polygon/ply_header.h"
 #include "apps/foreign/polygon/ply_row.h"
 #include "apps/foreign/polygon/ply_surfaces.h"
 #include "apps/foreign/polygon/ply_values.h"
-#include "apps/foreign/polygon/whole_file.h"
+#include "apps/foreign/polygon/reading_progress.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -20,16 +20,14 @@ namespace {
 
 using enum PlyRole;
 
-/// Of a face that says none, until all are read.
-constexpr Color no_ply_color = {-1, -1, -1};
-
 /// What is counted on the way, and said in the end.
 struct PlyCounts {
   std::uint64_t thin = 0, see_through = 0, materials_of_none = 0, textures_of_none = 0, of_other_names = 0;
 };
 
 Color row_color(const PlyRow& row) {
-  return {static_cast<float>(row[red]), static_cast<float>(row[green]), static_cast<float>(row[blue])};
+  const auto channel = [&row](PlyRole role) { return double{static_cast<float>(row[role])}; };
+  return {channel(red), channel(green), channel(blue)};
 }
 
 /// Of a channel; 0 if the type does not say it.
@@ -45,8 +43,7 @@ bool is_see_through(const PlyRow& row) {
 
 std::uint64_t count_beyond(const std::vector<Color>& colors, double full) {
   return static_cast<std::uint64_t>(std::count_if(colors.begin(), colors.end(), [full](const Color& color) {
-    const auto [least, most] = std::minmax_element(color.begin(), color.end());
-    return color != no_ply_color && (*least < 0 || double{*most} > full);
+    return color != not_yet && (std::min({color.x, color.y, color.z}) < 0 || largest_component(color) > full);
   }));
 }
 
@@ -73,15 +70,14 @@ class PlyReader {
   void take_face(const PlyRow& row, std::uint64_t number);
   void take_corner_places(const PlyRow& row, std::uint64_t number);
   std::uint32_t surface_of(const PlyRow& row, std::uint64_t number);
-  void set_face_color(const Color& color);
   void read_strips(const PlyElement& element);
   void take_strip(const PlyRow& row, std::uint64_t number);
   void read_materials(const PlyElement& element);
   void skip(const PlyElement& element);
   /// Of number `number` of what is called `what`, for errors.
   std::uint32_t vertex_of(double index, const char* what, std::uint64_t number) const;
-  void finish_faces();
   void finish_colors();
+  void add_to(PlacedFile& file);
   bool is_textured() const;
   void note_all();
   [[noreturn]] void fail(const std::string& what) const {
@@ -92,7 +88,9 @@ class PlyReader {
   PlyHeader header_;
   std::unique_ptr<PlyValues> values_;
   PlySurfaces surfaces_;
-  IndexedMesh mesh_{.name = "the mesh"};
+  PolygonMesh mesh_{.name = "the mesh", .is_by_vertex = true};
+  FaceLooks looks_;
+  std::vector<std::array<float, 2>> corner_places_;  ///< a corner each, or none; come before those of vertices
   PlyCounts counts_;
   std::vector<std::string> notes_;
   std::vector<std::uint32_t> corners_;
@@ -118,15 +116,9 @@ void PlyReader::for_each(const PlyElement& element, PlyRow& row, const Take& tak
 }
 
 void PlyReader::note_left_out(const PlyElement& element, const PlyRow& row) {
-  constexpr std::size_t shown = 4;
-  const std::vector<std::string_view> names = row.left_out();
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), shown); ++i) {
-    list += (i > 0 ? ", '" : "'") + clipped(names[i], 40) + "'";
-  }
+  const std::vector<std::string> names = row.left_out();
   note_count(notes_,
-             "properties of the element '" + std::string(element.name) + "' that are not shown (" + list +
-                 (names.size() > shown ? ", ..." : "") + ")",
+             "properties of the element '" + std::string(element.name) + "' that are not shown (" + name_list(names) + ")",
              element.count > 0 ? names.size() : 0);
 }
 
@@ -199,9 +191,9 @@ void PlyReader::take_corner_places(const PlyRow& row, std::uint64_t number) {
     fail("face " + std::to_string(number) + " has " + std::to_string(places.size()) + " numbers of texcoord, expected " +
          std::to_string(2 * corners) + ", two for each corner");
   }
-  mesh_.corner_places.resize(mesh_.faces.corners.size() - (places.empty() ? 0 : corners));
+  corner_places_.resize(mesh_.faces.corners.size() - (places.empty() ? 0 : corners));
   for (std::size_t i = 0; i < places.size(); i += 2) {
-    mesh_.corner_places.push_back({static_cast<float>(places[i]), 1 - static_cast<float>(places[i + 1])});
+    corner_places_.push_back({static_cast<float>(places[i]), 1 - static_cast<float>(places[i + 1])});
   }
 }
 
@@ -223,12 +215,6 @@ std::uint32_t PlyReader::surface_of(const PlyRow& row, std::uint64_t number) {
   return surfaces_.find(static_cast<std::uint32_t>(of_material), chosen);
 }
 
-/// Of the last face; those before it that have none stay without.
-void PlyReader::set_face_color(const Color& color) {
-  mesh_.face_colors.resize(mesh_.faces.ends.size(), no_ply_color);
-  mesh_.face_colors.back() = color;
-}
-
 void PlyReader::take_face(const PlyRow& row, std::uint64_t number) {
   if (row.corners().size() < 3) {
     ++counts_.thin;
@@ -238,13 +224,13 @@ void PlyReader::take_face(const PlyRow& row, std::uint64_t number) {
   for (const double index : row.corners()) {
     corners_.push_back(vertex_of(index, "face", number));
   }
-  mesh_.add_face(corners_);
-  mesh_.face_materials.push_back(surface_of(row, number));
+  add_face(corners_, mesh_);
+  looks_.materials.push_back(surface_of(row, number));
   if (row.has(corner_places)) {
     take_corner_places(row, number);
   }
   if (row.has_all({red, green, blue})) {
-    set_face_color(row_color(row));
+    set_last(looks_.colors, mesh_.faces.ends.size(), row_color(row));
     counts_.see_through += is_see_through(row) ? 1 : 0;
   }
 }
@@ -261,7 +247,7 @@ void PlyReader::read_faces(const PlyElement& element) {
   progress_.check_triangles(room);
   mesh_.faces.ends.reserve(room);
   mesh_.faces.corners.reserve(3 * room);
-  mesh_.face_materials.reserve(room);
+  looks_.materials.reserve(room);
   for_each(element, row, [&](std::uint64_t number) { take_face(row, number); });
 }
 
@@ -283,8 +269,8 @@ void PlyReader::take_strip(const PlyRow& row, std::uint64_t number) {
     }
     const std::uint32_t c = corners_[count - 1], b = corners_[count - 2], a = corners_[count - 3];
     if (a != b && b != c && c != a) {
-      mesh_.add_face(count % 2 == 1 ? std::array{a, b, c} : std::array{b, a, c});
-      mesh_.face_materials.push_back(surface);
+      add_face(count % 2 == 1 ? std::array{a, b, c} : std::array{b, a, c}, mesh_);
+      looks_.materials.push_back(surface);
     }
   }
 }
@@ -332,43 +318,27 @@ void PlyReader::read_element(const PlyElement& element) {
   }
 }
 
-bool PlyReader::is_textured() const {
-  return surfaces_.texture_count() > 0 && !(mesh_.places.empty() && mesh_.corner_places.empty());
-}
-
-/// What some of the faces have, all have.
-void PlyReader::finish_faces() {
-  if (!mesh_.face_colors.empty()) {
-    mesh_.face_colors.resize(mesh_.faces.ends.size(), no_ply_color);
-  }
-  if (!mesh_.corner_places.empty()) {
-    mesh_.corner_places.resize(mesh_.faces.corners.size());
-  }
-}
+bool PlyReader::is_textured() const { return surfaces_.texture_count() > 0 && !(mesh_.places.empty() && corner_places_.empty()); }
 
 /// One kind of colours is shown: a texture's, else the vertices', else the faces'.
 void PlyReader::finish_colors() {
-  const bool has_both = !mesh_.colors.empty() && !mesh_.face_colors.empty();
-  note_count(notes_, "colours of faces, which are not shown beside those of vertices", has_both ? mesh_.face_colors.size() : 0);
-  if (has_both) {
-    mesh_.face_colors = {};
+  if (!looks_.colors.empty()) {
+    looks_.colors.resize(mesh_.faces.ends.size(), not_yet);
   }
+  looks_.give_way_to(mesh_, notes_);
   if (is_textured()) {
-    note_count(notes_, "colours that are not shown beside textures", mesh_.colors.size() + mesh_.face_colors.size());
-    mesh_.colors = {};
-    mesh_.face_colors = {};
+    const std::size_t colors = std::exchange(mesh_.colors, {}).size() + std::exchange(looks_.colors, {}).size();
+    note_count(notes_, "colours that are not shown beside textures", colors);
   }
   const auto light = [](double full, const std::vector<Color>& colors) { return full > 0 ? full : apps::full_light(colors); };
-  const double vertex_full = light(vertex_light_, mesh_.colors), full = light(face_light_, mesh_.face_colors);
+  const double vertex_full = light(vertex_light_, mesh_.colors), full = light(face_light_, looks_.colors);
   const auto note_beyond = [this](const std::vector<Color>& colors, double most) {
     note_count(notes_, "colours outside 0 to " + rounded(most) + ", brought into it", count_beyond(colors, most));
   };
   note_beyond(mesh_.colors, vertex_full);
-  note_beyond(mesh_.face_colors, full);
-  make_linear(mesh_.colors, vertex_full);
-  for (Color& color : mesh_.face_colors) {
-    color = color == no_ply_color ? colour_of_none : linear_color(color, full);
-  }
+  note_beyond(looks_.colors, full);
+  make_linear(mesh_.colors, mesh_.vertices.size(), vertex_full);
+  make_linear(looks_.colors, mesh_.faces.ends.size(), full);
 }
 
 void PlyReader::note_all() {
@@ -394,7 +364,16 @@ void PlyReader::read_elements() {
   for (const PlyElement& element : header_.elements) {
     read_element(element);
   }
-  finish_faces();
+}
+
+void PlyReader::add_to(PlacedFile& file) {
+  if (!corner_places_.empty()) {
+    corner_places_.resize(mesh_.faces.corners.size());
+    mesh_.places = {};
+    mesh_.spread_to_corners();
+    mesh_.places = std::move(corner_places_);
+  }
+  add_mesh(std::move(mesh_), std::move(looks_), file);
 }
 
 /// Its surfaces are another's.
@@ -402,10 +381,9 @@ PolygonMesh PlyReader::read_shape(std::vector<std::string>& notes) {
   read_elements();
   note_count(notes, "points and lines left out", counts_.thin);
   mesh_.colors = {};
-  mesh_.face_colors = {};
-  mesh_.face_materials = {};
+  looks_ = {};
   PlacedFile file;
-  add_meshes(std::move(mesh_), file);
+  add_to(file);
   return file.shapes.empty() ? PolygonMesh{} : std::move(file.shapes.front().mesh);
 }
 
@@ -413,14 +391,14 @@ PlacedFile PlyReader::read() {
   read_elements();
   note_all();
   finish_colors();
-  PlacedFile file{.materials = surfaces_.materials(!mesh_.colors.empty() || !mesh_.face_colors.empty()),
+  PlacedFile file{.materials = surfaces_.materials(!mesh_.colors.empty() || !looks_.colors.empty()),
                   .notes = std::move(header_.notes),
                   .coordinate_rounding = coordinate_rounding_};
   file.notes.insert(file.notes.end(), notes_.begin(), notes_.end());
   for (FileMaterial& material : file.materials) {
     material.texture = is_textured() ? material.texture : std::nullopt;  // which nobody looks for where it is not shown
   }
-  add_meshes(std::move(mesh_), file);
+  add_to(file);
   return file;
 }
 

@@ -7,8 +7,8 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/shown_text.h"
-#include "apps/foreign/polygon/text_words.h"
-#include "apps/foreign/text/small_letters.h"
+#include "apps/edge/line/small_letters.h"
+#include "apps/foreign/text/line_words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -35,14 +35,10 @@ class PlyHeaderReader {
   std::string_view next_line();
   /// Whether that was the last line.
   bool read_line(std::string_view line);
-  /// "line 3: found 'LINE', expected WHAT".
-  [[noreturn]] void fail_at(std::string_view line, const std::string& what) const {
-    fail("found '" + clipped(line, 60) + "', expected " + what);
-  }
-  void add_format(TextWords& words, std::string_view line);
-  void add_element(TextWords& words, std::string_view line);
-  void add_property(TextWords& words, std::string_view line);
-  void add_comment(TextWords& words);
+  void add_format(LineWords& words, std::string_view line);
+  void add_element(LineWords& words, std::string_view line);
+  void add_property(LineWords& words, std::string_view line);
+  void add_comment(LineWords& words);
 
   std::string_view file_;
   std::size_t at_ = 0, line_ = 0;
@@ -68,27 +64,27 @@ std::string_view PlyHeaderReader::next_line() {
   return text;
 }
 
-void PlyHeaderReader::add_format(TextWords& words, std::string_view line) {
+void PlyHeaderReader::add_format(LineWords& words, std::string_view line) {
   static const std::map<std::string_view, PlyFormat> formats = {{"ascii", PlyFormat::text},
                                                                 {"binary_little_endian", PlyFormat::little_endian},
                                                                 {"binary_big_endian", PlyFormat::big_endian}};
   const auto found = formats.find(words.next());
   if (found == formats.end()) {
-    fail_at(line, "'format' and ascii, binary_little_endian or binary_big_endian");
+    words.fail_at(line, "'format' and ascii, binary_little_endian or binary_big_endian");
   }
   format_ = found->second;
 }
 
-void PlyHeaderReader::add_element(TextWords& words, std::string_view line) {
+void PlyHeaderReader::add_element(LineWords& words, std::string_view line) {
   const std::string_view name = words.next();
   const auto count = number_in<std::uint64_t>(words.next());
   if (!count || !words.next().empty()) {
-    fail_at(line, "'element NAME COUNT', with a whole number from 0 on");
+    words.fail_at(line, "'element NAME COUNT', with a whole number from 0 on");
   }
   header_.elements.push_back({name, *count, {}});
 }
 
-void PlyHeaderReader::add_property(TextWords& words, std::string_view line) {
+void PlyHeaderReader::add_property(LineWords& words, std::string_view line) {
   PlyProperty property;
   std::string_view word = words.next();
   const bool is_list = word == "list";
@@ -99,20 +95,21 @@ void PlyHeaderReader::add_property(TextWords& words, std::string_view line) {
   const auto type = type_of(word);
   property.name = words.next();
   if (!type || (is_list && !property.count_type) || property.name.empty() || !words.next().empty() || header_.elements.empty()) {
-    fail_at(line, "'property TYPE NAME' or 'property list TYPE TYPE NAME' below an element, with a type such as float or uchar");
+    words.fail_at(line,
+                  "'property TYPE NAME' or 'property list TYPE TYPE NAME' below an element, with a type such as float or uchar");
   }
   property.type = *type;
   header_.elements.back().properties.push_back(property);
 }
 
-void PlyHeaderReader::add_comment(TextWords& words) {
+void PlyHeaderReader::add_comment(LineWords& words) {
   if (words.next() == "TextureFile") {
     header_.textures.emplace_back(words.rest_of_line());
   }
 }
 
 bool PlyHeaderReader::read_line(std::string_view line) {
-  TextWords words(line, line_);
+  LineWords words(line, line_, without_remarks);
   const std::string_view first = words.next();
   if (first == "end_header") {
     return true;
@@ -132,7 +129,7 @@ bool PlyHeaderReader::read_line(std::string_view line) {
 }
 
 PlyHeader PlyHeaderReader::read() {
-  if (TextWords words(next_line()); in_small_letters(words.next()) != "ply" || !words.next().empty()) {
+  if (LineWords words(next_line(), 1, without_remarks); in_small_letters(words.next()) != "ply" || !words.next().empty()) {
     fail("is no PLY: expected 'ply' in the first line");
   }
   while (!read_line(next_line())) {

@@ -75,11 +75,11 @@ PlyRow::PlyRow(const PlyElement& element, PlyValues& values, std::initializer_li
   }
 }
 
-std::vector<std::string_view> PlyRow::left_out() const {
-  std::vector<std::string_view> names;
+std::vector<std::string> PlyRow::left_out() const {
+  std::vector<std::string> names;
   for (const Column& column : columns_) {
     if (!column.role) {
-      names.push_back(column.property.name);
+      names.emplace_back(column.property.name);
     }
   }
   return names;

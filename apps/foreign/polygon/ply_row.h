@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "apps/foreign/polygon/ply_header.h"
@@ -48,7 +48,7 @@ class PlyRow {
   PlyRow(const PlyElement& element, PlyValues& values, std::initializer_list<PlyRole> used);
 
   /// Names of properties that are passed over, in the file's order.
-  std::vector<std::string_view> left_out() const;
+  std::vector<std::string> left_out() const;
   bool has(PlyRole role) const { return types_[static_cast<std::size_t>(role)].has_value(); }
   bool has_all(std::initializer_list<PlyRole> roles) const;
   /// Of one that is there.

@@ -7,7 +7,6 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
-#include "apps/foreign/polygon/text_words.h"
 #include "apps/foreign/text/line_words.h"
 #include "core/base/expect.h"
 
@@ -21,7 +20,7 @@ bool is_whole_number(double value, double least, double most) {
 
 class TextValues final : public PlyValues {
  public:
-  TextValues(std::string_view body, std::size_t first_line) : words_(body, first_line), bytes_(body.size()) {}
+  TextValues(std::string_view body, std::size_t first_line) : words_(body, first_line, without_remarks), bytes_(body.size()) {}
 
   void begin_element() override;
   double next(PlyType type) override;
@@ -41,7 +40,7 @@ class TextValues final : public PlyValues {
   /// A comment is none.
   std::string_view word();
 
-  TextWords words_;
+  LineWords words_;
   std::size_t bytes_;
   std::string shared_line_;  ///< words about the first in which an element begins behind another
 };
@@ -56,7 +55,7 @@ std::string_view TextValues::word() {
 }
 
 void TextValues::begin_element() {
-  TextWords ahead = words_;
+  LineWords ahead = words_;
   const std::string_view more = words_.position() == 0 ? "" : ahead.next_in_line();
   if (!more.empty() && more != "comment" && shared_line_.empty()) {
     shared_line_ = "line " + std::to_string(words_.line()) + ": found '" + clipped(more, 40) +

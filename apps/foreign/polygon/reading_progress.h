@@ -1,9 +1,12 @@
-// How far a file is read, told now and then.
+// A file that is read as a whole, and how far it is, told now and then.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
 
 #include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/mesh/scene_files.h"
@@ -29,5 +32,14 @@ class ReadingProgress {
   SceneFiles& files_;
   std::size_t bytes_, next_ = 0;
 };
+
+/// What read(bytes as text, progress) makes of the file. Throws core::InputError if it cannot be opened.
+template <class Read>
+PlacedFile read_whole(const std::string& path, SceneFiles& files, const Read& read) {
+  const std::unique_ptr<FileBytes> bytes = files.open(path);
+  const std::string_view file = text_of(*bytes);
+  ReadingProgress progress(files, file.size());
+  return read(file, progress);
+}
 
 }  // namespace dmpc::apps

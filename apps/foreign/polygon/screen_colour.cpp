@@ -1,6 +1,7 @@
 #include "apps/foreign/polygon/screen_colour.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -27,18 +28,24 @@ float light_of(double channel, double most) {
 
 }  // namespace
 
-Color linear_color(const Color& color, double most) {
-  return {light_of(double{color[0]}, most), light_of(double{color[1]}, most), light_of(double{color[2]}, most)};
+void set_last(std::vector<Color>& colors, std::size_t count, const Color& color) {
+  colors.resize(count, not_yet);
+  colors.back() = color;
 }
 
-void make_linear(std::vector<Color>& colors, double most) {
+Color linear_color(const Color& color, double most) {
+  return {double{light_of(color.x, most)}, double{light_of(color.y, most)}, double{light_of(color.z, most)}};
+}
+
+void make_linear(std::vector<Color>& colors, std::size_t count, double most, const Color& plain) {
+  colors.resize(colors.empty() ? 0 : count, not_yet);
   for (Color& color : colors) {
-    color = linear_color(color, most);
+    color = color == not_yet ? plain : linear_color(color, most);
   }
 }
 
 double full_light(const std::vector<Color>& colors) {
-  const auto is_beyond = [](const Color& color) { return *std::max_element(color.begin(), color.end()) > 1; };
+  const auto is_beyond = [](const Color& color) { return largest_component(color) > 1; };
   return std::any_of(colors.begin(), colors.end(), is_beyond) ? byte_max : 1;
 }
 

@@ -1,22 +1,105 @@
 #include "apps/foreign/polygon/stl.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <string>
 #include <string_view>
+#include <utility>
 
+#include "apps/edge/line/shown_text.h"
+#include "apps/edge/line/small_letters.h"
 #include "apps/edge/system/byte_order_mark.h"
+#include "apps/foreign/mesh/surface.h"
+#include "apps/foreign/polygon/face_looks.h"
+#include "apps/foreign/polygon/reading_progress.h"
 #include "apps/foreign/polygon/stl_binary.h"
-#include "apps/foreign/polygon/stl_text.h"
-#include "apps/foreign/polygon/whole_file.h"
+#include "apps/foreign/text/line_words.h"
 
 namespace dmpc::apps {
 namespace {
 
+/// `b` in small letters.
+bool is_same(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char letter, char other) { return std::tolower(letter) == other; });
+}
+
+/// Words may be written in letters of any case and on any lines, but for a solid's name, which ends its line.
+class StlTextReader {
+ public:
+  StlTextReader(std::string_view text, ReadingProgress& progress)
+      : text_(text), words_(text, 1, without_remarks), progress_(progress) {}
+
+  PlacedFile read();
+
+ private:
+  void read_solid(PlacedFile& file);
+  void read_facet(PolygonMesh& mesh);
+  /// The next word, which has to be this one.
+  void take(std::string_view word) { expect(words_.next(), word); }
+  void expect(std::string_view found, std::string_view word) const;
+
+  std::string_view text_;
+  LineWords words_;
+  ReadingProgress& progress_;
+  std::size_t solids_ = 0;
+  std::uint64_t facets_ = 0;
+};
+
+PlacedFile StlTextReader::read() {
+  PlacedFile file{.materials = {{plain_material(), {}}}};
+  for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
+    if (solids_ > 0 && !is_same(word, "solid")) {
+      file.notes.emplace_back("what follows the last solid is left out");
+      break;
+    }
+    expect(word, "solid");
+    read_solid(file);
+  }
+  return file;
+}
+
+void StlTextReader::read_solid(PlacedFile& file) {
+  const std::string name = clipped(words_.rest_of_line(), 100);
+  PolygonMesh mesh{.name = "solid " + std::to_string(++solids_) + (name.empty() ? "" : " '" + name + "'")};
+  for (std::string_view word = words_.next(); !is_same(word, "endsolid"); word = words_.next()) {
+    expect(word, "facet");
+    progress_.check_triangles(++facets_);
+    read_facet(mesh);
+    progress_.show(words_.position());
+  }
+  words_.rest_of_line();
+  add_mesh(std::move(mesh), {}, file);
+}
+
+void StlTextReader::read_facet(PolygonMesh& mesh) {
+  take("normal");
+  for (int i = 0; i < 3; ++i) {
+    words_.next();  // be it -nan(ind)
+  }
+  take("outer");
+  take("loop");
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (int i = 0; i < 3; ++i) {
+    take("vertex");
+    const double x = words_.number("a coordinate"), y = words_.number("a coordinate"), z = words_.number("a coordinate");
+    mesh.vertices.push_back({x, y, z});
+  }
+  take("endloop");
+  take("endfacet");
+  add_face(std::array{first, first + 1, first + 2}, mesh);
+}
+
+void StlTextReader::expect(std::string_view found, std::string_view word) const {
+  if (!is_same(found, word)) {
+    words_.fail_at(found, "'" + std::string(word) + "'");
+  }
+}
+
 bool begins_with_solid(std::string_view text) {
-  constexpr std::string_view solid = "solid";
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
-  return text.size() >= solid.size() &&
-         std::equal(solid.begin(), solid.end(), text.begin(), [](char a, unsigned char b) { return a == std::tolower(b); });
+  return in_small_letters(text.substr(0, 5)) == "solid";
 }
 
 /// Without bytes that text has not, but behind its end.
@@ -30,7 +113,7 @@ bool is_text(std::string_view file) {
 
 PlacedFile read_stl(const std::string& path, SceneFiles& files) {
   return read_whole(path, files, [](std::string_view file, ReadingProgress& progress) {
-    return is_text(file) ? read_stl_text(without_mark(file), progress) : read_stl_binary(file, progress);
+    return is_text(file) ? StlTextReader(without_mark(file), progress).read() : read_stl_binary(file, progress);
   });
 }
 

@@ -10,13 +10,15 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/foreign/mesh/surface.h"
-#include "apps/foreign/polygon/indexed_mesh.h"
+#include "apps/foreign/polygon/face_looks.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {
 
 constexpr std::size_t header_bytes = 80, facet_bytes = 50, facets_begin = header_bytes + sizeof(std::uint32_t);
+/// The bits of a channel of an attribute's colour.
+constexpr unsigned mask = 31;
 
 /// As it lies there, least byte first.
 template <class T>
@@ -40,13 +42,13 @@ class StlBinaryReader {
   std::size_t count_facets();
   void read_facet(std::size_t facet);
   std::optional<Color> color_of(std::uint16_t attribute) const;
-  void set_color(const Color& color);
 
   std::string_view file_;
   ReadingProgress& progress_;
   std::vector<std::string> notes_;
   std::optional<Color> whole_color_;
-  IndexedMesh mesh_{.name = "the solid"};
+  PolygonMesh mesh_{.name = "the solid", .is_by_vertex = true};
+  FaceLooks looks_;
   std::uint64_t coloured_ = 0;
 };
 
@@ -60,9 +62,10 @@ std::optional<Color> StlBinaryReader::color_in(std::string_view header) {
   if (header.find("MATERIAL=") != std::string_view::npos) {
     notes_.emplace_back("the header's MATERIAL=, which is not shown");
   }
-  std::array<std::uint8_t, channels> bytes{};
-  std::memcpy(bytes.data(), header.data() + place + key.size(), channels);
-  return linear_color({static_cast<float>(bytes[0]), static_cast<float>(bytes[1]), static_cast<float>(bytes[2])}, 255);
+  const auto channel = [&](std::size_t i) {
+    return static_cast<double>(static_cast<std::uint8_t>(header[place + key.size() + i]));
+  };
+  return linear_color({channel(0), channel(1), channel(2)}, 255);
 }
 
 std::size_t StlBinaryReader::count_facets() {
@@ -87,21 +90,13 @@ std::size_t StlBinaryReader::count_facets() {
 }
 
 std::optional<Color> StlBinaryReader::color_of(std::uint16_t attribute) const {
-  constexpr unsigned mark = 0x8000U, mask = 31;
+  constexpr unsigned mark = 0x8000U;
   const bool is_own = whole_color_ ? attribute != 0 && (attribute & mark) == 0 : (attribute & mark) != 0;
   if (!is_own) {
     return std::nullopt;
   }
-  const auto low = static_cast<float>(attribute & mask), middle = static_cast<float>(attribute >> 5U & mask),
-             high = static_cast<float>(attribute >> 10U & mask);
-  return linear_color(whole_color_ ? Color{low, middle, high} : Color{high, middle, low}, mask);
-}
-
-/// Of the last facet; those before it that have none get that of the whole.
-void StlBinaryReader::set_color(const Color& color) {
-  ++coloured_;
-  mesh_.face_colors.resize(mesh_.faces.ends.size(), whole_color_.value_or(colour_of_none));
-  mesh_.face_colors.back() = color;
+  const double low = attribute & mask, middle = attribute >> 5U & mask, high = attribute >> 10U & mask;
+  return whole_color_ ? Color{low, middle, high} : Color{high, middle, low};
 }
 
 void StlBinaryReader::read_facet(std::size_t facet) {
@@ -112,9 +107,10 @@ void StlBinaryReader::read_facet(std::size_t facet) {
   for (const auto& [x, y, z] : corners) {
     mesh_.vertices.push_back({double{x}, double{y}, double{z}});
   }
-  mesh_.add_face(std::array{first, first + 1, first + 2});
+  add_face(std::array{first, first + 1, first + 2}, mesh_);
   if (const auto color = color_of(value_at<std::uint16_t>(file_, begin + facet_bytes - sizeof(std::uint16_t)))) {
-    set_color(*color);
+    ++coloured_;
+    set_last(looks_.colors, mesh_.faces.ends.size(), *color);
   }
 }
 
@@ -131,13 +127,13 @@ PlacedFile StlBinaryReader::read() {
   core::Material material = plain_material();
   if (coloured_ > 0) {
     notes_.push_back("facets that have the colour of their attribute: " + grouped(coloured_));
-    mesh_.face_colors.resize(count, whole_color_.value_or(colour_of_none));
+    make_linear(looks_.colors, count, mask, whole_color_.value_or(colour_of_none));
     material.color = {1, 1, 1};
   } else if (whole_color_) {
-    material.color = {double{(*whole_color_)[0]}, double{(*whole_color_)[1]}, double{(*whole_color_)[2]}};
+    material.color = *whole_color_;
   }
   PlacedFile file{.materials = {{material, {}}}, .notes = std::move(notes_), .coordinate_rounding = 0x1p-25};
-  add_meshes(std::move(mesh_), file);
+  add_mesh(std::move(mesh_), std::move(looks_), file);
   return file;
 }
 

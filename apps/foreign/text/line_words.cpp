@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <system_error>
+#include <utility>
 
 #include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/shown_text.h"
@@ -14,15 +15,10 @@
 namespace dmpc::apps {
 namespace {
 
-constexpr std::string_view blank_letters = " \t\v\f\r\n";
+bool is_blank(char letter) { return letter == ' ' || letter == '\t' || letter == '\v' || letter == '\f'; }
+bool is_line_end(char letter) { return letter == '\n' || letter == '\r'; }
 
-bool is_blank_letter(char letter) { return blank_letters.find(letter) != std::string_view::npos; }
-
-/// Whether a line is joined to the next there.
-bool is_join(std::string_view text) { return text.size() > 1 && text[0] == '\\' && (text[1] == '\n' || text[1] == '\r'); }
-
-/// "-1.#IND", as one library writes what is no number, is one word: else it would read as -1.
-bool begins_remark(std::string_view text, std::size_t at) { return text[at] == '#' && (at == 0 || text[at - 1] != '.'); }
+std::string_view trimmed_end(std::string_view text) { return text.substr(0, text.find_last_not_of(" \t\v\f") + 1); }
 
 std::string_view without_plus(std::string_view word) {
   const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
@@ -56,45 +52,73 @@ std::optional<double> decimal_number(std::string_view word) {
   return error == std::errc{} ? std::optional(value) : extreme_number(plain);
 }
 
+bool LineWords::is_at_join() const {
+  return rules_.are_one && text_[at_] == '\\' && at_ + 1 < text_.size() && is_line_end(text_[at_ + 1]);
+}
+
+/// "-1.#IND", as one library writes what is no number, is one word: else it would read as -1.
+bool LineWords::is_at_remark() const {
+  return rules_.remark != '\0' && text_[at_] == rules_.remark && (at_ == 0 || text_[at_ - 1] != '.');
+}
+
+void LineWords::skip_line_end() {
+  at_ += text_.substr(at_, 2) == "\r\n" ? 2 : 1;
+  ++line_;
+}
+
 void LineWords::skip_blanks() {
-  while (!rest_.empty()) {
-    if (is_join(rest_)) {
-      rest_.remove_prefix(rest_.substr(1).starts_with("\r\n") ? 3 : 2);
-      ++line_number_;
-    } else if (is_blank_letter(rest_[0])) {
-      rest_.remove_prefix(1);
-    } else {
-      return;
+  while (at_ < text_.size() && (is_blank(text_[at_]) || is_at_join())) {
+    if (text_[at_++] == '\\') {
+      skip_line_end();
     }
   }
 }
 
-std::string_view LineWords::next() {
+std::size_t LineWords::end_of_line() const {
+  return rules_.are_one ? text_.size() : std::min(text_.find_first_of("\r\n", at_), text_.size());
+}
+
+void LineWords::skip_to_word() {
   skip_blanks();
-  std::size_t end = 0;
-  while (end < rest_.size() && !is_blank_letter(rest_[end]) && !begins_remark(rest_, end) && !is_join(rest_.substr(end))) {
-    ++end;
+  if (at_ < text_.size() && is_at_remark()) {
+    at_ = end_of_line();
   }
-  const std::string_view word = rest_.substr(0, end);
-  rest_.remove_prefix(end);
-  return word;
 }
 
-std::string_view LineWords::rest() const {
-  LineWords words = *this;
-  words.skip_blanks();
-  return words.rest_.substr(0, words.rest_.find_last_not_of(blank_letters) + 1);
+std::string_view LineWords::next_in_line() {
+  skip_to_word();
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && !is_blank(text_[at_]) && !is_line_end(text_[at_]) && !is_at_remark() && !is_at_join()) {
+    ++at_;
+  }
+  return text_.substr(begin, at_ - begin);
 }
 
-void LineWords::refuse(const std::string& what) const {
-  throw core::InputError("line " + std::to_string(line_number_) + ": " + what);
+std::string_view LineWords::next() {
+  for (skip_to_word(); at_ < text_.size() && is_line_end(text_[at_]); skip_to_word()) {
+    skip_line_end();
+  }
+  return next_in_line();
 }
 
-double LineWords::number() {
+std::string_view LineWords::rest_of_line() {
+  skip_blanks();
+  const std::size_t begin = std::exchange(at_, end_of_line());
+  return trimmed_end(text_.substr(begin, at_ - begin));
+}
+
+void LineWords::fail(const std::string& what) const { throw core::InputError("line " + std::to_string(line_) + ": " + what); }
+
+void LineWords::fail_at(std::string_view word, const std::string& expected) const {
+  const std::string end = rules_.are_one ? "found the end of the line" : "the file is cut short";
+  fail((word.empty() ? end : "found '" + clipped(word, 60) + "'") + ", expected " + expected);
+}
+
+double LineWords::number(const std::string& what) {
   const std::string_view word = next();
   const auto value = decimal_number(word);
   if (!value) {
-    refuse("expected a number, found " + (word.empty() ? "the end of the line" : "'" + clipped(word, 60) + "'"));
+    fail_at(word, what);
   }
   return *value;
 }
@@ -103,7 +127,7 @@ std::int64_t LineWords::integer() {
   const std::string_view word = next();
   const auto value = number_in<std::int64_t>(without_plus(word));
   if (!value) {
-    refuse("expected a whole number, found " + (word.empty() ? "the end of the line" : "'" + clipped(word, 60) + "'"));
+    fail_at(word, "a whole number");
   }
   return *value;
 }
@@ -111,15 +135,14 @@ std::int64_t LineWords::integer() {
 void LineWords::expect_end() const {
   LineWords words = *this;
   if (const std::string_view word = words.next(); !word.empty()) {
-    words.refuse("expected the end of the line, found '" + clipped(word, 60) + "'");
+    words.fail_at(word, "the end of the line");
   }
 }
 
 std::string_view without_remark(std::string_view name) {
   for (std::size_t at = name.find('#'); at != std::string_view::npos; at = name.find('#', at + 1)) {
-    if (at == 0 || is_blank_letter(name[at - 1])) {
-      name = name.substr(0, at);
-      return name.substr(0, name.find_last_not_of(blank_letters) + 1);
+    if (at == 0 || is_blank(name[at - 1])) {
+      return trimmed_end(name.substr(0, at));
     }
   }
   return name;

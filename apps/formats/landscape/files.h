@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/formats/landscape/rows_done.h"
+#include "apps/formats/landscape/mesh.h"
 
 namespace dmpc::apps {
 

@@ -3,12 +3,16 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
-#include "apps/formats/landscape/rows_done.h"
 #include "core/base/vec.h"
 
 namespace dmpc::apps {
+
+/// Is told from the calling thread, now and then, how many rows of so many are done: of the ground, then of its picture. May be
+/// empty.
+using RowsDone = std::function<void(std::uint64_t done, std::uint64_t total)>;
 
 /// What glTF calls a primitive: vertices, and three numbers of theirs a triangle, counter-clockwise as seen from above.
 struct LandscapeMesh {

@@ -1,7 +1,7 @@
 // The picture that covers the landscape's ground.
 #pragma once
 
-#include "apps/formats/landscape/rows_done.h"
+#include "apps/formats/landscape/mesh.h"
 #include "apps/picture/image_file.h"
 
 namespace dmpc::apps {

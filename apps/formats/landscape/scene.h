@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "apps/formats/landscape/rows_done.h"
+#include "apps/formats/landscape/mesh.h"
 #include "core/scene/instances.h"
 #include "core/scene/scene.h"
 

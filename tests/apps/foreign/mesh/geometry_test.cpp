@@ -10,6 +10,8 @@ namespace dmpc::apps::geometry_test {
 
 namespace {
 
+std::vector<FileMaterial> only(core::Material material = {}) { return {{.material = material}}; }
+
 /// A unit square in the plane z = 0, with one normal at all corners.
 core::Scene square_with(const core::Vec3d& normal, bool has_places = false) {
   PolygonMesh mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, .faces = {{0, 1, 2, 3}, {4}}};
@@ -17,7 +19,7 @@ core::Scene square_with(const core::Vec3d& normal, bool has_places = false) {
   mesh.places.assign(has_places ? 4 : 0, {});
   core::Scene scene{.textures = {{.name = "leaf", .levels = {}}}};
   IndexedVertices vertices;
-  GeometryWriter(scene, vertices, std::nullopt).add(mesh, {.texture = has_places ? 0 : core::Material::no_texture});
+  GeometryWriter(scene, vertices, std::nullopt).add(mesh, only({.texture = has_places ? 0 : core::Material::no_texture}));
   return scene;
 }
 
@@ -54,7 +56,7 @@ TEST_CASE(
     core::Scene scene{.textures = {{.name = "leaf", .levels = {}}}};
     IndexedVertices vertices;
     GeometryWriter writer(scene, vertices, std::nullopt);
-    writer.add(mesh, {.texture = 0});
+    writer.add(mesh, only({.texture = 0}));
     CHECK(writer.meshes_without_colors() == (count > face_colors_max ? 1 : 0));
   }
 }
@@ -64,11 +66,11 @@ TEST_CASE("meshes give their vertices once, however many faces share them, and o
   IndexedVertices vertices;
   GeometryWriter writer(scene, vertices, std::nullopt);
   const PolygonMesh square{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, .faces = {{0, 1, 2, 0, 2, 3}, {3, 6}}};
-  writer.add(square, {});
+  writer.add(square, only());
   CHECK(vertices.points == square.vertices);
-  writer.add({.vertices = {{8, 8, 8}, {2, 0, 0}, {8, 8, 8}, {3, 0, 0}, {3, 1, 0}}, .faces = {{4, 1, 3}, {3}}}, {});
+  writer.add({.vertices = {{8, 8, 8}, {2, 0, 0}, {8, 8, 8}, {3, 0, 0}, {3, 1, 0}}, .faces = {{4, 1, 3}, {3}}}, only());
   CHECK(vertices.points.size() == 4 + 3);
-  writer.add(square, {});
+  writer.add(square, only());
   CHECK(vertices.indices == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 4, 5, 6, 7, 8, 9, 7, 9, 10});
   CHECK(expanded(vertices)[6] == core::Vec3d{3, 1, 0});
   CHECK(expanded(vertices)[14] == core::Vec3d{0, 1, 0});
@@ -81,11 +83,11 @@ TEST_CASE("a shared mesh is added once, and its places come where they are said"
   IndexedVertices vertices;
   GeometryWriter writer(scene, vertices, std::nullopt);
   const PolygonMesh square{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, .faces = {{0, 1, 2, 0, 2, 3}, {3, 6}}};
-  writer.add(square, {});
-  const auto shared = writer.add_shared(square, {});
+  writer.add(square, only());
+  const auto shared = writer.add_shared(square, only());
   REQUIRE(shared);
   writer.place(*shared, {.shift = {0, 0, 1}});
-  writer.add(square, {});
+  writer.add(square, only());
   writer.place(*shared, {.shift = {0, 0, 2}});
   CHECK(scene.objects.size() == 6);
   CHECK(vertices.points.size() == 12);
@@ -96,7 +98,7 @@ TEST_CASE("a shared mesh is added once, and its places come where they are said"
   REQUIRE(instances.places.size() == 2);
   CHECK(instances.places[0].before == 4);
   CHECK(instances.places[1].before == 6);
-  CHECK_FALSE(writer.add_shared({}, {}));
+  CHECK_FALSE(writer.add_shared({}, only()));
 }
 
 TEST_CASE("a shared mesh has an area where a place leaves it one, and counts in each of its places") {
@@ -104,7 +106,7 @@ TEST_CASE("a shared mesh has an area where a place leaves it one, and counts in 
   IndexedVertices vertices;
   GeometryWriter writer(scene, vertices, std::nullopt);
   const PolygonMesh upright{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}}, .faces = {{0, 1, 2}, {3}}};
-  const auto shared = writer.add_shared(upright, {.texture = 0});
+  const auto shared = writer.add_shared(upright, only({.texture = 0}));
   CHECK_FALSE(writer.has_area());
   writer.place(*shared, {.rows = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}}});
   CHECK_FALSE(writer.has_area());
@@ -119,7 +121,7 @@ TEST_CASE("a place that takes a shared mesh farther than a scene reaches is refu
   IndexedVertices vertices;
   GeometryWriter writer(scene, vertices, std::nullopt);
   const auto shared =
-      writer.add_shared({.name = "mesh 3", .vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, .faces = {{0, 1, 2}, {3}}}, {});
+      writer.add_shared({.name = "mesh 3", .vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, .faces = {{0, 1, 2}, {3}}}, only());
   CHECK_NOTHROW(writer.place(*shared, {.shift = {9e29, 0, 0}}));
   CHECK_THROWS_WITH_AS(writer.place(*shared, {.rows = {{{2e30, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}),
                        doctest::Contains("mesh 3: a node takes it beyond 1e30"), core::InputError);
@@ -129,7 +131,7 @@ TEST_CASE("a face with more corners than an object has room for is refused by it
   PolygonMesh mesh{.name = "mesh 3", .vertices = {{0, 0, 0}}, .faces = {std::vector<std::uint32_t>(65'539), {3, 65'539}}};
   core::Scene scene;
   IndexedVertices vertices;
-  CHECK_THROWS_WITH_AS(GeometryWriter(scene, vertices, std::nullopt).add(mesh, {}),
+  CHECK_THROWS_WITH_AS(GeometryWriter(scene, vertices, std::nullopt).add(mesh, only()),
                        doctest::Contains("mesh 3: face 1 has too many corners"), core::InputError);
 }
 
@@ -170,8 +172,8 @@ TEST_CASE("what vertices have makes the scene that it makes where each corner ha
   by_corner.turn(3, 6);
   core::Scene first{.textures = {{.name = "leaf", .levels = {}}}}, second = first;
   IndexedVertices vertices, others;
-  GeometryWriter(first, vertices, std::nullopt).add(by_vertex, {.texture = 0});
-  GeometryWriter(second, others, std::nullopt).add(by_corner, {.texture = 0});
+  GeometryWriter(first, vertices, std::nullopt).add(by_vertex, only({.texture = 0}));
+  GeometryWriter(second, others, std::nullopt).add(by_corner, only({.texture = 0}));
   REQUIRE(first.corners.size() == 6);
   for (std::size_t i = 0; i < 6; ++i) {
     CHECK(first.corners[i].normal == second.corners[i].normal);

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/expect.h"
+#include "tests/support/complaint.h"
 
 namespace dmpc::apps::obj::mtl_test {
 
@@ -33,12 +33,7 @@ Parsed parse(const std::string& text) {
 MtlMaterial material_with(const std::string& lines) { return parse("newmtl a\n" + lines).materials.at(0); }
 
 std::string refusal(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { parse(text); });
 }
 
 }  // namespace
@@ -64,11 +59,11 @@ TEST_CASE("a material has what its statements say, in small letters or large, wi
 }
 
 TEST_CASE("values that are none are refused with their line") {
-  CHECK(refusal("newmtl a\nKd 1 1x 1") == "line 2: expected a number, found '1x'");
-  CHECK(refusal("newmtl a\nKd 1 1") == "line 2: expected a number, found the end of the line");
-  CHECK(refusal("newmtl a\nKd 1 1 1 1") == "line 2: expected the end of the line, found '1'");
-  CHECK(refusal("newmtl a\nNs nan") == "line 2: expected a number, found 'nan'");
-  CHECK(refusal("newmtl a\nd") == "line 2: expected a number, found the end of the line");
+  CHECK(refusal("newmtl a\nKd 1 1x 1") == "line 2: found '1x', expected a number");
+  CHECK(refusal("newmtl a\nKd 1 1") == "line 2: found the end of the line, expected a number");
+  CHECK(refusal("newmtl a\nKd 1 1 1 1") == "line 2: found '1', expected the end of the line");
+  CHECK(refusal("newmtl a\nNs nan") == "line 2: found 'nan', expected a number");
+  CHECK(refusal("newmtl a\nd") == "line 2: found the end of the line, expected a number");
   CHECK(refusal("Kd 1 1 1") == "line 1: expected 'newmtl NAME' before 'kd'");
 }
 

@@ -12,7 +12,7 @@
 
 #include "apps/formats/mesh_file.h"
 #include "apps/picture/image_file.h"
-#include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
@@ -44,12 +44,7 @@ MeshFile read(const std::string& obj, const std::string& mtl = "", const std::ma
 }
 
 std::string refusal(const std::string& obj, const std::string& mtl = "") {
-  try {
-    read(obj, mtl);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { read(obj, mtl); });
 }
 
 Vec3d color_of(const MeshFile& file, std::size_t object = 0) {
@@ -122,7 +117,7 @@ TEST_CASE("files of materials that are missing are named, each of a list") {
 
 TEST_CASE("an error in a file of materials has its name and line") {
   CHECK(tests::contains(refusal("mtllib a.mtl\n" + square + "usemtl red\n" + face, "newmtl red\nKd 1x 0 0\n"),
-                        "a.obj: a.mtl: line 2: expected a number, found '1x'"));
+                        "a.obj: a.mtl: line 2: found '1x', expected a number"));
 }
 
 TEST_CASE("a file of materials is found in other letters' case, which is said") {

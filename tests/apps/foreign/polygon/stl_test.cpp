@@ -14,6 +14,7 @@
 namespace dmpc::apps::stl_test {
 
 using core::Vec3d;
+using tests::check_complaints;
 using tests::contains;
 using tests::mesh_refusal;
 using tests::notes;
@@ -37,6 +38,8 @@ std::string binary(const std::vector<std::uint16_t>& attributes, std::string hea
 std::string with(std::string text, const std::string& part, const std::string& other) {
   return text.replace(text.find(part), part.size(), other);
 }
+
+std::string refusal(const std::string& text) { return mesh_refusal("a.stl", text); }
 
 Vec3d color_of_object(const MeshFile& file, std::size_t object) { return tests::material_of_object(file, object).color; }
 
@@ -65,13 +68,12 @@ TEST_CASE("the normals that STL facets have are not read, be they numbers or not
 
 TEST_CASE("what is wrong in STL text is refused with its line") {
   const std::string& whole = tests::triangle_stl;
-  CHECK(contains(mesh_refusal("a.stl", with(whole, "2 0 0", "2 0 1x")), "a.stl: line 5: found '1x', expected a coordinate"));
-  CHECK(contains(mesh_refusal("a.stl", with(whole, "2 0 0", "2 -1.#IND 0")), "line 5: found '-1.#IND', expected a coordinate"));
-  CHECK(contains(mesh_refusal("a.stl", with(whole, "2 0 0", "2 0 nan")), "line 5: found 'nan', expected a coordinate"));
-  CHECK(contains(mesh_refusal("a.stl", with(whole, "2 0 0", "2 0")), "line 6: found 'vertex', expected a coordinate"));
-  CHECK(contains(mesh_refusal("a.stl", with(whole, "endloop", "vertex 1 1 1\nendloop")),
-                 "line 7: found 'vertex', expected 'endloop'"));
-  CHECK(contains(mesh_refusal("a.stl", "solid a\nendsolid a\n"), "there is no mesh in it"));
+  check_complaints(refusal, {{with(whole, "2 0 0", "2 0 1x"), "a.stl: line 5: found '1x', expected a coordinate"},
+                             {with(whole, "2 0 0", "2 -1.#IND 0"), "line 5: found '-1.#IND', expected a coordinate"},
+                             {with(whole, "2 0 0", "2 0 nan"), "line 5: found 'nan', expected a coordinate"},
+                             {with(whole, "2 0 0", "2 0"), "line 6: found 'vertex', expected a coordinate"},
+                             {with(whole, "endloop", "vertex 1 1 1\nendloop"), "line 7: found 'vertex', expected 'endloop'"},
+                             {"solid a\nendsolid a\n", "there is no mesh in it"}});
 }
 
 TEST_CASE("coordinates in STL text are doubles") {
@@ -134,13 +136,12 @@ TEST_CASE("a colour of all facets of STL is one for a screen") {
 }
 
 TEST_CASE("an STL file cut short is refused, in text and in binary") {
-  const std::string& text = tests::triangle_stl;
-  for (const char* word : {"endloop", "endfacet", "endsolid"}) {
-    CHECK(contains(mesh_refusal("a.stl", text.substr(0, text.find(word))), "cut short"));
-  }
-  const std::string whole = tests::triangle_binary_stl();
-  CHECK(contains(mesh_refusal("a.stl", whole.substr(0, 120)), "it has room for 0 facets, and says that it has 1"));
-  CHECK(contains(mesh_refusal("a.stl", whole.substr(0, 50)), "is no STL"));
+  const std::string &text = tests::triangle_stl, binary = tests::triangle_binary_stl();
+  check_complaints(refusal, {{text.substr(0, text.find("endloop")), "cut short, expected 'endloop'"},
+                             {text.substr(0, text.find("endfacet")), "cut short, expected 'endfacet'"},
+                             {text.substr(0, text.find("endsolid")), "cut short, expected 'facet'"},
+                             {binary.substr(0, 120), "it has room for 0 facets, and says that it has 1"},
+                             {binary.substr(0, 50), "is no STL"}});
 }
 
 }  // namespace dmpc::apps::stl_test

@@ -56,7 +56,7 @@ TEST_CASE("a line goes on behind a backslash, if lines may, but for one within a
   CHECK(lines_of("a\\\nb") == List{"1 a\\", "2 b"});
   LineWords words("1 \\\n \\\n x", 7);
   words.next();
-  CHECK_THROWS_WITH_AS(words.number(), "line 9: expected a number, found 'x'", core::InputError);
+  CHECK_THROWS_WITH_AS(words.number(), "line 9: found 'x', expected a number", core::InputError);
 }
 
 TEST_CASE("a byte that no text has is refused with its line") {
@@ -77,7 +77,7 @@ TEST_CASE("words are parted by blanks, and a remark is none") {
   CHECK(words_of(" \v\f").empty());
   LineWords words("map_Kd  my #1 wood.png \t", 1);
   words.next();
-  CHECK(words.rest() == "my #1 wood.png");
+  CHECK(words.rest_of_line() == "my #1 wood.png");
   CHECK(without_remark("my #1 wood.png") == "my");
   CHECK(without_remark("a#1.png") == "a#1.png");
   CHECK(without_remark("#").empty());
@@ -99,13 +99,13 @@ TEST_CASE("a decimal number is all of a word, and nothing else is a number") {
 }
 
 TEST_CASE("what is no number is refused with the line, and so is what follows") {
-  CHECK_THROWS_WITH_AS(LineWords("1x", 12).number(), "line 12: expected a number, found '1x'", core::InputError);
-  CHECK_THROWS_WITH_AS(LineWords(" # 1", 12).number(), "line 12: expected a number, found the end of the line", core::InputError);
+  CHECK_THROWS_WITH_AS(LineWords("1x", 12).number(), "line 12: found '1x', expected a number", core::InputError);
+  CHECK_THROWS_WITH_AS(LineWords(" # 1", 12).number(), "line 12: found the end of the line, expected a number", core::InputError);
   CHECK(LineWords("+7", 1).integer() == 7);
-  CHECK_THROWS_WITH_AS(LineWords("7.5", 2).integer(), "line 2: expected a whole number, found '7.5'", core::InputError);
+  CHECK_THROWS_WITH_AS(LineWords("7.5", 2).integer(), "line 2: found '7.5', expected a whole number", core::InputError);
   CHECK_THROWS_AS(LineWords("9223372036854775808", 2).integer(), core::InputError);
   LineWords(" # x", 1).expect_end();
-  CHECK_THROWS_WITH_AS(LineWords("x", 3).expect_end(), "line 3: expected the end of the line, found 'x'", core::InputError);
+  CHECK_THROWS_WITH_AS(LineWords("x", 3).expect_end(), "line 3: found 'x', expected the end of the line", core::InputError);
 }
 
 }  // namespace dmpc::apps::line_words_test

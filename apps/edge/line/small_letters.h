@@ -1,8 +1,9 @@
-// Words that files may write in any letters.
+// Words that users and files may write in any letters.
 #pragma once
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,12 @@ inline std::string in_small_letters(std::string_view text) {
   std::transform(small.begin(), small.end(), small.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   return small;
+}
+
+/// Of a file's name, without its point: "gltf".
+inline std::string ending_of(const std::filesystem::path& path) {
+  const std::string ending = in_small_letters(path.extension().string());
+  return ending.substr(ending.empty() ? 0 : 1);
 }
 
 }  // namespace dmpc::apps

@@ -1,0 +1,77 @@
+#include "apps/foreign/obj/mesh.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/foreign/mesh/smooth.h"
+
+namespace dmpc::apps::obj {
+namespace {
+
+using core::Vec3d;
+
+std::vector<FaceRun> runs_of(const Geometry& geometry, const Materials& materials) {
+  std::vector<FaceRun> runs;
+  geometry.for_each_face([&](std::uint32_t face, std::size_t run) {
+    const std::size_t material = materials.of_runs[run];
+    const bool has_places = materials.list[material].texture && geometry.faces.has_places(face);
+    if (runs.empty() || runs.back().material != material || runs.back().has_places != has_places) {
+      runs.push_back({.material = material, .has_places = has_places});
+    }
+    runs.back().end = face + 1;
+  });
+  return runs;
+}
+
+/// Of corners that have none of their own; empty if no face is smooth.
+std::vector<Vec3d> group_normals(const Geometry& geometry) {
+  constexpr double any_angle = 180;
+  std::vector<std::uint32_t> groups = geometry.faces.groups;
+  for (std::size_t face = 0; face < groups.size(); ++face) {
+    groups[face] = geometry.faces.has_normals(face) ? 0 : groups[face];
+  }
+  const bool has_some = std::any_of(groups.begin(), groups.end(), [](std::uint32_t group) { return group != 0; });
+  return has_some ? smooth_normals(geometry.vertices, geometry.faces, any_angle, groups) : std::vector<Vec3d>{};
+}
+
+std::vector<Vec3d> normals_of(const Geometry& geometry) {
+  std::vector<Vec3d> normals = group_normals(geometry);
+  const std::vector<std::uint32_t>& own = geometry.faces.normals;
+  normals.resize(own.empty() ? normals.size() : geometry.faces.corners.size());
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    normals[i] = own[i] == none ? normals[i] : geometry.normals[own[i]];
+  }
+  return normals;
+}
+
+/// A file's t grows upwards.
+std::vector<std::array<float, 2>> places_of(const Geometry& geometry, const Materials& materials) {
+  std::vector<std::array<float, 2>> places(geometry.faces.places.empty() ? 0 : geometry.faces.corners.size());
+  geometry.for_each_face([&](std::uint32_t face, std::size_t run) {
+    for (std::size_t i = geometry.faces.begin_of(face); geometry.faces.has_places(face) && i < geometry.faces.ends[face]; ++i) {
+      const auto& [u, v] = geometry.places[geometry.faces.places[i]];
+      const auto [s, t] = materials.places[materials.of_runs[run]](u, 1 - v);
+      places[i] = {static_cast<float>(s), static_cast<float>(t)};
+    }
+  });
+  return places;
+}
+
+}  // namespace
+
+PolygonMesh mesh_of(Geometry geometry, const Materials& materials) {
+  PolygonMesh mesh{.name = "the mesh", .is_by_vertex = true};
+  mesh.runs = runs_of(geometry, materials);
+  mesh.material = mesh.runs.front().material;
+  std::vector<Vec3d> normals = normals_of(geometry);
+  std::vector<std::array<float, 2>> places = places_of(geometry, materials);
+  mesh.vertices = std::move(geometry.vertices);
+  mesh.colors = std::move(geometry.colors);
+  mesh.faces = std::move(geometry.faces);
+  mesh.spread_to_corners();
+  mesh.normals = std::move(normals);
+  mesh.places = std::move(places);
+  return mesh;
+}
+
+}  // namespace dmpc::apps::obj

@@ -1,0 +1,126 @@
+#include "apps/foreign/polygon/face_looks.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "apps/edge/line/number_text.h"
+#include "apps/foreign/mesh/count_note.h"
+#include "apps/foreign/mesh/geometry.h"
+#include "core/base/expect.h"
+
+namespace dmpc::apps {
+namespace {
+
+/// For each face the material that is its own, times its colour's if it has one; nothing, and no new material, if there are too
+/// many.
+std::optional<std::vector<std::uint32_t>> coloured_materials(const FaceLooks& looks, PlacedFile& file) {
+  if (looks.colors.empty()) {
+    return looks.materials;
+  }
+  std::map<std::tuple<std::uint32_t, double, double, double>, std::uint32_t> known;
+  std::vector<std::uint32_t> materials;
+  const std::size_t first = file.materials.size();
+  materials.reserve(looks.colors.size());
+  for (std::size_t i = 0; i < looks.colors.size(); ++i) {
+    const auto& [red, green, blue] = looks.colors[i];
+    const std::uint32_t own = looks.materials.empty() ? 0 : looks.materials[i];
+    const auto next = static_cast<std::uint32_t>(first + known.size());
+    materials.push_back(known.try_emplace({own, red, green, blue}, next).first->second);
+    if (known.size() > face_colors_max) {
+      return std::nullopt;
+    }
+  }
+  file.materials.resize(first + known.size());
+  for (const auto& [kind, number] : known) {
+    const auto& [own, red, green, blue] = kind;
+    FileMaterial& material = file.materials[number] = file.materials[own];
+    material.material.color = material.material.color * core::Vec3d{red, green, blue};
+  }
+  return materials;
+}
+
+/// Puts faces in another order.
+void sort_faces(std::span<const std::uint32_t> order, PolygonMesh& mesh) {
+  const FaceList faces = std::move(mesh.faces);
+  const auto sort = [&]<class T>(const std::vector<T>& old, std::vector<T>& list) {
+    std::vector<T> sorted;
+    sorted.reserve(old.size());
+    for (const std::uint32_t face : order) {
+      for (std::size_t i = faces.begin_of(face); i < faces.ends[face] && !old.empty(); ++i) {
+        sorted.push_back(old[i]);
+      }
+    }
+    list = std::move(sorted);
+  };
+  sort(faces.corners, mesh.faces.corners);
+  std::uint32_t end = 0;
+  mesh.faces.ends.clear();
+  for (const std::uint32_t face : order) {
+    end += faces.ends[face] - static_cast<std::uint32_t>(faces.begin_of(face));
+    mesh.faces.ends.push_back(end);
+  }
+  if (!mesh.is_by_vertex) {
+    sort(mesh.normals, mesh.normals);
+    sort(mesh.places, mesh.places);
+    sort(mesh.colors, mesh.colors);
+  }
+}
+
+void set_runs(const std::vector<std::uint32_t>& materials, PolygonMesh& mesh) {
+  std::vector<std::uint32_t> order(materials.size());
+  std::iota(order.begin(), order.end(), 0U);
+  if (!std::is_sorted(materials.begin(), materials.end())) {
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return materials[a] < materials[b]; });
+    sort_faces(order, mesh);
+  }
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || materials[order[i]] != materials[order[i - 1]]) {
+      mesh.runs.push_back({.material = materials[order[i]]});
+    }
+    mesh.runs.back().end = i + 1;
+  }
+  mesh.material = mesh.runs.empty() ? 0 : mesh.runs.front().material;
+}
+
+}  // namespace
+
+void FaceLooks::give_way_to(const PolygonMesh& mesh, std::vector<std::string>& notes) {
+  if (!mesh.colors.empty()) {
+    note_count(notes, "colours of faces, which are not shown beside those of vertices", std::exchange(colors, {}).size());
+  }
+}
+
+void add_face(std::span<const std::uint32_t> corners, PolygonMesh& mesh) {
+  constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
+  FaceList& faces = mesh.faces;
+  if (corners.size() >= most - faces.corners.size()) {
+    throw core::RoomError(mesh.name + " has more corners than there can be, " + grouped(most) + ": divide it");
+  }
+  faces.corners.insert(faces.corners.end(), corners.begin(), corners.end());
+  faces.ends.push_back(static_cast<std::uint32_t>(faces.corners.size()));
+}
+
+void add_mesh(PolygonMesh mesh, FaceLooks looks, PlacedFile& file) {
+  if (mesh.faces.ends.empty()) {
+    return;
+  }
+  if (auto materials = coloured_materials(looks, file)) {
+    looks.materials = *std::move(materials);
+  } else {
+    mesh.spread_to_corners();
+    mesh.colors.reserve(mesh.faces.corners.size());
+    for (std::size_t face = 0; face < looks.colors.size(); ++face) {
+      mesh.colors.resize(mesh.faces.ends[face], looks.colors[face]);
+    }
+  }
+  set_runs(looks.materials, mesh);
+  file.add(std::move(mesh));
+}
+
+}  // namespace dmpc::apps
