@@ -27,7 +27,12 @@ void check_obj(std::string_view text) {
   for (const apps::PlacedShape& shape : file.shapes) {
     const apps::PolygonMesh& mesh = shape.mesh;
     const std::size_t corners = mesh.faces.corners.size();
-    core::expect(mesh.material < file.materials.size(), "a mesh has a material");
+    std::size_t faces = 0;
+    for (const apps::FaceRun& run : mesh.runs) {
+      core::expect(run.material < file.materials.size() && run.end > faces, "a run has a material and a face");
+      faces = run.end;
+    }
+    core::expect(faces == mesh.faces.ends.size(), "each face is in a run");
     core::expect(!mesh.faces.ends.empty() && mesh.faces.ends.back() == corners, "all corners are of a face");
     core::expect(mesh.normals.empty() || mesh.normals.size() == corners, "a normal is of a corner");
     core::expect(mesh.places.empty() || mesh.places.size() == corners, "a place is of a corner");

@@ -30,8 +30,16 @@ inline bool notes(const apps::MeshFile& file, const std::string& what) {
   return false;
 }
 
+inline std::string with(std::string text, const std::string& part, const std::string& other) {
+  return text.replace(text.find(part), part.size(), other);
+}
+
 inline const core::Material& material_of_object(const apps::MeshFile& file, std::size_t object) {
   return file.scene.materials[file.scene.objects.at(object).material];
+}
+
+inline core::Vec3d color_of_object(const apps::MeshFile& file, std::size_t object) {
+  return material_of_object(file, object).color;
 }
 
 }  // namespace dmpc::tests

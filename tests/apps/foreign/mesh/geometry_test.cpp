@@ -78,6 +78,27 @@ TEST_CASE("meshes give their vertices once, however many faces share them, and o
   CHECK(scene.objects[4].first == 12);
 }
 
+TEST_CASE("runs of faces have their materials, places on their textures or none, and are smoothed each by itself") {
+  PolygonMesh roof{.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, .faces = {{0, 1, 2, 0, 2, 3}, {3, 6}}};
+  roof.places.assign(6, {});
+  roof.runs = {{.end = 1, .material = 1}, {.end = 2, .material = 0, .has_places = false}};
+  const std::vector<FileMaterial> materials{{.material = {.texture = 0}}, {.material = {.color = {1, 0, 0}, .texture = 0}}};
+  core::Scene scene{.textures = {{.name = "leaf", .levels = {}}}}, apart = scene, together = scene;
+  IndexedVertices vertices, others, more;
+  GeometryWriter writer(scene, vertices, std::nullopt);
+  writer.add(roof, materials);
+  CHECK(scene.objects.at(0).kind == core::ObjectKind::textured);
+  CHECK(scene.materials.at(scene.objects[0].material).color == core::Vec3d{1, 0, 0});
+  CHECK(scene.objects.at(1).kind == core::ObjectKind::polygon);
+  CHECK(writer.unplaced() == 1);
+  roof.places.clear();
+  GeometryWriter(apart, others, 180).add(roof, materials);
+  CHECK(kind_of(apart) == core::ObjectKind::polygon);
+  roof.runs.clear();
+  GeometryWriter(together, more, 180).add(roof, materials);
+  CHECK(kind_of(together) == core::ObjectKind::patch);
+}
+
 TEST_CASE("a shared mesh is added once, and its places come where they are said") {
   core::Scene scene;
   IndexedVertices vertices;

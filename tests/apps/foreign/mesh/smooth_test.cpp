@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -67,6 +68,17 @@ TEST_CASE("a face without area has no normals and gives none") {
   const std::vector<Vec3d> normals = smooth_normals(vertices, two_faces, 180);
   CHECK(normals[5] == Vec3d{});
   CHECK(along(normals[0], {0, 0, 1}));
+}
+
+TEST_CASE("faces of different groups keep their edge, and those of group 0 have no normals and give none") {
+  for (const double degrees : {91.0, 180.0}) {
+    const std::vector<Vec3d> apart = smooth_normals(roof, two_faces, degrees, std::array{2U, 1U});
+    CHECK(along(apart[0], {0, 0, 1}));
+    CHECK(along(apart[3], {-1, 0, 0}));
+    const std::vector<Vec3d> one = smooth_normals(roof, two_faces, degrees, std::array{0U, 1U});
+    CHECK(one[0] == Vec3d{});
+    CHECK(along(one[3], {-1, 0, 0}));
+  }
 }
 
 TEST_CASE("nothing has no normals") { CHECK(smooth_normals({}, {}, 60).empty()); }

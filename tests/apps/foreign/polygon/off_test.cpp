@@ -11,6 +11,7 @@ namespace dmpc::apps::off_test {
 
 using core::Vec3d;
 using tests::check_complaints;
+using tests::color_of_object;
 using tests::contains;
 using tests::mesh_refusal;
 using tests::notes;
@@ -26,8 +27,6 @@ const std::string one_face = "OFF\n3 1 0\n" + vertices;
 std::string refusal(const std::string& text) { return mesh_refusal("a.off", text); }
 
 MeshFile read_face(const std::string& face) { return read_mesh("a.off", one_face + face); }
-
-Vec3d color_of_object(const MeshFile& file, std::size_t object) { return tests::material_of_object(file, object).color; }
 
 }  // namespace
 

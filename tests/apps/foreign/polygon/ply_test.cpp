@@ -17,18 +17,16 @@ namespace dmpc::apps::ply_test {
 
 using core::Vec3d;
 using tests::check_complaints;
+using tests::color_of_object;
 using tests::contains;
 using tests::mesh_refusal;
 using tests::notes;
 using tests::read_mesh;
+using tests::with;
 
 namespace {
 
 const std::vector<Vec3d> triangle = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}};
-
-std::string with(std::string text, const std::string& part, const std::string& other) {
-  return text.replace(text.find(part), part.size(), other);
-}
 
 /// With these properties of vertices and faces and these bodies of three vertices and of faces.
 struct Ply {
@@ -76,8 +74,6 @@ std::string binary(const std::string& type, bool is_big) {
 }
 
 std::string refusal(const std::string& text) { return mesh_refusal("a.ply", text); }
-
-Vec3d color_of_object(const MeshFile& file, std::size_t object) { return tests::material_of_object(file, object).color; }
 
 const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
 

@@ -15,10 +15,12 @@ namespace dmpc::apps::stl_test {
 
 using core::Vec3d;
 using tests::check_complaints;
+using tests::color_of_object;
 using tests::contains;
 using tests::mesh_refusal;
 using tests::notes;
 using tests::read_mesh;
+using tests::with;
 
 namespace {
 
@@ -35,13 +37,7 @@ std::string binary(const std::vector<std::uint16_t>& attributes, std::string hea
   return file;
 }
 
-std::string with(std::string text, const std::string& part, const std::string& other) {
-  return text.replace(text.find(part), part.size(), other);
-}
-
 std::string refusal(const std::string& text) { return mesh_refusal("a.stl", text); }
-
-Vec3d color_of_object(const MeshFile& file, std::size_t object) { return tests::material_of_object(file, object).color; }
 
 }  // namespace
 
