@@ -1,7 +1,6 @@
 #include "dataflow/frames.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "core/base/expect.h"

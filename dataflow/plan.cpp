@@ -4,7 +4,6 @@
 
 #include "core/base/expect.h"
 #include "core/base/refusal.h"
-#include "core/record/records.h"
 #include "dataflow/film_gather.h"
 #include "dataflow/host.h"
 #include "dataflow/packets.h"

@@ -1,6 +1,5 @@
 #include "dataflow/ranks.h"
 
-#include <memory>
 #include <string_view>
 #include <utility>
 #include <vector>

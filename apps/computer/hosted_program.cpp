@@ -1,7 +1,5 @@
 #include "apps/computer/hosted_program.h"
 
-#include <array>
-
 #include "apps/computer/bounded_charge.h"
 #include "apps/computer/declared.h"
 

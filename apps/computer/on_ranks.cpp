@@ -4,7 +4,6 @@
 #include <fstream>
 #include <iostream>
 #include <sstream>
-#include <string>
 
 #include "apps/computer/dmpc/computer.h"
 #include "apps/edge/line/number_text.h"

@@ -1,6 +1,5 @@
 #include "apps/computer/options.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -1,7 +1,6 @@
 // Who sends whom how much: an instrument beside the computer, whose memory is no node's.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>

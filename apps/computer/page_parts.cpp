@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "apps/computer/record.h"
-#include "apps/edge/line/number_text.h"
 #include "apps/edge/show/page/node_bands.h"
 #include "apps/edge/show/page/traffic.h"
 #include "apps/edge/show/page/view_conclusions.h"

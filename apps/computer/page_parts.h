@@ -1,7 +1,6 @@
 // What the pages of all programs on the computer have in common.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "apps/computer/declared.h"
-#include "apps/edge/line/number_text.h"
 #include "apps/edge/system/digest.h"
 #include "core/base/expect.h"
 #include "core/base/units.h"

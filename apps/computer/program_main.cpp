@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "apps/computer/program_call.h"
 #include "apps/edge/line/exit_status.h"

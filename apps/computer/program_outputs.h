@@ -1,7 +1,6 @@
 // What a run of a program leaves: files, and what is printed.
 #pragma once
 
-#include <cstdint>
 #include <iosfwd>
 
 #include "apps/computer/options.h"

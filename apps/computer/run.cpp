@@ -1,7 +1,6 @@
 // Runs a program that declares its packets: from its options to what came of it.
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>

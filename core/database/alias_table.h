@@ -1,7 +1,6 @@
 // Draws one of many in proportion to a weight by one look-up.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 

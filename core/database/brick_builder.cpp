@@ -1,7 +1,6 @@
 #include "core/database/brick_builder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <span>
 
 #include "core/base/box.h"

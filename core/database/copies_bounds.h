@@ -3,7 +3,6 @@
 
 #include "core/base/box.h"
 #include "core/database/parallel.h"
-#include "core/record/record.h"
 #include "core/scene/scene.h"
 
 namespace dmpc::core {

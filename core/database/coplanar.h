@@ -1,9 +1,6 @@
 // Triangles that cover each other in one plane: a rug in the floor's plane, a box that stands on it, a face that is there twice.
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "core/database/conversion.h"
 #include "core/database/parallel.h"
 #include "core/database/top_cells.h"

@@ -1,7 +1,6 @@
 #include "core/database/database.h"
 
 #include <algorithm>
-#include <memory>
 #include <span>
 #include <string>
 #include <utility>

@@ -1,7 +1,6 @@
 // Triangles before their corners are rounded to float.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>

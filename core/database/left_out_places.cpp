@@ -1,10 +1,8 @@
 #include "core/database/left_out_places.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <utility>
 

@@ -1,6 +1,5 @@
 #include "core/database/mesh_faces.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <optional>

@@ -6,7 +6,6 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "core/base/box.h"
 #include "core/base/region.h"
 #include "core/database/database.h"
 #include "core/database/placed_boxes.h"

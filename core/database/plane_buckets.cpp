@@ -4,10 +4,8 @@
 #include <bit>
 #include <tuple>
 #include <unordered_map>
-#include <utility>
 
 #include "core/base/box.h"
-#include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "core/database/plane_lanes.h"
 

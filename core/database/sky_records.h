@@ -1,7 +1,6 @@
 // A sky's picture as records: its tiles, and the table by which hits draw one of them.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "core/base/vec.h"

@@ -1,7 +1,6 @@
 #include "core/database/texture_records.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 #include <string>

@@ -1,10 +1,8 @@
 // Textures as records: tables of addresses, and the tiles that they name.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <vector>
 
 #include "core/database/record_writer.h"
 #include "core/record/record.h"

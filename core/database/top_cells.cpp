@@ -1,8 +1,6 @@
 #include "core/database/top_cells.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/morton.h"

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <compare>
-#include <span>
 
 #include "core/database/conversion.h"
 #include "core/scene/scene.h"

@@ -1,7 +1,6 @@
 #include "core/picture/emitter_light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/picture/sample_pair.h"

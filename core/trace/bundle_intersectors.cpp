@@ -2,7 +2,6 @@
 // number.
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 #include "core/trace/bundle_kernel.h"
 #include "core/trace/instruction_set.h"

@@ -1,6 +1,5 @@
 #include "core/trace/placed_block.h"
 
-#include <cmath>
 #include <cstring>
 #include <optional>
 

@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "core/base/expect.h"
 #include "nodes/processors.h"
 
 namespace dmpc::nodes {

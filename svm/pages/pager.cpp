@@ -1,7 +1,5 @@
 #include "svm/pages/pager.h"
 
-#include <cstring>
-
 #include "core/base/expect.h"
 #include "svm/pages/packets.h"
 

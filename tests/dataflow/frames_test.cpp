@@ -2,9 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "dataflow/packets.h"
 #include "tests/support/walk.h"

@@ -11,6 +11,7 @@
 #include "dataflow/packets.h"
 #include "dataflow/rays/bundle_task.h"
 #include "nodes/size_text.h"
+#include "tests/support/complaint.h"
 
 namespace dataflow_plan_test {
 
@@ -39,12 +40,7 @@ PlanRequest moving_request(std::initializer_list<std::size_t> pages) {
 }
 
 std::string error_of(const PlanRequest& request, const dataflow::OtherNodeCount& other = {}) {
-  try {
-    make_plan(request, other);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { make_plan(request, other); });
 }
 
 }  // namespace

@@ -23,9 +23,6 @@ namespace dmpc::tests {
 struct ProtocolRules {
   using Termination = dataflow::Termination;
   using Backpressure = dataflow::Backpressure;
-  static constexpr bool counts_overflow = true;  ///< ray packets by way of the host count as ray packets
-  static constexpr bool host_returns_credit = true;
-  static constexpr bool token_waits_for_rest = true;  ///< a busy member keeps the token
   static constexpr dataflow::Task next_task(const dataflow::NodeState& state) { return dataflow::next_task(state); }
   static constexpr bool is_passive(const dataflow::NodeState& state) { return dataflow::is_passive(state); }
   static constexpr dataflow::Way way_of(bool owner, bool queue, bool host) { return dataflow::way_of(owner, queue, host); }
@@ -36,8 +33,6 @@ struct ProtocolRules {
   static constexpr bool must_close(std::uint32_t open, std::uint32_t open_max) { return dataflow::must_close(open, open_max); }
   static constexpr bool asks(bool rays, bool credit, bool asked) { return dataflow::asks(rays, credit, asked); }
   static constexpr bool may_ask(std::uint32_t asked, std::uint32_t asks_max) { return dataflow::may_ask(asked, asks_max); }
-  static constexpr bool acknowledges_last = true;  ///< what is relayed, when those below have been told
-  static constexpr bool asks_again = true;         ///< those that an owner was not asked for, when another has answered
   static constexpr bool host_is_passive(std::uint64_t kept, bool is_relay_settled) {
     return dataflow::host_is_passive(kept, is_relay_settled);
   }
@@ -57,6 +52,12 @@ struct ProtocolSettings {
   std::uint8_t asks_max = model_nodes;      ///< owners that a node may be asking for a place
   bool has_backpressure = true;
   std::uint8_t owners = model_nodes;  ///< children go to the first so many nodes: fewer, and more children can be explored
+  // Rules that can be broken.
+  bool counts_overflow = true;  ///< ray packets by way of the host count as ray packets
+  bool host_returns_credit = true;
+  bool token_waits_for_rest = true;  ///< a busy member keeps the token
+  bool acknowledges_last = true;     ///< what is relayed, when those below have been told
+  bool asks_again = true;            ///< those that an owner was not asked for, when another has answered
 };
 
 template <class Rules>
@@ -383,7 +384,7 @@ class ProtocolModel {
       case Kind::overflow:
         count_overflow(m, &Rules::Termination::ray_packet_received);
         m.backlog[message.owner] = static_cast<std::uint8_t>(m.backlog[message.owner] + message.count);
-        if (Rules::host_returns_credit) {
+        if (settings_.host_returns_credit) {
           send(state, to, from, {.kind = Kind::credits, .count = 1});
         }
         break;
@@ -431,7 +432,7 @@ class ProtocolModel {
   void relay_or_acknowledge(State& state, std::size_t peer, std::size_t teller, const Message& hold) const {
     const std::uint32_t below = is_relayed() && peer != model_host ? place_of(peer).child_count : 0;
     state.member[peer].holds_below = narrow(below);
-    if (below == 0 || !Rules::acknowledges_last) {
+    if (below == 0 || !settings_.acknowledges_last) {
       send(state, peer, teller, {.kind = Kind::hold_acknowledgement});
     }
     tell_below(state, peer, below, hold.count);
@@ -444,14 +445,14 @@ class ProtocolModel {
     }
   }
   void told_below(State& state, std::size_t peer) const {
-    if (--state.member[peer].holds_below == 0 && Rules::acknowledges_last) {
+    if (--state.member[peer].holds_below == 0 && settings_.acknowledges_last) {
       send(state, peer, index_of(place_of(peer).parent), {.kind = Kind::hold_acknowledgement});
     }
   }
 
   template <class Tell>
-  static void count_overflow(Member& m, Tell tell) {
-    if (Rules::counts_overflow) {
+  void count_overflow(Member& m, Tell tell) const {
+    if (settings_.counts_overflow) {
       (m.termination.*tell)();
     }
   }
@@ -500,7 +501,7 @@ class ProtocolModel {
 
   /// The owners behind the one that has answered, in their turns.
   void ask_others(State& state, std::size_t node, std::size_t answering) const {
-    for (std::size_t i = 1; Rules::asks_again && is_shared(node, answering) && i < model_nodes; ++i) {
+    for (std::size_t i = 1; settings_.asks_again && is_shared(node, answering) && i < model_nodes; ++i) {
       if (const std::size_t owner = (answering + i) % model_nodes; owner != node) {
         ask(state, node, owner);
       }
@@ -547,7 +548,7 @@ class ProtocolModel {
   void work(const State& state, std::size_t node, Visit visit) const {
     const dataflow::NodeState what = state_of(state.member[node]);
     const Task task = Rules::next_task(what);
-    if (Rules::is_passive(what) || !Rules::token_waits_for_rest) {
+    if (Rules::is_passive(what) || !settings_.token_waits_for_rest) {
       hand_on(state, node, visit);
     }
     switch (task) {
@@ -771,7 +772,7 @@ class ProtocolModel {
         forward(state, owner, visit);
       }
     }
-    if (Rules::host_is_passive(kept, host.backpressure.is_settled()) || !Rules::token_waits_for_rest) {
+    if (Rules::host_is_passive(kept, host.backpressure.is_settled()) || !settings_.token_waits_for_rest) {
       hand_on(state, model_host, visit);
     }
   }

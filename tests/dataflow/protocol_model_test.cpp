@@ -37,7 +37,7 @@ void check_all_orders(const ProtocolSettings& settings, std::uint64_t states_min
   check_no_failure(explore<Rules>(settings), spared == 0 ? states_min : 10);
 }
 
-template <class Rules>
+template <class Rules = ProtocolRules>
 void check_found(const ProtocolSettings& settings, const std::string& words) {
   check_failure(explore<Rules>(settings), words);
 }
@@ -48,10 +48,6 @@ struct WithoutOverflow : ProtocolRules {
 
 struct ForwardingBlindly : ProtocolRules {
   static bool forwards(std::uint64_t kept, bool) { return kept > 0; }
-};
-
-struct HostKeepingCredits : ProtocolRules {
-  static constexpr bool host_returns_credit = false;
 };
 
 struct RestingOnCredits : ProtocolRules {
@@ -121,14 +117,6 @@ struct Hasty : ProtocolRules {
   };
 };
 
-struct BusyHandingOn : ProtocolRules {
-  static constexpr bool token_waits_for_rest = false;
-};
-
-struct OverflowUncounted : ProtocolRules {
-  static constexpr bool counts_overflow = false;
-};
-
 struct FillingOn : ProtocolRules {
   static bool must_close(std::uint32_t, std::uint32_t) { return false; }
 };
@@ -151,14 +139,6 @@ struct GrantingBlindly : ProtocolRules {
 
 struct AskingOn : ProtocolRules {
   static bool may_ask(std::uint32_t, std::uint32_t) { return true; }
-};
-
-struct NeverAskingAgain : ProtocolRules {
-  static constexpr bool asks_again = false;
-};
-
-struct AcknowledgingFirst : ProtocolRules {
-  static constexpr bool acknowledges_last = false;
 };
 
 struct PassiveRelay : ProtocolRules {
@@ -251,7 +231,7 @@ TEST_CASE("a host that forwards without credit floods a backlog") {
 }
 
 TEST_CASE("a host that keeps credits is found out") {
-  check_found<HostKeepingCredits>({.primaries = {1, 0, 0}, .children = 3, .owners = 2}, "deadlock");
+  check_found({.primaries = {1, 0, 0}, .children = 3, .owners = 2, .host_returns_credit = false}, "deadlock");
 }
 
 TEST_CASE("a node that rests on credits leaves the host with its rays") {
@@ -299,13 +279,14 @@ TEST_CASE("a node that asks more owners than may answer has no room for their gr
 }
 
 TEST_CASE("a node that forgets whom it has not asked waits for ever") {
-  check_found<NeverAskingAgain>({.primaries = {1, 0, 0}, .children = 2, .queue_packets = 2, .shared_places = 1, .asks_max = 1},
-                                "deadlock");
+  check_found({.primaries = {1, 0, 0}, .children = 2, .queue_packets = 2, .shared_places = 1, .asks_max = 1, .asks_again = false},
+              "deadlock");
 }
 
 TEST_CASE("a node that acknowledges before those below it have been told has no room for the next announcement") {
-  check_found<AcknowledgingFirst>({.primaries = {1, 0, 0}, .children = 3, .queue_packets = 1, .shared_places = 1, .owners = 2},
-                                  "an announcement has its place");
+  check_found(
+      {.primaries = {1, 0, 0}, .children = 3, .queue_packets = 1, .shared_places = 1, .owners = 2, .acknowledges_last = false},
+      "an announcement has its place");
 }
 
 TEST_CASE("a host that takes what it relays for nothing lets the end be announced too early") {
@@ -327,11 +308,11 @@ TEST_CASE("a host that waits for one of its children lets the end be announced t
 }
 
 TEST_CASE("a busy node that hands the token on lets the end be announced too early") {
-  check_found<BusyHandingOn>({.primaries = {1, 0, 0}, .children = 0}, "only when no ray is left");
+  check_found({.primaries = {1, 0, 0}, .children = 0, .token_waits_for_rest = false}, "only when no ray is left");
 }
 
 TEST_CASE("rays that go by way of the host uncounted let the end be announced too early") {
-  check_found<OverflowUncounted>({.primaries = {0, 0, 1}, .children = 2}, "only when no ray is left");
+  check_found({.primaries = {0, 0, 1}, .children = 2, .counts_overflow = false}, "only when no ray is left");
 }
 
 }  // namespace dmpc::tests::protocol_model_test

@@ -14,6 +14,7 @@
 #include "core/base/expect.h"
 #include "nodes/threads/held_packets.h"
 #include "tests/nodes/toy_machine.h"
+#include "tests/support/complaint.h"
 
 namespace dmpc::tests::nodes_chaos_test {
 namespace {
@@ -257,12 +258,7 @@ class Expecting : public ToyProgram {
 TEST_CASE("a stall is found out only when nothing is held back any more, and names the seed") {
   const Chaos chaos{.seed = 77, .held_percent = 100, .delay_quanta_max = 1000, .slow_node_percent = 100};
   ThreadsRunner runner(disturbed(equal_nodes(2, {.small_slots = 10}, making<Expecting>(10U))), chaos);
-  std::string report;
-  try {
-    runner.run({});
-  } catch (const core::InternalError& error) {
-    report = error.what();
-  }
+  const std::string report = tests::complaint_of<core::InternalError>([&] { runner.run({}); });
   CHECK(report.find("chaos seed 77") != std::string::npos);
   CHECK(report.find("host: 1 missing") != std::string::npos);
 }

@@ -15,7 +15,6 @@ namespace {
 
 using nodes::LocalMemory;
 using nodes::MailboxCapacity;
-using nodes::NodeId;
 using nodes::Packet;
 using nodes::PacketHeader;
 using Mailbox = nodes::BasicMailbox<ExploredAtomics>;

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdint>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
@@ -17,6 +16,7 @@
 #include "tests/nodes/scripted_machine.h"
 #include "tests/nodes/toy_machine.h"
 #include "tests/nodes/toy_programs.h"
+#include "tests/support/complaint.h"
 
 namespace dmpc::tests::runners_test {
 namespace {
@@ -106,12 +106,7 @@ TEST_CASE("a node of any computer that puts work off, in case a packet comes, do
 
 TEST_CASE("a stall ends the run of any computer with a report on every node") {
   on_each_computer([](const auto& make, bool /*is_pool*/) {
-    std::string report;
-    try {
-      make(equal_nodes(3, {}, making<Waiter>()))->run({});
-    } catch (const StandstillError& error) {
-      report = error.what();
-    }
+    const std::string report = tests::complaint_of<StandstillError>([&] { make(equal_nodes(3, {}, making<Waiter>()))->run({}); });
     CHECK((report.find("all nodes sleep") != std::string::npos || report.find("nothing is under way") != std::string::npos));
     CHECK(report.find("node 0 (finished): waits for Godot") != std::string::npos);
     CHECK(report.find("node 1: waits for Godot") != std::string::npos);

@@ -21,13 +21,6 @@ class Coverage {
 
   /// One more case that is of this kind, or is not: a kind that is asked for and never comes is one at 0.
   void count(const std::string& kind, bool is_of_kind = true) { counts_[kind] += is_of_kind ? 1 : 0; }
-  /// One more case, of one of these kinds.
-  template <class Kinds, class Kind, class NameOf>
-  void count_one_of(const Kinds& kinds, const Kind& kind, const NameOf& name_of) {
-    for (const auto& each : kinds) {
-      count(name_of(each), each == kind);
-    }
-  }
 
   /// The kinds that never came, but for what is called so: threads may come to it now and not then.
   std::vector<std::string> blind_spots(const std::string& but_for = "\n") const {

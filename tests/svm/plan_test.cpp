@@ -11,6 +11,7 @@
 #include "nodes/ranks/rank_links.h"
 #include "nodes/size_text.h"
 #include "svm/forest/strategy.h"
+#include "tests/support/complaint.h"
 #include "tests/support/loopback_ranks.h"
 
 namespace svm_plan_test {
@@ -28,12 +29,7 @@ PlanRequest request_with(std::uint32_t nodes, std::uint32_t pages) {
 }
 
 std::string error_of(const PlanRequest& request) {
-  try {
-    make_plan(request);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { make_plan(request); });
 }
 
 }  // namespace

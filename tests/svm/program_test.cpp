@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "core/picture/memory_use.h"
 #include "svm/local_copy.h"
 #include "svm/pages/pager.h"
 #include "svm/pages/watch/watched_pagers.h"

@@ -40,16 +40,8 @@ bool is_within_any(const std::string& name, const std::vector<std::string>& keys
   return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) { return is_within(name, key); });
 }
 
-std::optional<double> number_in(const FigureValue& value) {
-  if (const auto* const count = std::get_if<std::uint64_t>(&value)) {
-    return static_cast<double>(*count);
-  }
-  const auto* const number = std::get_if<double>(&value);
-  return number != nullptr ? std::optional(*number) : std::nullopt;
-}
-
 bool is_near(const FigureValue& value, const FigureValue& reference, double share) {
-  const std::optional<double> number = number_in(value), right = number_in(reference);
+  const std::optional<double> number = number_of(value), right = number_of(reference);
   return number && right && std::abs(*number - *right) <= share * std::abs(*right);
 }
 

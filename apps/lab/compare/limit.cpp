@@ -5,6 +5,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/option_values.h"
+#include "apps/edge/line/words.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 
@@ -28,30 +29,24 @@ const Measure* find_measure(const std::string& name) {
   return found == measures.end() ? nullptr : found;
 }
 
-std::string measure_meant(const std::string& typed) {
+std::vector<std::string> all_names() {
   std::vector<std::string> names;
   for (const Measure& measure : measures) {
     names.emplace_back(measure.name);
   }
-  return core::did_you_mean(typed, names);
+  return names;
 }
 
 }  // namespace
 
-std::string measure_names() {
-  std::string names;
-  for (const Measure& measure : measures) {
-    names += (names.empty() ? "" : "|") + std::string(measure.name);
-  }
-  return names;
-}
+std::string measure_names() { return joined(all_names(), "|"); }
 
 Limit parse_limit(const std::string& text) {
   const std::size_t colon = text.find(':');
   const std::string name = text.substr(0, colon), amount = colon == std::string::npos ? "" : text.substr(colon + 1);
   const Limit limit{find_measure(name), amount_in(amount), amount};
   if (limit.measure == nullptr || !(limit.most >= 0)) {
-    const std::string meant = limit.measure == nullptr ? measure_meant(name) : "";
+    const std::string meant = limit.measure == nullptr ? core::did_you_mean(name, all_names()) : "";
     throw core::UsageError("--fail-above=" + text + ": expected " + measure_names() +
                            ", a colon and a number from 0 on, such as rmse:1/255" + (meant.empty() ? "" : ".") + meant);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <fstream>
-#include <utility>
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/bounded_text.h"

@@ -1,4 +1,4 @@
-#include "apps/lab/difference/flip.h"
+#include "apps/lab/difference/picture_error.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <numbers>
 #include <numeric>
-#include <utility>
 
 #include "core/base/expect.h"
 

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/lab/difference/flip.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

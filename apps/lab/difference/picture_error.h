@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "apps/picture/image_file.h"
 
@@ -17,7 +18,7 @@ struct PictureError {
   double mean_absolute = 0;
   double peak_signal_to_noise_decibels = 0;  ///< for a peak of 1; infinite for equal pictures
   double relative_mean_square = 0;           ///< mean of (a - b)^2 / (b + 0.01)^2, b the reference, as pbrt-v4 has it
-  double flip_mean = 0;                      ///< flip.h
+  double flip_mean = 0;                      ///< flip()
   double flip_percentile_99 = 0;
   std::uint64_t pixels = 0;
   std::uint64_t differing_pixels = 0;  ///< with any channel that differs at all
@@ -31,5 +32,13 @@ Image difference_picture(const Image& picture, const Image& reference);
 
 /// FLIP in all three channels. Throws core::InputError if the sizes differ.
 Image flip_picture(const Image& picture, const Image& reference);
+
+/// The paper's observer: 0.7 m before a screen of 0.7 m and 3840 pixels.
+inline constexpr double flip_pixels_per_degree = 67.0206;
+
+/// FLIP of every pixel, row by row: 0 for what no eye tells apart, up to 1 (P. Andersson, J. Nilsson, T. Akenine-Moller, M.
+/// Oskarsson, K. Astrom, M. D. Fairchild, "FLIP: A Difference Evaluator for Alternating Images", 2020). Radiance outside 0 to 1
+/// is clamped first, as a screen does, and what is no number counts as black. Requires equal sizes.
+std::vector<float> flip(const Image& picture, const Image& reference, double pixels_per_degree = flip_pixels_per_degree);
 
 }  // namespace dmpc::apps

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -33,5 +34,12 @@ std::string text_of(const FigureValue& value);
 
 /// Whether the figure stands at `key` or below it; "*" in a key is any one name: "nodes.*.pages" has "nodes.3.pages.faults".
 bool is_within(std::string_view name, std::string_view key);
+
+/// nullptr if there is none of this name.
+const FigureValue* find_value(const std::vector<Figure>& figures, const std::string& name);
+/// A figure's number; nothing where it is not there, or is no number. Throws core::InternalError for one that is needed.
+std::optional<double> number_of(const FigureValue& value);
+std::optional<double> number_of(const std::vector<Figure>& figures, const std::string& name);
+double needed_number(const std::vector<Figure>& figures, const std::string& name);
 
 }  // namespace dmpc::apps

@@ -31,7 +31,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/expect.h"
 #include "core/record/curved_values.h"
 
 namespace dmpc::apps {

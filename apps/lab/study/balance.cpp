@@ -1,4 +1,5 @@
-#include "apps/lab/study/balance.h"
+// The study `balance`: how evenly the work of rays that travel is shared out, and what it is worth where the regions lie.
+#include "apps/lab/study/studies.h"
 
 #include <array>
 #include <numeric>

@@ -1,4 +1,5 @@
-#include "apps/lab/study/cache.h"
+// The study `cache`: how often nodes miss pages with caches of any size and policy, and what that costs on a machine.
+#include "apps/lab/study/studies.h"
 
 #include <utility>
 
@@ -12,7 +13,6 @@
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"
 #include "core/families/scenes.h"
-#include "svm/packets.h"
 
 namespace dmpc::apps {
 namespace {
@@ -94,14 +94,6 @@ std::vector<CacheCurves::NodeReferences> references_of(const svm::Report& record
 }
 
 }  // namespace
-
-void add_cache_pages(OptionSet set, std::vector<std::uint32_t>& cache_pages) {
-  constexpr std::uint32_t most = 0x7fffffff;
-  set.add_text(
-      "--cache-pages", "N,N,... [12 from 1 to all]",
-      [&cache_pages](const std::string& text) { cache_pages = parse_numbers(text, "--cache-pages", most); },
-      "Sizes of the caches in pages");
-}
 
 void CacheStudy::add_options(StudyLine line) {
   line.set.add_number("--nodes", node_count, 2, nodes::node_count_max, "32", "Nodes, each with a cache of its own");

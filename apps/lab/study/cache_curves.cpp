@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/option_values.h"
 #include "apps/lab/crowd/side_by_side.h"
 #include "svm/pages/replacement.h"
 #include "svm/pages/watch/optimum.h"
@@ -147,6 +148,31 @@ std::string CacheCurves::needs_note() const {
   return "The node that references most has to do with " + counted(lru_.distinct_pages(), "different page") +
          " of others; from " + counted(std::max(lru_.sufficient_pages(), 1U), "frame") +
          " on lru faults on each page's first reference only, " + counted(lru_.cold_misses(), "time") + " in all.";
+}
+
+void add_cache_pages(OptionSet set, std::vector<std::uint32_t>& cache_pages) {
+  constexpr std::uint32_t most = 0x7fffffff;
+  set.add_text(
+      "--cache-pages", "N,N,... [12 from 1 to all]",
+      [&cache_pages](const std::string& text) { cache_pages = parse_numbers(text, "--cache-pages", most); },
+      "Sizes of the caches in pages");
+}
+
+void add_policies(OptionSet set, std::vector<std::string>& places) {
+  set.add_texts(
+      "--policy", "FILE.so|python:FILE.py:CLASS", [&places](const std::string& place) { places.push_back(place); },
+      "A replacement policy of your own, beside dmpc's: a shared library by <dmpc/policy.h>, or a class in a file for Python, by "
+      "its "
+      "full path, which nobody but you and root can write; may be given several times");
+}
+
+std::vector<ForeignPolicy> load_policies(const std::vector<std::string>& places, const std::function<void()>& check) {
+  std::vector<ForeignPolicy> policies;
+  for (const std::string& place : places) {
+    policies.emplace_back(place, check);
+  }
+  check_names_differ(policies);
+  return policies;
 }
 
 }  // namespace dmpc::apps

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/line/command_line.h"
 #include "apps/edge/table/plot.h"
 #include "apps/edge/table/table.h"
 #include "apps/policy/foreign_policy.h"
@@ -56,5 +57,15 @@ class CacheCurves {
   svm::MissCurve lru_;
   std::vector<std::vector<std::uint64_t>> faults_;  ///< by size: of each of the other policies, of more, then of the optimum
 };
+
+/// Declares --cache-pages: sizes in pages, about 12 of them where none are given.
+void add_cache_pages(OptionSet set, std::vector<std::uint32_t>& cache_pages);
+
+/// Declares --policy, several times: where policies are, as ForeignPolicy takes it.
+void add_policies(OptionSet set, std::vector<std::string>& places);
+
+/// In their order, each with a name of its own. `check` is called meanwhile and may throw. Throws core::InputError as
+/// ForeignPolicy does.
+std::vector<ForeignPolicy> load_policies(const std::vector<std::string>& places, const std::function<void()>& check);
 
 }  // namespace dmpc::apps

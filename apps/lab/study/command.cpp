@@ -200,6 +200,15 @@ int carry_out(OneStudy study, const StudyOptions& options, const TableFiles& fil
 
 }  // namespace
 
+void add_options(OptionSet set, StudyOptions& options) {
+  std::visit([&](auto& study) { study.add_options({set, options.machine_name, options.database}); }, options.study);
+  add_options(set, options.picture);
+  add_transport_options(set, options.picture);
+  add_options(set, options.database);
+  add_options(set, options.table, TableExtras::plots_and_report);
+  set.add_quiet(options.quiet);
+}
+
 int study_command(const StudyOptions& options, Interrupt& interrupt, std::ostream& output) {
   const TableFiles files = files_of(options);
   return std::visit([&](const auto& study) { return carry_out(study, options, files, interrupt, output); }, options.study);

@@ -2,11 +2,28 @@
 #pragma once
 
 #include <iosfwd>
+#include <string>
 
+#include "apps/edge/line/command_line.h"
 #include "apps/edge/system/interrupt.h"
-#include "apps/lab/study/options.h"
+#include "apps/edge/table/table_options.h"
+#include "apps/lab/study/studies.h"
+#include "apps/scene/database_options.h"
+#include "apps/scene/picture_options.h"
 
 namespace dmpc::apps {
+
+struct StudyOptions {
+  Study study;
+  PictureOptions picture;
+  DatabaseOptions database;
+  TableOutput table;
+  std::string machine_name;  ///< as given on the command line, if it was
+  bool quiet = false;        ///< no progress
+};
+
+/// Declares those that all studies share, and those of the study that `options` holds now.
+void add_options(OptionSet set, StudyOptions& options);
 
 /// Measures and writes as run_tabled() does. Throws core::InputError for a scene that cannot be read or outputs that cannot be
 /// made, core::UsageError for an output that is the scene's file, core::InternalError if two runs give different films.

@@ -1,4 +1,5 @@
-#include "apps/lab/study/frames.h"
+// The study `frames`: what nodes that keep what they have fetch and send of a frame, beside nodes that begin with nothing.
+#include "apps/lab/study/studies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,7 @@
 #include "apps/edge/line/words.h"
 #include "apps/edge/machine/machine_file.h"
 #include "apps/edge/machine/machines.h"
-#include "apps/lab/study/engine/measure_each.h"
+#include "apps/lab/crowd/side_by_side.h"
 #include "apps/lab/study/frame_rows.h"
 #include "apps/run/run_strategy.h"
 #include "apps/scene/camera_path.h"

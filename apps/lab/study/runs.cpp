@@ -7,7 +7,7 @@
 #include "apps/edge/machine/machines.h"
 #include "apps/edge/system/memory_room.h"
 #include "apps/edge/system/progress.h"
-#include "apps/lab/study/engine/measure_each.h"
+#include "apps/lab/crowd/side_by_side.h"
 #include "apps/run/run_strategy.h"
 #include "core/base/expect.h"
 #include "svm/forest/strategy.h"

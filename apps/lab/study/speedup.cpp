@@ -1,4 +1,5 @@
-#include "apps/lab/study/speedup.h"
+// The study `speedup`: how much faster a modelled machine gets by more nodes, and what becomes of the rest.
+#include "apps/lab/study/studies.h"
 
 #include <optional>
 #include <string_view>

@@ -1,4 +1,5 @@
-#include "apps/lab/study/systems.h"
+// The study `systems`: the systems of the article's Table 1 on one machine, with the same scene, picture and counters.
+#include "apps/lab/study/studies.h"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,6 @@
 #include "apps/lab/study/systems_plan.h"
 
 #include <tuple>
-#include <utility>
 
 #include "apps/run/strategy_options.h"
 #include "core/database/structure.h"

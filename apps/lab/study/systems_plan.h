@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/lab/study/memory_rule.h"
-#include "apps/lab/study/systems.h"
+#include "apps/lab/study/studies.h"
 #include "apps/run/systems.h"
 #include "apps/scene/subject.h"
 #include "core/database/database.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/edge/line/number_text.h"
-#include "apps/lab/study/systems.h"
+#include "apps/lab/study/studies.h"
 
 namespace dmpc::apps {
 namespace {

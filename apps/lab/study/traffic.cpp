@@ -1,4 +1,5 @@
-#include "apps/lab/study/traffic.h"
+// The study `traffic`: what travels when rays do, beside what travels when pages do.
+#include "apps/lab/study/studies.h"
 
 #include <algorithm>
 

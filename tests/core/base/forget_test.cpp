@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <fstream>
 #include <span>
-#include <string>
 
 namespace forget_test {
 

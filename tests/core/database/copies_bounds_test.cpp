@@ -22,7 +22,6 @@ namespace {
 using core::Box;
 using core::Scene;
 using core::Transform;
-using core::Vec3d;
 
 struct Pair {
   Scene expanded, left;

@@ -1,7 +1,5 @@
-// Every point of every primitive lies in boxes that lead to the primitive.
+// Every point of every primitive lies in boxes that lead to the primitive: what R6 of `bench stability` has not.
 #include <doctest/doctest.h>
-
-#include <numbers>
 
 #include "apps/lab/bench/stability/listing.h"
 #include "apps/lab/bench/stability/random.h"
@@ -46,60 +44,12 @@ void check_listed(const Scene& scene, std::size_t count) {
   CHECK(unlisted(build_database(scene, options), count, 1e-12) == 0);
 }
 
-Vec3d on_lattice(Random& random) {
-  const auto at = [&] { return random.below(9) / 4.0 - 1.0; };
-  const double x = at(), y = at();
-  return {x, y, at()};
-}
-
 }  // namespace
-
-TEST_CASE("random triangles are listed wherever they reach") {
-  Random random(1);
-  Scene scene;
-  SceneBuilder builder(scene);
-  for (int i = 0; i < 500; ++i) {
-    const Vec3d at = random.in_box(-1, 1);
-    builder.polygon({at, at + random.in_box(-0.2, 0.2), at + random.in_box(-0.2, 0.2)});
-  }
-  check_listed(scene, scaled(1000));
-}
-
-TEST_CASE("triangles that lie in cell planes are listed wherever they reach") {
-  Random random(2);
-  Scene scene;
-  SceneBuilder builder(scene);
-  for (int i = 0; i < 300; ++i) {
-    builder.polygon({on_lattice(random), on_lattice(random), on_lattice(random)});
-  }
-  check_listed(scene, scaled(1000));
-}
 
 TEST_CASE("triangles exactly in planes between cells are listed on a side of them even without a pad") {
   BuildOptions options = BorderScene::options();
   options.pad_share = 0;
   CHECK(unlisted(build_database(BorderScene().scene(), options), scaled(1000), 1e-12) == 0);
-}
-
-TEST_CASE("needles a million times longer than wide are listed wherever they reach") {
-  Random random(3);
-  Scene scene;
-  SceneBuilder builder(scene);
-  for (int i = 0; i < 300; ++i) {
-    const Vec3d at = random.in_box(-1, 1), to = random.in_box(-1, 1);
-    builder.polygon({at, to, to + random.direction() * (length(to - at) * 1e-6)});
-  }
-  check_listed(scene, scaled(1000));
-}
-
-TEST_CASE("triangles as large as the scene are listed wherever they reach") {
-  Random random(4);
-  Scene scene;
-  SceneBuilder builder(scene);
-  for (int i = 0; i < 100; ++i) {
-    builder.polygon({random.direction(), random.direction(), random.direction()});
-  }
-  check_listed(scene, scaled(3000));
 }
 
 TEST_CASE("spheres of all sizes are listed wherever their surface is") {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "core/scene/frame.h"
 #include "core/scene/placed_objects.h"
 #include "core/trace/instance_walk.h"
+#include "tests/support/complaint.h"
 #include "tests/support/film_of.h"
 #include "tests/support/kept_scenes.h"
 #include "tests/support/scaled.h"
@@ -270,13 +270,9 @@ TEST_CASE("what has to have copies has them, and all else is kept, with the ids,
 
 TEST_CASE("copies that have to be there and have no room are an error that names them, and those that are kept need none") {
   const Scene left = with_obstacles(Copies::left_out);
-  const auto complaint = [&left](std::uint64_t bytes) -> std::string {
-    try {
-      core::build_database(Scene(left), with_instances(), {.corners_max = none, .bytes_max = bytes});
-    } catch (const core::RoomError& error) {
-      return error.what();
-    }
-    return "";
+  const auto complaint = [&left](std::uint64_t bytes) {
+    return complaint_of<core::RoomError>(
+        [&] { core::build_database(Scene(left), with_instances(), {.corners_max = none, .bytes_max = bytes}); });
   };
   const std::uint64_t bytes_of_all = size_with_copies(left).bytes();
   CHECK(complaint(bytes_of_all / 2).empty());

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <fstream>
 #include <new>
-#include <string>
 
 #include "core/database/database.h"
 #include "tests/support/forked_process.h"

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 
 namespace scenes_test {
 
@@ -119,12 +119,7 @@ const std::vector<Known> known_scenes = {
     {"sombrero-2", 0, 0, 7938, 0, 1, 1, 7938, {-4, -3.607, -4}, {4, -2, 4}}};
 
 std::string message_of(const char* name) {
-  try {
-    parse_scene_name(name);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return dmpc::tests::complaint_of([&] { parse_scene_name(name); });
 }
 
 bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "apps/lab/bench/stability/records.h"
+#include "apps/lab/bench/stability/rays.h"
 #include "core/base/expect.h"
 #include "core/picture/background.h"
 #include "core/picture/render.h"

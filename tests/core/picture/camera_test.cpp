@@ -6,7 +6,6 @@
 
 #include "core/base/elementary.h"
 #include "core/base/expect.h"
-#include "tests/support/scaled.h"
 
 namespace picture_camera_test {
 

@@ -6,7 +6,6 @@
 
 #include "core/base/sampling.h"
 #include "core/picture/refinement.h"
-#include "tests/support/scaled.h"
 
 namespace noisy_refinement_test {
 

@@ -1,7 +1,6 @@
 // Light along paths, held against what can be said on paper.
 #include <doctest/doctest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 

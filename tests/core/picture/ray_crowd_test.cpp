@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 #include "core/picture/render.h"
 #include "tests/support/film_of.h"
 #include "tests/support/shooting.h"

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "apps/lab/bench/stability/children.h"
 #include "apps/lab/bench/stability/random.h"

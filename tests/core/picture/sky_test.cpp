@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <vector>
 
 #include "core/picture/shade.h"
 #include "tests/support/path_studio.h"

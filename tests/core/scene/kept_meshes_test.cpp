@@ -13,7 +13,6 @@ namespace dmpc::tests::kept_meshes_test {
 namespace {
 
 using core::can_be_kept;
-using core::KeptPlace;
 using core::ObjectKind;
 using core::Scene;
 using core::SceneBuilder;

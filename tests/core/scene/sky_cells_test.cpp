@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/base/sampling.h"
-#include "core/database/alias_table.h"
 #include "core/database/sky_records.h"
 #include "core/record/sky.h"
 #include "core/scene/sky_texels.h"

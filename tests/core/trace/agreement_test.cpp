@@ -5,7 +5,7 @@
 
 #include "apps/lab/bench/stability/crowd.h"
 #include "apps/lab/bench/stability/random.h"
-#include "apps/lab/bench/stability/records.h"
+#include "apps/lab/bench/stability/rays.h"
 #include "core/families/scenes.h"
 #include "tests/support/scaled.h"
 #include "tests/support/shooting.h"
@@ -82,34 +82,6 @@ TEST_CASE("a walk interrupted at every record gives the bits of one that is not,
   CHECK(differences == 0);
   CHECK(interruptions > scaled(50'000));
   check_same_walk(once, often);
-}
-
-TEST_CASE("skipping empty space changes no bit of a hit, on grazing rays neither") {
-  const Database room = database_of(mixed_scene());
-  const Database mountain = database_of(built_in_scene({.family = "mount", .size = 4, .tessellation = 0}));
-  Random random(5);
-  std::size_t differences = 0, hits = 0;
-  const std::size_t rays = ray_count(100'000);
-  for (std::size_t i = 0; i < rays; ++i) {
-    const Database& database = i % 2 == 0 ? room : mountain;
-    const Ray ray = i % 8 == 0 ? random_ray(database, random) : grazing_ray(database, random);
-    const Hit hit = shoot(database, ray);
-    differences += same_hit(hit, shoot(CellByCell(database), database, ray)) ? 0 : 1;
-    hits += hit.found() ? 1 : 0;
-  }
-  MESSAGE(rays, " rays, ", hits, " hits, ", differences, " differences");
-  CHECK(differences == 0);
-}
-
-TEST_CASE("the grid finds what brute force finds, on all kinds of primitives") {
-  const Database database = database_of(mixed_scene());
-  Random random(6);
-  std::size_t differences = 0;
-  for (std::size_t i = 0; i < scaled(20'000); ++i) {
-    const Ray ray = random_ray(database, random);
-    differences += same_hit(shoot(database, ray), brute_force(database, ray)) ? 0 : 1;
-  }
-  CHECK(differences == 0);
 }
 
 TEST_CASE("pages of every size hold the same hits") {

@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
-#include <tuple>
 
 #include "core/database/database.h"
 #include "core/picture/camera.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/lab/bench/stability/random.h"
-#include "apps/lab/bench/stability/records.h"
+#include "apps/lab/bench/stability/rays.h"
 #include "core/database/extract.h"
 #include "core/trace/bundle_walk.h"
 #include "tests/support/covering_faces.h"

@@ -1,4 +1,4 @@
-// Closed meshes hold every ray that starts inside them.
+// Closed meshes hold every ray that starts inside them: what R1 to R3 of `bench stability` have not, or mutants are held against.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -84,48 +84,12 @@ TEST_CASE("a cube holds rays that start next to its edges") {
   CHECK(differences == 0);
 }
 
-TEST_CASE("a tetrahedron holds every ray") { CHECK(leaks(tetrahedron(), {}, 0.5, 2000) == 0); }
-
 TEST_CASE("a sphere of triangles holds every ray") { CHECK(leaks(sphere_mesh(16, 32, 0), {}, 0.9, 100) == 0); }
-
-TEST_CASE("a sphere with noisy radii holds every ray") { CHECK(leaks(sphere_mesh(16, 32, 0.4), {}, 0.4, 100) == 0); }
-
-TEST_CASE("a torus holds every ray from within its tube") {
-  Random random(3);
-  std::vector<Vec3d> origins;
-  while (origins.size() < scaled(100)) {
-    const double angle = 6.28 * random.unit();
-    origins.push_back(Vec3d{std::cos(angle), std::sin(angle), 0} + random.direction() * (0.15 * random.unit()));
-  }
-  CHECK(leaks(database_of(scene_of(torus(24, 12, 0.3))), origins) == 0);
-}
 
 TEST_CASE("a closed mesh far from the world's origin holds every ray") {
   CHECK(leaks(rounded(moved(sphere_mesh(16, 32, 0), 1, far_away)), far_away, 0.8, 50) == 0);
   CHECK(leaks(rounded(moved(cube(), 1, far_away)), far_away, 0.8, 500) == 0);
   CHECK(leaks(rounded(moved(sphere_mesh(16, 32, 0.4), 1, {1e6, -1e6, 1e6})), {1e6, -1e6, 1e6}, 0.3, 50) == 0);
-}
-
-TEST_CASE("a closed mesh of any size holds every ray") {
-  for (const int exponent : {-40, -20, 20, 40}) {
-    CAPTURE(exponent);
-    const double factor = std::ldexp(1.0, exponent);
-    CHECK(leaks(moved(torus(24, 12, 0.9), factor, {}), {factor, 0, 0}, 0.8 * factor, 10) == 0);
-  }
-}
-
-TEST_CASE("scaling a scene by a power of two changes no bit of its primitives") {
-  const Database plain = database_of(seen_from(scene_of(sphere_mesh(8, 16, 0.2)), 1));
-  for (int exponent = -40; exponent <= 40; ++exponent) {
-    const Mesh mesh = moved(sphere_mesh(8, 16, 0.2), std::ldexp(1.0, exponent), {});
-    const Database other = database_of(seen_from(scene_of(mesh), 1));
-    REQUIRE(other.primitives().size() == plain.primitives().size());
-    std::size_t differences = 0;
-    for (std::size_t i = 0; i < plain.primitives().size(); ++i) {
-      differences += plain.primitives()[i].value == other.primitives()[i].value ? 0 : 1;
-    }
-    CHECK(differences == 0);
-  }
 }
 
 TEST_CASE("rays along the axes with zeros of both signs leave no closed mesh") {

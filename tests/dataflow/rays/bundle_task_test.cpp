@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <array>
-#include <memory>
 #include <vector>
 
 #include "tests/dataflow/part_bench.h"
@@ -14,7 +13,6 @@ using namespace dmpc;
 using dataflow::BundleTask;
 using dataflow::RayMessage;
 using dataflow::RayTask;
-using nodes::NodeId;
 using tests::elsewhere;
 using tests::half;
 using tests::other;

@@ -11,7 +11,6 @@ namespace undealt_test {
 using namespace dmpc;
 using core::PixelMask;
 using dataflow::DealtPrimaries;
-using dataflow::PrimaryRun;
 using dataflow::Undealt;
 
 namespace {

@@ -14,7 +14,6 @@ using apps::Random;
 using core::Corner;
 using dataflow::Boundary;
 using dataflow::Bsp;
-using dataflow::BspOptions;
 using dataflow::ColumnLattice;
 using dataflow::ColumnLoads;
 using dataflow::CutAxes;

@@ -3,20 +3,17 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <set>
-#include <string>
-#include <vector>
 
 #include "core/base/expect.h"
 #include "dataflow/regions/regions.h"
 #include "nodes/topology.h"
+#include "tests/support/complaint.h"
 
 namespace scattered_test {
 
 using namespace dmpc;
 using dataflow::Scattered;
 using dataflow::scattered_shape;
-using dataflow::ScatteredShape;
 
 namespace {
 
@@ -114,17 +111,9 @@ TEST_CASE("scattered: one node has all regions, and as many regions as finest co
 }
 
 TEST_CASE("scattered: too many regions are refused with what there may be") {
-  const auto said = [](const auto& scatter) {
-    try {
-      scatter();
-    } catch (const core::UsageError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  CHECK(said([] { scattered(64, 1025); }) ==
+  CHECK(tests::complaint_of<core::UsageError>([] { scattered(64, 1025); }) ==
         "1025 regions a node on 64 nodes are too many: all nodes together can have 65536 regions, so each of these 1024");
-  CHECK(said([] {
+  CHECK(tests::complaint_of<core::UsageError>([] {
           dataflow::scatter({4, 9, 4}, {0, 2}, 4, 5);
         }) == "5 regions a node on 4 nodes are too many: the grid has 4x4 finest columns, and each region needs one");
 }

@@ -16,21 +16,21 @@
 
 namespace dmpc::tests {
 
-/// The rules as they are. Broken ones derive from this and hide a member.
+/// The rules as they are; each can be broken.
 struct HandOverRules {
-  static constexpr bool sends_on = true;              ///< a ray that comes to a former owner goes on to the one it knows
-  static constexpr bool counts_transfers = true;      ///< for the proof of the end, as packets of rays
-  static constexpr bool counts_primaries = true;      ///< those that go along with a unit, too
-  static constexpr bool gives_primaries_away = true;  ///< who hands them over starts none of them
-  static constexpr bool active_until_content = true;  ///< a node that is about to ask keeps the token
-  static constexpr bool news_wakes = false;           ///< a node that hears who has the unit may ask
-  static constexpr bool answers_from_last_page = true;
-  static constexpr bool stores_before_acknowledging = true;
-  static constexpr bool keeps_pages = true;       ///< a giver, for rays that walk there
-  static constexpr bool giver_hands_over = true;  ///< with the last acknowledgement it no longer answers
-  static constexpr bool asks_once = true;         ///< for all rays received, whatever the answer
-  static constexpr bool refuses_while_moving = true;
-  static bool is_news(std::uint32_t known, std::uint32_t version) { return dataflow::is_news(known, version); }
+  bool sends_on = true;              ///< a ray that comes to a former owner goes on to the one it knows
+  bool counts_transfers = true;      ///< for the proof of the end, as packets of rays
+  bool counts_primaries = true;      ///< those that go along with a unit, too
+  bool gives_primaries_away = true;  ///< who hands them over starts none of them
+  bool active_until_content = true;  ///< a node that is about to ask keeps the token
+  bool news_wakes = false;           ///< a node that hears who has the unit may ask
+  bool answers_from_last_page = true;
+  bool stores_before_acknowledging = true;
+  bool keeps_pages = true;       ///< a giver, for rays that walk there
+  bool giver_hands_over = true;  ///< with the last acknowledgement it no longer answers
+  bool asks_once = true;         ///< for all rays received, whatever the answer
+  bool refuses_while_moving = true;
+  bool believes_old_news = false;
 };
 
 struct HandOverSettings {
@@ -38,9 +38,9 @@ struct HandOverSettings {
   /// That start later, or go along with the unit: until then the node may ask, but is not passive.
   std::array<std::uint8_t, model_nodes> held{};
   std::uint8_t questions = 2;  ///< that all nodes together may ask
+  HandOverRules rules = {};
 };
 
-template <class Rules>
 class HandOverModel {
  public:
   enum class Kind : std::uint8_t { ray, ask, refusal, page, primaries, acknowledgement, moved, token };
@@ -162,8 +162,9 @@ class HandOverModel {
     return verbs[static_cast<std::size_t>(kind)];
   }
   static bool is_counted(Kind kind) { return kind != Kind::moved && kind != Kind::token; }
-  static bool counts(Kind kind) {
-    return kind == Kind::ray || (kind == Kind::primaries ? Rules::counts_primaries : Rules::counts_transfers && is_counted(kind));
+  bool counts(Kind kind) const {
+    return kind == Kind::ray ||
+           (kind == Kind::primaries ? settings_.rules.counts_primaries : settings_.rules.counts_transfers && is_counted(kind));
   }
 
   static void append(std::string& bytes, const Member& m) {
@@ -197,12 +198,12 @@ class HandOverModel {
   }
 
   template <class Of>
-  static std::uint32_t count_of(const State& state, Of of) {
+  std::uint32_t count_of(const State& state, Of of) const {
     std::uint32_t count = 0;
     for_each_message(state.channel, [&](const Message& message) { count += of(message.kind) ? 1 : 0; });
     return count;
   }
-  static std::uint32_t rays_under_way(const State& state) {
+  std::uint32_t rays_under_way(const State& state) const {
     std::uint32_t rays = 0;
     for_each_message(state.channel, [&](const Message& message) {
       rays += message.kind == Kind::ray ? 1U : 0U;
@@ -210,7 +211,7 @@ class HandOverModel {
     });
     return rays;
   }
-  static bool is_anybody_active(const State& state) {
+  bool is_anybody_active(const State& state) const {
     bool is_active = false;
     for (std::size_t node = 0; node < model_nodes; ++node) {
       is_active = is_active || wants_to_ask(state, node);
@@ -218,7 +219,7 @@ class HandOverModel {
     return is_active;
   }
 
-  static void send(State& state, std::size_t from, std::size_t to, const Message& message) {
+  void send(State& state, std::size_t from, std::size_t to, const Message& message) const {
     if (counts(message.kind)) {
       state.member[from].termination.ray_packet_sent();
     }
@@ -270,7 +271,7 @@ class HandOverModel {
       ++m.walking;
       return visit(Action{"takes up a ray", narrow(node)}, next);
     }
-    if (Rules::sends_on) {
+    if (settings_.rules.sends_on) {
       send(next, node, m.owner, {.kind = Kind::ray});
     }
     visit(Action{"sends a ray on", narrow(node)}, next);
@@ -291,12 +292,12 @@ class HandOverModel {
       next.member[node].wants = false;
       visit(Action{"finds nobody worth asking", narrow(node)}, next);
     }
-    if (state.member[node].held == 0 && (!wants || !Rules::active_until_content)) {
+    if (state.member[node].held == 0 && (!wants || !settings_.rules.active_until_content)) {
       hand_on(state, node, visit);
     }
   }
 
-  static void ask(State& state, std::size_t node, std::size_t other) {
+  void ask(State& state, std::size_t node, std::size_t other) const {
     Member& m = state.member[node];
     m.hand_over.ask();
     m.wants = false;
@@ -327,7 +328,7 @@ class HandOverModel {
     if (counts(message.kind)) {
       m.termination.ray_packet_received();
     }
-    m.wants = m.wants || is_counted(message.kind) || (Rules::news_wakes && message.kind == Kind::moved);
+    m.wants = m.wants || is_counted(message.kind) || (settings_.rules.news_wakes && message.kind == Kind::moved);
     switch (message.kind) {
       case Kind::ray:
         m.hand_over.rays_came();
@@ -340,7 +341,7 @@ class HandOverModel {
         return receive_ask(state, from, to);
       case Kind::refusal:
         m.hand_over.refused();
-        return Rules::asks_once ? void() : ask_again(state, to);
+        return settings_.rules.asks_once ? void() : ask_again(state, to);
       case Kind::page:
         return receive_page(state, from, to, message);
       case Kind::primaries:
@@ -351,7 +352,7 @@ class HandOverModel {
       case Kind::acknowledgement:
         return receive_acknowledgement(state, to);
       case Kind::moved:
-        if (m.owner != to && Rules::is_news(m.version, message.version)) {
+        if (m.owner != to && (settings_.rules.believes_old_news || dataflow::is_news(m.version, message.version))) {
           m.owner = message.owner;
           m.version = message.version;
         }
@@ -361,14 +362,14 @@ class HandOverModel {
     }
   }
 
-  static void ask_again(State& state, std::size_t node) {
+  void ask_again(State& state, std::size_t node) const {
     state.member[node].hand_over.rays_came();
     ++state.questions_left;
   }
 
-  static void receive_ask(State& state, std::size_t from, std::size_t to) {
+  void receive_ask(State& state, std::size_t from, std::size_t to) const {
     Member& m = state.member[to];
-    if ((Rules::refuses_while_moving && !m.hand_over.may_give()) || m.owner != to) {
+    if ((settings_.rules.refuses_while_moving && !m.hand_over.may_give()) || m.owner != to) {
       return send(state, to, from, {.kind = Kind::refusal});
     }
     m.hand_over.give();
@@ -378,20 +379,20 @@ class HandOverModel {
   }
 
   /// The first of two, or the last.
-  static void receive_page(State& state, std::size_t from, std::size_t to, const Message& message) {
+  void receive_page(State& state, std::size_t from, std::size_t to, const Message& message) const {
     Member& m = state.member[to];
     const bool is_last = message.owner != 0;
     send(state, to, from, {.kind = Kind::acknowledgement});
-    if (is_last && !Rules::stores_before_acknowledging) {
+    if (is_last && !settings_.rules.stores_before_acknowledging) {
       m.unstored = message.version;
     } else if (is_last) {
       own(m, to, message.version);
-    } else if (!Rules::answers_from_last_page) {
+    } else if (!settings_.rules.answers_from_last_page) {
       m.owner = narrow(to);
     }
   }
 
-  static void receive_acknowledgement(State& state, std::size_t to) {
+  void receive_acknowledgement(State& state, std::size_t to) const {
     Member& m = state.member[to];
     switch (m.parts_left) {
       case 2:
@@ -399,15 +400,15 @@ class HandOverModel {
         return send(state, to, m.taker, {Kind::page, static_cast<std::uint8_t>(m.version + 1), 1});
       case 1:
         m.parts_left = 0;
-        if (Rules::giver_hands_over) {
+        if (settings_.rules.giver_hands_over) {
           m.owner = m.taker;
           ++m.version;
         }
         send(state, to, m.taker, {.kind = Kind::primaries, .balance = static_cast<std::int8_t>(m.held)});
-        m.held = Rules::gives_primaries_away ? 0 : m.held;
+        m.held = settings_.rules.gives_primaries_away ? 0 : m.held;
         return;
       default:
-        m.has_pages = Rules::keeps_pages;
+        m.has_pages = settings_.rules.keeps_pages;
         m.hand_over.given();
     }
   }

@@ -12,6 +12,7 @@
 
 #include "nodes/ranks/dismissal.h"
 #include "nodes/ranks/fabric.h"
+#include "tests/support/complaint.h"
 
 namespace errands_test {
 
@@ -23,16 +24,6 @@ using nodes::Errands;
 const std::function<void()> nothing = [] {};
 
 void wait_a_little() { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
-
-/// What it throws.
-std::string complaint_of(const std::function<void()>& act) {
-  try {
-    act();
-    return "";
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-}
 
 TEST_CASE("work returns what it comes to, on another thread, while this one looks after something") {
   std::atomic<int> looks = 0;
@@ -76,7 +67,7 @@ TEST_CASE("what an errand throws is thrown where it was sent, and work may go on
   std::string caught;
   CHECK(errands.while_working(
             [&] {
-              caught = complaint_of([&] { errands.send([] { throw std::runtime_error("no way"); }); });
+              caught = tests::complaint_of<std::runtime_error>([&] { errands.send([] { throw std::runtime_error("no way"); }); });
               return 7;
             },
             nothing, nothing) == 7);
@@ -84,8 +75,8 @@ TEST_CASE("what an errand throws is thrown where it was sent, and work may go on
 }
 
 TEST_CASE("what work throws is thrown here") {
-  CHECK(complaint_of([] { Errands().while_working([]() -> int { throw std::runtime_error("no use"); }, nothing, nothing); }) ==
-        "no use");
+  CHECK(tests::complaint_of<std::runtime_error>(
+            [] { Errands().while_working([]() -> int { throw std::runtime_error("no use"); }, nothing, nothing); }) == "no use");
 }
 
 TEST_CASE("when looking after fails, errands fail so, those that wait and those to come, and work is waited for") {
@@ -94,8 +85,8 @@ TEST_CASE("when looking after fails, errands fail so, those that wait and those 
   std::string first, second;
   const auto work = [&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(30));
-    first = complaint_of([&] { errands.send(nothing); });
-    second = complaint_of([&] { errands.send(nothing); });
+    first = tests::complaint_of<std::runtime_error>([&] { errands.send(nothing); });
+    second = tests::complaint_of<std::runtime_error>([&] { errands.send(nothing); });
     is_over = true;
     return 0;
   };
@@ -104,7 +95,7 @@ TEST_CASE("when looking after fails, errands fail so, those that wait and those 
     throw std::runtime_error("lost");
   };
   int shown = 0;
-  CHECK(complaint_of([&] { errands.while_working(work, look_after, [&] { ++shown; }); }) == "lost");
+  CHECK(tests::complaint_of<std::runtime_error>([&] { errands.while_working(work, look_after, [&] { ++shown; }); }) == "lost");
   CHECK(is_over);
   CHECK(first == "lost");
   CHECK(second == "lost");
@@ -117,7 +108,7 @@ TEST_CASE("when looking after fails, life is shown until the work is done, and w
     throw std::runtime_error("no use");
   };
   const auto count_life = [&] { ++shown; };
-  CHECK(complaint_of([&] {
+  CHECK(tests::complaint_of<std::runtime_error>([&] {
           Errands().while_working(
               work, [] { throw std::runtime_error("bad news"); }, count_life);
         }) == "no use");

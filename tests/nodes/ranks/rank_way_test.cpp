@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "tests/support/loopback_ranks.h"

@@ -23,7 +23,6 @@
 #include "tests/nodes/toy_machine.h"
 #include "tests/nodes/toy_programs.h"
 #include "tests/support/loopback_ranks.h"
-#include "tests/support/scaled.h"
 
 namespace dmpc::tests::ranks_ranks_runner_test {
 namespace {

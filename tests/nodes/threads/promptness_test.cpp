@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 #include <sys/prctl.h>
 
-#include <optional>
 #include <thread>
 
 namespace dmpc::tests::promptness_test {

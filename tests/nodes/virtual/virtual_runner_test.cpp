@@ -8,7 +8,6 @@
 #include <functional>
 #include <random>
 #include <span>
-#include <string>
 #include <thread>
 #include <utility>
 #include <vector>

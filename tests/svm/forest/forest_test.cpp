@@ -14,6 +14,7 @@
 #include "nodes/size_text.h"
 #include "svm/forest/strategy.h"
 #include "svm/run.h"
+#include "tests/support/complaint.h"
 #include "tests/support/small_machine.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/strategies.h"
@@ -178,13 +179,9 @@ TEST_CASE("a node of forest uses exactly the memory of its plan, with the smalle
     CHECK(least.plan.in_flight == 1);
     CHECK(outcome_of(least) == gears().outcome());
     --*options.computer.node_memory_bytes;
-    try {
-      run_forest(gears(), options);
-      FAIL("a memory that is too small is refused");
-    } catch (const core::RoomError& error) {
-      CHECK(std::string(error.what()).find("node_memory_bytes=" + nodes::size_text(*options.computer.node_memory_bytes + 1)) !=
-            std::string::npos);
-    }
+    CHECK(dmpc::tests::complaint_of<core::RoomError>([&] {
+            run_forest(gears(), options);
+          }).find("node_memory_bytes=" + nodes::size_text(*options.computer.node_memory_bytes + 1)) != std::string::npos);
   }
 }
 

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <list>
 #include <random>
-#include <utility>
 #include <vector>
 
 #include "core/base/expect.h"

@@ -6,7 +6,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/table/averages.h"
-#include "apps/lab/bench/error/curve.h"
+#include "apps/lab/bench/error/result.h"
 
 namespace dmpc::apps {
 namespace {

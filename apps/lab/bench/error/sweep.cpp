@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <utility>
 
@@ -79,9 +80,9 @@ class Sweep {
       case Knob::adaptive:
         return add_errors();
       case Knob::cutoff:
-        return add_each(cutoffs, [&](const Named& cutoff) { add(Knob::cutoff, cutoff.text, cut(base_, cutoff)); });
+        return add_each(cutoffs, [&](const Named& cutoff) { add(knob, cutoff.text, turned(&Setting::cutoff, cutoff.value)); });
       case Knob::depth:
-        return add_depths();
+        return add_up_to(base_.depth, depths, [&](int depth) { add(knob, depth, turned(&Setting::depth, depth)); });
       case Knob::tessellation:
         return add_tessellations();
       case Knob::arithmetic:
@@ -90,15 +91,18 @@ class Sweep {
         add(Knob::quality, "draft", with_quality(Quality::draft));
         return add(Knob::quality, "default", with_quality(Quality::standard));
       case Knob::bounces:
-        return add_bounces();
+        return add_up_to(*base_.bounces, bounce_counts,
+                         [&](int bounces) { add(knob, bounces, turned(&Setting::bounces, std::optional(bounces))); });
       case Knob::roulette:
-        return add_each(roulettes, [&](const Named& first) { add(Knob::roulette, first.text, ended(base_, first)); });
+        return add_each(roulettes, [&](const Named& first) {
+          add(knob, first.text, turned(&Setting::roulette_from, static_cast<int>(first.value)));
+        });
       case Knob::emitters:
         return add_emitters();
       case Knob::adaptive_and_cutoff:
-        return add_pairs(std::array{cutoffs[1], cutoffs[3]}, knob, " cutoff ", cut);
+        return add_pairs(std::array{cutoffs[1], cutoffs[3]}, knob, " cutoff ", &Setting::cutoff);
       case Knob::adaptive_and_depth:
-        return add_pairs(std::array<Named, 2>{{{"3", 3}, {"5", 5}}}, knob, " depth ", shallow);
+        return add_pairs(std::array<Named, 2>{{{"3", 3}, {"5", 5}}}, knob, " depth ", &Setting::depth);
     }
   }
 
@@ -106,6 +110,15 @@ class Sweep {
 
  private:
   void add(Knob knob, const std::string& text, const Setting& setting) { points.push_back({knob, text, setting}); }
+  void add(Knob knob, std::integral auto position, const Setting& setting) { add(knob, std::to_string(position), setting); }
+
+  /// The base point with one of its knobs turned.
+  template <class Position>
+  Setting turned(Position Setting::*knob, Position position) const {
+    Setting setting = base_;
+    setting.*knob = position;
+    return setting;
+  }
 
   template <class Positions, class Add>
   void add_each(const Positions& positions, const Add& add_one) const {
@@ -130,17 +143,13 @@ class Sweep {
     setting.cutoff = choice_of(quality).cutoff;
     return setting;
   }
-  static Setting cut(Setting setting, const Named& cutoff) {
-    setting.cutoff = cutoff.value;
-    return setting;
-  }
-  static Setting ended(Setting setting, const Named& first) {
-    setting.roulette_from = static_cast<int>(first.value);
-    return setting;
-  }
-  static Setting shallow(Setting setting, const Named& depth) {
-    setting.depth = static_cast<int>(depth.value);
-    return setting;
+
+  /// Positions below `last`, and that.
+  template <class Positions, class Add>
+  void add_up_to(int last, const Positions& all, const Add& add_one) const {
+    std::vector<int> positions(all.begin(), std::lower_bound(all.begin(), all.end(), last));
+    positions.push_back(last);
+    add_each(positions, add_one);
   }
 
   /// A quick sweep has those about an 8-bit step.
@@ -162,31 +171,8 @@ class Sweep {
     }
     counts.insert(base_.samples);
     for (const int count : counts) {
-      Setting setting = base_;
-      setting.samples = count;
-      add(Knob::samples, std::to_string(count), setting);
+      add(Knob::samples, count, turned(&Setting::samples, count));
     }
-  }
-
-  void add_depths() {
-    std::vector<int> positions(depths.begin(), std::lower_bound(depths.begin(), depths.end(), base_.depth));
-    positions.push_back(base_.depth);
-    add_each(positions, [&](int depth) {
-      Setting setting = base_;
-      setting.depth = depth;
-      add(Knob::depth, std::to_string(depth), setting);
-    });
-  }
-
-  void add_bounces() {
-    std::vector<int> positions(bounce_counts.begin(),
-                               std::lower_bound(bounce_counts.begin(), bounce_counts.end(), *base_.bounces));
-    positions.push_back(*base_.bounces);
-    add_each(positions, [&](int bounces) {
-      Setting setting = base_;
-      setting.bounces = bounces;
-      add(Knob::bounces, std::to_string(bounces), setting);
-    });
   }
 
   /// None, some of the most powerful, and all that the base point aims at.
@@ -194,21 +180,16 @@ class Sweep {
     if (options_.emitters == 0) {
       return;
     }
-    Setting setting = base_;
-    setting.emitters = 0;
-    add(Knob::emitters, "none", setting);
+    add(Knob::emitters, "none", turned(&Setting::emitters, 0U));
     for (std::uint32_t count = 1; count < options_.emitters && !options_.is_quick; count *= 4) {
-      setting.emitters = count;
-      add(Knob::emitters, std::to_string(count), setting);
+      add(Knob::emitters, count, turned(&Setting::emitters, count));
     }
-    add(Knob::emitters, std::to_string(options_.emitters), base_);
+    add(Knob::emitters, options_.emitters, base_);
   }
 
   void add_tessellations() {
     for (const int tessellation : options_.tessellations) {
-      Setting setting = base_;
-      setting.tessellation = tessellation;
-      add(Knob::tessellation, "t" + std::to_string(tessellation), setting);
+      add(Knob::tessellation, "t" + std::to_string(tessellation), turned(&Setting::tessellation, tessellation));
     }
     if (!options_.tessellations.empty()) {
       add(Knob::tessellation, "exact", base_);
@@ -216,11 +197,12 @@ class Sweep {
   }
 
   /// Errors near an 8-bit step with each position of the other knob that is not the base point's.
-  template <class Positions, class Turn>
-  void add_pairs(const Positions& positions, Knob knob, const std::string& between, const Turn& turn) {
+  template <class Positions, class Position>
+  void add_pairs(const Positions& positions, Knob knob, const std::string& between, Position Setting::*turned_too) {
     for (const Named& position : positions) {
       for (std::size_t error = 1; error + 1 < errors.size(); error += options_.is_quick ? 3 : 1) {
-        const Setting setting = turn(refined(errors[error]), position);
+        Setting setting = refined(errors[error]);
+        setting.*turned_too = static_cast<Position>(position.value);
         if (setting.depth < base_.depth || setting.cutoff > 0) {
           add_refined(knob, errors[error].text + between + position.text, setting);
         }

@@ -7,7 +7,7 @@
 
 #include "apps/edge/table/averages.h"
 #include "apps/edge/table/filled_columns.h"
-#include "apps/lab/bench/error/curve.h"
+#include "apps/lab/bench/error/result.h"
 
 namespace dmpc::apps {
 namespace {

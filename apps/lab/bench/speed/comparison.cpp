@@ -29,10 +29,10 @@ Comparison Comparison::once(double subject_figure, double rival_figure) const {
   return measured;
 }
 
-Comparisons measured(std::span<const Comparison> comparisons, const std::function<bool(const Comparison&)>& is_meant) {
+Comparisons measured(std::span<const Comparison> comparisons) {
   Comparisons chosen;
   for (const Comparison& comparison : comparisons) {
-    if (comparison.figures.rounds() > 0 && is_meant(comparison)) {
+    if (comparison.figures.rounds() > 0) {
       chosen.push_back(&comparison);
     }
   }
@@ -70,9 +70,9 @@ void Matches::compare(std::size_t subject, std::size_t rival, Comparison compari
   results_.push_back(std::move(comparison));
 }
 
-void Matches::compare_timed(std::size_t subject, std::size_t rival, Comparison comparison, std::size_t figure) {
-  pairs_.push_back({subject, rival, figure + 1, results_.size(), &Comparison::processor});
-  compare(subject, rival, std::move(comparison), figure);
+void Matches::compare_timed(std::size_t subject, std::size_t rival, Comparison comparison) {
+  pairs_.push_back({subject, rival, 1, results_.size(), &Comparison::processor});
+  compare(subject, rival, std::move(comparison));
 }
 
 void Matches::measure(std::size_t rounds, Progress& progress) {

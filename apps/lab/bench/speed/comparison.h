@@ -12,6 +12,7 @@
 
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/stopwatch.h"
+#include "apps/edge/table/table.h"
 #include "apps/lab/bench/speed/part.h"
 
 namespace dmpc::apps {
@@ -48,8 +49,8 @@ struct Comparison {
 
 /// Some of what was measured, each outliving this.
 using Comparisons = std::vector<const Comparison*>;
-/// Those that are meant and have a round.
-Comparisons measured(std::span<const Comparison> comparisons, const std::function<bool(const Comparison&)>& is_meant);
+/// Those that have a round.
+Comparisons measured(std::span<const Comparison> comparisons);
 /// In groups of such as are alike, in the order in which the first of each comes.
 std::vector<Comparisons> grouped(const Comparisons& comparisons,
                                  const std::function<bool(const Comparison&, const Comparison&)>& are_alike);
@@ -73,7 +74,7 @@ class Matches {
   /// Adds `comparison` to the results: of each round a figure of the subject, against the same one of the rival. They may be one.
   void compare(std::size_t subject, std::size_t rival, Comparison comparison, std::size_t figure = 0);
   /// Does as the other, and takes the next figure for processor time, of those who have figures_of() their times.
-  void compare_timed(std::size_t subject, std::size_t rival, Comparison comparison, std::size_t figure = 0);
+  void compare_timed(std::size_t subject, std::size_t rival, Comparison comparison);
 
   /// All contenders, in the order in which they came, in every round. Throws what measuring throws.
   void measure(std::size_t rounds, Progress& progress);
@@ -94,5 +95,13 @@ class Matches {
 
 /// By the wall clock and by processor time; above 0, since ratios are taken to them.
 std::vector<double> figures_of(const Times& times);
+
+/// For each part, thing measured and pair the geometric mean of the ratios over scenes and kinds, in processor time, too, where
+/// there are two clocks, and of each kind by itself, and the outermost ones, in the order in which they come first; no mean where
+/// a ratio is 0.
+Table headline_of(std::span<const Comparison> comparisons, const std::string& title);
+
+/// A row for each comparison that has been measured, in their order.
+Table table_of(std::span<const Comparison> comparisons, const std::string& title);
 
 }  // namespace dmpc::apps

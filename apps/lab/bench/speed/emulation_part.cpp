@@ -6,7 +6,8 @@
 #include <string>
 
 #include "apps/edge/system/progress.h"
-#include "apps/lab/bench/speed/parts.h"
+#include "apps/lab/bench/speed/comparison.h"
+#include "apps/lab/bench/speed/part.h"
 #include "apps/lab/study/engine/timed_render.h"
 #include "apps/scene/subject.h"
 #include "core/base/expect.h"

@@ -6,8 +6,9 @@
 #include <string>
 
 #include "apps/edge/system/progress.h"
+#include "apps/lab/bench/speed/comparison.h"
 #include "apps/lab/bench/speed/kernel_arena.h"
-#include "apps/lab/bench/speed/parts.h"
+#include "apps/lab/bench/speed/part.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -1,7 +1,6 @@
 #include "apps/lab/bench/speed/part.h"
 
 #include <array>
-#include <utility>
 
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/line/unknown_option.h"

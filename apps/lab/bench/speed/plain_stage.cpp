@@ -8,7 +8,6 @@ namespace dmpc::apps {
 
 namespace {
 
-using core::Color;
 using core::Vec3d;
 using core::Vec3f;
 

@@ -1,4 +1,4 @@
-#include "apps/lab/bench/speed/table.h"
+#include "apps/lab/bench/speed/comparison.h"
 
 #include <algorithm>
 
@@ -74,7 +74,7 @@ Table headline_of(std::span<const Comparison> comparisons, const std::string& ti
                       {"in processor time", "", 3},
                       {"of"},
                       {"by kind"}});
-  for (const Comparisons& group : grouped(measured(comparisons, [](const Comparison&) { return true; }), are_alike)) {
+  for (const Comparisons& group : grouped(measured(comparisons), are_alike)) {
     const Comparison& one = *group.front();
     const std::vector<double> ratios = ratios_of(group);
     const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
@@ -87,7 +87,7 @@ Table headline_of(std::span<const Comparison> comparisons, const std::string& ti
 
 Table table_of(std::span<const Comparison> comparisons, const std::string& title) {
   Table table(title, heads_of(comparison_columns()));
-  for (const Comparison* const comparison : measured(comparisons, [](const Comparison&) { return true; })) {
+  for (const Comparison* const comparison : measured(comparisons)) {
     table.add_row(row_of(comparison_columns(), *comparison));
   }
   return table;

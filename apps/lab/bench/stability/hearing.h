@@ -1,6 +1,10 @@
 // One ray before the referee.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "apps/lab/oracle/encounter.h"
 #include "apps/lab/oracle/referee.h"
 #include "core/database/database.h"
@@ -19,9 +23,17 @@ class Hearing {
       : database_(database), referee_(referee), ray_(ray) {}
 
   /// Whether rounding can have made `renderer` give this answer. To a shadow ray only found() counts.
-  bool admissible(const core::Hit& hit, Renderer renderer) const;
+  bool admissible(const core::Hit& hit, Renderer renderer) const {
+    return referee_.admissible(ray_, {hit.found(), hit.primitive, hit.t}, renderer);
+  }
   /// Whether rounding can have given the distance of `hit`, which is admissible.
-  bool distance_explained(const core::Hit& hit) const;
+  bool distance_explained(const core::Hit& hit) const {
+    std::vector<Encounter> met;
+    add_encounters(ray_, database_.primitives()[hit.primitive], hit.primitive, met);
+    return std::any_of(met.begin(), met.end(), [&](const Encounter& seen) {
+      return std::fabs(double{hit.t} - seen.t) <= seen.t_error + level_share * std::fabs(seen.t);
+    });
+  }
 
  private:
   const core::Database& database_;

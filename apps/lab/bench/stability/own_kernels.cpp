@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "apps/lab/bench/stability/rays.h"
-#include "apps/lab/bench/stability/records.h"
 #include "apps/lab/bench/stability/walk.h"
 #include "core/trace/bundle_walk.h"
 #include "core/trace/traversal.h"

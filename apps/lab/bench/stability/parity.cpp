@@ -6,8 +6,8 @@
 
 #include "apps/lab/bench/stability/bodies.h"
 #include "apps/lab/bench/stability/case.h"
+#include "apps/lab/bench/stability/kernels.h"
 #include "apps/lab/bench/stability/rays.h"
-#include "apps/lab/bench/stability/subject.h"
 #include "apps/lab/bench/stability/walk.h"
 #include "core/scene/frame.h"
 #include "core/trace/kernel.h"

@@ -18,7 +18,6 @@ namespace {
 using core::Corner;
 using core::Passage;
 using core::Ray;
-using core::Vec3d;
 using Vec3l = core::Vec3<long double>;
 
 /// How far the line at `t` is from the finest cell, in the direction in which that is most; a float's and an integer's product is

@@ -89,4 +89,23 @@ inline bool same_hit(const core::Hit& a, const core::Hit& b) {
   return std::bit_cast<std::uint32_t>(a.t) == std::bit_cast<std::uint32_t>(b.t) && a.primitive == b.primitive;
 }
 
+/// Says absent the first time that it is asked for a record, and keeps no more than that one record. Not thread-safe.
+class OneRecord {
+ public:
+  explicit OneRecord(std::span<const std::byte> database) : all_(database) {}
+
+  const std::byte* find(core::Address address) {
+    if (address != held_) {
+      return nullptr;
+    }
+    held_ = core::no_address;
+    return all_.find(address);
+  }
+  void fetch(core::Address address) { held_ = address; }
+
+ private:
+  core::LocalRecords all_;
+  core::Address held_ = core::no_address;
+};
+
 }  // namespace dmpc::apps

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/base/expect.h"
 #include "core/base/sampling.h"
 #include "core/picture/film.h"
 #include "core/picture/render.h"

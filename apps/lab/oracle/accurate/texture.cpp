@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/base/expect.h"
-
 namespace dmpc::apps {
 namespace {
 

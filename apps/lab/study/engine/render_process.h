@@ -48,11 +48,4 @@ class RenderProcesses {
   ScratchFolder folder_;
 };
 
-/// nullptr if there is none of this name.
-const FigureValue* find_value(const std::vector<Figure>& figures, const std::string& name);
-/// A figure's number; nothing where it is not there, or is no number. Throws core::InternalError for one that is needed.
-std::optional<double> number_of(const FigureValue& value);
-std::optional<double> number_of(const std::vector<Figure>& figures, const std::string& name);
-double needed_number(const std::vector<Figure>& figures, const std::string& name);
-
 }  // namespace dmpc::apps

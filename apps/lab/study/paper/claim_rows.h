@@ -8,7 +8,6 @@
 #include "apps/edge/table/table.h"
 #include "apps/lab/study/paper/data.h"
 #include "apps/lab/study/paper/runs.h"
-#include "apps/lab/study/paper/voxel_runs.h"
 
 namespace dmpc::apps {
 

@@ -1,6 +1,5 @@
 // The claims of the article's text, each held against our runs.
 #include <algorithm>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>

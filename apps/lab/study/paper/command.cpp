@@ -19,8 +19,6 @@
 #include "apps/lab/study/paper/runs.h"
 #include "apps/lab/study/paper/sensitivity.h"
 #include "apps/lab/study/paper/tables.h"
-#include "apps/lab/study/paper/voxel_tables.h"
-#include "core/base/expect.h"
 
 namespace dmpc::apps {
 namespace {

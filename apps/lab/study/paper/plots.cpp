@@ -1,4 +1,4 @@
-#include "apps/lab/study/paper/plots.h"
+#include "apps/lab/study/paper/report.h"
 
 #include <array>
 #include <cstddef>

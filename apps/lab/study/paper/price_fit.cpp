@@ -1,7 +1,6 @@
 #include "apps/lab/study/paper/price_fit.h"
 
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 #include "core/trace/charge.h"

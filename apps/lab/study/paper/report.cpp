@@ -8,9 +8,7 @@
 #include "apps/edge/show/page/origin.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/table/plot_program.h"
-#include "apps/lab/study/paper/conclusions.h"
 #include "apps/lab/study/paper/data.h"
-#include "apps/lab/study/paper/plots.h"
 #include "apps/show/page/sweep_page.h"
 
 namespace dmpc::apps {

@@ -9,6 +9,7 @@
 
 #include "apps/edge/system/attempts.h"
 #include "apps/edge/system/output_set.h"
+#include "apps/edge/table/plot.h"
 #include "apps/edge/table/table.h"
 
 namespace dmpc::apps {
@@ -39,5 +40,17 @@ std::vector<std::string> write_report(const PaperReport& report, const std::file
 /// The report as a page. What could not be drawn is told to `complaints`. Throws core::InputError if no temporary file can be
 /// written.
 std::string page_of(const PaperReport& report, std::ostream& complaints);
+
+/// A plot of one of its tables.
+struct PaperPlot {
+  std::string table;  ///< by the name of its files: "table_3"
+  Plot plot;
+};
+
+/// What the article prints is drawn as points, what we found as lines or bars.
+std::vector<PaperPlot> paper_plots();
+
+/// `name` is that of the table's files: "table_3". Empty for a table that there is not.
+std::string paper_conclusion(const std::string& name, const Table& table);
 
 }  // namespace dmpc::apps

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "apps/edge/system/progress.h"
-#include "apps/lab/study/engine/measure_each.h"
+#include "apps/lab/crowd/side_by_side.h"
 #include "apps/lab/study/paper/hot_spots.h"
 #include "apps/run/report.h"
 #include "apps/run/run_strategy.h"

@@ -1,6 +1,8 @@
 // The runs behind the study `paper`: the article's scenes on modelled machines, as many at once as there are cores.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -10,6 +12,7 @@
 
 #include "apps/edge/run/time_parts.h"
 #include "apps/edge/system/interrupt.h"
+#include "apps/lab/study/paper/data.h"
 #include "apps/run/strategy_options.h"
 #include "apps/scene/subject.h"
 #include "core/database/structure.h"
@@ -61,6 +64,8 @@ struct PaperResult {
   std::uint64_t film_hash = 0;
 
   double seconds() const { return 1e-9 * static_cast<double>(total_ns); }
+  /// Of the nodes' time.
+  double percent(TimePart part) const { return parts.percent()[static_cast<std::size_t>(part)]; }
   /// The share of the look-ups of pages for which a page had to travel.
   double miss_ratio() const { return references == 0 ? 0 : static_cast<double>(faults) / static_cast<double>(references); }
   /// Bytes of pages that a node receives a second.
@@ -101,5 +106,47 @@ using PaperResults = std::vector<std::optional<PaperResult>>;
 void carry_out(
     std::span<const PaperRun> runs, std::span<const PaperSubject> subjects, const Interrupt& interrupt, PaperResults& results,
     const std::function<void()>& told = [] {});
+
+struct Catalogue;
+
+/// Numbers of runs, one for each of paper_node_counts.
+using RunsByNodeCount = std::array<std::size_t, paper_node_counts.size()>;
+
+/// Pages of a node's shared memory: its own and its cache.
+inline constexpr auto shared_pages = static_cast<std::uint32_t>(shared_kilobytes);
+
+/// Numbers of runs, one for each of paper_scenes.
+using RunsByScene = std::array<std::size_t, paper_scenes.size()>;
+
+/// Those that the prices of voxel_machine() are fitted to: the smallest and the largest machine of Mountain and of Rings4.
+inline constexpr std::array<PaperPlace, 4> fitted_places = {{{1, 0}, {1, 6}, {2, 1}, {2, 6}}};
+
+/// A scene of the article's Figures 8 to 10, on 32 nodes.
+struct VoxelCaches {
+  std::size_t scene = 0;                 ///< of paper_scenes
+  std::array<std::uint32_t, 6> pages{};  ///< of 1 KB
+};
+/// Of the sizes of cache_scenes those that a picture takes no minutes with: with smaller ones most look-ups of another page miss.
+inline constexpr std::array<VoxelCaches, 2> voxel_caches_tried = {
+    {{2, {102, 204, 408, 811, 1621, 3242}}, {3, {51, 102, 204, 408, 1448, 2895}}}};
+
+/// Nodes that regions of Rings3 are cut for.
+inline constexpr std::array<std::uint32_t, 3> loaded_node_counts = {16, 32, 64};
+
+/// Numbers of runs, by scene.
+struct VoxelRuns {
+  RunsByScene counted{};                                                       ///< Table 2
+  RunsByScene extents{};                                                       ///< the same on a tree of extents
+  std::array<RunsByNodeCount, paper_scenes.size()> timed{};                    ///< Table 3
+  RunsByScene one_worker{};                                                    ///< on the smallest machine that is printed
+  std::array<std::array<std::size_t, 6>, voxel_caches_tried.size()> cached{};  ///< by size; on one node: those that are counted
+  /// Rays that travel, Rings3, by loaded_node_counts: regions by a subsampled picture, cut in alternating directions, and of
+  /// equal size; and one node.
+  std::array<std::size_t, loaded_node_counts.size()> subsampled{}, equal_size{};
+  std::size_t one_region = 0;
+};
+
+/// Adds them.
+void add_voxel_runs(Catalogue& catalogue);
 
 }  // namespace dmpc::apps

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/table/filled_columns.h"
 #include "core/base/expect.h"
 #include "core/record/record.h"
 
@@ -44,8 +45,6 @@ Differences differences_of(const Catalogue& catalogue, const PaperResults& resul
   }
   return errors;
 }
-
-Cell cell_or_none(const std::optional<double>& number) { return number ? Cell(*number) : Cell(); }
 
 }  // namespace
 
@@ -130,7 +129,7 @@ Table table_3(const Catalogue& catalogue, const PaperResults& results) {
                    cell.is_calibrated ? "calibrated"
                    : cell.is_base     ? "base"
                                       : "predicted",
-                   cell_or_none(cell.one_worker_seconds), cell_or_none(cell.efficiency_by_worker())});
+                   cell_of(cell.one_worker_seconds), cell_of(cell.efficiency_by_worker())});
   }
   const Differences errors = differences_of(catalogue, results);
   table.add_note(
@@ -241,10 +240,9 @@ Table work_items(const Catalogue& catalogue, const PaperResults& results) {
                                                                                    {"faults"}});
   const auto add_row = [&](std::uint32_t side, const char* giver, std::size_t run) {
     if (const auto& result = results[run]) {
-      const auto percent = result->parts.percent();
-      const auto part = [&](TimePart which) { return Cell(percent[static_cast<std::size_t>(which)]); };
-      table.add_row({item_text(side), giver, result->seconds(), part(TimePart::computing), part(TimePart::data_wait),
-                     part(TimePart::work_wait), part(TimePart::messages), part(TimePart::idle_at_end), result->faults});
+      table.add_row({item_text(side), giver, result->seconds(), result->percent(TimePart::computing),
+                     result->percent(TimePart::data_wait), result->percent(TimePart::work_wait),
+                     result->percent(TimePart::messages), result->percent(TimePart::idle_at_end), result->faults});
     }
   };
   for (std::size_t size = 0; size < item_sides.size(); ++size) {
@@ -274,10 +272,8 @@ Table page_sizes(const Catalogue& catalogue, const PaperResults& results) {
   const auto add_rows = [&](const char* kind, const auto& runs) {
     for (std::size_t size = 0; size < runs.size(); ++size) {
       if (const auto& result = results[runs[size]]) {
-        const auto percent = result->parts.percent();
-        table.add_row({kind, std::uint64_t{page_sizes_bytes[size]}, result->seconds(),
-                       percent[static_cast<std::size_t>(TimePart::data_wait)],
-                       percent[static_cast<std::size_t>(TimePart::messages)], result->faults, result->page_bytes});
+        table.add_row({kind, std::uint64_t{page_sizes_bytes[size]}, result->seconds(), result->percent(TimePart::data_wait),
+                       result->percent(TimePart::messages), result->faults, result->page_bytes});
       }
     }
   };
@@ -310,15 +306,12 @@ Table caches(const Catalogue& catalogue, const PaperResults& results) {
   for (std::size_t scene = 0; scene < cache_scenes.size(); ++scene) {
     const auto& base = results[catalogue.cache_base[scene]];
     for (std::size_t size = 0; size < cache_size_count; ++size) {
-      const std::size_t number = catalogue.cached[scene][size];
-      if (base && results[number]) {
-        const PaperResult& result = *results[number];
-        const auto percent = result.parts.percent();
-        table.add_row(
-            {cache_scenes[scene].row().scene, std::uint64_t{cache_scenes[scene].pages[size]}, std::uint64_t{result.cache_pages},
-             100 * cache_scenes[scene].share(size), efficiency(base->seconds(), 1, result.seconds(), cache_node_count),
-             result.faults, 100 * result.miss_ratio(), result.page_rate(cache_node_count),
-             percent[static_cast<std::size_t>(TimePart::data_wait)], percent[static_cast<std::size_t>(TimePart::stolen)]});
+      if (const auto& result = results[catalogue.cached[scene][size]]; base && result) {
+        table.add_row({cache_scenes[scene].row().scene, std::uint64_t{cache_scenes[scene].pages[size]},
+                       std::uint64_t{result->cache_pages}, 100 * cache_scenes[scene].share(size),
+                       efficiency(base->seconds(), 1, result->seconds(), cache_node_count), result->faults,
+                       100 * result->miss_ratio(), result->page_rate(cache_node_count), result->percent(TimePart::data_wait),
+                       result->percent(TimePart::stolen)});
       }
     }
   }

@@ -7,7 +7,6 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/lab/study/paper/claim_rows.h"
 #include "apps/lab/study/paper/tables.h"
-#include "apps/lab/study/paper/voxel_tables.h"
 
 namespace dmpc::apps {
 namespace {

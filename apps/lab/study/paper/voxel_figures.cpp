@@ -3,7 +3,6 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/lab/study/paper/tables.h"
-#include "apps/lab/study/paper/voxel_tables.h"
 
 namespace dmpc::apps {
 
@@ -24,12 +23,10 @@ Table voxel_caches(const Catalogue& catalogue, const PaperResults& results) {
     expected += pages.size();
     for (std::size_t size = 0; size < pages.size(); ++size) {
       if (const auto& result = results[catalogue.voxels.cached[i][size]]; base && result) {
-        const auto percent = result->parts.percent();
         table.add_row({paper_scenes[scene].title, std::uint64_t{pages[size]},
                        efficiency(base->seconds(), 1, result->seconds(), cache_node_count), result->faults,
-                       100 * result->miss_ratio(), result->page_rate(cache_node_count),
-                       percent[static_cast<std::size_t>(TimePart::data_wait)],
-                       percent[static_cast<std::size_t>(TimePart::stolen)]});
+                       100 * result->miss_ratio(), result->page_rate(cache_node_count), result->percent(TimePart::data_wait),
+                       result->percent(TimePart::stolen)});
       }
     }
   }

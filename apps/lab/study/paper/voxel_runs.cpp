@@ -1,4 +1,4 @@
-#include "apps/lab/study/paper/voxel_runs.h"
+#include "apps/lab/study/paper/runs.h"
 
 #include "apps/lab/study/paper/catalogue.h"
 #include "apps/lab/study/paper/voxel_machine.h"

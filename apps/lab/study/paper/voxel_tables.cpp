@@ -1,12 +1,11 @@
-#include "apps/lab/study/paper/voxel_tables.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/table/filled_columns.h"
 #include "apps/lab/study/paper/tables.h"
 #include "core/base/expect.h"
 
@@ -32,8 +31,6 @@ std::optional<VoxelCell> voxel_cell_of(const Catalogue& catalogue, const PaperRe
                    .efficiency = found_efficiency(runs, results, paper.base(), place.column),
                    .one_worker_seconds = alone ? std::optional(alone->seconds()) : std::nullopt};
 }
-
-Cell or_none(const std::optional<double>& number) { return number ? Cell(*number) : Cell(); }
 
 /// "mean 4.1 %, at worst 9.0 %, 20 cells".
 std::string text_of(const Differences& differences) {
@@ -180,8 +177,8 @@ Table voxel_table_3(const Catalogue& catalogue, const PaperResults& results) {
                                ? std::optional(efficiency(*cell.one_worker_seconds, 1, cell.seconds, cell.nodes()))
                                : std::nullopt;
     table.add_row({cell.scene().title, std::uint64_t{cell.nodes()}, cell.printed_seconds, cell.seconds,
-                   cell.seconds / cell.printed_seconds, cell.ratio(), cell.printed_efficiency, or_none(cell.efficiency),
-                   or_none(difference), or_none(cell.one_worker_seconds), or_none(by_worker),
+                   cell.seconds / cell.printed_seconds, cell.ratio(), cell.printed_efficiency, cell_of(cell.efficiency),
+                   cell_of(difference), cell_of(cell.one_worker_seconds), cell_of(by_worker),
                    cell.is_fitted() ? "fitted"
                    : cell.is_base() ? "base"
                                     : "predicted"});

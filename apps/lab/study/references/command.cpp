@@ -11,10 +11,8 @@
 #include "apps/edge/system/progress.h"
 #include "apps/edge/table/geometric_sizes.h"
 #include "apps/edge/table/table_files.h"
-#include "apps/lab/study/cache.h"
 #include "apps/lab/study/cache_curves.h"
 #include "apps/lab/study/engine/tabled_job.h"
-#include "apps/lab/study/policies.h"
 #include "apps/lab/study/references/gzip_text.h"
 
 namespace dmpc::apps {

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/edge/table/table.h"
@@ -57,5 +59,9 @@ ScaleFigures scale_figures_of(const std::vector<Figure>& stats, std::optional<st
 
 /// Median by median of runs that give one film, which is asserted. Requires one at least.
 ScaleFigures median_figures(const std::vector<ScaleFigures>& rounds);
+
+/// The slope of log y over log x by least squares: y grows as x to that power. Only points with both above 0 count; nothing
+/// unless two of those differ in x. Points are (x, y).
+std::optional<double> growth_exponent(std::span<const std::pair<double, double>> points);
 
 }  // namespace dmpc::apps

@@ -8,7 +8,7 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/system/progress.h"
 #include "apps/edge/system/watched_process.h"
-#include "apps/lab/study/engine/measure_each.h"
+#include "apps/lab/crowd/side_by_side.h"
 #include "apps/lab/study/engine/render_process.h"
 #include "core/base/expect.h"
 

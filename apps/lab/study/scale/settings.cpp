@@ -24,11 +24,8 @@ template <std::size_t count>
 std::size_t index_of(const std::string& word, const std::array<const char*, count>& names, const std::string& option) {
   const auto found = std::find(names.begin(), names.end(), word);
   if (found == names.end()) {
-    std::string known;
-    for (const char* name : names) {
-      known += (known.empty() ? "" : ", ") + std::string(name);
-    }
-    throw core::UsageError(option + "=" + word + ": expected " + known + ", with commas between");
+    throw core::UsageError(option + "=" + word + ": expected " + joined({names.begin(), names.end()}, ", ") +
+                           ", with commas between");
   }
   return static_cast<std::size_t>(found - names.begin());
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "apps/edge/line/number_text.h"
-#include "apps/lab/study/scale/growth.h"
+#include "apps/lab/study/scale/figures.h"
 
 namespace dmpc::apps {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "apps/lab/study/engine/measure_each.h"
+#include "apps/lab/crowd/side_by_side.h"
 #include "apps/lab/study/engine/render_process.h"
 #include "apps/lab/study/sweep/kept_runs.h"
 #include "apps/lab/study/sweep/table.h"

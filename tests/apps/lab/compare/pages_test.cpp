@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <fstream>
 #include <sstream>
 #include <string>
 
@@ -10,6 +9,7 @@
 #include "apps/lab/compare/command.h"
 #include "core/base/expect.h"
 #include "tests/support/child_process.h"
+#include "tests/support/complaint.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -45,12 +45,7 @@ Told compared(const CompareOptions& options) {
 
 /// What is said of two files that are refused.
 std::string refusal(const CompareOptions& options) {
-  try {
-    compared(options);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::complaint_of([&] { compared(options); });
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
-#include "apps/lab/difference/flip.h"
+#include "apps/lab/difference/picture_error.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 #include "apps/lab/bench/stability/random.h"
 #include "core/base/expect.h"

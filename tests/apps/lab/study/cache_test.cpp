@@ -1,5 +1,4 @@
-#include "apps/lab/study/cache.h"
-#include "apps/edge/table/geometric_sizes.h"
+#include "apps/lab/study/studies.h"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +6,8 @@
 #include <vector>
 
 #include "apps/edge/machine/machines.h"
+#include "apps/edge/table/geometric_sizes.h"
 #include "core/base/expect.h"
-#include "svm/packets.h"
 #include "tests/support/study_subject.h"
 
 namespace dmpc::tests::study_cache_test {

@@ -1,4 +1,4 @@
-#include "apps/lab/study/options.h"
+#include "apps/lab/study/command.h"
 
 #include <doctest/doctest.h>
 

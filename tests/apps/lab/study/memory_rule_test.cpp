@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "apps/lab/study/systems.h"
+#include "apps/lab/study/studies.h"
 #include "core/base/expect.h"
 #include "tests/support/study_subject.h"
 

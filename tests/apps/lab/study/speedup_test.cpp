@@ -1,5 +1,4 @@
-#include "apps/lab/study/speedup.h"
-#include "apps/edge/line/number_text.h"
+#include "apps/lab/study/studies.h"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "apps/edge/line/number_text.h"
+#include "apps/edge/machine/machines.h"
 #include "apps/run/render_record.h"
 #include "apps/run/run_strategy.h"
 #include "tests/support/study_subject.h"

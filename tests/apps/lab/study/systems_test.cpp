@@ -1,4 +1,4 @@
-#include "apps/lab/study/systems.h"
+#include "apps/lab/study/studies.h"
 
 #include <doctest/doctest.h>
 

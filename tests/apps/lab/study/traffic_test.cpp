@@ -1,4 +1,4 @@
-#include "apps/lab/study/traffic.h"
+#include "apps/lab/study/studies.h"
 
 #include <doctest/doctest.h>
 

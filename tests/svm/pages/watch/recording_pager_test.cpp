@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <vector>
-
 #include "svm/packets.h"
 #include "svm/pages/watch/miss_curve.h"
 #include "tests/support/references.h"

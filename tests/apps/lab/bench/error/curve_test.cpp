@@ -1,4 +1,4 @@
-#include "apps/lab/bench/error/curve.h"
+#include "apps/lab/bench/error/result.h"
 
 #include <doctest/doctest.h>
 

@@ -2,19 +2,17 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "apps/lab/bench/speed/command.h"
-#include "apps/lab/bench/speed/parts.h"
-#include "apps/lab/bench/speed/table.h"
+#include "apps/lab/bench/speed/comparison.h"
+#include "apps/lab/bench/speed/part.h"
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/temporary_folder.h"

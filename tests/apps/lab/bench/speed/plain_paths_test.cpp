@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/lab/bench/speed/parts.h"
+#include "apps/lab/bench/speed/comparison.h"
+#include "apps/lab/bench/speed/part.h"
 #include "apps/lab/bench/speed/plain_renderer.h"
 #include "core/base/expect.h"
 #include "core/picture/render.h"
@@ -17,7 +18,6 @@ using apps::Comparison;
 using apps::PathDistance;
 using apps::PlainPicture;
 using apps::PlainRenderer;
-using apps::SpeedPart;
 
 namespace {
 

@@ -7,19 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "apps/lab/bench/speed/parts.h"
+#include "apps/lab/bench/speed/comparison.h"
+#include "apps/lab/bench/speed/part.h"
 #include "apps/lab/bench/speed/plain_renderer.h"
 #include "core/base/expect.h"
 #include "core/picture/render.h"
 #include "tests/support/small_subject.h"
-#include "tests/support/text.h"
 
 namespace dmpc::tests::plain_test {
 
 using apps::Comparison;
 using apps::PlainPicture;
 using apps::PlainRenderer;
-using apps::SpeedPart;
 
 namespace {
 

@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 #include "apps/lab/bench/stability/mesh.h"
 
 namespace dmpc::tests::bodies_test {

@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/expect.h"
-
 namespace dmpc::tests::stability_run_test {
 
 using apps::index_of;

@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <string>
 
 #include "apps/lab/oracle/accurate/emitters.h"
 #include "apps/lab/oracle/accurate/picture.h"

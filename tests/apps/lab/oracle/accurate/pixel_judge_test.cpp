@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <array>
-#include <string>
 #include <utility>
 
 #include "tests/apps/lab/oracle/accurate/workbench.h"

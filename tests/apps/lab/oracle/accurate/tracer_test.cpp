@@ -10,7 +10,6 @@
 namespace dmpc::tests::tracer_test {
 namespace {
 
-using apps::AccurateHit;
 using apps::AccurateRay;
 using core::RayKind;
 using core::Vec3d;

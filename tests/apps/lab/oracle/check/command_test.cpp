@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <iostream>
 #include <sstream>
 #include <string>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "apps/lab/study/paper/conclusions.h"
+#include "apps/lab/study/paper/report.h"
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,6 @@
 #include "apps/scene/load_scene.h"
 #include "apps/scene/subject.h"
 #include "core/record/records.h"
-#include "svm/packets.h"
 
 namespace dmpc::tests::hot_spots_test {
 

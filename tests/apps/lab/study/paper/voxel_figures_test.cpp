@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "apps/lab/study/paper/voxel_tables.h"
+#include "apps/lab/study/paper/tables.h"
 #include "tests/support/paper_results.h"
 #include "tests/support/table_cells.h"
 

@@ -1,4 +1,4 @@
-#include "apps/lab/study/paper/voxel_tables.h"
+#include "apps/lab/study/paper/tables.h"
 
 #include <doctest/doctest.h>
 

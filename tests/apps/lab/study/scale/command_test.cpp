@@ -23,7 +23,6 @@ namespace dmpc::tests::scale_command_test {
 using apps::ScaleMethod;
 using apps::ScaleOptions;
 using apps::ScalePart;
-using apps::ScaleRun;
 using Words = std::vector<std::string>;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/lab/study/scale/growth.h"
+#include "apps/lab/study/scale/figures.h"
 
 #include <doctest/doctest.h>
 

@@ -7,7 +7,6 @@
 #include <set>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "tests/support/table_cells.h"
 

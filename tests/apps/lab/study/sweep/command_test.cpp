@@ -14,6 +14,7 @@
 #include "apps/main/commands.h"
 #include "apps/show/page/forecast_view.h"
 #include "core/base/expect.h"
+#include "tests/support/complaint.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -57,12 +58,7 @@ std::filesystem::path counting_program(const TemporaryFolder& folder) {
 }
 
 std::string sweep_complaint(const Words& words) {
-  try {
-    swept(tiny_sweep(words));
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
+  return complaint_of<std::exception>([&] { swept(tiny_sweep(words)); });
 }
 
 }  // namespace

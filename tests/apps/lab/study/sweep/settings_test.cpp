@@ -13,7 +13,6 @@ namespace dmpc::tests::sweep_settings_test {
 using apps::parse_variation;
 using apps::SweepRun;
 using apps::SweepSettings;
-using apps::VariedOption;
 
 namespace {
 

@@ -3,7 +3,6 @@
 
 #include <csignal>
 #include <string>
-#include <vector>
 
 #include "tests/support/child_process.h"
 #include "tests/support/processes.h"
