@@ -40,6 +40,7 @@ constexpr Gone gone[] = {
     {"--no-contention",
      "--machine=FILE.json names a machine whose has_contention is false; dmpc machine prints one to begin with"},
     {"--no-skip=empty-space", "empty voxels are passed over by all; --structure=voxels --voxels=article visits each"},
+    {"--occlusion", "--sky=1 --bounces=0 lights each place by the share of its surroundings that is free"},
     {"--parts=build", "--parts=plain has the build of each scene, on all cores"},
     {"--parts=load", "dmpc render --stats=FILE says what loading and each phase behind it take"},
     {"--parts=memory", "dmpc study scale has the anonymous memory of processes that render"},
