@@ -11,6 +11,7 @@
 #include "core/base/units.h"
 #include "nodes/runner.h"
 #include "tests/support/text.h"
+#include "tests/support/usage.h"
 
 namespace dmpc::apps::render_options_test {
 
@@ -20,12 +21,7 @@ using tests::contains;
 
 namespace {
 
-/// `render teapot-12 -o a.png` and more.
-RenderOptions render(const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return parse_command_line(arguments).options<RenderOptions>();
-}
+RenderOptions render(const std::vector<std::string>& more = {}) { return tests::typed_render(more); }
 
 }  // namespace
 

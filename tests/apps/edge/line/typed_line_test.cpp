@@ -12,6 +12,7 @@
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/text.h"
+#include "tests/support/usage.h"
 
 namespace dmpc::apps::typed_line_test {
 
@@ -29,12 +30,8 @@ Words typed(const std::string& line) {
 }
 
 std::string answer_to(const std::string& line) {
-  try {
-    parse_command_line(typed(line));
-  } catch (const core::UsageError& error) {
-    return error.what();
-  }
-  return "nothing";
+  const std::string complaint = tests::usage_complaint(typed(line));
+  return complaint.empty() ? "nothing" : complaint;
 }
 
 /// What is typed behind dmpc, and a part of the answer.
