@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/gltf/reader.h"
 #include "apps/foreign/obj/reader.h"
 #include "apps/foreign/pbrt/reader.h"
@@ -11,7 +12,6 @@
 #include "apps/foreign/polygon/off.h"
 #include "apps/foreign/polygon/ply.h"
 #include "apps/foreign/polygon/stl.h"
-#include "apps/foreign/text/small_letters.h"
 #include "core/base/expect.h"
 #include "core/base/forget.h"
 

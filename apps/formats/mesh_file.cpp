@@ -1,9 +1,10 @@
 #include "apps/formats/mesh_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
+#include "apps/edge/line/small_letters.h"
+#include "apps/edge/line/words.h"
 #include "apps/formats/mesh_session.h"
 #include "apps/formats/other_formats.h"
 #include "core/base/expect.h"
@@ -20,10 +21,7 @@ std::string with_path(const std::string& path, const std::string& text) {
 }
 
 std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  ending.erase(0, 1);
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
+  return in_small_letters(std::filesystem::path(path).extension().string()).erase(0, 1);
 }
 
 }  // namespace
@@ -45,13 +43,7 @@ bool has_own_sky(const std::string& path) {
 
 bool is_played(const std::string& path) { return ending_of(path) == "gltf" || ending_of(path) == "glb"; }
 
-std::string known_mesh_formats() {
-  std::string text;
-  for (const std::string& extension : mesh_extensions()) {
-    text += (text.empty() ? "" : ", ") + extension;
-  }
-  return text;
-}
+std::string known_mesh_formats() { return joined(mesh_extensions(), ", "); }
 
 MeshFile read_mesh_file(const std::string& path, const MeshOptions& options, bool shows_progress) {
   return read_mesh_file(path, options, shows_progress, ReaderLimits{});

@@ -1,21 +1,16 @@
 #include "apps/formats/named_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstddef>
 #include <system_error>
+
+#include "apps/edge/line/small_letters.h"
 
 namespace dmpc::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string in_small_letters(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
 
 std::string with_slashes(std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');

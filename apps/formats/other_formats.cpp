@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "apps/edge/line/small_letters.h"
+#include "apps/edge/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -69,20 +71,10 @@ constexpr std::array other_formats{
 };
 
 const OtherFormat* format_of_path(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = in_small_letters(fs::path(path).extension().string());
   const auto* const found = std::find_if(other_formats.begin(), other_formats.end(),
                                          [&](const OtherFormat& format) { return ending == "." + std::string(format.ending); });
   return found == other_formats.end() ? nullptr : found;
-}
-
-/// As a shell takes it.
-std::string in_quotes(const std::string& word) {
-  std::string text = "'";
-  for (const char letter : word) {
-    text += letter == '\'' ? "'\\''" : std::string(1, letter);
-  }
-  return text + "'";
 }
 
 void put_in(std::string& text, std::string_view what, const std::string& with) {

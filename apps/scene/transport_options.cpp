@@ -17,7 +17,6 @@ namespace {
 using core::TransportKind;
 using core::UsageError;
 
-constexpr double light_radius_max = 1e15;
 /// One fewer than below other skies.
 constexpr int bounces_below_picture_max = 253;
 constexpr const char* beside_sky = " does not go with --sky, which is what no ray meets";
@@ -25,11 +24,7 @@ constexpr const char* beside_sky = " does not go with --sky, which is what no ra
 constexpr double gain_min = 1 + 1e-6;
 
 double parse_light_radius(const std::string& text) {
-  const double radius = finite_number(text);
-  if (!(radius > 0 && radius <= light_radius_max)) {
-    throw UsageError("--light-radius=" + text + ": expected a length in the scene's units, above 0 and at most 1e15");
-  }
-  return radius;
+  return parse_within(text, "--light-radius", above_0, 1e15, "a length in the scene's units, above 0 and at most 1e15");
 }
 
 void refuse_each(const OptionSet& options, std::initializer_list<const char*> names, const std::string& why) {

@@ -1,9 +1,9 @@
 #include "apps/edge/line/unknown_option.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 
+#include "apps/edge/line/small_letters.h"
 #include "apps/edge/line/words.h"
 
 namespace dmpc::apps {
@@ -64,10 +64,7 @@ constexpr Gone gone[] = {
 
 /// "w", of "--w", "-w" and "-W640"; "+w", of "+W640"; names of several letters keep their digits.
 std::string bare(const std::string& name) {
-  const std::size_t begin = std::min(name.find_first_not_of('-'), name.size());
-  std::string word;
-  std::transform(name.begin() + static_cast<std::ptrdiff_t>(begin), name.end(), std::back_inserter(word),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  const std::string word = in_small_letters(name.substr(std::min(name.find_first_not_of('-'), name.size())));
   const std::size_t letters = word.starts_with('+') ? 2 : 1;
   return word.find_first_not_of("0123456789", letters) == std::string::npos ? word.substr(0, letters) : word;
 }

@@ -11,12 +11,12 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/shown_text.h"
+#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/mesh/count_note.h"
 #include "apps/foreign/mesh/geometry.h"
 #include "apps/foreign/obj/corner.h"
 #include "apps/foreign/obj/tally.h"
 #include "apps/foreign/text/line_words.h"
-#include "apps/foreign/text/small_letters.h"
 #include "apps/foreign/text/text_lines.h"
 #include "apps/formats/nff_reader.h"
 #include "core/base/expect.h"

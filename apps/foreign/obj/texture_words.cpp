@@ -4,9 +4,9 @@
 #include <array>
 #include <cstddef>
 
+#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/mesh/trimmed.h"
 #include "apps/foreign/text/line_words.h"
-#include "apps/foreign/text/small_letters.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::apps::obj {

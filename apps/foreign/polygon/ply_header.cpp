@@ -7,8 +7,8 @@
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/shown_text.h"
+#include "apps/edge/line/small_letters.h"
 #include "apps/foreign/polygon/text_words.h"
-#include "apps/foreign/text/small_letters.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {

@@ -5,6 +5,7 @@
 
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/option_values.h"
+#include "apps/edge/line/words.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 
@@ -39,11 +40,7 @@ std::string measure_meant(const std::string& typed) {
 }  // namespace
 
 std::string measure_names() {
-  std::string names;
-  for (const Measure& measure : measures) {
-    names += (names.empty() ? "" : "|") + std::string(measure.name);
-  }
-  return names;
+  return joined(measures, "|", [](const Measure& measure) { return measure.name; });
 }
 
 Limit parse_limit(const std::string& text) {

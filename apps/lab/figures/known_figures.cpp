@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "apps/edge/line/words.h"
 #include "apps/show/stats/schema.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
@@ -87,14 +88,6 @@ const KnownFigure* find_figure(const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-std::string listed_names(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
-}
-
 /// The figure whose name or last word is near, as a question.
 std::string question_about(const std::string& typed) {
   std::vector<std::string> words;
@@ -141,7 +134,7 @@ std::string figure_meant(const std::string& typed, const std::string& option) {
       return meant.front();
     }
     if (!meant.empty()) {
-      throw core::UsageError(option + "=" + typed + ": this may be any of " + listed_names(meant) + "; expected one of them");
+      throw core::UsageError(option + "=" + typed + ": this may be any of " + joined(meant, ", ") + "; expected one of them");
     }
   }
   throw core::UsageError(option + "=" + typed + ": there is no such figure in what --stats writes; expected its keys with dots " +
