@@ -53,8 +53,8 @@ class OpenedPicture {
   virtual std::vector<std::uint8_t> alpha() const = 0;
 };
 
-/// The finest level alone, as apps/picture/texture_file.h says; edges are left to others. Requires a picture that was opened for
-/// a texture.
+/// The finest level alone, as apps/picture/picture_reader.h says; edges are left to others. Requires a picture that was opened
+/// for a texture.
 core::Texture texture_of(const OpenedPicture& opened, const EncodedPicture& picture);
 /// As apps/picture/image_file.h says. Requires a picture that was opened for an image.
 Image image_of(const OpenedPicture& opened);

@@ -17,7 +17,7 @@
 
 #include "apps/foreign/opaque_picture.h"
 #include "apps/picture/picture_format.h"
-#include "apps/picture/texture_size.h"
+#include "apps/picture/texture_file.h"
 #include "core/base/expect.h"
 #include "core/database/record_writer.h"
 

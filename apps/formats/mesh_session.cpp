@@ -16,7 +16,7 @@
 #include "apps/formats/named_file.h"
 #include "apps/formats/reading_memory.h"
 #include "apps/formats/view_faults.h"
-#include "apps/picture/texture_size.h"
+#include "apps/picture/texture_file.h"
 #include "core/base/expect.h"
 #include "core/scene/texture.h"
 

@@ -1,7 +1,6 @@
 #include "apps/formats/named_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstddef>
 #include <system_error>

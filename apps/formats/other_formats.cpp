@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "apps/edge/line/small_letters.h"
+#include "apps/edge/line/words.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -74,15 +75,6 @@ const OtherFormat* format_of_path(const std::string& path) {
       std::find_if(other_formats.begin(), other_formats.end(),
                    [ending = ending_of(path)](const OtherFormat& format) { return format.ending == ending; });
   return found == other_formats.end() ? nullptr : found;
-}
-
-/// As a shell takes it.
-std::string in_quotes(const std::string& word) {
-  std::string text = "'";
-  for (const char letter : word) {
-    text += letter == '\'' ? "'\\''" : std::string(1, letter);
-  }
-  return text + "'";
 }
 
 void put_in(std::string& text, std::string_view what, const std::string& with) {

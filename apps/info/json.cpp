@@ -35,7 +35,7 @@ Json bounds_json(const core::Box& bounds) {
 
 Json view_json(const InfoRecord& record) {
   const core::View& view = record.scene.view;
-  return {{"camera", text_of(CameraChoice{view.from, view.at, view.up, view.angle_degrees})},
+  return {{"camera", text_of(camera_of(view))},
           {"from", vector_json(view.from)},
           {"at", vector_json(view.at)},
           {"up", vector_json(view.up)},

@@ -54,9 +54,8 @@ std::string bounds_text(const core::Box& bounds) {
 }
 
 std::string view_text(const InfoRecord& record) {
-  const core::View& view = record.scene.view;
-  return "--camera=" + text_of(CameraChoice{view.from, view.at, view.up, view.angle_degrees}) + ", " +
-         std::to_string(record.width) + "x" + std::to_string(record.height) + " pixels";
+  return "--camera=" + text_of(camera_of(record.scene.view)) + ", " + std::to_string(record.width) + "x" +
+         std::to_string(record.height) + " pixels";
 }
 
 std::string lights_text(const SceneFigures& scene) {

@@ -234,25 +234,4 @@ std::string exr_file(const ExrRows& picture, std::uint32_t threads) {
   return writer.take_file();
 }
 
-std::string exr_file(const ExrPicture& picture, std::uint32_t threads) {
-  const auto pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
-  for (const ExrChannel& channel : picture.channels) {
-    core::expect(pixels > 0 && (pixels - 1) * channel.stride < channel.values.size(), "a channel has a number for each pixel");
-  }
-  const std::span<const ExrChannel> channels(picture.channels);
-  const auto take = [channels](std::size_t first, std::span<float> numbers) {
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-      const float* from = channels[i].values.data() + first * channels[i].stride;
-      for (std::size_t place = i; place < numbers.size(); place += channels.size(), from += channels[i].stride) {
-        numbers[place] = *from;
-      }
-    }
-  };
-  ExrRows rows{picture.width, picture.height, {}, take, picture.remarks};
-  for (const ExrChannel& channel : channels) {
-    rows.channels.push_back(channel.name);
-  }
-  return exr_file(rows, threads);
-}
-
 }  // namespace dmpc::apps

@@ -25,20 +25,4 @@ struct ExrRows {
 /// channel, and names of 1 to 31 bytes, no two alike.
 std::string exr_file(const ExrRows& picture, std::uint32_t threads = 0);
 
-/// One number of each pixel: every `stride`th of `values`, from the first.
-struct ExrChannel {
-  std::string name;
-  std::span<const float> values;
-  std::size_t stride = 1;
-};
-
-struct ExrPicture {
-  int width = 0, height = 0;
-  std::vector<ExrChannel> channels;                          ///< in any order
-  std::vector<std::pair<std::string, std::string>> remarks;  ///< attributes that are texts
-};
-
-/// As the other.
-std::string exr_file(const ExrPicture& picture, std::uint32_t threads = 0);
-
 }  // namespace dmpc::apps

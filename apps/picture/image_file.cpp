@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 
+#include "apps/edge/line/small_letters.h"
 #include "apps/edge/system/output_file.h"
 #include "apps/edge/system/shortage.h"
 #include "apps/picture/exr_file.h"
@@ -116,12 +116,7 @@ PictureWriter& picture_writer() {
   return writer;
 }
 
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension;
-}
+std::string lower_extension(const fs::path& path) { return in_small_letters(path.extension().string()); }
 
 bool takes_floats(std::string_view extension) {
   return extension == ".exr" || extension == ".tif" || extension == ".tiff" || extension == ".hdr";
@@ -144,8 +139,7 @@ std::vector<std::uint8_t> srgb_bytes(const Image& image) {
 }
 
 std::string exr_of(const ImageRows& image) {
-  return exr_file(ExrRows{
-      .width = image.width, .height = image.height, .channels = {"R", "G", "B"}, .take = image.take, .remarks = image.remarks});
+  return exr_file({image.width, image.height, {"R", "G", "B"}, image.take, image.remarks});
 }
 
 constexpr std::size_t pixels_at_once = 256;
@@ -236,14 +230,15 @@ std::string encoded_picture(const fs::path& path, const ImageRows& image) {
 
 std::string encoded_picture(const fs::path& path, const Channel& channel) {
   core::expect(lower_extension(path) == ".exr", "numbers are kept in EXR files");
-  return exr_file(ExrPicture{.width = channel.width,
-                             .height = channel.height,
-                             .channels = {{channel.name, channel.values}},
-                             .remarks = channel.remarks});
+  core::expect(channel.values.size() == static_cast<std::size_t>(channel.width) * static_cast<std::size_t>(channel.height),
+               "a channel has a number for each pixel");
+  const auto take = [values = std::span<const float>(channel.values)](std::size_t first, std::span<float> some) {
+    std::ranges::copy(values.subspan(first, some.size()), some.begin());
+  };
+  return exr_file({channel.width, channel.height, {channel.name}, take, channel.remarks});
 }
 
 void write_image(const fs::path& path, const Image& image) { write_file(path, encoded_picture(path, image)); }
-void write_image(const fs::path& path, const ImageRows& image) { write_file(path, encoded_picture(path, image)); }
 
 Image read_image(const fs::path& path, Sandbox sandbox) {
   return PictureReader({.sandbox = sandbox}).read_image(open_picture(path));

@@ -57,7 +57,6 @@ void check_image_path(const std::filesystem::path& path, std::string_view option
 /// Writes the picture whole or not at all. EXR, TIFF and HDR get 32-bit linear floats (HDR its own shared exponents); every other
 /// format gets 8 bits, clamped to 0..1, with the sRGB curve. Throws core::InputError if that fails.
 void write_image(const std::filesystem::path& path, const Image& image);
-void write_image(const std::filesystem::path& path, const ImageRows& image);
 
 /// What write_image() would write to `path`, which is not touched.
 std::string encoded_picture(const std::filesystem::path& path, const Image& image);

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+
+#include "apps/edge/line/small_letters.h"
 
 namespace dmpc::apps {
 namespace {
@@ -39,13 +40,6 @@ constexpr std::array beginnings{
     Beginning{"Pf"sv, "pnm"},
 };
 
-std::string lower(std::string_view text) {
-  std::string low(text);
-  std::transform(low.begin(), low.end(), low.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return low;
-}
-
 }  // namespace
 
 std::optional<std::string> picture_format(std::string_view beginning, std::string_view ending) {
@@ -57,7 +51,7 @@ std::optional<std::string> picture_format(std::string_view beginning, std::strin
   if (beginning.starts_with("RIFF") && beginning.substr(std::min<std::size_t>(8, beginning.size())).starts_with("WEBP")) {
     return "webp";
   }
-  return lower(ending) == "tga" ? std::optional<std::string>("targa") : std::nullopt;
+  return in_small_letters(ending) == "tga" ? std::optional<std::string>("targa") : std::nullopt;
 }
 
 std::optional<std::string> picture_format(const Descriptor& file, std::string_view ending) {

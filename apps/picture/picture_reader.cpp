@@ -13,7 +13,6 @@
 #include "apps/edge/system/input_memory.h"
 #include "apps/edge/system/shortage.h"
 #include "apps/picture/picture_format.h"
-#include "apps/picture/texture_size.h"
 #include "apps/reader/input_file.h"
 #include "core/base/expect.h"
 #include "core/scene/sky_texels.h"

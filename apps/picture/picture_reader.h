@@ -40,7 +40,12 @@ class PictureReader {
   /// Of files that pictures lie in: time for these.
   void add_bytes(std::uint64_t bytes) { budget_.add_bytes(bytes); }
 
-  /// As apps/picture/texture_file.h says.
+  /// Reads the first three channels (one or two: the first is taken thrice) of the first picture in the file, and makes its
+  /// smaller levels. Alpha is left out, and the colours are as they are without it; where it counts, and some of it is not 1,
+  /// texels have 8 bits a channel with it (core::TexelFormat::srgb_alpha). Integers are taken as sRGB, whatever the file says of
+  /// gamma or profiles: 8 bits are kept, more are stored as fine_srgb. Floats are linear, and stored with a shared exponent.
+  /// Throws core::InputError if there is no such picture, if it is larger than core::Texture::size_max along a side or than any
+  /// database, has no texels, several layers, or several samples a texel.
   core::Texture read_texture(const PictureFile& file, const TextureEdges& edges);
   /// How many of the textures had alpha that is not shown, of those where that is to be said.
   std::uint64_t hidden_alphas() const { return hidden_alphas_; }

@@ -146,15 +146,4 @@ std::string png_file(const PngRows& picture, std::uint32_t threads) {
   return file_of(picture.width, picture.height, packed.span().first(deflater.pack(filtered.span(), packed.span())));
 }
 
-std::string png_file(int width, int height, std::span<const std::uint8_t> rgb, std::uint32_t threads) {
-  core::expect(
-      width > 0 && height > 0 && rgb.size() == pixel_bytes * static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-      "a picture has three bytes for each of its pixels");
-  const auto take = [rgb](std::size_t first, std::span<std::uint8_t> some) {
-    const std::span<const std::uint8_t> from = rgb.subspan(pixel_bytes * first, some.size());
-    std::copy(from.begin(), from.end(), some.begin());
-  };
-  return png_file({width, height, take}, threads);
-}
-
 }  // namespace dmpc::apps

@@ -19,7 +19,4 @@ struct PngRows {
 /// The file's bytes, the same for the same picture. `threads`: how many filter its rows; 0: one for each core. Requires a pixel.
 std::string png_file(const PngRows& picture, std::uint32_t threads = 0);
 
-/// As the other. `rgb`: three bytes a pixel, row by row from the top left.
-std::string png_file(int width, int height, std::span<const std::uint8_t> rgb, std::uint32_t threads = 0);
-
 }  // namespace dmpc::apps

@@ -1,12 +1,10 @@
-// Textures from picture files.
+// What becomes of a picture that is read as a texture.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <span>
 #include <string>
 
+#include "core/base/expect.h"
 #include "core/scene/texture.h"
 
 namespace dmpc::apps {
@@ -21,17 +19,13 @@ struct TextureEdges {
   double cutoff = 0;  ///< of alpha that cuts out what is less, up to 1; 0: it cuts nothing out
 };
 
-/// Reads the first three channels (one or two: the first is taken thrice) of the first picture in the file, and makes its smaller
-/// levels. Alpha is left out, and the colours are as they are without it; where it counts, and some of it is not 1, texels have 8
-/// bits a channel with it (core::TexelFormat::srgb_alpha). Integers are taken as sRGB, whatever the file says of gamma or
-/// profiles: 8 bits are kept, more are stored as fine_srgb. Floats are linear, and stored with a shared exponent. Throws
-/// core::InputError if there is no such picture, if it is larger than core::Texture::size_max along a side or than any database,
-/// has no texels, several layers, or several samples a texel.
-core::Texture read_texture(const std::filesystem::path& path, const TextureEdges& edges);
-
-/// Reads a file that lies in memory, as in a scene's own file; `name` is for messages, `format_hint` an extension such as
-/// "png" or "jpg", or nothing if that is not known.
-core::Texture read_texture(std::span<const std::byte> file, const std::string& name, const std::string& format_hint,
-                           const TextureEdges& edges);
+/// Throws core::InputError "NAME: ..." for a texture that has no texels, or more than core::Texture::size_max along a side.
+inline void check_texture_size(const std::string& name, std::int64_t width, std::int64_t height) {
+  constexpr std::int64_t most = core::Texture::size_max;
+  if (width < 1 || height < 1 || width > most || height > most) {
+    throw core::InputError(name + ": a texture of " + std::to_string(width) + "x" + std::to_string(height) +
+                           " texels; expected 1 to " + std::to_string(most) + " along a side");
+  }
+}
 
 }  // namespace dmpc::apps

@@ -6,6 +6,7 @@
 #include "apps/oracle/oracle.h"
 #include "apps/render/outputs.h"
 #include "apps/run/run_strategy.h"
+#include "apps/scene/subject.h"
 
 namespace dmpc::apps {
 
@@ -22,10 +23,8 @@ RenderCall::RenderCall(const RenderOptions& options, Interrupt& interrupts, std:
     : asked(with_machine(options)), interrupt(interrupts), output(out), files(written_to) {}
 
 void RenderCall::say(const std::vector<std::string>& notes) const {
-  for (const std::string& note : notes) {
-    if (!asked.quiet && !note.empty()) {
-      std::cerr << "dmpc: " << note << '\n';
-    }
+  if (!asked.quiet) {
+    say_notes(notes);
   }
 }
 

@@ -23,13 +23,11 @@ class FrameScenes {
   /// The first frame that there is.
   std::uint64_t first() const { return path_ ? path_->first() : 1; }
 
-  /// Reads the scene of a frame, or, without one, of the one picture. Its view is own_view(), so that what else follows from a
-  /// view is alike in all frames. `opened` gets all files that were read. Throws as load_scene(), of an
-  /// animation with the frame's number, and core::InputError if one of the frames shows nothing.
+  /// Reads the scene of a frame, or, without one, of the one picture. Its view is that of the scene as it stands before anything
+  /// moves, so that what else follows from a view is alike in all frames. `opened` gets all files that were read. Throws as
+  /// load_scene(), of an animation with the frame's number, and core::InputError if one of the frames shows nothing.
   core::Scene load(std::optional<std::uint64_t> frame, OpenedFiles& opened);
 
-  /// After load(): of the scene as it stands before anything moves.
-  const core::View& own_view() const { return own_view_; }
   /// After load() of this frame.
   core::View view(std::optional<std::uint64_t> frame) const {
     return frame && path_ ? path_->view(*frame) : are_animated() ? moved_view_ : own_view_;

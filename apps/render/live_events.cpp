@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/edge/run/work.h"
-#include "apps/edge/show/page/data_url.h"
+#include "apps/edge/system/base64.h"
 #include "core/base/srgb.h"
 
 namespace dmpc::apps {
@@ -21,7 +21,7 @@ Json tile_of(const PictureTile& tile) {
   for (const float value : tile.rgb) {
     rgb += static_cast<char>(core::srgb_byte(value));
   }
-  return {{"x", tile.x}, {"y", tile.y}, {"width", tile.width}, {"height", tile.height}, {"rgb", html::base64(rgb)}};
+  return {{"x", tile.x}, {"y", tile.y}, {"width", tile.width}, {"height", tile.height}, {"rgb", base64(rgb)}};
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ std::string json_of(const LiveSteps& steps, std::size_t step, std::uint64_t fram
                {"doublings", steps.doublings()},
                {"step", step},
                {"ms", steps.end_ms(step)},
-               {"cells", html::base64(steps.cells(step))}});
+               {"cells", base64(steps.cells(step))}});
 }
 
 std::string json_of_end(const std::string& said, const std::string& figures, bool has_page) {

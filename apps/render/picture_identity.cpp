@@ -208,9 +208,7 @@ void add_transport(std::vector<PictureFact>& facts, const TransportOptions& tran
   if (transport.sky && zenith_of(scene) != normalize(scene.view.up)) {
     facts.push_back({"sky's zenith", zenith_text(scene)});  // before there was this fact, where the view's up points
   }
-  if (transport.occlusion) {
-    facts.push_back({"occlusion", text_of(*transport.occlusion)});
-  } else if (std::ranges::any_of(scene.materials, &core::Material::shines)) {
+  if (std::ranges::any_of(scene.materials, &core::Material::shines)) {
     facts.push_back({"emitters", std::to_string(transport.emitters)});
   }
 }

@@ -70,8 +70,7 @@ std::string unseen_note(const core::Box& bounds, const UpAxis& up) {
   core::expect(!bounds.empty(), "a scene that may be seen has bounds");
   const core::View view = whole_view(sphere_around(bounds), up);
   return "the camera sees nothing of the scene, which lies between " + rounded_text(bounds.low) + " and " +
-         rounded_text(bounds.high) +
-         ": the whole of it is in view by --camera=" + text_of(CameraChoice{view.from, view.at, view.up, view.angle_degrees});
+         rounded_text(bounds.high) + ": the whole of it is in view by --camera=" + text_of(camera_of(view));
 }
 
 }  // namespace dmpc::apps

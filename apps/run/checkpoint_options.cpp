@@ -12,14 +12,8 @@ namespace {
 
 using core::UsageError;
 
-constexpr double seconds_max = 1e6;
-
 double parse_seconds(const std::string& text) {
-  const double seconds = finite_number(text);
-  if (!(seconds > 0 && seconds <= seconds_max)) {
-    throw UsageError("--checkpoint-every=" + text + ": expected seconds, above 0 and at most 1000000");
-  }
-  return seconds;
+  return parse_within(text, "--checkpoint-every", above_0, 1e6, "seconds, above 0 and at most 1000000");
 }
 
 }  // namespace

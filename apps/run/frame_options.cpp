@@ -1,7 +1,5 @@
 #include "apps/run/frame_options.h"
 
-#include <cmath>
-
 #include "apps/edge/line/number_text.h"
 #include "apps/edge/line/option_values.h"
 #include "apps/edge/line/parsed_number.h"
@@ -13,11 +11,7 @@ namespace {
 using core::UsageError;
 
 double parse_degrees(const std::string& text) {
-  const double degrees = finite_number(text);
-  if (!(std::abs(degrees) <= 360)) {
-    throw UsageError("--turntable=" + text + ": expected degrees from one frame to the next, from -360 to 360");
-  }
-  return degrees;
+  return parse_within(text, "--turntable", -360, 360, "degrees from one frame to the next, from -360 to 360");
 }
 
 double parse_per_second(const std::string& text) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/edge/line/words.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
 #include "core/picture/heat_kind.h"
@@ -13,13 +14,7 @@ namespace {
 using core::HeatKind;
 using core::UsageError;
 
-std::string all_kinds() {
-  std::string text;
-  for (const std::string_view name : core::heat_kind_names) {
-    text += (text.empty() ? "" : "|") + std::string(name);
-  }
-  return text;
-}
+std::string all_kinds() { return joined(core::heat_kind_names, "|"); }
 
 /// " Did you mean faults?"; empty if no kind is near.
 std::string kind_meant(const std::string& typed) {

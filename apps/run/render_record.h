@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/edge/line/number_text.h"
 #include "apps/run/render_options.h"
 #include "apps/run/report.h"
 #include "core/database/database.h"
@@ -45,6 +46,10 @@ struct RenderRecord {
 };
 
 /// The computer that rendered, in words: "svm, 8 nodes of ipsc2".
-std::string computer_text(const RenderRecord& record);
+inline std::string computer_text(const RenderRecord& record) {
+  const RenderOptions& options = record.options;
+  const std::string on_machine = options.computer.machine ? " of " + options.computer.machine->name : "";
+  return std::string(name_of(options.strategy)) + ", " + counted(options.computer.node_count, "node") + on_machine;
+}
 
 }  // namespace dmpc::apps

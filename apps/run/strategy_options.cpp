@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/edge/line/option_values.h"
+#include "apps/edge/line/words.h"
 #include "apps/edge/machine/machines.h"
 #include "apps/edge/run/option_words.h"
 #include "apps/run/strategy_rows.h"
@@ -51,14 +52,6 @@ const Row& row_of(const std::vector<Row>& rows, const core::Field& field) {
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& each) { return each.takes.field == field; });
   core::expect(row != rows.end(), "a field that an option sets has a row");
   return *row;
-}
-
-std::string joined_by_or(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : " or ") + word;
-  }
-  return text;
 }
 
 }  // namespace
@@ -153,7 +146,7 @@ void add_option(OptionSet options, const core::Field& field, svm::PageOptions& p
 void check_together(const OptionSet& options, const StrategyOptions& run) {
   for_each_row([&](const auto& row) {
     if (row.why != nullptr && !has(run.strategy, row) && options.is_given(row.name)) {
-      throw UsageError(std::string(row.name) + " goes with " + joined_by_or(strategies_with(row)) + ": " + row.why);
+      throw UsageError(std::string(row.name) + " goes with " + joined(strategies_with(row), " or ") + ": " + row.why);
     }
   });
   check_regions(options, run.rays.balance);

@@ -27,15 +27,6 @@ Vec3d turned_about(const Vec3d& axis, const Vec3d& v, double sine, double cosine
   return v * cosine + cross(axis, v) * sine + axis * (dot(axis, v) * (1 - cosine));
 }
 
-View view_at(const CameraChoice& camera, const View& own) {
-  View view = own;
-  view.from = camera.from;
-  view.at = camera.at;
-  view.up = camera.up.value_or(own.up);
-  view.angle_degrees = camera.degrees.value_or(own.angle_degrees);
-  return view;
-}
-
 /// The weights of Hermite's cubic at `u`, from 0 to 1: of both ends and of the slopes there.
 struct Weights {
   double begin, begin_slope, end, end_slope;

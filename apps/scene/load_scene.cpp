@@ -44,8 +44,8 @@ bool has_what_shines(const core::Scene& scene) { return std::ranges::any_of(scen
 
 /// By paths a sky lights, and what shines by itself.
 bool is_lit(const core::Scene& scene, const TransportOptions& transport) {
-  return !scene.lights.empty() || scene.ambient != core::Vec3d{} || transport.occlusion ||
-         (transport.sky && is_below_light(scene, *transport.sky)) || (transport.is_by_paths() && has_what_shines(scene));
+  return !scene.lights.empty() || scene.ambient != core::Vec3d{} || (transport.sky && is_below_light(scene, *transport.sky)) ||
+         (transport.is_by_paths() && has_what_shines(scene));
 }
 
 /// Of a scene that is not lit.

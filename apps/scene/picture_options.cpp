@@ -59,9 +59,7 @@ constexpr std::array said_otherwise{"--transport", "--samples", "--quality", "--
 
 /// A whole scene's own is what it is shown by, unless another is asked for.
 std::optional<SkyChoice> sky_of(const PictureOptions& picture) {
-  return picture.transport.sky || picture.transport.occlusion ? picture.transport.sky
-         : is_below_own_sky(picture.scene)                    ? own_sky(picture.scene)
-                                                              : mesh_sky();
+  return picture.transport.sky ? picture.transport.sky : is_below_own_sky(picture.scene) ? own_sky(picture.scene) : mesh_sky();
 }
 
 void present_mesh(const OptionSet& options, PictureOptions& picture) {
@@ -144,7 +142,7 @@ void check_refinement(const OptionSet& options, PictureOptions& picture) {
 double pixel_share(const PictureOptions& picture) { return picture.is_refined ? 0.5 : 1; }
 
 /// What bounds of light ask of the transport, of whatever grid.
-core::Transport light_of(const PictureOptions& picture) { return transport_of(picture.transport, {0, 0, 1}, {}); }
+core::Transport light_of(const PictureOptions& picture) { return transport_of(picture.transport, {0, 0, 1}); }
 
 }  // namespace
 
@@ -230,19 +228,18 @@ double radiance_bound(const PictureOptions& options, const core::Scene& scene) {
 core::RenderSettings render_settings(const PictureOptions& options, const core::Scene& scene, const core::Database& database) {
   const Resolution size = options.resolution.value_or(Resolution{scene.view.width, scene.view.height});
   const core::Camera camera(scene.view, database.header().frame, size.width, size.height, options.samples);
-  const core::RenderSettings settings{
-      .header = database.header(),
-      .camera = camera,
-      .shade = {.convention = options.convention,
-                .depth_max = options.depth,
-                .cutoff = options.cutoff,
-                .radiance_bound = core::radiance_bound(scene, options.depth),
-                .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
-                .first_samples = static_cast<std::uint32_t>(options.samples),
-                .film_scale = film_scale_of(options, scene),
-                .transport = transport_of(options.transport, zenith_of(scene), database.header().frame)},
-      .refinement = options.refinement,
-      .skips = options.skips};
+  const core::RenderSettings settings{.header = database.header(),
+                                      .camera = camera,
+                                      .shade = {.convention = options.convention,
+                                                .depth_max = options.depth,
+                                                .cutoff = options.cutoff,
+                                                .radiance_bound = core::radiance_bound(scene, options.depth),
+                                                .pixel_share = database.records().textured > 0 ? pixel_share(options) : 0,
+                                                .first_samples = static_cast<std::uint32_t>(options.samples),
+                                                .film_scale = film_scale_of(options, scene),
+                                                .transport = transport_of(options.transport, zenith_of(scene))},
+                                      .refinement = options.refinement,
+                                      .skips = options.skips};
   return core::seen_by(camera, settings, database);
 }
 

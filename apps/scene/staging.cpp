@@ -18,7 +18,6 @@ using core::Vec3d;
 
 constexpr const char* camera_form = "FROM/AT[/UP[/DEGREES]] with points such as 1,2,3";
 constexpr const char* light_form = "X,Y,Z[/R,G,B] with numbers, coordinates from -1e30 to 1e30, none of the colour below 0";
-constexpr const char* number_form = "a number above 0, at most 1e30";
 constexpr const char* color_form = "R,G,B such as 0.1,0.1,0.2, or one number for all three, each from 0 to 1e30";
 constexpr double intensity_max = 1e30;
 
@@ -60,21 +59,6 @@ const char* expected_instead(ViewFault fault) {
   return "";
 }
 
-double parse_scale(const std::string& text) {
-  const double scale = finite_number(text);
-  return scale > 0 && scale <= view_coordinate_max ? scale : (refuse("--scale", text, number_form), 0);
-}
-
-double parse_smooth(const std::string& text) {
-  const double degrees = finite_number(text);
-  return degrees >= 0 && degrees <= 180 ? degrees : (refuse("--smooth", text, "degrees from 0 to 180"), 0);
-}
-
-double parse_intensity(const std::string& text) {
-  const double intensity = finite_number(text);
-  return intensity >= 0 && intensity <= intensity_max ? intensity : (refuse("--fill", text, "a number from 0 to 1e30"), 0);
-}
-
 /// Lights without a colour, which share what one would have, keep what they have without the fill.
 void add_fill(double intensity, core::Scene& scene) {
   std::vector<core::PointLight> lights;
@@ -87,10 +71,7 @@ void add_fill(double intensity, core::Scene& scene) {
 
 /// Nothing is to be said.
 std::string look(const CameraChoice& camera, core::View& view) {
-  view.from = camera.from;
-  view.at = camera.at;
-  view.up = camera.up.value_or(view.up);
-  view.angle_degrees = camera.degrees.value_or(view.angle_degrees);
+  view = view_at(camera, view);
   if (fault_of(view)) {
     throw core::UsageError("--camera: the scene's own up is parallel to the line from FROM to AT: give UP, too");
   }
@@ -108,10 +89,9 @@ std::string look_at_mesh(const Staging& staging, core::View& view) {
   const CameraChoice& camera = *staging.camera;
   const SceneAxes axes = axes_of(staging.mesh.up.value_or(axis_of(view.up)));
   const Vec3d direction = camera.at - camera.from;
-  view.from = camera.from;
-  view.at = camera.at;
-  view.up = camera.up.value_or(axes.up);
-  view.angle_degrees = camera.degrees.value_or(core::View{}.angle_degrees);
+  view.up = axes.up;
+  view.angle_degrees = core::View{}.angle_degrees;
+  view = view_at(camera, view);
   if (fault_of(view) != ViewFault::up) {
     return "";
   }
@@ -126,7 +106,10 @@ void add_light_options(OptionSet& options, Staging& staging) {
       [&staging](const std::string& text) { staging.lights.push_back(parse_light(text)); },
       "A point light in place of the scene's; give it again for more. Without a colour it is as bright as NFF's");
   options.add_text(
-      "--fill", "INTENSITY [none]", [&staging](const std::string& text) { staging.fill = parse_intensity(text); },
+      "--fill", "INTENSITY [none]",
+      [&staging](const std::string& text) {
+        staging.fill = parse_within(text, "--fill", 0, intensity_max, "a number from 0 to 1e30");
+      },
       "A white light in the eye, beside all others, so that what they do not reach is not black: 0.3 is what a mesh without "
       "lights is given, 1 is as bright as a light alone");
   options.add_text(
@@ -172,6 +155,16 @@ CameraChoice parse_camera(const std::string& text, const std::string& option) {
   return camera;
 }
 
+core::View view_at(const CameraChoice& camera, core::View own) {
+  own.from = camera.from;
+  own.at = camera.at;
+  own.up = camera.up.value_or(own.up);
+  own.angle_degrees = camera.degrees.value_or(own.angle_degrees);
+  return own;
+}
+
+CameraChoice camera_of(const core::View& view) { return {view.from, view.at, view.up, view.angle_degrees}; }
+
 core::PointLight parse_light(const std::string& text) {
   const std::vector<std::string> parts = words_between(text, '/');
   const auto position = parse_vector(parts[0]);
@@ -206,7 +199,10 @@ void add_options(OptionSet options, Staging& staging) {
       "camera its file has");
   add_light_options(options, staging);
   options.add_text(
-      "--scale", "S [1]", [&staging](const std::string& text) { staging.mesh.scale = parse_scale(text); },
+      "--scale", "S [1]",
+      [&staging](const std::string& text) {
+        staging.mesh.scale = parse_within(text, "--scale", above_0, view_coordinate_max, "a number above 0, at most 1e30");
+      },
       "Mesh files: multiply all coordinates by S");
   OptionSet::Choices<UpAxis> axes;
   for (const char* const word : {"x", "y", "z", "-x", "-y", "-z"}) {
@@ -216,7 +212,9 @@ void add_options(OptionSet options, Staging& staging) {
                      "Mesh files: the axis that points up, such as --up=-z, where the file has no camera or --camera no UP");
   options.add_text(
       "--smooth", "DEGREES [the file's normals]",
-      [&staging](const std::string& text) { staging.mesh.smooth_degrees = parse_smooth(text); },
+      [&staging](const std::string& text) {
+        staging.mesh.smooth_degrees = parse_within(text, "--smooth", 0, 180, "degrees from 0 to 180");
+      },
       "Mesh files: reckon vertex normals anew, smooth over edges up to this angle");
   options.add_words(
       "--missing", {"error", "plain"}, [&staging](const std::string& text) { staging.mesh.allows_missing = text == "plain"; },

@@ -43,6 +43,11 @@ core::PointLight parse_light(const std::string& text);
 /// "R,G,B" or one number for all three, each from 0 to 1e30. Throws core::UsageError that names the option for anything else.
 core::Vec3d parse_color(const std::string& option, const std::string& text);
 
+/// The view with what the camera says in place of its own.
+core::View view_at(const CameraChoice& camera, core::View own);
+/// All of the view.
+CameraChoice camera_of(const core::View& view);
+
 /// What parse_camera() reads as these very numbers. Requires an up if there are degrees.
 std::string text_of(const CameraChoice& camera);
 /// What parse_light() reads as these very numbers.

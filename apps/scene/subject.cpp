@@ -40,8 +40,16 @@ DatabaseOptions settled(DatabaseOptions options, const core::KeptShare& share) {
   return options;
 }
 
-/// Frees the objects of `scene` on the way.
-Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseOptions& options, bool shows_progress) {
+}  // namespace
+
+Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options, bool shows_progress) {
+  Subject subject = build_subject_quietly(std::move(scene), picture, options, shows_progress);
+  say_notes(notes_of(subject));
+  return subject;
+}
+
+Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options,
+                              bool shows_progress) {
   Progress progress(std::cerr, shows_progress && stderr_is_terminal(), "Building:", "primitives");
   const core::KeptShare share = core::kept_share(scene);
   const core::BuildOptions built = settled(options, share).build;
@@ -62,23 +70,6 @@ Subject build(core::Scene& scene, const PictureOptions& picture, const DatabaseO
   return {std::move(database), built, settings, loss, gain_text(scene.materials, picture.transport), emitters, kept};
 }
 
-}  // namespace
-
-Subject build_subject(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options, bool shows_progress) {
-  Subject subject = build(scene, picture, options, shows_progress);
-  for (const std::string& text : notes_of(subject)) {
-    if (!text.empty()) {
-      std::cerr << "dmpc: " << text << '\n';
-    }
-  }
-  return subject;
-}
-
-Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, const DatabaseOptions& options,
-                              bool shows_progress) {
-  return build(scene, picture, options, shows_progress);
-}
-
 std::vector<std::string> notes_of(const Subject& subject) {
   return {dropped_text(subject.database.dropped()),
           loss_text(subject.loss),
@@ -87,6 +78,14 @@ std::vector<std::string> notes_of(const Subject& subject) {
           subject.gain,
           subject.emitters,
           subject.kept};
+}
+
+void say_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) {
+    if (!note.empty()) {
+      std::cerr << "dmpc: " << note << '\n';
+    }
+  }
 }
 
 std::string kept_text(const core::RecordCounts& records) {

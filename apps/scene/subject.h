@@ -38,6 +38,8 @@ Subject build_subject_quietly(core::Scene scene, const PictureOptions& picture, 
                               bool shows_progress = false);
 /// What build_subject() says: sentences, some of which may be empty.
 std::vector<std::string> notes_of(const Subject& subject);
+/// Each on a line of stderr, unless it is empty.
+void say_notes(const std::vector<std::string>& notes);
 
 /// What is said of a database whose instances were to be kept: how many are, and what keeps the others from it.
 std::string kept_text(const core::RecordCounts& records);

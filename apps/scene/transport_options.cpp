@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
-#include <limits>
 #include <string_view>
 
 #include "apps/edge/line/number_text.h"
@@ -18,28 +17,14 @@ namespace {
 using core::TransportKind;
 using core::UsageError;
 
-constexpr double distance_max = 1e30;
-constexpr double light_radius_max = 1e15;
 /// One fewer than below other skies.
 constexpr int bounces_below_picture_max = 253;
 constexpr const char* beside_sky = " does not go with --sky, which is what no ray meets";
 /// Shares of light that are 1 but for rounding.
 constexpr double gain_min = 1 + 1e-6;
 
-double parse_distance(const std::string& text) {
-  const double distance = finite_number(text);
-  if (!(distance > 0 && distance <= distance_max)) {
-    throw UsageError("--occlusion=" + text + ": expected a distance in the scene's units, above 0 and at most 1e30");
-  }
-  return distance;
-}
-
 double parse_light_radius(const std::string& text) {
-  const double radius = finite_number(text);
-  if (!(radius > 0 && radius <= light_radius_max)) {
-    throw UsageError("--light-radius=" + text + ": expected a length in the scene's units, above 0 and at most 1e15");
-  }
-  return radius;
+  return parse_within(text, "--light-radius", above_0, 1e15, "a length in the scene's units, above 0 and at most 1e15");
 }
 
 void refuse_each(const OptionSet& options, std::initializer_list<const char*> names, const std::string& why) {
@@ -51,10 +36,6 @@ void refuse_each(const OptionSet& options, std::initializer_list<const char*> na
 }
 
 void check_paths(const OptionSet& options, const TransportOptions& transport) {
-  if (transport.occlusion) {
-    refuse_each(options, {"--bounces", "--sky", "--light", "--fill", "--ambient", "--emitters", "--light-radius"},
-                " does not go with --occlusion, which shows what is near and nothing else");
-  }
   const std::string by_paths = " does not go with --transport=paths: ";
   refuse_each(options, {"--depth"}, by_paths + "say --bounces");
   refuse_each(options, {"--cutoff"}, by_paths + "a path that counts for little goes on by chance, which costs no light");
@@ -120,9 +101,6 @@ std::string text_of(const SkyChoice& sky) {
 
 std::string text_of(const TransportOptions& transport) {
   const std::string name = name_of(transport.kind);
-  if (transport.occlusion) {
-    return name + ", occlusion " + shortest(*transport.occlusion);
-  }
   return !transport.is_by_paths() ? name
                                   : name + ", " + counted(static_cast<std::uint64_t>(transport.bounces), "bounce") +
                                         (transport.sky ? ", sky " + text_of(*transport.sky) : "") +
@@ -145,9 +123,6 @@ void add_options(OptionSet options, TransportOptions& transport) {
       "...) shows all directions, twice as wide as high, its "
       "upper edge the zenith. Its middle lies along z where up is y, along x where up is z, along y where up is x, and its left "
       "half to the left of who looks there");
-  options.add_text(
-      "--occlusion", "DISTANCE [none]", [&transport](const std::string& text) { transport.occlusion = parse_distance(text); },
-      "By paths: show nothing but which share of its surroundings each place has free so far, white where it is all");
   options.add_number("--emitters", transport.emitters, 0, emitters_limit, "1024",
                      "By paths: aim at so many triangles and spheres that shine by themselves, the most powerful; others are met "
                      "by chance, which brings the same light with more noise");
@@ -165,20 +140,16 @@ void check(const OptionSet& options, const TransportOptions& transport) {
   if (transport.sky) {
     refuse_each(options, {"--background"}, beside_sky);
   }
-  refuse_each(options, {"--bounces", "--sky", "--occlusion", "--emitters", "--light-radius"}, " goes with --transport=paths");
+  refuse_each(options, {"--bounces", "--sky", "--emitters", "--light-radius"}, " goes with --transport=paths");
 }
 
-core::Transport transport_of(const TransportOptions& options, const core::Vec3d& zenith, const core::GridFrame& frame) {
+core::Transport transport_of(const TransportOptions& options, const core::Vec3d& zenith) {
   core::Transport transport{.kind = options.kind};
   if (options.sky) {
     transport.has_sky = true;
     transport.has_gradient = options.sky->zenith.has_value();
     transport.zenith = core::Color(options.sky->zenith.value_or(core::Vec3d{}));
     transport.up = core::Vec3f(zenith);
-  }
-  if (options.occlusion) {
-    const double least = double{std::numeric_limits<float>::min()}, most = double{std::numeric_limits<float>::max()};
-    transport.occlusion_distance = static_cast<float>(std::clamp(*options.occlusion * frame.scale, least, most));
   }
   return transport;
 }
@@ -201,7 +172,7 @@ std::string gain_text(const std::vector<core::Material>& materials, const Transp
     most = std::max(most, share_sent_on(material));
     count += share_sent_on(material) > gain_min ? 1 : 0;
   }
-  return count == 0 || !options.is_by_paths() || options.occlusion
+  return count == 0 || !options.is_by_paths()
              ? ""
              : counted(count, "material") + (count == 1 ? " sends" : " send") + " on more light than comes, up to " +
                    rounded(most) + " times as much: with many bounces the picture is brighter than it can be";

@@ -28,22 +28,21 @@ SkyChoice mesh_sky();
 
 struct TransportOptions {
   core::TransportKind kind = core::TransportKind::whitted;
-  int bounces = 8;                  ///< by paths: 0 to 254
-  std::optional<SkyChoice> sky;     ///< by paths; its horizon is the scene's background, too
-  std::optional<double> occlusion;  ///< by paths: core::Transport::occlusion_distance, in the scene's units; above 0
+  int bounces = 8;               ///< by paths: 0 to 254
+  std::optional<SkyChoice> sky;  ///< by paths; its horizon is the scene's background, too
   /// By paths: of what shines by itself so many are aimed at, the most powerful; 0 to emitters_limit.
   std::uint32_t emitters = 1024;
   std::optional<double> light_radius;  ///< by paths: point lights are spheres of this radius, in the scene's units; above 0
 
   bool is_by_paths() const { return kind == core::TransportKind::paths; }
   /// Hits at this depth are the last: core::ShadeOptions::depth_max. By paths.
-  int depth() const { return occlusion ? 1 : bounces + 1; }
+  int depth() const { return bounces + 1; }
   /// core::BuildOptions::emitters_max.
-  std::uint32_t emitters_max() const { return is_by_paths() && !occlusion ? emitters : 0; }
+  std::uint32_t emitters_max() const { return is_by_paths() ? emitters : 0; }
 };
 inline constexpr std::uint32_t emitters_limit = 1'000'000;
 
-/// Declares --transport, --bounces, --sky, --occlusion, --emitters and --light-radius.
+/// Declares --transport, --bounces, --sky, --emitters and --light-radius.
 void add_options(OptionSet options, TransportOptions& transport);
 /// What else goes with them. Throws core::UsageError that says what to do instead.
 void check(const OptionSet& options, const TransportOptions& transport);
@@ -53,13 +52,13 @@ void check(const OptionSet& options, const TransportOptions& transport);
 SkyChoice parse_sky(const std::string& text);
 /// What parse_sky() reads as these very numbers.
 std::string text_of(const SkyChoice& sky);
-/// "whitted", "paths, 8 bounces, sky 1,1,1" or "paths, occlusion 0.5": as people read it, and as files have it.
+/// "whitted" or "paths, 8 bounces, sky 1,1,1": as people read it, and as files have it.
 std::string text_of(const TransportOptions& transport);
 /// "whitted" or "paths".
 const char* name_of(core::TransportKind kind);
 
 /// As the nodes have it. `zenith`: of unit length, in the world.
-core::Transport transport_of(const TransportOptions& options, const core::Vec3d& zenith, const core::GridFrame& frame);
+core::Transport transport_of(const TransportOptions& options, const core::Vec3d& zenith);
 
 /// A sentence about what shines by itself and is met by chance alone, as `emitters` of a database are aimed at and `others` are
 /// not; empty if that is nothing, or nobody aims at anything.

@@ -80,17 +80,13 @@ constexpr std::chrono::milliseconds look_interval{15};
 /// Places of events, all of which a viewer gets at once.
 enum : std::size_t { head_place, state_place, picture_place, places };
 
-CameraChoice whole_camera(const core::View& view) {
-  return {.from = view.from, .at = view.at, .up = view.up, .degrees = view.angle_degrees};
-}
-
 /// The scene as the shown command sees it, by a camera that stands in place of the file's own: of a mesh the axis of its sky and
 /// lights that it has not itself follow from whose camera it is.
 core::Scene load(PictureOptions& picture, bool is_quiet) {
   core::Scene scene = load_scene(picture, is_quiet ? LoadNotes::silent : LoadNotes::said);
   picture.resolution = picture.resolution.value_or(Resolution{scene.view.width, scene.view.height});
   const bool is_seen_by_own = !picture.staging.camera;
-  picture.staging.camera = whole_camera(scene.view);
+  picture.staging.camera = camera_of(scene.view);
   return is_seen_by_own && is_mesh(picture.scene) ? load_scene(picture, LoadNotes::silent) : std::move(scene);
 }
 
@@ -182,10 +178,10 @@ class Viewing {
     server_->feed().put(head_place, "head",
                         json_of(LiveHead{.width = static_cast<std::uint32_t>(camera.width()),
                                          .height = static_cast<std::uint32_t>(camera.height()),
-                                         .home = text_of(whole_camera(home_)),
+                                         .home = text_of(camera_of(home_)),
                                          .pivot = text_of(pivot_)}));
-    show({.camera = whole_camera(home_), .is_moving = true});
-    show({.camera = whole_camera(home_), .is_moving = false});
+    show({.camera = camera_of(home_), .is_moving = true});
+    show({.camera = camera_of(home_), .is_moving = false});
     while (const std::optional<Wish> wish = wishes_.next(interrupt_.token())) {
       show(*wish);
     }
@@ -198,14 +194,9 @@ class Viewing {
     if (!wish.is_moving) {
       wishes_.stop_at_next(stop);
     }
-    core::View view = home_;
-    view.from = wish.camera.from;
-    view.at = wish.camera.at;
-    view.up = *wish.camera.up;
-    view.angle_degrees = *wish.camera.degrees;
     Stopwatch stopwatch;
     WarmNodes& nodes = wish.is_moving ? *moving_ : *resting_;
-    nodes.move_to(view);
+    nodes.move_to(view_at(wish.camera, home_));
     const Report report = nodes.render(teller(wish), stop.get_token());
     interrupt_.check();
     if (const Account account = account_of(report); account.end == nodes::RunEnd::finished) {
@@ -244,10 +235,8 @@ class Viewing {
   }
 
   void say(const std::vector<std::string>& notes) const {
-    for (const std::string& note : notes) {
-      if (!options_.quiet && !note.empty()) {
-        std::cerr << "dmpc: " << note << '\n';
-      }
+    if (!options_.quiet) {
+      say_notes(notes);
     }
   }
 

@@ -165,8 +165,7 @@ double radiance_bound(const Scene& scene, int depth_max, const Transport& transp
   if (transport.is_by_paths()) {
     passed_on = std::max(passed_on, 1.0);  // who survives roulette counts for others
   }
-  const double background =
-      std::max({brightest(scene.background), double{brightest(transport.zenith)}, sky, transport.shows_occlusion() ? 1.0 : 0.0});
+  const double background = std::max({brightest(scene.background), double{brightest(transport.zenith)}, sky});
   double bound = std::max(background, direct);
   const int looks = transport.is_by_paths() ? 1 : 0;  // of the last hit, at the sky or what shines
   for (int depth = depth_max + looks; depth > 2; --depth) {
@@ -374,13 +373,12 @@ bool Shader::is_at_last_depth(const HitState& state) const {
 
 Stage Shader::after_lights_of_path(const HitState& state) const {
   const bool finds_light = state.ray.depth <= options_.depth_max && (!is_at_last_depth(state) || options_.transport.has_sky);
-  return finds_light || options_.transport.shows_occlusion() ? Stage::continued : Stage::finished;
+  return finds_light ? Stage::continued : Stage::finished;
 }
 
 /// Of lights that are asked. A path beyond its last bounce looks for what shines by itself alone.
 std::uint32_t Shader::light_count(const HitState& state) const {
-  const bool asks =
-      !options_.transport.is_by_paths() || (state.ray.depth <= options_.depth_max && !options_.transport.shows_occlusion());
+  const bool asks = !options_.transport.is_by_paths() || state.ray.depth <= options_.depth_max;
   return asks ? header_.light_count : 0;
 }
 
@@ -567,17 +565,6 @@ Ray Shader::continued_ray(const HitState& state, const Vec3d& towards, RayKind k
   return ray;
 }
 
-/// A shadow ray brings white if nothing is near.
-bool Shader::look_around(const HitState& state, Ray& child) const {
-  const std::optional<Vec3d> towards = scattered_direction(state);
-  if (!towards) {
-    return false;
-  }
-  child = continued_ray(state, *towards, RayKind::shadow, state.ray.weight);
-  child.t_max = options_.transport.occlusion_distance;
-  return true;
-}
-
 /// A shadow ray without an end brings the sky's light.
 bool Shader::look_at_sky(const HitState& state, const PathStep& step, Ray& child) const {
   child = continued_ray(state, step.towards, RayKind::shadow, state.ray.weight * step.weight);
@@ -591,9 +578,6 @@ bool Shader::look_at_sky(const HitState& state, const PathStep& step, Ray& child
 bool Shader::send_on(HitState& state, Ray& child) const {
   expect(state.stage == Stage::continued, "a path goes on from a hit that has come to that");
   state.stage = Stage::finished;
-  if (options_.transport.shows_occlusion()) {
-    return look_around(state, child);
-  }
   const std::optional<PathStep> step = path_step(state, options_.transport.roulette_from);
   if (!step) {
     return false;

@@ -94,7 +94,7 @@ class Shader {
   /// Whether step() does to a hit's geometry what read_geometry() does, and no more.
   bool reads_beside() const { return !(options_.pixel_share > 0); }
   /// Whether glow() may tell of light.
-  bool hits_glow() const { return core::hits_glow(header_) && !options_.transport.shows_occlusion(); }
+  bool hits_glow() const { return core::hits_glow(header_); }
   /// What a hit whose surface is known sends on by itself: its own light, and of the ambient one what its diffuse part
   /// reflects.
   Color glow(const HitState& state) const;
@@ -141,7 +141,6 @@ class Shader {
 
   bool send_alone(HitState& state, Ray& child) const;
   bool is_for_nothing(RayKind kind) const;
-  bool look_around(const HitState& state, Ray& child) const;
   bool look_at_sky(const HitState& state, const PathStep& step, Ray& child) const;
   Ray continued_ray(const HitState& state, const Vec3d& towards, RayKind kind, const Color& weight) const;
 

@@ -37,8 +37,8 @@ double density_where_aimed(const EmitterRecord& emitter, const AimedPlace& place
 
 /// Only where the path goes on to look for what shines, too: so a hit at the limit of depth shows the sky alone.
 bool Shader::aims_at_emitter(const HitState& state) const {
-  if (!options_.transport.is_by_paths() || !has_emitters(header_) || options_.transport.shows_occlusion() ||
-      state.ray.depth > options_.depth_max || is_at_last_depth(state)) {
+  if (!options_.transport.is_by_paths() || !has_emitters(header_) || state.ray.depth > options_.depth_max ||
+      is_at_last_depth(state)) {
     return false;
   }
   const bool is_needless = skips_.zero_terms && !scatters(state);

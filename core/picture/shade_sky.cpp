@@ -36,7 +36,7 @@ void Shader::read_sky(HitState& state, const std::byte* record) const {
 /// As at emitters: only where the path goes on, to meet it, too.
 bool Shader::aims_at_sky(const HitState& state) const {
   if (!options_.transport.is_by_paths() || !has_sky_picture(header_) || options_.transport.never_aims ||
-      options_.transport.shows_occlusion() || state.ray.depth > options_.depth_max || is_at_last_depth(state)) {
+      state.ray.depth > options_.depth_max || is_at_last_depth(state)) {
     return false;
   }
   const bool is_needless = skips_.zero_terms && !scatters(state);

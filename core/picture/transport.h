@@ -25,14 +25,10 @@ struct Transport {
   bool has_gradient = false;  ///< the sky changes from the header's background at the horizon, and below, to `zenith`
   /// From the hit of this number on, the eye's being the first, paths may end by roulette.
   std::uint8_t roulette_from = 3;
-  /// Where above 0: of what the eye meets the picture shows which share of its surroundings is free so far, grid-local, and
-  /// nothing else: ambient occlusion (S. Zhukov, A. Iones, G. Kronin, "An Ambient Light Illumination Model", 1998).
-  float occlusion_distance = 0;
   Color zenith;  ///< with a gradient
   Vec3f up;      ///< the zenith's direction, grid-local, of unit length
 
   constexpr bool is_by_paths() const { return kind == TransportKind::paths; }
-  constexpr bool shows_occlusion() const { return is_by_paths() && occlusion_distance > 0; }
 };
 static_assert(std::is_trivially_copyable_v<Transport>);
 

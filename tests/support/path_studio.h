@@ -65,9 +65,6 @@ class Studio {
   core::Ray eye_ray() const { return core::Camera(scene_.view, frame(), 1, 1, 1).primary_ray(0, 0); }
   const core::DatabaseHeader& header() const { return database_.header(); }
   const core::GridFrame& frame() const { return database_.header().frame; }
-  core::Transport occlusion_within(double distance) const {
-    return {.kind = core::TransportKind::paths, .occlusion_distance = static_cast<float>(distance * frame().scale)};
-  }
 
   mutable core::Operations operations;  ///< of the last film
 

@@ -131,12 +131,6 @@ TEST_CASE("paths of 254 bounces, and of none, give one picture on stacks of one 
   }
 }
 
-TEST_CASE("occlusion gives one picture by every strategy") {
-  const Subject subject(mesh_surfaces(), size_of({.kind = core::TransportKind::paths, .occlusion_distance = 0.2F}, 0));
-  CHECK(subject.outcome().rays[static_cast<std::size_t>(core::RayKind::shadow)] <= subject.outcome().primary_hits);
-  check_strategies(subject);
-}
-
 TEST_CASE("paths give one picture under chaos") {
   const Subject subject(mesh_surfaces(), size_of(under_sky(), 3));
   for (std::uint64_t seed = 1; seed <= scaled(8); ++seed) {

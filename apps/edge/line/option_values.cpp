@@ -26,6 +26,11 @@ double finite_number(std::string_view text) {
   return std::isfinite(number) ? number : std::numeric_limits<double>::quiet_NaN();
 }
 
+double parse_within(std::string_view text, std::string_view option, double least, double most, const char* expected) {
+  const double number = finite_number(text);
+  return number >= least && number <= most ? number : (refuse(text, option, expected), 0);
+}
+
 double amount_in(std::string_view text) {
   const std::size_t slash = text.find('/');
   const double divisor = slash == std::string_view::npos ? 1 : finite_number(text.substr(slash + 1));

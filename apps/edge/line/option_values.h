@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,11 @@ std::size_t parse_size_bytes(std::string_view text, std::string_view option);
 /// A number such as 0.004, 4e-3 or 1/255, above 0 and at most 1; with `or_zero` 0 as well. Throws core::UsageError naming
 /// `option` for anything else.
 double parse_share(std::string_view text, std::string_view option, bool or_zero = false);
+
+/// A number from `least` to `most`, such as above_0. Throws core::UsageError naming `option`, with what was `expected`, for
+/// anything else.
+double parse_within(std::string_view text, std::string_view option, double least, double most, const char* expected);
+inline constexpr double above_0 = std::numeric_limits<double>::denorm_min();
 
 /// A finite number that fills the whole text, or NaN.
 double finite_number(std::string_view text);

@@ -47,14 +47,14 @@ std::vector<std::string> command_names(const CommandDescription& command) {
 }
 
 /// Two commands, one in the other.
-std::string joined(const std::string& outer, const std::string& inner) {
+std::string nested(const std::string& outer, const std::string& inner) {
   return outer + (outer.empty() || inner.empty() ? "" : " ") + inner;
 }
 
 /// The first command within `outer` that has the option; empty if none has.
 std::string command_with(const CommandDescription& outer, const std::string& option, const std::string& path = "") {
   for (const CommandDescription& inner : outer.commands) {
-    const std::string inner_path = joined(path, inner.name);
+    const std::string inner_path = nested(path, inner.name);
     if (find_option(inner, option) != nullptr) {
       return inner_path;
     }
@@ -126,7 +126,7 @@ class Reader {
     for (const CommandDescription& inner : here_->commands) {
       if (inner.name == name) {
         here_ = &inner;
-        line_.command = joined(line_.command, name);
+        line_.command = nested(line_.command, name);
         line_.words.push_back(name);
         return true;
       }
@@ -137,7 +137,7 @@ class Reader {
   void read_command() {
     while (!here_->commands.empty() && !(!rest_.empty() && rest_.front().starts_with("-"))) {
       if (rest_.empty()) {
-        fail("a command is missing: expected " + joined(program_.name, line_.command) + " " + listed(command_names(*here_)));
+        fail("a command is missing: expected " + nested(program_.name, line_.command) + " " + listed(command_names(*here_)));
       }
       if (!enter(rest_.front())) {
         fail_on_command(rest_.front());
@@ -278,7 +278,7 @@ class Reader {
     }
     if (word.empty()) {
       fail(here_->arguments[std::min(arguments_.size(), here_->arguments.size() - 1)].value + " is empty: expected " +
-           usage_of(joined(program_.name, line_.command), *here_));
+           usage_of(nested(program_.name, line_.command), *here_));
     }
     arguments_.push_back(word);
   }
@@ -293,28 +293,28 @@ class Reader {
       fail_if_foreign(word, word + " is no option");
     }
     if (here_->commands.empty()) {
-      fail("'" + word + "' is an argument too many: expected " + usage_of(joined(program_.name, line_.command), *here_) +
+      fail("'" + word + "' is an argument too many: expected " + usage_of(nested(program_.name, line_.command), *here_) +
            "; a name with blanks stands between quotation marks");
     }
     fail_on_command_first(word);
   }
 
   [[noreturn]] void fail_on_command_first(const std::string& word) const {
-    fail("'" + word + "' follows an option: the command comes first, as in dmpc " + joined(line_.command, word));
+    fail("'" + word + "' follows an option: the command comes first, as in dmpc " + nested(line_.command, word));
   }
 
   void check_whole() const {
     if (!here_->commands.empty()) {
-      fail("a command is missing: expected " + joined(program_.name, line_.command) + " " + listed(command_names(*here_)));
+      fail("a command is missing: expected " + nested(program_.name, line_.command) + " " + listed(command_names(*here_)));
     }
     for (std::size_t i = 0; i < here_->arguments.size(); ++i) {
       if (here_->arguments[i].is_required && i >= arguments_.size()) {
-        fail(here_->arguments[i].value + " is missing: expected " + usage_of(joined(program_.name, line_.command), *here_));
+        fail(here_->arguments[i].value + " is missing: expected " + usage_of(nested(program_.name, line_.command), *here_));
       }
     }
     for (const OptionDescription& option : here_->options) {
       if (option.is_required && !given_.contains(long_name(option))) {
-        fail(option.names.front() + " is missing: expected " + usage_of(joined(program_.name, line_.command), *here_));
+        fail(option.names.front() + " is missing: expected " + usage_of(nested(program_.name, line_.command), *here_));
       }
     }
   }
@@ -330,7 +330,7 @@ class Reader {
 }  // namespace
 
 std::string hint_at_help(const std::string& command, const std::string& program) {
-  return "\nTry: " + joined(joined(program, command), "--help");
+  return "\nTry: " + nested(nested(program, command), "--help");
 }
 
 std::string value_alone(const OptionDescription& option) { return option.value.substr(0, option.value.find(" [")); }

@@ -1,9 +1,9 @@
 #include "apps/edge/line/unknown_option.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 
+#include "apps/edge/line/small_letters.h"
 #include "apps/edge/line/words.h"
 
 namespace dmpc::apps {
@@ -40,6 +40,7 @@ constexpr Gone gone[] = {
     {"--no-contention",
      "--machine=FILE.json names a machine whose has_contention is false; dmpc machine prints one to begin with"},
     {"--no-skip=empty-space", "empty voxels are passed over by all; --structure=voxels --voxels=article visits each"},
+    {"--occlusion", "--sky=1 --bounces=0 lights each place by the share of its surroundings that is free"},
     {"--parts=build", "--parts=plain has the build of each scene, on all cores"},
     {"--parts=load", "dmpc render --stats=FILE says what loading and each phase behind it take"},
     {"--parts=memory", "dmpc study scale has the anonymous memory of processes that render"},
@@ -63,10 +64,7 @@ constexpr Gone gone[] = {
 
 /// "w", of "--w", "-w" and "-W640"; "+w", of "+W640"; names of several letters keep their digits.
 std::string bare(const std::string& name) {
-  const std::size_t begin = std::min(name.find_first_not_of('-'), name.size());
-  std::string word;
-  std::transform(name.begin() + static_cast<std::ptrdiff_t>(begin), name.end(), std::back_inserter(word),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  const std::string word = in_small_letters(name.substr(std::min(name.find_first_not_of('-'), name.size())));
   const std::size_t letters = word.starts_with('+') ? 2 : 1;
   return word.find_first_not_of("0123456789", letters) == std::string::npos ? word.substr(0, letters) : word;
 }

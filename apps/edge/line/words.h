@@ -1,6 +1,7 @@
 // Texts as lines and as words; lists on the command line, with commas or another mark between.
 #pragma once
 
+#include <functional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -20,13 +21,23 @@ inline std::vector<std::string> lines_of(std::string_view text) {
   return lines;
 }
 
-/// All of the words, with `between` between them.
-inline std::string joined(const std::vector<std::string>& words, const std::string& between) {
+/// All of the words, or what `text_of` has of them, with `between` between them.
+template <class Words, class TextOf = std::identity>
+std::string joined(const Words& words, const std::string& between, const TextOf& text_of = {}) {
   std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : between) + word;
+  for (const auto& word : words) {
+    text += (text.empty() ? "" : between) + std::string(text_of(word));
   }
   return text;
+}
+
+/// As a shell takes it, whatever is in it.
+inline std::string in_quotes(std::string_view word) {
+  std::string quoted = "'";
+  for (const char letter : word) {
+    quoted += letter == '\'' ? "'\\''" : std::string(1, letter);
+  }
+  return quoted + "'";
 }
 
 /// The words between marks: one at least, perhaps empty.

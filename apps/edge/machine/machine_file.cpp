@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/edge/line/json_format.h"
+#include "apps/edge/line/words.h"
 #include "apps/edge/system/text_input.h"
 #include "core/base/expect.h"
 #include "core/base/nearest_word.h"
@@ -51,14 +52,6 @@ std::string shown(const Json& value) {
   return text.size() <= shown_max ? text : text.substr(0, shown_max) + "...";
 }
 
-std::string listed(const Keys& keys) {
-  std::string text;
-  for (const std::string_view key : keys) {
-    text += (text.empty() ? "" : ", ") + std::string(key);
-  }
-  return text;
-}
-
 /// One object of the file: its keys are checked when it is made, its values when they are asked for.
 class Fields {
  public:
@@ -68,7 +61,8 @@ class Fields {
     for (const auto& [key, value] : json_.items()) {
       const auto is_key = [&key = key](std::string_view known) { return known == key; };
       if (std::none_of(keys.begin(), keys.end(), is_key) && std::none_of(optional_keys.begin(), optional_keys.end(), is_key)) {
-        refuse(shown(key), "unknown key, expected " + listed(keys) + (keys.empty() ? "" : ", ") + listed(optional_keys));
+        refuse(shown(key),
+               "unknown key, expected " + joined(keys, ", ") + (keys.empty() ? "" : ", ") + joined(optional_keys, ", "));
       }
     }
     for (const std::string_view key : keys) {

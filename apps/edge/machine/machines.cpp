@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/edge/line/words.h"
 #include "core/trace/charge.h"
 #include "core/trace/work.h"
 
@@ -200,11 +201,7 @@ const MachineDescription* find_machine_preset(std::string_view name) {
 }
 
 std::string machine_preset_names() {
-  std::string names;
-  for (const MachineDescription& preset : machine_presets()) {
-    names += (names.empty() ? "" : ", ") + preset.machine.name;
-  }
-  return names;
+  return joined(machine_presets(), ", ", [](const MachineDescription& preset) { return preset.machine.name; });
 }
 
 std::string name_with_links(const nodes::Machine& machine) {

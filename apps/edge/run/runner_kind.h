@@ -1,6 +1,8 @@
 // What calls the nodes' programs.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -14,17 +16,8 @@ enum class RunnerKind : std::uint8_t { threads, pool, virtual_time, mpi };
 
 /// As the command line calls it.
 constexpr const char* name_of(RunnerKind runner) {
-  switch (runner) {
-    case RunnerKind::threads:
-      return "threads";
-    case RunnerKind::pool:
-      return "pool";
-    case RunnerKind::virtual_time:
-      return "virtual";
-    case RunnerKind::mpi:
-      return "mpi";
-  }
-  return "";
+  constexpr std::array names = {"threads", "pool", "virtual", "mpi"};
+  return names.at(static_cast<std::size_t>(runner));
 }
 
 /// A pool has as many threads as there are processors, unless somebody has said how many.

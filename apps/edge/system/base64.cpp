@@ -21,6 +21,21 @@ std::uint32_t digit_of(char letter) {
 
 bool is_blank(char letter) { return letter == ' ' || letter == '\n' || letter == '\r' || letter == '\t'; }
 
+constexpr std::string_view base64_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+/// Four digits for one to three bytes.
+std::string four_digits(std::string_view bytes) {
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    bits = bits << 8U | (i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0U);
+  }
+  std::string text(4, '=');
+  for (std::size_t i = 0; i <= bytes.size(); ++i) {
+    text[i] = base64_digits[bits >> (18 - 6 * i) & 63U];
+  }
+  return text;
+}
+
 }  // namespace
 
 std::optional<std::vector<std::byte>> bytes_of_base64(std::string_view text) {
@@ -47,6 +62,15 @@ std::optional<std::vector<std::byte>> bytes_of_base64(std::string_view text) {
     }
   }
   return bytes;
+}
+
+std::string base64(std::string_view bytes) {
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    text += four_digits(bytes.substr(at, 3));
+  }
+  return text;
 }
 
 }  // namespace dmpc::apps

@@ -15,9 +15,9 @@ namespace dmpc::apps {
 
 namespace {
 
-int open_lock(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (file < 0) {
+Descriptor open_lock(const std::filesystem::path& path) {
+  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666));
+  if (!file.is_open()) {
     throw core::InputError(path.string() + ": cannot be made: " + std::strerror(errno));
   }
   return file;
@@ -35,29 +35,23 @@ bool is_named(int file, const std::filesystem::path& path) {
 
 std::optional<FileLock> FileLock::try_lock(const std::filesystem::path& path) {
   for (;;) {
-    const int file = open_lock(path);
-    if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      ::close(file);
+    Descriptor file = open_lock(path);
+    if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       return std::nullopt;
     }
-    if (is_named(file, path)) {
-      return FileLock(path, file);
+    if (is_named(file.number(), path)) {
+      return FileLock(path, std::move(file));
     }
-    ::close(file);
   }
 }
 
-FileLock::FileLock(const std::filesystem::path& path, int file)
-    : path_(path), file_(file), removed_at_once_(std::make_unique<RemovedAtOnce>(path)) {}
-
-FileLock::FileLock(FileLock&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), removed_at_once_(std::move(other.removed_at_once_)) {}
+FileLock::FileLock(const std::filesystem::path& path, Descriptor file)
+    : path_(path), file_(std::move(file)), removed_at_once_(std::make_unique<RemovedAtOnce>(path)) {}
 
 /// Removed before it is let go: who has opened it meanwhile sees that it is not named any more.
 FileLock::~FileLock() {
-  if (file_ >= 0) {
+  if (file_.is_open()) {
     ::unlink(path_.c_str());
-    ::close(file_);
   }
 }
 

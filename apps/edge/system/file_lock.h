@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/edge/system/descriptor.h"
 #include "apps/edge/system/interrupt.h"
 
 namespace dmpc::apps {
@@ -17,16 +18,14 @@ class FileLock {
   /// Nothing, if another has it. Where the file system knows no locks everybody gets one. Throws core::InputError if the file
   /// cannot be made, or is a symbolic link, which is not followed.
   static std::optional<FileLock> try_lock(const std::filesystem::path& path);
-  FileLock(FileLock&& other) noexcept;
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(const FileLock&) = delete;
+  FileLock(FileLock&& other) = default;
   ~FileLock();
 
  private:
-  FileLock(const std::filesystem::path& path, int file);
+  FileLock(const std::filesystem::path& path, Descriptor file);
 
   std::filesystem::path path_;
-  int file_;
+  Descriptor file_;
   std::unique_ptr<RemovedAtOnce> removed_at_once_;
 };
 

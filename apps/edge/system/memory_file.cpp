@@ -13,23 +13,21 @@
 namespace dmpc::apps {
 
 MemoryFile::MemoryFile() : file_(::memfd_create("dmpc", MFD_CLOEXEC)) {
-  if (file_ < 0) {
+  if (!file_.is_open()) {
     const int error = errno;
     throw_if_short(error, "no file in memory can be made");
     throw core::InternalError(std::string("no file in memory can be made: ") + std::strerror(error));
   }
 }
 
-MemoryFile::~MemoryFile() { ::close(file_); }
-
-std::string MemoryFile::path() const { return "/proc/self/fd/" + std::to_string(file_); }
+std::string MemoryFile::path() const { return "/proc/self/fd/" + std::to_string(descriptor()); }
 
 std::string MemoryFile::bytes() const {
   struct stat status {};
-  core::expect(::fstat(file_, &status) == 0, "a file in memory has a size");
+  core::expect(::fstat(descriptor(), &status) == 0, "a file in memory has a size");
   std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
   for (std::size_t at = 0; at < bytes.size();) {
-    const ssize_t count = ::pread(file_, bytes.data() + at, bytes.size() - at, static_cast<off_t>(at));
+    const ssize_t count = ::pread(descriptor(), bytes.data() + at, bytes.size() - at, static_cast<off_t>(at));
     core::expect(count > 0, "a file in memory can be read");
     at += static_cast<std::size_t>(count);
   }

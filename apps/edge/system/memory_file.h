@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "apps/edge/system/descriptor.h"
+
 namespace dmpc::apps {
 
 /// Gone in the end, whatever ends the process. Not thread-safe.
@@ -10,18 +12,15 @@ class MemoryFile {
  public:
   /// Throws ComputerRoomError if there is no room for one more file.
   MemoryFile();
-  ~MemoryFile();
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
 
-  int descriptor() const { return file_; }
+  int descriptor() const { return file_.number(); }
   /// A name that this process can open it by.
   std::string path() const;
   /// All that has been written to it.
   std::string bytes() const;
 
  private:
-  int file_;
+  Descriptor file_;
 };
 
 }  // namespace dmpc::apps

@@ -34,13 +34,6 @@ constexpr std::size_t small_names_max = 24;
 /// Between the bars of one place and those of the next, in places.
 constexpr double gap = 0.2;
 
-std::size_t number_of_column(const Table& table, const std::string& name) {
-  const auto& columns = table.columns();
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
-  core::expect(found != columns.end(), "a plot is of columns that its table has");
-  return static_cast<std::size_t>(found - columns.begin());
-}
-
 /// A name that is a place in the picture, as it stands in the CSV file: a text or a whole number.
 std::string text_of_cell(const Cell& cell) {
   const std::string* const text = std::get_if<std::string>(&cell);
@@ -92,10 +85,8 @@ class Script {
 
   /// A number that the axis has a place for.
   bool is_visible(const Cell& cell) const {
-    const double* const real = std::get_if<double>(&cell);
-    const std::uint64_t* const whole = std::get_if<std::uint64_t>(&cell);
-    const bool is_positive = (real != nullptr && *real > 0) || (whole != nullptr && *whole > 0);
-    return plot_.y.scale == PlotScale::linear ? real != nullptr || whole != nullptr : is_positive;
+    const std::optional<double> number = number_of(cell);
+    return number && (plot_.y.scale == PlotScale::linear || *number > 0);
   }
 
   void add_place(const std::vector<Cell>& row) {
@@ -113,17 +104,15 @@ class Script {
 
   const std::string& unit_of(const std::string& column) const { return table_.columns()[number_of_column(table_, column)].unit; }
 
-  static double number_of(const Cell& cell) {
-    const double* const real = std::get_if<double>(&cell);
-    const std::uint64_t* const whole = std::get_if<std::uint64_t>(&cell);
-    return real != nullptr ? *real : whole != nullptr ? static_cast<double>(*whole) : 0;
+  double number_in(const std::vector<Cell>& row, const std::string& column) const {
+    return number_of(row[number_of_column(table_, column)]).value_or(0);
   }
 
   PlotExtent span_of_x() const {
     PlotExtent extent;
     for (const std::vector<Cell>& row : table_.rows()) {
       if (std::any_of(drawn_.begin(), drawn_.end(), [&](const auto* series) { return is_meant(*series, row); })) {
-        const double x = number_of(row[number_of_column(table_, plot_.places.front())]);
+        const double x = number_in(row, plot_.places.front());
         extent.add(x);
         extent.add(x + plot_.bar_width.value_or(0));
       }
@@ -142,11 +131,11 @@ class Script {
       double sum = 0;
       for (const PlotSeries* series : drawn_) {
         if (is_meant(*series, row)) {
-          const double value = number_of(row[number_of_column(table_, series->column)]);
+          const double value = number_in(row, series->column);
           sum = plot_.is_stacked ? sum + value : value;
           extent.add(sum);
           for (const std::string& end : ends_of(*series)) {
-            extent.add(number_of(row[number_of_column(table_, end)]));
+            extent.add(number_in(row, end));
           }
         }
       }

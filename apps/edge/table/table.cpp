@@ -237,6 +237,11 @@ std::string csv(const Table& table) {
   return text;
 }
 
+/// Behind them all if none has the name.
+std::size_t place_of(const Table& table, std::string_view name) {
+  return static_cast<std::size_t>(std::ranges::find(table.columns(), name, &Column::name) - table.columns().begin());
+}
+
 std::string key_of(const Column& column) {
   std::string key = column.name;
   std::replace(key.begin(), key.end(), ' ', '_');
@@ -322,18 +327,23 @@ std::vector<std::string> texts_of(const Table& table, const std::vector<Cell>& r
   return texts;
 }
 
-std::optional<double> number_in(const Table& table, const std::vector<Cell>& row, std::string_view column) {
-  const auto& columns = table.columns();
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& one) { return one.name == column; });
-  if (found == columns.end()) {
-    return std::nullopt;
-  }
-  const Cell& cell = row[static_cast<std::size_t>(found - columns.begin())];
+std::optional<double> number_of(const Cell& cell) {
   if (const auto* const whole = std::get_if<std::uint64_t>(&cell)) {
     return static_cast<double>(*whole);
   }
   const auto* const real = std::get_if<double>(&cell);
   return real == nullptr ? std::nullopt : std::optional(*real);
+}
+
+std::size_t number_of_column(const Table& table, std::string_view name) {
+  const std::size_t number = place_of(table, name);
+  core::expect(number < table.columns().size(), "a column that is asked for is one that the table has");
+  return number;
+}
+
+std::optional<double> number_in(const Table& table, const std::vector<Cell>& row, std::string_view column) {
+  const std::size_t number = place_of(table, column);
+  return number < row.size() ? number_of(row[number]) : std::nullopt;
 }
 
 std::string row_text(const Table& table, const std::vector<Cell>& row) {

@@ -61,6 +61,10 @@ inline constexpr std::size_t markdown_width_max = 120;
 /// A row's cells as Markdown has them.
 std::vector<std::string> texts_of(const Table& table, const std::vector<Cell>& row);
 
+/// Nothing where it has none.
+std::optional<double> number_of(const Cell& cell);
+/// Where the column with this name stands. Expects one.
+std::size_t number_of_column(const Table& table, std::string_view name);
 /// The number in the column with this name; nothing where there is none, or the row has no number there.
 std::optional<double> number_in(const Table& table, const std::vector<Cell>& row, std::string_view column);
 

@@ -26,10 +26,9 @@ def balance(
     "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None =
     None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions",
     "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None,
-    bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None,
-    light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure:
-    Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None,
-    plots: Text | None = None
+    bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None,
+    page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents",
+    "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How evenly the work of rays that travel is shared out."""
     return studying.study("balance", ["scene"], locals())
@@ -44,9 +43,9 @@ def traffic(
     None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality:
     Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles",
     "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None,
-    sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None,
-    page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents",
-    "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
+    sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None,
+    record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels:
+    Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """What travels when rays do, beside what travels when pages do."""
     return studying.study("traffic", ["scene"], locals())
@@ -62,9 +61,9 @@ def cache(
     Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None,
     no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] |
     None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None,
-    occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None,
-    record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels:
-    Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
+    emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial",
+    "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None =
+    None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How often pages are missed with caches of every size and policy."""
     return studying.study("cache", ["scene"], locals())
@@ -86,9 +85,9 @@ def speedup(
     None = None, error: Text | None = None, samples_max: int | None = None, cutoff: Text | None = None, quality: Literal["draft", "default"]
     | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms", "empty-regions", "background", "bundles", "idle-nodes", "all"] |
     Sequence[Text] | None = None, transport: Literal["whitted", "paths"] | None = None, bounces: int | None = None, sky: Text |
-    Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size:
-    Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None
-    = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
+    Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text | None = None, page_size: Text | None = None,
+    record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid", "extents", "voxels"] | None = None, voxels:
+    Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None = None
 ) -> pandas.DataFrame:
     """How much faster a modelled machine gets by more nodes."""
     return studying.study("speedup", ["scene"], locals())
@@ -104,10 +103,10 @@ def systems(
     Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None = None,
     cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms",
     "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] |
-    None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None =
-    None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,
-    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None =
-    None, plots: Text | None = None
+    None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text |
+    None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid",
+    "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None =
+    None
 ) -> pandas.DataFrame:
     """The systems that the 1994 article classifies, side by side on one machine."""
     return studying.study("systems", ["scene"], locals())
@@ -123,10 +122,10 @@ def frames(
     convention: Literal["haines", "paper"] | None = None, samples: Text | None = None, error: Text | None = None, samples_max: int | None =
     None, cutoff: Text | None = None, quality: Literal["draft", "default"] | None = None, no_skip: Literal["any-hit", "unlit", "zero-terms",
     "empty-regions", "background", "bundles", "idle-nodes", "all"] | Sequence[Text] | None = None, transport: Literal["whitted", "paths"] |
-    None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, occlusion: Text | None = None, emitters: int | None =
-    None, light_radius: Text | None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None,
-    structure: Literal["grid", "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None =
-    None, plots: Text | None = None
+    None = None, bounces: int | None = None, sky: Text | Sequence[Text] | None = None, emitters: int | None = None, light_radius: Text |
+    None = None, page_size: Text | None = None, record_order: Literal["spatial", "scattered"] | None = None, structure: Literal["grid",
+    "extents", "voxels"] | None = None, voxels: Literal["usual", "article"] | None = None, report: Text | None = None, plots: Text | None =
+    None
 ) -> pandas.DataFrame:
     """What frames of a moving camera fetch and send, with caches warm and cold."""
     return studying.study("frames", ["scene"], locals())

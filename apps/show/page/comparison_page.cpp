@@ -10,6 +10,7 @@
 
 #include "apps/edge/line/amount.h"
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/words.h"
 #include "apps/edge/show/page/page.h"
 #include "apps/edge/show/page/shares.h"
 #include "apps/edge/table/plot.h"
@@ -126,16 +127,12 @@ std::string run_time_conclusion(const Pages& pages) {
 
 void add_run(Page& page, const ComparedPage& compared, const char* letter) {
   const json& run = compared.run.data;
-  std::string command;
-  for (const json& word : run["words"]) {
-    command += (command.empty() ? "" : " ") + word.get<std::string>();
-  }
   page.add_facts(
       {{std::string(letter), compared.file},
        {"Scene", run["scene"]},
        {"Computer", run["computer"]},
        {run["clock"] == "virtual time" ? "Virtual time" : "Time by the wall clock", amount_text(compared.run.total_ns(), "ns")}});
-  page.add_code(command);
+  page.add_code(joined(run["words"].get<std::vector<std::string>>(), " "));
 }
 
 void add_compared_pictures(Page& page, const Comparison& comparison) {

@@ -72,6 +72,16 @@ std::string picture_in(std::string_view page) {
   return picture;
 }
 
+/// What `entry_of` takes of each entry, of which there are so many at most.
+template <class EntryOf>
+json list_of(const DataPart& list, std::size_t most, const EntryOf& entry_of) {
+  json all = json::array();
+  for (std::size_t i = 0; i < list.size(most); ++i) {
+    all.push_back(entry_of(list.at(i)));
+  }
+  return all;
+}
+
 /// Of the keys that are there; texts, numbers and lists of such that nothing else hangs on are taken one by one.
 json head_of(const DataPart& data) {
   json head = {{"format", play_format}};
@@ -83,14 +93,12 @@ json head_of(const DataPart& data) {
     data.at("clock").refuse("virtual time or wall clock");
   }
   head["clock"] = clock;
-  head["words"] = json::array();
-  for (std::size_t i = 0; i < data.at("words").size(list_size_limit); ++i) {
-    const DataPart word = data.at("words").at(i);
-    head["words"].push_back(word.text(word_bytes_limit));
+  head["words"] = list_of(data.at("words"), list_size_limit, [](const DataPart& word) {
     if (!is_shell_word(word.text(word_bytes_limit))) {
       word.refuse("a word of a command as a shell takes it, in quotes where it needs some");
     }
-  }
+    return word.text(word_bytes_limit);
+  });
   head["total_ns"] = data.at("total_ns").whole(exact_number_max, 1);
   head["step_ns"] = data.at("step_ns").whole(exact_number_max, 1);
   head["nodes"] = data.at("nodes").whole(nodes::node_count_max, 1);
@@ -120,47 +128,39 @@ double scale_of(const DataPart& scale) {
 }
 
 json fields_of(const DataPart& fields, const Sizes& sizes) {
-  json all = json::array();
-  for (std::size_t i = 0; i < fields.size(core::heat_kind_names.size()); ++i) {
-    const DataPart field = fields.at(i);
+  return list_of(fields, core::heat_kind_names.size(), [&sizes](const DataPart& field) -> json {
     const std::string name = field.at("name").text();
     const std::uint64_t most = name == "node" ? sizes.nodes : exact_number_max;
-    all.push_back({{"name", name},
-                   {"meaning", field.at("meaning").text()},
-                   {"unit", field.at("unit").text()},
-                   {"scale", scale_of(field.at("scale"))},
-                   {"values", field.at("values").numbers(sizes.cells, most)}});
-  }
-  return all;
+    return {{"name", name},
+            {"meaning", field.at("meaning").text()},
+            {"unit", field.at("unit").text()},
+            {"scale", scale_of(field.at("scale"))},
+            {"values", field.at("values").numbers(sizes.cells, most)}};
+  });
 }
 
 json shares_of(const DataPart& works, const Sizes& sizes) {
-  json all = json::array();
-  for (std::size_t i = 0; i < works.size(byte_limit); ++i) {
-    const DataPart work = works.at(i);
+  return list_of(works, byte_limit, [&sizes](const DataPart& work) -> json {
     const std::string name = work.at("name").text();
     if (name == run_column || name == rest_column) {
       work.at("name").refuse("something that nodes do");
     }
-    all.push_back({{"name", name},
-                   {"ns", work.at("ns").whole(exact_number_max)},
-                   {"shares", work.at("shares").numbers(sizes.nodes * sizes.steps, byte_limit)}});
-  }
-  return all;
+    return {{"name", name},
+            {"ns", work.at("ns").whole(exact_number_max)},
+            {"shares", work.at("shares").numbers(sizes.nodes * sizes.steps, byte_limit)}};
+  });
 }
 
 /// [[text or whole number]], `texts` of them texts.
 json rows_of(const DataPart& rows, std::size_t texts, const std::vector<std::uint64_t>& most) {
-  json all = json::array();
-  for (std::size_t i = 0; i < rows.size(list_size_limit); ++i) {
-    json row = json::array();
+  return list_of(rows, list_size_limit, [&](const DataPart& row) {
+    json cells = json::array();
     for (std::size_t column = 0; column < texts + most.size(); ++column) {
-      const DataPart cell = rows.at(i).at(column);
-      row.push_back(column < texts ? json(cell.text()) : json(cell.whole(most[column - texts])));
+      const DataPart cell = row.at(column);
+      cells.push_back(column < texts ? json(cell.text()) : json(cell.whole(most[column - texts])));
     }
-    all.push_back(std::move(row));
-  }
-  return all;
+    return cells;
+  });
 }
 
 /// "host", or what else stands in a machine, and its number: a script places it by that.
@@ -174,21 +174,16 @@ bool is_place(const std::string& name) {
 }
 
 json named_times(const DataPart& times) {
-  json all = json::array();
-  for (std::size_t i = 0; i < times.size(list_size_limit); ++i) {
-    all.push_back({{"name", times.at(i).at("name").text()}, {"ns", times.at(i).at("ns").whole(exact_number_max)}});
-  }
-  return all;
+  return list_of(times, list_size_limit, [](const DataPart& time) -> json {
+    return {{"name", time.at("name").text()}, {"ns", time.at("ns").whole(exact_number_max)}};
+  });
 }
 
 json causes_of(const DataPart& causes, const Sizes& sizes) {
   json found = {{"count", causes.at("count").whole(exact_number_max)},
                 {"left_out_ns", causes.at("left_out_ns").whole(exact_number_max)}};
-  found["kinds"] = json::array();
-  const std::size_t kinds = causes.at("kinds").size(byte_limit);
-  for (std::size_t i = 0; i < kinds; ++i) {
-    found["kinds"].push_back(causes.at("kinds").at(i).text());
-  }
+  found["kinds"] = list_of(causes.at("kinds"), byte_limit, [](const DataPart& kind) { return kind.text(); });
+  const std::size_t kinds = found["kinds"].size();
   const std::size_t count = causes.at("node").count_numbers(sizes.nodes);
   for (const auto& [column, most] : std::vector<std::pair<const char*, std::uint64_t>>{{"node", sizes.nodes},
                                                                                        {"begin", exact_number_max},
@@ -235,12 +230,11 @@ json steps_of(const DataPart& rows, std::size_t count) {
 }
 
 json over_of(const DataPart& over, const json& head) {
-  json found = {{"levels", json::array()}};
-  for (std::size_t i = 0; i < over.at("levels").size(byte_limit); ++i) {
-    json level = steps_of(over.at("levels").at(i), 1);
-    level["name"] = over.at("levels").at(i).at("name").text();
-    found["levels"].push_back(std::move(level));
-  }
+  json found = {{"levels", list_of(over.at("levels"), byte_limit, [](const DataPart& level) {
+                   json steps = steps_of(level, 1);
+                   steps["name"] = level.at("name").text();
+                   return steps;
+                 })}};
   if (over.has("links")) {
     found["links"] = steps_of(over.at("links"), head["links"].size());
   }

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <string>
 
-#include "apps/edge/show/page/data_url.h"
 #include "apps/edge/system/base64.h"
 #include "core/base/expect.h"
 

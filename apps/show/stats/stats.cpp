@@ -204,7 +204,7 @@ struct JsonOf {
 
 Json options_json(const RenderRecord& record, const Account& account) {
   const RenderOptions& options = record.options;
-  const bool by_paths = options.picture.transport.is_by_paths() && !options.picture.transport.occlusion;
+  const bool by_paths = options.picture.transport.is_by_paths();
   const bool has_voxels = options.database.build.structure == core::Structure::voxels;
   Json result = {
       {"scene", options.picture.scene},
@@ -219,7 +219,6 @@ Json options_json(const RenderRecord& record, const Account& account) {
       {"transport", name_of(options.picture.transport.kind)},
       {"bounces", by_paths ? Json(options.picture.depth - 1) : Json()},
       {"sky", options.picture.transport.sky ? Json(text_of(*options.picture.transport.sky)) : Json()},
-      {"occlusion", options.picture.transport.occlusion ? Json(*options.picture.transport.occlusion) : Json()},
       {"emitters", by_paths ? Json(options.picture.transport.emitters) : Json()},
       {"light_radius", options.picture.transport.light_radius ? Json(*options.picture.transport.light_radius) : Json()},
       {"tracer", options.tracer == TracerChoice::grid ? "grid" : "embree"},

@@ -14,8 +14,8 @@
 #include "apps/main/commands.h"
 #include "apps/run/instance_options.h"
 #include "core/base/expect.h"
-#include "tests/support/child_process.h"
 #include "tests/support/painted_square.h"
+#include "tests/support/run_dmpc.h"
 #include "tests/support/text.h"
 
 namespace dmpc::apps::info_command_test {
@@ -191,11 +191,8 @@ TEST_CASE("many lights are not all listed in a text, a name that is no text does
 
 TEST_CASE("info prints to the standard output, and fails as render does") {
   const auto run = [](const std::vector<std::string>& more) {
-    std::vector<std::string> command = {DMPC_PROGRAM, "info"};
-    command.insert(command.end(), more.begin(), more.end());
-    tests::ChildProcess process(command);
-    const int status = process.status();
-    return std::to_string(status) + " " + process.output() + process.errors();
+    const tests::Said said = tests::run_dmpc(tests::together({{"info"}, more}));
+    return std::to_string(said.status) + " " + said.output + said.errors;
   };
   CHECK(contains(run({"tetra-2", "--nodes=2", "--balance=subsampled", "--resolution=32x32"}), "0 scene      tetra-2: "));
   CHECK(contains(run({"nonsense"}), "1 dmpc: there is no built-in scene 'nonsense'"));
@@ -208,9 +205,8 @@ TEST_CASE("info prints to the standard output, and fails as render does") {
 TEST_CASE("what 256 nodes would take of a texture is told without taking it") {
   const tests::TemporaryFolder folder;
   const std::string scene = tests::write_painted_square(folder, 512);
-  tests::ChildProcess process({"/bin/sh", "-c", "ulimit -d 400000; exec " DMPC_PROGRAM " info --nodes=256 " + scene});
-  const int status = process.status();
-  CHECK_MESSAGE(status == 0, process.errors());
+  const tests::Said said = tests::run({"/bin/sh", "-c", "ulimit -d 400000; exec " DMPC_PROGRAM " info --nodes=256 " + scene});
+  CHECK_MESSAGE(said.status == 0, said.errors);
 }
 #endif
 

@@ -2,8 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,8 +17,14 @@ namespace dmpc::tests::png_file_test {
 
 namespace {
 
-using apps::png_file;
 using Bytes = std::vector<std::uint8_t>;
+
+std::string png_file(int width, int height, const Bytes& rgb, std::uint32_t threads = 0) {
+  const auto take = [&rgb](std::size_t first, std::span<std::uint8_t> some) {
+    std::ranges::copy(std::span(rgb).subspan(3 * first, some.size()), some.begin());
+  };
+  return apps::png_file({width, height, take}, threads);
+}
 
 /// value(column, row, channel) for each.
 Bytes painted(int width, int height, const std::function<int(int, int, int)>& value) {
@@ -93,9 +101,6 @@ TEST_CASE("a PNG whose packed rows take several chunks is read") {
   CHECK(ReadFile("a.png", file).values<std::uint8_t>(OIIO::TypeDesc::UINT8) == noise);
 }
 
-TEST_CASE("a PNG without pixels or with too few bytes is a bug") {
-  CHECK_THROWS_AS(png_file(0, 1, Bytes{}), core::InternalError);
-  CHECK_THROWS_AS(png_file(2, 1, Bytes(5)), core::InternalError);
-}
+TEST_CASE("a PNG without pixels is a bug") { CHECK_THROWS_AS(png_file(0, 1, Bytes{}), core::InternalError); }
 
 }  // namespace dmpc::tests::png_file_test

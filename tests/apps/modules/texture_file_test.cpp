@@ -1,4 +1,4 @@
-#include "apps/picture/texture_file.h"
+#include "apps/picture/picture_reader.h"
 
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
@@ -21,9 +21,16 @@ namespace dmpc::tests::texture_file_test {
 
 namespace {
 
-using apps::read_texture;
 using core::TexelFormat;
 using core::Texture;
+
+Texture read_texture(const std::filesystem::path& path, const apps::TextureEdges& edges) {
+  return apps::PictureReader().read_texture(apps::open_picture(path), edges);
+}
+
+Texture read_texture(std::span<const std::byte> file, const std::string& name, const std::string& format) {
+  return apps::PictureReader().read_texture(apps::picture_of(file, name, format), {});
+}
 
 /// Writes a picture of any type and number of channels.
 template <class T>
@@ -222,7 +229,7 @@ TEST_CASE("a picture in memory is read like one in a file, whatever its format")
     const std::vector<std::uint8_t> bytes(3 * 16 * 16, 200);
     const std::string path = write(folder / ("a." + format), 16, 16, 3, OIIO::TypeDesc::UINT8, bytes);
     const std::string file = file_text(path);
-    const Texture texture = read_texture(std::as_bytes(std::span(file)), "model.glb, texture 3", format, {});
+    const Texture texture = read_texture(std::as_bytes(std::span(file)), "model.glb, texture 3", format);
     CHECK(texture.name == "model.glb, texture 3");
     CHECK(texture.levels[0].texels == read_texture(path, {}).levels[0].texels);
   }
@@ -234,7 +241,7 @@ TEST_CASE("what is no picture is refused by its name") {
   write_text(folder / "text.png", "no picture");
   CHECK_THROWS_AS(read_texture(folder / "text.png", {}), core::InputError);
   const std::string nothing;
-  CHECK_THROWS_WITH_AS(read_texture(std::as_bytes(std::span(nothing)), "model.glb, texture 0", "", {}),
+  CHECK_THROWS_WITH_AS(read_texture(std::as_bytes(std::span(nothing)), "model.glb, texture 0", ""),
                        doctest::Contains("model.glb, texture 0: is no picture that is read"), core::InputError);
 }
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "apps/picture/image_file.h"
-#include "tests/support/child_process.h"
 #include "tests/support/film_in.h"
 #include "tests/support/noise_texture.h"
+#include "tests/support/run_dmpc.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmpc::tests::foreign_arithmetic_test {
@@ -23,14 +23,11 @@ struct Rendered {
 
 Rendered render_after(const std::vector<std::string>& before, const std::vector<std::string>& options) {
   const TemporaryFolder folder;
-  std::vector<std::string> line = {"/usr/bin/env"};
-  line.insert(line.end(), before.begin(), before.end());
-  line.insert(line.end(), {DMPC_PROGRAM, "render", "--quiet", "--resolution=48x48", "--stats=" + (folder / "s.json").string(),
-                           "-o", folder / "a.png"});
-  line.insert(line.end(), options.begin(), options.end());
-  ChildProcess process(line);
-  CHECK(process.status() == 0);
-  CHECK(process.errors().empty());
+  const std::vector<std::string> stats = {"--stats=" + (folder / "s.json").string()};
+  const Said said =
+      run_dmpc(together({{"render", "--quiet", "--resolution=48x48", "-o", folder / "a.png"}, stats, options}), before);
+  CHECK(said.status == 0);
+  CHECK(said.errors.empty());
   return {film_in(folder / "s.json"), file_text(folder / "a.png")};
 }
 
@@ -76,10 +73,9 @@ TEST_CASE("a texture looks alike beside a library that flushes to zero and round
 
 TEST_CASE("a library that flushes to zero and rounds down changes no table of a study, whose runs go side by side") {
   const auto table = [](const std::string& surroundings) {
-    ChildProcess process(
-        {"/usr/bin/env", surroundings, DMPC_PROGRAM, "study", "systems", "balls-2", "--resolution=32x32", "--quiet"});
-    CHECK(process.status() == 0);
-    return process.output();
+    const Said said = run_dmpc({"study", "systems", "balls-2", "--resolution=32x32", "--quiet"}, {surroundings});
+    CHECK(said.status == 0);
+    return said.output;
   };
   CHECK(table("LD_PRELOAD=" DMPC_FOREIGN_ARITHMETIC) == table("LD_PRELOAD="));
 }

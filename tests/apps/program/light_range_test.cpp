@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/picture/image_file.h"
-#include "tests/support/child_process.h"
+#include "tests/support/run_dmpc.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -25,12 +25,11 @@ struct Wall {
   }
   /// What it says.
   std::string render(const std::vector<std::string>& options = {}) const {
-    std::vector<std::string> command = {
-        DMPC_PROGRAM, "render", folder / "a.nff", "--nodes=2", "--stats=" + (folder / "s.json").string(), "-o", folder / "a.exr"};
-    command.insert(command.end(), options.begin(), options.end());
-    ChildProcess process(command);
-    CHECK(process.status() == 0);
-    return process.errors();
+    const Said said = run_dmpc(together({{"render", folder / "a.nff", "--nodes=2", "-o", folder / "a.exr"},
+                                         {"--stats=" + (folder / "s.json").string()},
+                                         options}));
+    CHECK(said.status == 0);
+    return said.errors;
   }
   /// Of the pixels' red.
   float brightest() const {

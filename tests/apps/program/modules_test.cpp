@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/support/child_process.h"
+#include "tests/support/run_dmpc.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -18,26 +19,15 @@ namespace fs = std::filesystem;
 
 const fs::path built = fs::path(DMPC_PROGRAM).parent_path();
 
-struct Ending {
-  int status = 0;
-  std::string errors;
-};
-
 /// `surroundings`: options of env, and variables.
-Ending end_of(const fs::path& program, const std::vector<std::string>& arguments,
-              const std::vector<std::string>& surroundings = {}) {
-  std::vector<std::string> command = {"/usr/bin/env"};
-  command.insert(command.end(), surroundings.begin(), surroundings.end());
-  command.push_back(program);
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  ChildProcess process(command);
-  const int status = process.status();
-  return {status, process.errors()};
+Said end_of(const fs::path& program, const std::vector<std::string>& arguments,
+            const std::vector<std::string>& surroundings = {}) {
+  return run(together({surroundings, {program}, arguments}));
 }
 
 /// All that the dynamic loader opens, from the start to the end.
 std::string loaded_by(const std::vector<std::string>& arguments) {
-  const Ending end = end_of(DMPC_PROGRAM, arguments, {"LD_DEBUG=files"});
+  const Said end = end_of(DMPC_PROGRAM, arguments, {"LD_DEBUG=files"});
   CHECK(end.status == 0);
   CHECK(contains(end.errors, "libstdc++"));
   return end.errors;
@@ -70,17 +60,16 @@ struct Installation {
     fs::create_directories(modules);
     fs::copy_file(DMPC_PROGRAM, program);
   }
-  Ending render(const Wanted& wanted, const std::vector<std::string>& surroundings = {}) const {
+  Said render(const Wanted& wanted, const std::vector<std::string>& surroundings = {}) const {
     return end_of(program, render_of(folder / wanted.picture, wanted.option), surroundings);
   }
 };
 
 /// "dmpc 0.1.0".
 std::string version() {
-  ChildProcess process({DMPC_PROGRAM, "--version"});
-  CHECK(process.status() == 0);
-  const std::string output = process.output();
-  return output.substr(0, output.find('\n'));
+  const Said said = run_dmpc({"--version"});
+  CHECK(said.status == 0);
+  return said.output.substr(0, said.output.find('\n'));
 }
 
 /// The build that a module says it is of, altered.
@@ -121,9 +110,9 @@ TEST_CASE("Embree as the tracer loads Embree") {
 
 TEST_CASE("each program that reads or writes for dmpc is linked with the libraries that it needs, and with no other reader's") {
   const auto libraries_of = [](const std::string& reader) {
-    ChildProcess process({"/usr/bin/env", "LD_TRACE_LOADED_OBJECTS=1", built / reader});
-    CHECK(process.status() == 0);
-    return process.output();
+    const Said said = run({"LD_TRACE_LOADED_OBJECTS=1", built / reader});
+    CHECK(said.status == 0);
+    return said.output;
   };
   const std::string of_meshes = libraries_of("dmpc_mesh_reader"), of_pictures = libraries_of("dmpc_picture_reader"),
                     of_plain = libraries_of("dmpc_plain_picture_reader"), of_writer = libraries_of("dmpc_picture_writer");
@@ -138,7 +127,7 @@ TEST_CASE("a module that is missing is said with its places, before anything is 
   const Installation installation;
   for (const Wanted& wanted : all_wanted) {
     CAPTURE(wanted.module);
-    const Ending end = installation.render(wanted);
+    const Said end = installation.render(wanted);
     CHECK(end.status == 3);
     CHECK_MESSAGE(contains(end.errors, "the module " + wanted.module + ", with which dmpc "), end.errors);
     CHECK_MESSAGE(contains(end.errors, (installation.modules / wanted.module).string()), end.errors);
@@ -151,7 +140,7 @@ TEST_CASE("a module that is missing is said with its places, before anything is 
 
 TEST_CASE("a picture's writer that is missing is said with its places, before anything is rendered") {
   const Installation installation;
-  const Ending end = installation.render({"a.tif", "--depth=5", ""});
+  const Said end = installation.render({"a.tif", "--depth=5", ""});
   CHECK(end.status == 3);
   CHECK_MESSAGE(contains(end.errors, "the program dmpc_picture_writer, which reads or writes files for dmpc,"), end.errors);
   CHECK_MESSAGE(contains(end.errors, (installation.folder / "libexec/dmpc/dmpc_picture_writer").string()), end.errors);
@@ -164,7 +153,7 @@ TEST_CASE("a module is looked for at its places alone, not where one happens to 
   fs::create_directories(elsewhere);
   for (const Wanted& wanted : all_wanted) {
     fs::copy_file(built / wanted.module, elsewhere / wanted.module);
-    const Ending end = installation.render(wanted, {"-C", elsewhere, "LD_LIBRARY_PATH=" + elsewhere.string()});
+    const Said end = installation.render(wanted, {"-C", elsewhere, "LD_LIBRARY_PATH=" + elsewhere.string()});
     CHECK(end.status == 3);
     CHECK_MESSAGE(contains(end.errors, "is in none of its places"), end.errors);
   }
@@ -174,7 +163,7 @@ TEST_CASE("a module that is broken is said with what the loader has against it")
   const Installation installation;
   for (const Wanted& wanted : all_wanted) {
     write_text(installation.modules / wanted.module, "no module");
-    const Ending end = installation.render(wanted);
+    const Said end = installation.render(wanted);
     CHECK(end.status == 3);
     CHECK_MESSAGE(contains(end.errors, wanted.module + ", with which dmpc "), end.errors);
     CHECK_MESSAGE(contains(end.errors, "cannot be opened: "), end.errors);
@@ -188,7 +177,7 @@ TEST_CASE("a module of another build is refused, and one of the same is taken") 
     fs::copy_file(built / wanted.module, module);
     CHECK(installation.render(wanted).status == 0);
     alter_build(module);
-    const Ending end = installation.render(wanted);
+    const Said end = installation.render(wanted);
     CHECK(end.status == 3);
     CHECK_MESSAGE(contains(end.errors, "is of another build than this program"), end.errors);
   }

@@ -18,6 +18,7 @@
 #include "apps/picture/image_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/hostile_files.h"
+#include "tests/support/run_dmpc.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -25,22 +26,7 @@ namespace dmpc::tests::program_program_test {
 
 namespace {
 
-struct Result {
-  int status = 0;
-  std::string output, errors;
-};
-
-std::vector<std::string> dmpc(const std::vector<std::string>& arguments) {
-  std::vector<std::string> command = {DMPC_PROGRAM};
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  return command;
-}
-
-Result run(const std::vector<std::string>& arguments) {
-  ChildProcess process(dmpc(arguments));
-  const int status = process.status();
-  return {status, process.output(), process.errors()};
-}
+std::vector<std::string> dmpc(const std::vector<std::string>& arguments) { return together({{DMPC_PROGRAM}, arguments}); }
 
 /// Waits until `done` says so, twenty seconds at most; whether it did.
 template <class Done>
@@ -97,7 +83,7 @@ constexpr const char* view = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 30\nhithe
 TEST_CASE("render writes a picture and counters, and says what it did") {
   const TemporaryFolder folder;
   const std::string image = folder / "a.exr", stats = folder / "a.json";
-  const Result result = run({"render", "tetra-3", "--resolution=16x16", "--nodes=3", "-o", image, "--stats", stats});
+  const Said result = run_dmpc({"render", "tetra-3", "--resolution=16x16", "--nodes=3", "-o", image, "--stats", stats});
   CHECK(result.status == 0);
   CHECK(result.errors.empty());
   CHECK(contains(result.output, "3 nodes"));
@@ -111,9 +97,7 @@ TEST_CASE("heat maps stand beside the picture, or nothing does") {
   const std::string image = folder / "a.exr", heat = folder / "rays.png",
                     faults = "--heatmap=faults:" + (folder / "f.exr").string();
   const auto render = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"render", "tetra-3", "--resolution=16x16", "--nodes=3", "-o", image};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run(arguments);
+    return run_dmpc(together({{"render", "tetra-3", "--resolution=16x16", "--nodes=3", "-o", image}, more}));
   };
   CHECK(render({"--heatmap=rays:" + image}).status == 2);
   CHECK(render({faults, faults}).status == 2);
@@ -129,7 +113,7 @@ TEST_CASE("a trace stands beside the picture, or nothing does, and says that it 
   const TemporaryFolder folder;
   const std::string image = folder / "a.png", trace = folder / "a.pftrace";
   const auto render = [&](const std::string& file) {
-    return run({"render", "tetra-1", "--resolution=4x4", "--nodes=2", "--trace=" + file, "-o", image});
+    return run_dmpc({"render", "tetra-1", "--resolution=4x4", "--nodes=2", "--trace=" + file, "-o", image});
   };
   CHECK(render(image).status == 2);
   const auto other = render(folder / "a.json.gz");
@@ -149,11 +133,11 @@ TEST_CASE("what references that a render writes tell of a cache is what the run 
   const std::string references = folder / "references.csv", stats = folder / "stats.json", table = folder / "table.csv";
   const std::vector<std::string> policies = {"lru", "fifo", "arc"};
   for (const std::string& policy : policies) {
-    const Result rendered = run({"render", "balls-2", "--resolution=32x32", "--nodes=3", "--page-size=512", "--cache-pages=4",
-                                 "--work-item=0", "--in-flight=1", "--replacement=" + policy, "--references=" + references,
-                                 "--stats=" + stats, "-o", folder / "a.png"});
+    const Said rendered = run_dmpc({"render", "balls-2", "--resolution=32x32", "--nodes=3", "--page-size=512", "--cache-pages=4",
+                                    "--work-item=0", "--in-flight=1", "--replacement=" + policy, "--references=" + references,
+                                    "--stats=" + stats, "-o", folder / "a.png"});
     REQUIRE_MESSAGE(rendered.status == 0, rendered.errors);
-    REQUIRE(run({"study", "references", references, "--cache-pages=4", "--format=csv", "-o", table}).status == 0);
+    REQUIRE(run_dmpc({"study", "references", references, "--cache-pages=4", "--format=csv", "-o", table}).status == 0);
     const std::string faults = value_of(file_text(stats), "faults");
     CHECK(std::stoul(faults) > 100);
     CHECK(cell_of(file_text(table), "faults " + policy) == faults);
@@ -162,7 +146,7 @@ TEST_CASE("what references that a render writes tell of a cache is what the run 
 
 TEST_CASE("a quiet render says nothing") {
   const TemporaryFolder folder;
-  const Result result = run({"render", "tetra-1", "--resolution=4x4", "--quiet", "-o", folder / "a.png"});
+  const Said result = run_dmpc({"render", "tetra-1", "--resolution=4x4", "--quiet", "-o", folder / "a.png"});
   CHECK(result.status == 0);
   CHECK(result.output.empty());
   CHECK(result.errors.empty());
@@ -171,11 +155,11 @@ TEST_CASE("a quiet render says nothing") {
 TEST_CASE("Embree and our grid write the same picture") {
   const TemporaryFolder folder;
   for (const std::string tracer : {"grid", "embree"}) {
-    REQUIRE(run({"render", "balls-2", "--resolution=24x24", "--strategy=replicated", "--tracer=" + tracer, "--quiet", "-o",
-                 folder / (tracer + ".exr")})
+    REQUIRE(run_dmpc({"render", "balls-2", "--resolution=24x24", "--strategy=replicated", "--tracer=" + tracer, "--quiet", "-o",
+                      folder / (tracer + ".exr")})
                 .status == 0);
   }
-  const Result result = run({"compare", folder / "grid.exr", folder / "embree.exr"});
+  const Said result = run_dmpc({"compare", folder / "grid.exr", folder / "embree.exr"});
   CHECK(result.status == 0);
   CHECK(contains(result.output, "differing pixels        0 of 576"));
 }
@@ -192,10 +176,8 @@ TEST_CASE("no strategy and no option of dataflow changes the film") {
                                                {"dataflow", "--ray-credits=0", "--chaos=3"},
                                                {"dataflow", "--cuts=alternating", "--no-skip=empty-regions"},
                                                {"dataflow", "--nodes=3", "--node-memory=300KiB", "--page-size=512B"}}) {
-    std::vector<std::string> arguments = {"render",          "balls-1", "--resolution=16x16", "--stats",
-                                          folder / "a.json", "-o",      folder / "a.exr",     "--strategy"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    CHECK(run(arguments).status == 0);
+    const std::vector<std::string> outputs = {"--stats", folder / "a.json", "-o", folder / "a.exr"};
+    CHECK(run_dmpc(together({{"render", "balls-1", "--resolution=16x16"}, outputs, {"--strategy"}, more})).status == 0);
     hashes.insert(film_hash(folder / "a.json"));
   }
   CHECK(hashes.size() == 1);
@@ -205,10 +187,8 @@ TEST_CASE("a modelled machine renders the threads' film, twice by the same event
   const TemporaryFolder folder;
   const std::string stats = folder / "a.json";
   const auto counters = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"render", "balls-2", "--resolution=24x24", "--nodes=5", "--stats",
-                                          stats,    "-o",      folder / "a.exr"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    REQUIRE(run(arguments).status == 0);
+    const std::vector<std::string> outputs = {"--stats", stats, "-o", folder / "a.exr"};
+    REQUIRE(run_dmpc(together({{"render", "balls-2", "--resolution=24x24", "--nodes=5"}, outputs, more})).status == 0);
     return file_text(stats);
   };
   const auto after = [](const std::string& text, const std::string& key) { return word_after(text, "\"" + key + "\": "); };
@@ -223,13 +203,13 @@ TEST_CASE("a modelled machine renders the threads' film, twice by the same event
 
 TEST_CASE("a machine that was printed is read again: the same run as by its name") {
   const TemporaryFolder folder;
-  const Result printed = run({"machine", "paragon"});
+  const Said printed = run_dmpc({"machine", "paragon"});
   CHECK(printed.status == 0);
   write_text(folder / "mine.json", printed.output);
-  CHECK(run({"machine", folder / "mine.json"}).output == printed.output);
+  CHECK(run_dmpc({"machine", folder / "mine.json"}).output == printed.output);
   std::set<std::string> hashes;
   for (const std::string& machine : {std::string("paragon"), (folder / "mine.json").string()}) {
-    const Result result = run(
+    const Said result = run_dmpc(
         {"render", "tetra-2", "--resolution=8x8", "--nodes=3", "--runner=virtual", "--machine", machine, "-o", folder / "a.exr"});
     CHECK(result.status == 0);
     CHECK(contains(result.output, " s on paragon, "));
@@ -241,31 +221,32 @@ TEST_CASE("a machine that was printed is read again: the same run as by its name
 TEST_CASE("a bad machine file ends with status 1, its name, the key and what was expected, before rendering") {
   const TemporaryFolder folder;
   write_text(folder / "bad.json", "{\"name\": 3}");
-  const Result result = run({"render", "tetra-1", "--runner=virtual", "--machine", folder / "bad.json", "-o", folder / "a.png"});
+  const Said result =
+      run_dmpc({"render", "tetra-1", "--runner=virtual", "--machine", folder / "bad.json", "-o", folder / "a.png"});
   CHECK(result.status == 1);
   CHECK(contains(result.errors, (folder / "bad.json").string() + ": topology: this key is missing"));
-  CHECK(run({"machine", "abacus"}).status == 1);
-  CHECK(run({"render", "tetra-1", "--runner=virtual", "--machine=abacus", "-o", folder / "a.png"}).status == 1);
+  CHECK(run_dmpc({"machine", "abacus"}).status == 1);
+  CHECK(run_dmpc({"render", "tetra-1", "--runner=virtual", "--machine=abacus", "-o", folder / "a.png"}).status == 1);
   CHECK(folder.entry_count() == 1);
 }
 
 TEST_CASE("a page is written beside the picture, or neither is") {
   const TemporaryFolder folder;
   const std::string page = folder / "a.html";
-  const Result result = run({"render", "tetra-1", "--resolution=8x8", "--report", page, "-o", folder / "a.png"});
+  const Said result = run_dmpc({"render", "tetra-1", "--resolution=8x8", "--report", page, "-o", folder / "a.png"});
   CHECK(result.status == 0);
   CHECK(contains(file_text(page), "Render of tetra-1"));
-  CHECK(run({"render", "tetra-1", "--report", folder / "no/a.html", "-o", folder / "b.png"}).status == 1);
+  CHECK(run_dmpc({"render", "tetra-1", "--report", folder / "no/a.html", "-o", folder / "b.png"}).status == 1);
   CHECK(folder.entry_count() == 2);
 }
 
 TEST_CASE("no output may fall on the machine file") {
   const TemporaryFolder folder;
   const std::string machine = folder / "mine.json";
-  write_text(machine, run({"machine", "hdr"}).output);
+  write_text(machine, run_dmpc({"machine", "hdr"}).output);
   const std::string before = file_text(machine);
-  const Result result =
-      run({"render", "tetra-1", "--runner=virtual", "--machine", machine, "--stats", machine, "-o", folder / "a.png"});
+  const Said result =
+      run_dmpc({"render", "tetra-1", "--runner=virtual", "--machine", machine, "--stats", machine, "-o", folder / "a.png"});
   CHECK(result.status == 2);
   CHECK(contains(result.errors, "this is the same file as --machine "));
   CHECK(file_text(machine) == before);
@@ -279,22 +260,22 @@ TEST_CASE("bad input ends with status 1, a reason, and nothing written") {
   const std::size_t before = folder.entry_count();
   for (const std::string scene : {"bad.nff", "cut.nff", "empty.nff", "missing.nff", ""}) {
     CAPTURE(scene);
-    const Result result = run({"render", folder / scene, "-o", folder / "a.png"});
+    const Said result = run_dmpc({"render", folder / scene, "-o", folder / "a.png"});
     CHECK(result.status == 1);
     CHECK(contains(result.errors, (folder / scene).string()));
     CHECK(result.output.empty());
   }
-  CHECK(contains(run({"render", folder / "bad.nff", "-o", folder / "a.png"}).errors, "bad.nff:8: "));
-  CHECK(run({"render", "nonsense-3", "-o", folder / "a.png"}).status == 1);
-  CHECK(run({"render", "tetra-1", "-o", folder / "a.nonsense"}).status == 1);
-  CHECK(run({"render", "tetra-1", "--stats", folder / "no/a.json", "-o", folder / "a.png"}).status == 1);
-  CHECK(run({"compare", folder / "bad.nff", folder / "bad.nff"}).status == 1);
+  CHECK(contains(run_dmpc({"render", folder / "bad.nff", "-o", folder / "a.png"}).errors, "bad.nff:8: "));
+  CHECK(run_dmpc({"render", "nonsense-3", "-o", folder / "a.png"}).status == 1);
+  CHECK(run_dmpc({"render", "tetra-1", "-o", folder / "a.nonsense"}).status == 1);
+  CHECK(run_dmpc({"render", "tetra-1", "--stats", folder / "no/a.json", "-o", folder / "a.png"}).status == 1);
+  CHECK(run_dmpc({"compare", folder / "bad.nff", folder / "bad.nff"}).status == 1);
   CHECK(folder.entry_count() == before);
 }
 
 TEST_CASE("too little memory ends with status 4 before rendering and names what works") {
   const TemporaryFolder folder;
-  const Result result = run({"render", "tetra-5", "--node-memory=1KiB", "-o", folder / "a.png"});
+  const Said result = run_dmpc({"render", "tetra-5", "--node-memory=1KiB", "-o", folder / "a.png"});
   CHECK(result.status == 4);
   CHECK(contains(result.errors, "the smallest that works is --node-memory="));
   CHECK(folder.entry_count() == 0);
@@ -303,10 +284,10 @@ TEST_CASE("too little memory ends with status 4 before rendering and names what 
 TEST_CASE("a scene that does not fit the nodes of dataflow ends with status 4 and says what would do, which is true") {
   const TemporaryFolder folder;
   const auto render = [&](const std::string& nodes, const std::string& memory) {
-    return run({"render", "tetra-6", "--strategy=dataflow", "--resolution=32x32", "--nodes=" + nodes, "--node-memory=" + memory,
-                "-o", folder / "a.png"});
+    return run_dmpc({"render", "tetra-6", "--strategy=dataflow", "--resolution=32x32", "--nodes=" + nodes,
+                     "--node-memory=" + memory, "-o", folder / "a.png"});
   };
-  const Result result = render("2", "400KiB");
+  const Said result = render("2", "400KiB");
   CHECK(result.status == 4);
   CHECK(contains(result.errors, "--node-memory=400KiB is too small for --nodes=2: node "));
   CHECK(contains(result.errors, " needs at least "));
@@ -319,8 +300,8 @@ TEST_CASE("a scene that does not fit the nodes of dataflow ends with status 4 an
 
 TEST_CASE("what dataflow reduces to fit the memory is said before") {
   const TemporaryFolder folder;
-  const Result result = run({"render", "balls-1", "--strategy=dataflow", "--nodes=8", "--resolution=8x8", "--node-memory=330KiB",
-                             "-o", folder / "a.png"});
+  const Said result = run_dmpc({"render", "balls-1", "--strategy=dataflow", "--nodes=8", "--resolution=8x8",
+                                "--node-memory=330KiB", "-o", folder / "a.png"});
   CHECK(result.status == 0);
   CHECK(contains(result.errors, " reduced from "));
   CHECK(contains(result.errors, " to fit 330KiB"));
@@ -329,14 +310,14 @@ TEST_CASE("what dataflow reduces to fit the memory is said before") {
 TEST_CASE("wrong usage ends with status 2 and a hint") {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{}, {"paint"}, {"render"}, {"machine"}, {"render", "tetra-1", "-o", "a.png", "--ray-batch=2"}}) {
-    const Result result = run(arguments);
+    const Said result = run_dmpc(arguments);
     CHECK(result.status == 2);
     CHECK(contains(result.errors, "--help"));
   }
 }
 
 TEST_CASE("help goes to the standard output with status 0") {
-  const Result result = run({"render", "--help"});
+  const Said result = run_dmpc({"render", "--help"});
   CHECK(result.status == 0);
   CHECK(contains(result.output, "Examples:"));
   CHECK(result.errors.empty());
@@ -345,10 +326,10 @@ TEST_CASE("help goes to the standard output with status 0") {
 TEST_CASE("degenerate primitives are left out and counted aloud") {
   const TemporaryFolder folder;
   write_text(folder / "flat.nff", std::string(view) + "s 0 0 0 1\ns 1 1 1 0\n");
-  const Result result = run({"render", folder / "flat.nff", "--quiet", "-o", folder / "a.png"});
+  const Said result = run_dmpc({"render", folder / "flat.nff", "--quiet", "-o", folder / "a.png"});
   CHECK(result.status == 0);
   CHECK(contains(result.errors, "1 degenerate primitive was left out"));
-  const Result check = run({"check", folder / "flat.nff"});
+  const Said check = run_dmpc({"check", folder / "flat.nff"});
   CHECK(check.status == 0);
   CHECK(contains(check.errors, "1 degenerate primitive was left out"));
 }
@@ -358,9 +339,9 @@ TEST_CASE("an output that is another one or an input ends with status 2 and noth
   const std::string keep = folder / "keep.nff", image = folder / "a.png";
   write_text(keep, std::string(view) + "s 0 0 0 1\n");
   write_text(image, "older");
-  CHECK(run({"render", keep, "-o", folder / "x.png", "--stats", keep}).status == 2);
-  CHECK(run({"render", "tetra-1", "-o", image, "--stats", image}).status == 2);
-  CHECK(run({"compare", image, folder / "b.png", "--difference", image}).status == 2);
+  CHECK(run_dmpc({"render", keep, "-o", folder / "x.png", "--stats", keep}).status == 2);
+  CHECK(run_dmpc({"render", "tetra-1", "-o", image, "--stats", image}).status == 2);
+  CHECK(run_dmpc({"compare", image, folder / "b.png", "--difference", image}).status == 2);
   CHECK(file_text(image) == "older");
   CHECK(file_text(keep) == std::string(view) + "s 0 0 0 1\n");
   CHECK(folder.entry_count() == 2);
@@ -368,7 +349,7 @@ TEST_CASE("an output that is another one or an input ends with status 2 and noth
 
 TEST_CASE("counters may go to the standard output, before the closing lines") {
   const TemporaryFolder folder;
-  const Result result = run({"render", "tetra-1", "--resolution=4x4", "--stats=/dev/stdout", "-o", folder / "a.png"});
+  const Said result = run_dmpc({"render", "tetra-1", "--resolution=4x4", "--stats=/dev/stdout", "-o", folder / "a.png"});
   CHECK(result.status == 0);
   CHECK(result.output.find("{") == 0);
   CHECK(result.output.find("film_hash") < result.output.find("picture  "));
@@ -378,7 +359,7 @@ TEST_CASE("counters may go to the standard output, before the closing lines") {
 TEST_CASE("counters that cannot be written end with status 1 before the render") {
   const TemporaryFolder folder;
   write_text(folder / "a.png", "older");
-  const Result result = run({"render", "tetra-1", "--resolution=4x4", "--stats=/dev/full", "-o", folder / "a.png"});
+  const Said result = run_dmpc({"render", "tetra-1", "--resolution=4x4", "--stats=/dev/full", "-o", folder / "a.png"});
   CHECK(result.status == 1);
   CHECK(contains(result.errors, "--stats /dev/full: this device takes nothing"));
   CHECK(result.output.empty());
@@ -389,7 +370,7 @@ TEST_CASE("counters that cannot be written end with status 1 before the render")
 TEST_CASE("lines that the standard output does not take end with status 1") {
   const TemporaryFolder folder;
   const std::string image = folder / "a.exr";
-  REQUIRE(run({"render", "tetra-1", "--resolution=4x4", "--quiet", "-o", image}).status == 0);
+  REQUIRE(run_dmpc({"render", "tetra-1", "--resolution=4x4", "--quiet", "-o", image}).status == 0);
   const std::vector<std::vector<std::string>> commands = {{"render", "tetra-1", "--resolution=4x4", "-o", folder / "b.exr"},
                                                           {"check", "tetra-1", "--resolution=4x4"},
                                                           {"compare", image, image},
@@ -407,21 +388,21 @@ TEST_CASE("lines that the standard output does not take end with status 1") {
 
 TEST_CASE("scene writes the same to a file as to the standard output") {
   const TemporaryFolder folder;
-  const Result result = run({"scene", "tetra-2"});
+  const Said result = run_dmpc({"scene", "tetra-2"});
   CHECK(result.status == 0);
   CHECK(result.errors.empty());
   CHECK(contains(result.output, "\np 3\n"));
-  CHECK(run({"scene", "tetra-2", "-o", folder / "t.nff"}).status == 0);
+  CHECK(run_dmpc({"scene", "tetra-2", "-o", folder / "t.nff"}).status == 0);
   CHECK(file_text(folder / "t.nff") == result.output);
   CHECK(folder.entry_count() == 1);
 }
 
 TEST_CASE("a written scene renders to the same picture as the built-in one") {
   const TemporaryFolder folder;
-  REQUIRE(run({"scene", "balls-1", "-o", folder / "b.nff"}).status == 0);
+  REQUIRE(run_dmpc({"scene", "balls-1", "-o", folder / "b.nff"}).status == 0);
   for (const std::string& scene : {std::string("balls-1"), (folder / "b.nff").string()}) {
-    REQUIRE(run({"render", scene, "--resolution=16x16", "--quiet", "-o", folder / "a.exr", "--stats",
-                 folder / (scene == "balls-1" ? "built_in.json" : "file.json")})
+    REQUIRE(run_dmpc({"render", scene, "--resolution=16x16", "--quiet", "-o", folder / "a.exr", "--stats",
+                      folder / (scene == "balls-1" ? "built_in.json" : "file.json")})
                 .status == 0);
   }
   CHECK(film_hash(folder / "built_in.json") == film_hash(folder / "file.json"));
@@ -441,9 +422,7 @@ TEST_CASE("Ctrl-C and SIGTERM end a render with status 130, whatever it does and
                                       {{"--strategy=svm", "--runner=virtual", "--resolution=1024x1024"}, SIGINT},
                                       {{"--strategy=replicated", "--runner=virtual", "--resolution=1024x1024"}, SIGTERM},
                                       {{"--strategy=dataflow", "--runner=virtual", "--resolution=1024x1024"}, SIGINT}}) {
-    Words arguments = {"render", "balls-3", "--samples=32768", "-o", folder / "a.png"};
-    arguments.insert(arguments.end(), words.begin(), words.end());
-    ChildProcess process(dmpc(arguments));
+    ChildProcess process(dmpc(together({{"render", "balls-3", "--samples=32768", "-o", folder / "a.png"}, words})));
     REQUIRE(process.blocks(signal));
     std::this_thread::sleep_for(std::chrono::milliseconds(300));  // so that it mostly renders already
     process.send(signal);

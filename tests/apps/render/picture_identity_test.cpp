@@ -121,11 +121,6 @@ TEST_CASE("a picture by paths is told from Whitted's, which has the facts that i
                    options.picture.transport.sky = {.horizon = {1, 1, 1}, .zenith = core::Vec3d{0, 0, 2}};
                  }),
                  "sky is 1,1,1/0,0,2, here there is none"));
-  CHECK(contains(difference_by_options([&](auto& options) {
-                   by_paths(options);
-                   options.picture.transport.occlusion = 0.5;
-                 }),
-                 "occlusion is 0.5, here there is none"));
 }
 
 TEST_CASE("a picture below a sky's picture is told by what that shows, whatever its file is called") {

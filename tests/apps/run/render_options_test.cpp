@@ -11,6 +11,7 @@
 #include "core/base/units.h"
 #include "nodes/runner.h"
 #include "tests/support/text.h"
+#include "tests/support/usage.h"
 
 namespace dmpc::apps::render_options_test {
 
@@ -20,12 +21,7 @@ using tests::contains;
 
 namespace {
 
-/// `render teapot-12 -o a.png` and more.
-RenderOptions render(const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"render", "teapot-12", "-o", "a.png"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return parse_command_line(arguments).options<RenderOptions>();
-}
+RenderOptions render(const std::vector<std::string>& more = {}) { return tests::typed_render(more); }
 
 }  // namespace
 
@@ -155,8 +151,6 @@ TEST_CASE("a mesh file that nobody has lit is shown by paths under a sky, refine
   CHECK(mesh({"--bounces=2"}).depth == 3);
   CHECK(mesh({"--error=0.5"}).refinement.error == 0.5);
   CHECK_FALSE(mesh({"--error=0.5"}).is_refined_unasked);
-  CHECK_FALSE(mesh({"--occlusion=2"}).transport.sky);
-  CHECK(mesh({"--occlusion=2"}).is_refined);
   for (const char* const scene : {"teapot-12", "a.nff", "./a"}) {
     CHECK_FALSE(parse_command_line(std::vector<std::string>{"render", scene, "-o", "a.png"})
                     .options<RenderOptions>()
@@ -386,7 +380,6 @@ TEST_CASE("paths have bounces in place of a depth, and a sky in place of a backg
   CHECK(usual.samples == 1);
   CHECK_FALSE(usual.staging.background);
   CHECK(render({"--transport=paths", "--bounces=254"}).picture.depth == 255);
-  CHECK(render({"--transport=paths", "--occlusion=0.5"}).picture.depth == 1);
   const PictureOptions sky = render({"--transport=paths", "--sky=1,0.5,0.25/0.5", "--samples=64"}).picture;
   CHECK(sky.staging.background == Vec3d{1, 0.5, 0.25});
   CHECK(sky.transport.sky->zenith == Vec3d{0.5, 0.5, 0.5});

@@ -46,7 +46,7 @@ TEST_CASE("a scene without a light is said, unless a light is given") {
   CHECK(said_of(nff_view + "l 1 2 3\nf 1 1 1 1 0 0 0 0\ns 0 0 0 1\n").empty());
 }
 
-TEST_CASE("by paths a sky lights a scene, and occlusion needs no light") {
+TEST_CASE("by paths a sky lights a scene") {
   const std::string sphere = nff_view + "f 1 1 1 1 0 0 0 0\ns 0 0 0.5 1\n";
   TransportOptions paths{.kind = core::TransportKind::paths};
   CHECK(tests::contains(said_of(sphere, {}, paths), "--light=X,Y,Z adds one, --sky=1 a sky"));
@@ -55,8 +55,6 @@ TEST_CASE("by paths a sky lights a scene, and occlusion needs no light") {
   paths.sky = SkyChoice{{}, {}};
   CHECK(tests::contains(said_of(sphere, {}, paths), "a.nff: no light is in it"));
   paths.sky = SkyChoice{{}, core::Vec3d{0, 0, 1}};
-  CHECK(said_of(sphere, {}, paths).empty());
-  paths = {.kind = core::TransportKind::paths, .occlusion = 1};
   CHECK(said_of(sphere, {}, paths).empty());
 }
 

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "core/database/database.h"
 #include "tests/support/small_scenes.h"
 #include "tests/support/text.h"
 
@@ -25,23 +24,18 @@ TEST_CASE("what has letters that no colour has is the file of a sky's picture") 
   CHECK_FALSE(parse_sky("1e3").is_picture());
 }
 
-TEST_CASE("nodes have the zenith where the scene's up points, of length 1, and distances in the grid's units") {
+TEST_CASE("nodes have the zenith where the scene's up points, of length 1") {
   core::Scene scene = tests::mirrors_and_glass();
   scene.view.up = {0, 0, 4};
-  const core::Database database = core::build_database(scene, {});
-  const core::GridFrame& frame = database.header().frame;
   const TransportOptions sky{.kind = core::TransportKind::paths, .sky = SkyChoice{{1, 1, 1}, core::Vec3d{0, 0, 2}}};
-  const core::Transport transport = transport_of(sky, zenith_of(scene), frame);
+  const core::Transport transport = transport_of(sky, zenith_of(scene));
   CHECK(transport.has_sky);
   CHECK(transport.has_gradient);
   CHECK(transport.up == core::Vec3f{0, 0, 1});
   CHECK(sky_light(transport, {1, 1, 1}, {0, 0, 1}) == core::Color{0, 0, 2});
   CHECK(sky_light(transport, {1, 1, 1}, {0, 0, -1}) == core::Color{1, 1, 1});
   CHECK(sky_light(transport, {1, 1, 1}, {1, 0, 0}) == core::Color{1, 1, 1});
-  const TransportOptions occlusion{.kind = core::TransportKind::paths, .occlusion = 2};
-  CHECK(transport_of(occlusion, zenith_of(scene), frame).occlusion_distance == static_cast<float>(2 * frame.scale));
-  CHECK(transport_of({.kind = core::TransportKind::paths, .occlusion = 1e-320}, zenith_of(scene), frame).occlusion_distance > 0);
-  CHECK_FALSE(transport_of({}, zenith_of(scene), frame).is_by_paths());
+  CHECK_FALSE(transport_of({}, zenith_of(scene)).is_by_paths());
 }
 
 TEST_CASE("a transport is told in a few words") {
@@ -51,15 +45,12 @@ TEST_CASE("a transport is told in a few words") {
   transport.sky = SkyChoice{{1, 0.5, 0}, {}};
   transport.bounces = 1;
   CHECK(text_of(transport) == "paths, 1 bounce, sky 1,0.5,0");
-  CHECK(text_of(TransportOptions{.kind = core::TransportKind::paths, .occlusion = 0.5}) == "paths, occlusion 0.5");
 }
 
 TEST_CASE("lights that are balls are told with the radius, and only paths aim at what shines") {
   TransportOptions transport{.kind = core::TransportKind::paths, .light_radius = 0.25};
   CHECK(text_of(transport) == "paths, 8 bounces, lights of radius 0.25");
   CHECK(transport.emitters_max() == 1024);
-  transport.occlusion = 1;
-  CHECK(transport.emitters_max() == 0);
   CHECK(TransportOptions{}.emitters_max() == 0);
 }
 

@@ -133,7 +133,7 @@ TEST_CASE("a floor under a sky that changes upwards shows its horizon and two th
   CHECK(studio.mean(1, 4096, transport, 0) == doctest::Approx(0.5 * (1 + 3 * 2.0 / 3)).epsilon(1e-4).scale(0));
 }
 
-TEST_CASE("at a distance from an endless wall a floor sees its share of the sky, and of what is free so far") {
+TEST_CASE("at a distance from an endless wall a floor sees its share of the sky") {
   constexpr double distance = 1, height = 1.5;
   Scene scene = floor_of(grey(1), 300);
   SceneBuilder builder(scene);
@@ -143,9 +143,6 @@ TEST_CASE("at a distance from an endless wall a floor sees its share of the sky,
   const double exact = (1 + distance / std::sqrt(distance * distance + height * height)) / 2;
   CHECK(studio.mean(1, 16384, white_sky, 0) == doctest::Approx(exact).epsilon(0.002).scale(0));
   CHECK(studio.mean(1, 16384, white_sky, 3) == doctest::Approx(exact).epsilon(0.002).scale(0));
-  CHECK(studio.mean(1, 16384, studio.occlusion_within(1e4), 0) == doctest::Approx(exact).epsilon(0.002).scale(0));
-  CHECK(studio.mean(1, 64, studio.occlusion_within(0.99 * distance), 0) == 1);
-  CHECK(studio.mean(1, 4096, studio.occlusion_within(1.1 * distance), 0) < 0.99);
 }
 
 TEST_CASE("a black ball above a floor takes the cosine to it times the square of its radius over its distance") {
@@ -156,8 +153,6 @@ TEST_CASE("a black ball above a floor takes the cosine to it times the square of
   const Studio studio(seen_at_origin(scene, {-1, 0, 1}));
   const double square = 0.6 * 0.6 + 1.8 * 1.8, exact = 1 - 1.8 / std::sqrt(square) * 0.25 / square;
   CHECK(studio.mean(1, 65536 / static_cast<int>(slowness), white_sky, 0) == doctest::Approx(exact).epsilon(0.001).scale(0));
-  CHECK(studio.mean(1, 65536 / static_cast<int>(slowness), studio.occlusion_within(10), 0) ==
-        doctest::Approx(exact).epsilon(0.001).scale(0));
 }
 
 TEST_CASE("a backdrop is seen, in mirrors too, and lights nothing; a sky does") {
@@ -177,20 +172,6 @@ TEST_CASE("no sample finds more light than the bound says, by which films are sc
       check_bounded(Studio(scene).film(8, 1, white_sky, bounces), radiance_bound(scene, bounces + 2, white_sky));
     }
   }
-}
-
-TEST_CASE("occlusion knows no colour, no light and no mirror") {
-  Scene scene = matt(mirrors_and_glass());
-  const Studio matt_studio(scene), studio(mirrors_and_glass());
-  Scene black = scene;
-  for (Material& material : black.materials) {
-    material.color = {0, 0, 0};
-  }
-  black.lights.clear();
-  const Transport transport = studio.occlusion_within(0.7);
-  const std::uint64_t expected = studio.film(24, 4, transport, 0).hash();
-  CHECK(matt_studio.film(24, 4, transport, 0).hash() == expected);
-  CHECK(Studio(black).film(24, 4, transport, 0).hash() == expected);
 }
 
 }  // namespace paths_test

@@ -41,7 +41,7 @@ class ThreeRanks {
 
  private:
   std::string film_of(const std::vector<std::string>& command) const {
-    const Ended ended = end_of(command);
+    const Said ended = run(command);
     REQUIRE_MESSAGE(ended.status == 0, ended.errors);
     CHECK(ended.errors.empty());
     return film_in(folder_ / "s.json");

@@ -52,7 +52,7 @@ void check_said_once(const std::vector<std::string>& arguments, int status, cons
   const TemporaryFolder folder;
   std::vector<std::string> line = arguments;
   line.insert(line.end(), {"--runner=mpi", "-o", folder / "a.png"});
-  const Ended ended = end_of(mpirun(3, line));
+  const Said ended = run(mpirun(3, line));
   CHECK(ended.status == status);
   CHECK_MESSAGE(count(ended.errors, "dmpc: ") == 1, ended.errors);
   CHECK_MESSAGE(contains(ended.errors, text), ended.errors);
@@ -80,7 +80,7 @@ TEST_CASE("a computer without room for its nodes ends all before the run, and is
   const std::vector<std::string> line(command.end() - 9, command.end());
   command.insert(command.end(), {":", "-n", "1", "/bin/sh", "-c", "ulimit -d 500000; exec \"$0\" \"$@\""});
   command.insert(command.end(), line.begin(), line.end());
-  const Ended ended = end_of(command);
+  const Said ended = run(command);
   CHECK(ended.status == 4);
   CHECK_MESSAGE(contains(ended.errors, "dmpc: rank 1 on host "), ended.errors);
   CHECK_MESSAGE(contains(ended.errors, ": this computer has no room for 10 nodes, with what lies between ranks: they take "),
@@ -96,7 +96,7 @@ TEST_CASE("ranks with other words are named with both, whatever they make of the
     std::vector<std::string> command = mpirun(1, words);
     command.insert(command.end(), {"--runner=mpi", ":", "-n", "1", "/bin/sh", "-c", "exec \"$0\" \"$@\" " + other, DMPC_PROGRAM});
     command.insert(command.end(), words.begin(), words.end());
-    const Ended ended = end_of(command);
+    const Said ended = run(command);
     CHECK(ended.status != 0);
     CHECK_MESSAGE(count(ended.errors, "dmpc: ") == 1, ended.errors);
     CHECK_MESSAGE(contains(ended.errors, "rank 1 on host "), ended.errors);
@@ -125,8 +125,8 @@ TEST_CASE("ranks that are all stopped for longer than a silence may last go on w
 TEST_CASE("srun that tells MPI nothing of its ranks is said by the first of them, and none renders") {
   const TemporaryFolder folder;
   for (const std::string rank : {"0", "2"}) {
-    const Ended ended = end_of({"/usr/bin/env", "SLURM_STEP_NUM_TASKS=3", "SLURM_PROCID=" + rank, DMPC_PROGRAM, "render",
-                                "tetra-1", "--runner=mpi", "-o", folder / "a.png"});
+    const Said ended = run({"/usr/bin/env", "SLURM_STEP_NUM_TASKS=3", "SLURM_PROCID=" + rank, DMPC_PROGRAM, "render", "tetra-1",
+                            "--runner=mpi", "-o", folder / "a.png"});
     CHECK(ended.status == 2);
     CHECK_MESSAGE(contains(ended.errors, "dmpc: srun has started 3 processes, of which MPI (") == (rank == "0"), ended.errors);
     CHECK(contains(ended.errors, " knows 1: start it by srun --mpi=pmi") == (rank == "0"));
@@ -156,13 +156,13 @@ TEST_CASE("a process that is killed ends all, and the picture goes on from what 
     CHECK_FALSE(fs::exists(folder / "a.exr"));
     CHECK(contains(process.errors(), "rank 2"));
   }
-  const Ended resumed = end_of(mpirun(2, with({"--runner=mpi", "--nodes=4", "--resume", stats})));
+  const Said resumed = run(mpirun(2, with({"--runner=mpi", "--nodes=4", "--resume", stats})));
   CHECK_MESSAGE(resumed.status == 0, resumed.errors);
   const std::string film = film_in(folder / "s.json");
   std::vector<std::string> alone = {DMPC_PROGRAM};
   const std::vector<std::string> whole = with({"--nodes=2", stats});
   alone.insert(alone.end(), whole.begin(), whole.end());
-  CHECK(end_of(alone).status == 0);
+  CHECK(run(alone).status == 0);
   CHECK(film == film_in(folder / "s.json"));
 }
 

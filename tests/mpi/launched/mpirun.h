@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/child_process.h"
+#include "tests/support/shell.h"
 
 namespace dmpc::tests {
 
@@ -34,17 +34,6 @@ inline std::vector<std::string> mpirun_of(int ranks, const std::string& program,
 inline std::vector<std::string> mpirun(int ranks, const std::vector<std::string>& arguments,
                                        const std::string& way = shared_memory) {
   return mpirun_of(ranks, DMPC_PROGRAM, arguments, way);
-}
-
-struct Ended {
-  int status = 0;
-  std::string output, errors;
-};
-
-inline Ended end_of(const std::vector<std::string>& command) {
-  ChildProcess process(command);
-  const int status = process.status();
-  return {status, process.output(), process.errors()};
 }
 
 }  // namespace dmpc::tests

@@ -26,10 +26,10 @@ Words joined(Words words, const Words& more) {
   return words;
 }
 
-Ended alone(const std::string& name, const Words& words) { return end_of(joined({program_named(name)}, words)); }
+Said alone(const std::string& name, const Words& words) { return run(joined({program_named(name)}, words)); }
 
-Ended on_ranks(int ranks, const std::string& name, const Words& words, const std::string& way = shared_memory) {
-  return end_of(mpirun_of(ranks, program_named(name), joined(words, {"--runner=mpi"}), way));
+Said on_ranks(int ranks, const std::string& name, const Words& words, const std::string& way = shared_memory) {
+  return run(mpirun_of(ranks, program_named(name), joined(words, {"--runner=mpi"}), way));
 }
 
 nlohmann::json json_in(const std::string& file) { return nlohmann::json::parse(file_text(file)); }
@@ -37,7 +37,7 @@ nlohmann::json json_in(const std::string& file) { return nlohmann::json::parse(f
 /// What all ranks end with, since it is said by rank 0 alone.
 void check_program_fault(const std::string& name, const Words& words, int status, const std::string& text) {
   const TemporaryFolder folder;
-  const Ended ended = on_ranks(3, name, joined(words, {"--nodes=6", "--stats=" + (folder / "s.json").string()}));
+  const Said ended = on_ranks(3, name, joined(words, {"--nodes=6", "--stats=" + (folder / "s.json").string()}));
   INFO(words.front());
   CHECK(ended.status == status);
   CHECK_MESSAGE(count(ended.errors, name + ": ") == 1, ended.errors);
@@ -64,7 +64,7 @@ TEST_CASE("the examples come to the same on ranks" * doctest::test_suite("slow")
   CHECK(contains(on_ranks(3, "ring_product", {"--size=64", "--nodes=4", "--quiet"}).output, "as expected"));
   CHECK(contains(on_ranks(3, "sample_sort", {"--keys=20000", "--nodes=5", "--quiet"}).output, "100000 keys, sorted"));
   CHECK(contains(on_ranks(3, "page_rank", {"--vertices=5000", "--nodes=6", "--quiet"}).output, "as in one memory"));
-  const Ended film = alone("image_parallel", {"--nodes=5", "--quiet"});
+  const Said film = alone("image_parallel", {"--nodes=5", "--quiet"});
   CHECK(film.output.starts_with("film "));
   CHECK(on_ranks(3, "image_parallel", {"--nodes=5", "--quiet"}).output == film.output);
 }
@@ -73,7 +73,7 @@ TEST_CASE("counters on ranks add up to those of one process, and say what went b
   const TemporaryFolder folder;
   const std::string here = folder / "here.json", there = folder / "there.json";
   REQUIRE(alone("asker", {"--nodes=6", "--stats=" + here}).status == 0);
-  const Ended ended = on_ranks(3, "asker", {"--nodes=6", "--stats=" + there});
+  const Said ended = on_ranks(3, "asker", {"--nodes=6", "--stats=" + there});
   REQUIRE_MESSAGE(ended.status == 0, ended.errors);
   CHECK(contains(ended.output, "6 nodes on ranks: "));
   CHECK(contains(ended.output, "; 60 packets between 3 ranks; "));
@@ -102,7 +102,7 @@ TEST_CASE("pages, references and results of tasks on ranks are those of one proc
             "--references=" + (folder / (name + ".csv")).string()};
   };
   REQUIRE(alone("tasks", words("here")).status == 0);
-  const Ended ended = on_ranks(3, "tasks", words("there"));
+  const Said ended = on_ranks(3, "tasks", words("there"));
   REQUIRE_MESSAGE(ended.status == 0, ended.errors);
   CHECK(file_text(folder / "here.csv") == file_text(folder / "there.csv"));
   const nlohmann::json one = json_in(folder / "here.json"), several = json_in(folder / "there.json");
@@ -117,7 +117,7 @@ TEST_CASE("a trace of ranks has the spans and messages of all nodes") {
   const TemporaryFolder folder;
   for (const auto& [name, once] : {std::pair<std::string, std::string>{"asker", "--questions=10"}, {"tasks", "--rounds=1"}}) {
     const std::string file = folder / (name + ".pftrace"), stats = folder / (name + "-stats.json");
-    const Ended ended = on_ranks(3, name, {"--nodes=6", once, "--trace=" + file, "--stats=" + stats});
+    const Said ended = on_ranks(3, name, {"--nodes=6", once, "--trace=" + file, "--stats=" + stats});
     REQUIRE_MESSAGE(ended.status == 0, ended.errors);
     const std::vector<TraceEvent> trace = trace_events(file_text(file));
     std::set<std::uint64_t> nodes;
@@ -141,7 +141,7 @@ TEST_CASE("pages for a browser have the nodes of all ranks, and the heat of task
   const TemporaryFolder folder;
   for (const std::string name : {"asker", "tasks"}) {
     const std::string file = folder / (name + ".html");
-    const Ended ended = on_ranks(3, name, {"--nodes=6", "--report=" + file});
+    const Said ended = on_ranks(3, name, {"--nodes=6", "--report=" + file});
     REQUIRE_MESSAGE(ended.status == 0, ended.errors);
     const std::string page = file_text(file);
     for (const std::string part :
@@ -170,7 +170,7 @@ TEST_CASE("what a program does wrong on ranks is said once, and ends all of them
 }
 
 TEST_CASE("nodes of several ranks that stand still are found out, with the circle in which they wait") {
-  const Ended ended = on_ranks(3, "asker", {"--nodes=3", "--fault=1"});
+  const Said ended = on_ranks(3, "asker", {"--nodes=3", "--fault=1"});
   CHECK(ended.status == 3);
   CHECK_MESSAGE(contains(ended.errors, "node 1: 2 asked; waits for 2 'square' of node 2; owes 2 'square' to node 0\n"),
                 ended.errors);
@@ -188,7 +188,7 @@ TEST_CASE("ranks whose acts part are found out before anything waits for ever" *
 }
 
 TEST_CASE("ranks that take their time between runs are waited for") {
-  const Ended ended = on_ranks(3, "tasks", {"--nodes=6", "--fault=6", "--quiet"});
+  const Said ended = on_ranks(3, "tasks", {"--nodes=6", "--fault=6", "--quiet"});
   CHECK(ended.status == 0);
   CHECK(ended.output == "sum 8000\n");
 }
@@ -196,7 +196,7 @@ TEST_CASE("ranks that take their time between runs are waited for") {
 TEST_CASE("as many nodes as there are processors for them are made where nobody says, and fewer than ranks are refused") {
   CHECK(on_ranks(3, "tasks", {"--quiet"}).output == "sum 8000\n");
   check_program_fault("tasks", {"--rounds=1", "--tasks=1", "--cache-pages=0"}, 2, "--cache-pages");
-  const Ended ended = on_ranks(3, "asker", {"--nodes=2"});
+  const Said ended = on_ranks(3, "asker", {"--nodes=2"});
   CHECK(ended.status == 2);
   CHECK_MESSAGE(contains(ended.errors, "asker: --nodes=2: expected at least one node for each of the 3 ranks"), ended.errors);
 }
@@ -208,7 +208,7 @@ TEST_CASE("a process that is alone on ranks says so, unless it is to be quiet") 
 }
 
 TEST_CASE("processes that are started together without --runner=mpi are told of it once") {
-  const Ended ended = end_of(mpirun_of(3, program_named("asker"), {}));
+  const Said ended = run(mpirun_of(3, program_named("asker"), {}));
   CHECK(ended.status == 2);
   CHECK(count(ended.errors, "asker: ") == 1);
   CHECK_MESSAGE(contains(ended.errors, "mpirun has started 3 processes"), ended.errors);
@@ -217,7 +217,7 @@ TEST_CASE("processes that are started together without --runner=mpi are told of 
 
 TEST_CASE("what does not go with ranks is refused") {
   for (const std::string option : {"--machine=hdr", "--topology=mesh"}) {
-    const Ended ended = on_ranks(2, "asker", {option});
+    const Said ended = on_ranks(2, "asker", {option});
     CHECK(ended.status == 2);
     CHECK_MESSAGE(contains(ended.errors, " does not go with --runner=mpi: what ranks run on is no model"), ended.errors);
   }
@@ -232,7 +232,7 @@ TEST_CASE("a program of one's own takes no module from around it, but from where
     fs::copy_file(module, folder / place / "dmpc_mpi.so");
   }
   fs::copy_file(program_named("asker"), program);
-  const Ended ended = end_of({program, "--nodes=2", "--runner=mpi"});
+  const Said ended = run({program, "--nodes=2", "--runner=mpi"});
   CHECK(ended.status == 3);
   CHECK_MESSAGE(contains(ended.errors, "is in none of its places"), ended.errors);
 }

@@ -50,7 +50,7 @@ void check_watched(const TemporaryFolder& folder, std::size_t rank_count) {
 }
 
 /// Whether a process may be given a clock of its own here.
-bool may_set_clocks() { return end_of({"/usr/bin/unshare", "--time", "--monotonic", "5000", "--fork", "/bin/true"}).status == 0; }
+bool may_set_clocks() { return run({"/usr/bin/unshare", "--time", "--monotonic", "5000", "--fork", "/bin/true"}).status == 0; }
 
 }  // namespace
 
@@ -58,7 +58,7 @@ TEST_CASE("a trace, heat and a page have the nodes of all processes, over shared
   for (const std::string& way : {shared_memory, tcp}) {
     CAPTURE(way);
     const TemporaryFolder folder;
-    const Ended ended = end_of(mpirun(3, with_outputs(folder), way));
+    const Said ended = run(mpirun(3, with_outputs(folder), way));
     REQUIRE_MESSAGE(ended.status == 0, ended.errors);
     check_watched(folder, 3);
   }
@@ -74,7 +74,7 @@ TEST_CASE("a process whose clock shows another time tells its times by that of r
   std::vector<std::string> command = mpirun(1, line);
   command.insert(command.end(), {":", "-n", "1", "/usr/bin/unshare", "--time", "--monotonic", "5000", "--fork", DMPC_PROGRAM});
   command.insert(command.end(), line.begin(), line.end());
-  const Ended ended = end_of(command);
+  const Said ended = run(command);
   REQUIRE_MESSAGE(ended.status == 0, ended.errors);
   check_watched(folder, 2);
   CHECK(last_ns(events_in(folder)) < 2'000'000'000'000);

@@ -4,12 +4,13 @@
 #include <string>
 #include <string_view>
 
+#include "apps/edge/system/base64.h"
+
 namespace dmpc::apps::html {
 
-/// As RFC 4648 has it, with padding.
-std::string base64(std::string_view bytes);
-
 /// "data:TYPE;base64,..." (RFC 2397).
-std::string data_url(std::string_view type, std::string_view bytes);
+inline std::string data_url(std::string_view type, std::string_view bytes) {
+  return "data:" + std::string(type) + ";base64," + base64(bytes);
+}
 
 }  // namespace dmpc::apps::html

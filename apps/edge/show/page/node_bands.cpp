@@ -24,13 +24,6 @@ constexpr const char* explained =
     "Over all nodes: the line is what half of them have at most, within the box are nine of ten, and the thin lines lead to the "
     "least and the most.";
 
-std::size_t column_number(const Table& table, const std::string& name) {
-  const auto& columns = table.columns();
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
-  core::expect(found != columns.end(), "bands are of columns that the table has");
-  return static_cast<std::size_t>(found - columns.begin());
-}
-
 /// Numbered, and no sum.
 bool is_node(const Cell& cell) {
   const auto* const text = std::get_if<std::string>(&cell);
@@ -43,12 +36,6 @@ std::size_t node_count(const Table& table) {
       std::count_if(table.rows().begin(), table.rows().end(), [](const auto& row) { return is_node(row.front()); }));
 }
 
-double value_of(const Cell& cell) {
-  const auto* const whole = std::get_if<std::uint64_t>(&cell);
-  const auto* const real = std::get_if<double>(&cell);
-  return whole != nullptr ? static_cast<double>(*whole) : real != nullptr ? *real : 0;
-}
-
 /// Of all nodes, from the least to the most.
 std::vector<Cell> sorted_cells(const Table& table, std::size_t column) {
   std::vector<Cell> cells;
@@ -57,7 +44,7 @@ std::vector<Cell> sorted_cells(const Table& table, std::size_t column) {
       cells.push_back(row[column]);
     }
   }
-  std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return value_of(a) < value_of(b); });
+  std::ranges::sort(cells, {}, [](const Cell& cell) { return number_of(cell).value_or(0); });
   return cells;
 }
 
@@ -70,14 +57,14 @@ const Cell& ranked(const std::vector<Cell>& sorted, double share) {
 }  // namespace
 
 Table band_table(const Plot& plot, const Table& table) {
-  const Column& measured = table.columns()[column_number(table, plot.series.front().column)];
+  const Column& measured = table.columns()[number_of_column(table, plot.series.front().column)];
   std::vector<Column> columns = {{"of each node", "", 0}};
   for (const Band& band : bands) {
     columns.push_back({band.name, measured.unit, measured.digits});
   }
   Table found(plot.title, std::move(columns));
   for (const PlotSeries& series : plot.series) {
-    const std::vector<Cell> sorted = sorted_cells(table, column_number(table, series.column));
+    const std::vector<Cell> sorted = sorted_cells(table, number_of_column(table, series.column));
     std::vector<Cell> row = {series.title};
     for (const Band& band : bands) {
       row.push_back(ranked(sorted, band.share));

@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/words.h"
+#include "apps/edge/system/real_load.h"
 
 namespace dmpc::apps {
 
@@ -30,14 +32,8 @@ std::string shell_word(const std::string& word) {
   if (!word.empty() && word.find_first_not_of(plain_letters) == std::string::npos) {
     return word;
   }
-  std::string quoted = "'";
-  for (const char character : word) {
-    quoted += character == '\'' ? "'\\''" : std::string(1, character);
-  }
-  return quoted + "'";
+  return in_quotes(word);
 }
-
-std::uint64_t processor_count() { return static_cast<std::uint64_t>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN))); }
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
@@ -88,18 +84,12 @@ Origin this_origin(std::optional<std::uint64_t> scene_digest) {
   return {.command = command_text(words),
           .program = "dmpc " DMPC_VERSION " (" + build_text() + ")",
           .date = date_text(std::getenv("SOURCE_DATE_EPOCH"), std::time(nullptr)),
-          .computer = counted(processor_count(), "processor") + ", " + processor_name(),
+          .computer = counted(core_count(), "processor") + ", " + processor_name(),
           .scene_digest = scene_digest,
           .words = shell_words(words)};
 }
 
-std::string command_text(std::span<const std::string> words) {
-  std::string text;
-  for (const std::string& word : shell_words(words)) {
-    text += (text.empty() ? "" : " ") + word;
-  }
-  return text;
-}
+std::string command_text(std::span<const std::string> words) { return joined(shell_words(words), " "); }
 
 bool is_shell_word(std::string_view text) {
   constexpr std::string_view quote = "'\\''";

@@ -10,6 +10,7 @@
 
 #include "apps/edge/line/amount.h"
 #include "apps/edge/line/number_text.h"
+#include "apps/edge/line/small_letters.h"
 #include "apps/edge/show/page/escaped.h"
 
 namespace dmpc::apps::html {
@@ -18,14 +19,6 @@ namespace {
 
 /// A table with more columns has less room for each.
 constexpr std::size_t dense_columns = 11;
-
-std::optional<double> number_of(const Cell& cell) {
-  if (const auto* const whole = std::get_if<std::uint64_t>(&cell)) {
-    return static_cast<double>(*whole);
-  }
-  const auto* const real = std::get_if<double>(&cell);
-  return real == nullptr ? std::nullopt : std::optional(*real);
-}
 
 bool is_of_text(const Table& table, std::size_t column) {
   return std::any_of(table.rows().begin(), table.rows().end(),
@@ -147,11 +140,8 @@ std::string file_stem(const std::string& title) {
 
 /// Saves under a name made of title and ending, which is the value of `attributes`' last.
 std::string link_with(const std::string& attributes, const std::string& title, const std::string& ending) {
-  std::string name = ending;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return "<a class=\"save\" " + attributes + "=\"" + file_stem(title) + "." + name + "\" title=\"Save as " + ending + ": " +
-         escaped(title) + "\">" + ending + "</a>";
+  return "<a class=\"save\" " + attributes + "=\"" + file_stem(title) + "." + in_small_letters(ending) + "\" title=\"Save as " +
+         ending + ": " + escaped(title) + "\">" + ending + "</a>";
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "apps/edge/show/page/data_url.h"
+#include "apps/edge/system/base64.h"
 
 namespace dmpc::apps::html {
 

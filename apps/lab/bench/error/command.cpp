@@ -173,9 +173,6 @@ void choose_quick(const OptionSet& set, MeasureOptions& measure) {
 /// What is turned by default, and what references have, depends on the transport.
 void choose_transport(const OptionSet& set, MeasureOptions& measure) {
   const bool are_by_paths = measure.picture.transport.is_by_paths();
-  if (measure.picture.transport.occlusion) {
-    throw core::UsageError("--occlusion does not go with bench error, which turns bounces: leave it out");
-  }
   if (!set.is_given("--knobs")) {
     measure.knobs = all_knobs(are_by_paths);
   }

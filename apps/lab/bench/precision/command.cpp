@@ -46,11 +46,7 @@ constexpr std::array<FamilyExpectation, 11> family_expectations = {{{"balls-4", 
 
 /// "99.5": a number from 0 to 100.
 double parse_expectation(const std::string& text) {
-  const double percent = finite_number(text);
-  if (!(percent >= 0 && percent <= 100)) {
-    throw core::UsageError("--expect=" + text + ": expected a percentage from 0 to 100, such as 99.5");
-  }
-  return percent;
+  return parse_within(text, "--expect", 0, 100, "a percentage from 0 to 100, such as 99.5");
 }
 
 Expectation usual_expectation() { return {99, "what is expected of any scene"}; }

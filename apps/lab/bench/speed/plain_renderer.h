@@ -28,7 +28,7 @@ struct PlainPicture {
 /// By paths, where the subject's picture is: the numbers of chance are ours (core/picture/sample_pair.h), and for the same
 /// purposes, as are the places in pixels, the ways in which a surface sends light on, tiny mirrors included, what hits aim at and
 /// how that is weighed, roulette, sky and last looks; so sample for sample its light is ours, but where rounding leads a path
-/// elsewhere. No sky's picture, no occlusion. Else no more than one sample a pixel. Immutable; render() is thread-safe.
+/// elsewhere. No sky's picture. Else no more than one sample a pixel. Immutable; render() is thread-safe.
 class PlainRenderer {
  public:
   /// Builds the tree, of high quality, on all cores. `subject` outlives it.

@@ -36,7 +36,7 @@ class AccurateTracer {
   /// All outlive the tracer; `watcher` may be null. Secondary rays start 1e-13 of their body's coordinates and radius off it.
   /// Rays look at textures as the product's first samples do, by what the ray's own camera says that a pixel covers; where the
   /// options give them no share of it, at points. By paths rays have the chances of the product's, if its grid has the world's
-  /// axes; of transports that show occlusion, nothing is known here.
+  /// axes.
   AccurateTracer(const AccurateScene& scene, const AccurateFinder& finder, const core::ShadeOptions& options,
                  RayWatcher* watcher = nullptr)
       : scene_(scene), finder_(finder), options_(options), watcher_(watcher) {}

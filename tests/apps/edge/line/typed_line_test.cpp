@@ -12,6 +12,7 @@
 #include "apps/main/commands.h"
 #include "core/base/expect.h"
 #include "tests/support/text.h"
+#include "tests/support/usage.h"
 
 namespace dmpc::apps::typed_line_test {
 
@@ -29,12 +30,8 @@ Words typed(const std::string& line) {
 }
 
 std::string answer_to(const std::string& line) {
-  try {
-    parse_command_line(typed(line));
-  } catch (const core::UsageError& error) {
-    return error.what();
-  }
-  return "nothing";
+  const std::string complaint = tests::usage_complaint(typed(line));
+  return complaint.empty() ? "nothing" : complaint;
 }
 
 /// What is typed behind dmpc, and a part of the answer.
@@ -154,6 +151,7 @@ constexpr Slip slips[] = {
     {"bench stability --resume=a", "--resume is no option of dmpc bench stability any more: a long run may be made of several"},
     {"render a.obj --tree-arity=4 -o a.png", "--tree-arity is no option of dmpc render any more: --homes=tree has three"},
     {"render a.obj --topology=mesh -o a.png", "dmpc study balance --topology=KIND compares"},
+    {"render a.obj --occlusion=2 -o a.png", "--occlusion is no option of dmpc render any more: --sky=1 --bounces=0 lights"},
     {"info a.obj --subsample=4", "dmpc study balance --subsample=N shows what others do"},
     {"study speedup rings-3 --memory-port", "--machine=FILE.json names a machine whose has_memory_port is true"},
     {"study balance rings-3 --balance-grid=8", "loads are counted in 256x256 columns"},

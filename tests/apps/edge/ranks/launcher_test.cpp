@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/child_process.h"
+#include "tests/support/run_dmpc.h"
 #include "tests/support/text.h"
 
 namespace dmpc::tests::launcher_test {
@@ -28,19 +28,8 @@ std::string text_of(const std::optional<Launcher>& launcher) {
   return launcher ? launcher->name + " " + std::to_string(launcher->rank) + "/" + std::to_string(launcher->rank_count) : "none";
 }
 
-struct Said {
-  int status;
-  std::string output, errors;
-};
-
 Said dmpc_with(const std::vector<std::string>& variables, const std::vector<std::string>& arguments) {
-  std::vector<std::string> command = {"/usr/bin/env"};
-  command.insert(command.end(), variables.begin(), variables.end());
-  command.emplace_back(DMPC_PROGRAM);
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  ChildProcess process(command);
-  const int status = process.status();
-  return {status, process.output(), process.errors()};
+  return run_dmpc(arguments, variables);
 }
 
 }  // namespace

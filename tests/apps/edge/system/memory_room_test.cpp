@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/base/expect.h"
-#include "tests/support/child_process.h"
+#include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -92,26 +92,24 @@ TEST_CASE("more than there is room for is refused with what would take it and wh
 TEST_CASE("a render with less memory than its nodes take is refused before it begins") {
   const TemporaryFolder folder;
   const auto limited = [&](const std::string& limit, const std::string& nodes) {
-    tests::ChildProcess process({"/bin/sh", "-c",
-                                 "ulimit " + limit + "; exec " DMPC_PROGRAM " render tetra-7 --resolution=16x16 --nodes=" +
-                                     nodes + " --strategy=replicated --quiet -o " + (folder / "a.png").string()});
-    const int status = process.status();
-    return std::pair(status, process.errors());
+    return tests::run({"/bin/sh", "-c",
+                       "ulimit " + limit + "; exec " DMPC_PROGRAM " render tetra-7 --resolution=16x16 --nodes=" + nodes +
+                           " --strategy=replicated --quiet -o " + (folder / "a.png").string()});
   };
-  const auto [status, errors] = limited("-v 1000000", "1000");
-  CHECK(status == 4);
-  CHECK(contains(errors, "this computer has no room for 1,000 nodes and the host: they take "));
-  CHECK(contains(errors, "this shell's limit (ulimit -v) is 976.56 MiB"));
+  const tests::Said said = limited("-v 1000000", "1000");
+  CHECK(said.status == 4);
+  CHECK(contains(said.errors, "this computer has no room for 1,000 nodes and the host: they take "));
+  CHECK(contains(said.errors, "this shell's limit (ulimit -v) is 976.56 MiB"));
   CHECK(folder.entry_count() == 0);
-  CHECK(limited("-d 300000", "2").first == 0);
+  CHECK(limited("-d 300000", "2").status == 0);
 }
 #endif
 
 #if !defined(__SANITIZE_ADDRESS__)
 TEST_CASE("where memory ends within a limit, who has set it is named") {
-  tests::ChildProcess process({"/bin/sh", "-c", "ulimit -s 256; ulimit -d 120000; exec " DMPC_PROGRAM " info tetra-10"});
-  CHECK(process.status() == 4);
-  CHECK_MESSAGE(contains(process.errors(), "; this shell's limit (ulimit -d) is 117.19 MiB"), process.errors());
+  const tests::Said said = tests::run({"/bin/sh", "-c", "ulimit -s 256; ulimit -d 120000; exec " DMPC_PROGRAM " info tetra-10"});
+  CHECK(said.status == 4);
+  CHECK_MESSAGE(contains(said.errors, "; this shell's limit (ulimit -d) is 117.19 MiB"), said.errors);
 }
 #endif
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "apps/picture/image_file.h"
-#include "tests/support/child_process.h"
 #include "tests/support/hostile_files.h"
+#include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text.h"
 
@@ -16,16 +16,7 @@ namespace dmpc::tests::shortage_test {
 
 namespace {
 
-struct Ending {
-  int status = 0;
-  std::string errors;
-};
-
-[[maybe_unused]] Ending end_of(const std::string& line) {
-  ChildProcess process({"/bin/bash", "-c", line});
-  const int status = process.status();
-  return {status, process.errors()};
-}
+[[maybe_unused]] Said end_of(const std::string& line) { return run({"/bin/bash", "-c", line}); }
 
 }  // namespace
 
@@ -55,11 +46,11 @@ TEST_CASE("with too few open files a texture is not missing, and the status is 4
   apps::write_image(folder / "t.png", apps::Image(2, 2));
   for (const std::string files : {"5", "6", "7"}) {
     CAPTURE(files);
-    const Ending end = end_of("ulimit -n " + files + "; exec " DMPC_PROGRAM " info --missing=plain " + scene);
+    const Said end = end_of("ulimit -n " + files + "; exec " DMPC_PROGRAM " info --missing=plain " + scene);
     CHECK(end.status == 4);
     CHECK_MESSAGE(contains(end.errors, "let dmpc open more files (ulimit -n)"), end.errors);
   }
-  const Ending end = end_of("ulimit -n 10; exec " DMPC_PROGRAM " render tetra-1 -o " + (folder / "a.png").string());
+  const Said end = end_of("ulimit -n 10; exec " DMPC_PROGRAM " render tetra-1 -o " + (folder / "a.png").string());
   CHECK(end.status == 4);
   CHECK(contains(end.errors, "raise the limit (ulimit -n)"));
 }
@@ -76,7 +67,7 @@ TEST_CASE("readers that may start no process or no thread are this computer's sh
   }
   for (const std::string processes : {"2", "6"}) {  // none for the first reader, and none for the second one's threads
     CAPTURE(processes);
-    const Ending end = end_of(nobody + "'ulimit -u " + processes + "; exec " DMPC_PROGRAM " info --missing=plain " + scene + "'");
+    const Said end = end_of(nobody + "'ulimit -u " + processes + "; exec " DMPC_PROGRAM " info --missing=plain " + scene + "'");
     CHECK(end.status == 4);
     CHECK_MESSAGE(contains(end.errors, "let dmpc start more processes and threads"), end.errors);
   }

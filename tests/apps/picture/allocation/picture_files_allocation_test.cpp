@@ -2,6 +2,7 @@
 // This executable has an allocator that fails on demand.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -80,6 +81,13 @@ std::size_t fail_each(const Pack& pack) {
 constexpr int width = 33, height = 40;
 constexpr std::size_t count = std::size_t{3} * width * height;
 
+template <class Number>
+auto taking(const std::vector<Number>& rgb) {
+  return [&rgb](std::size_t first, std::span<Number> some) {
+    std::ranges::copy(std::span(rgb).subspan(3 * first, some.size()), some.begin());
+  };
+}
+
 }  // namespace
 
 TEST_CASE("whichever allocation fails while an EXR file is packed, it is std::bad_alloc") {
@@ -87,9 +95,7 @@ TEST_CASE("whichever allocation fails while an EXR file is packed, it is std::ba
   for (std::size_t i = 0; i < count; ++i) {
     rgb[i] = static_cast<float>(i * i % 977);
   }
-  const std::span<const float> values(rgb);
-  const apps::ExrPicture picture{
-      width, height, {{"R", values, 3}, {"G", values.subspan(1), 3}, {"B", values.subspan(2), 3}}, {{"name", "value"}}};
+  const apps::ExrRows picture{width, height, {"R", "G", "B"}, taking(rgb), {{"name", "value"}}};
   CHECK(fail_each([&] { return apps::exr_file(picture, 1); }) > 20);
 }
 
@@ -98,7 +104,7 @@ TEST_CASE("whichever allocation fails while a PNG file is packed, it is std::bad
   for (std::size_t i = 0; i < count; ++i) {
     rgb[i] = static_cast<std::uint8_t>(i * i % 97);
   }
-  CHECK(fail_each([&] { return apps::png_file(width, height, rgb, 1); }) > 5);
+  CHECK(fail_each([&] { return apps::png_file({width, height, taking(rgb)}, 1); }) > 5);
 }
 
 }  // namespace dmpc::tests::picture_files_allocation_test
