@@ -22,7 +22,9 @@ constexpr double distance_max = 1e30;
 constexpr double light_radius_max = 1e15;
 /// One fewer than below other skies.
 constexpr int bounces_below_picture_max = 253;
-constexpr const char* beside_sky = " does not go with --sky, which is what no ray meets";
+constexpr const char* beside_sky =
+    " does not go with --sky, nor with the sky below which a mesh is shown that nothing else lights, since a sky is what no ray "
+    "meets: say --sky alone, or --transport=whitted";
 /// Shares of light that are 1 but for rounding.
 constexpr double gain_min = 1 + 1e-6;
 
@@ -55,7 +57,9 @@ void check_paths(const OptionSet& options, const TransportOptions& transport) {
     refuse_each(options, {"--bounces", "--sky", "--light", "--fill", "--ambient", "--emitters", "--light-radius"},
                 " does not go with --occlusion, which shows what is near and nothing else");
   }
-  const std::string by_paths = " does not go with --transport=paths: ";
+  const std::string by_paths = options.is_given("--transport")
+                                   ? " does not go with --transport=paths: "
+                                   : " does not go with paths, by which a mesh is shown unless --transport=whitted is given: ";
   refuse_each(options, {"--depth"}, by_paths + "say --bounces");
   refuse_each(options, {"--cutoff"}, by_paths + "a path that counts for little goes on by chance, which costs no light");
   refuse_each(options, {"--ambient"}, by_paths + "light from everywhere is a sky, say --sky");
