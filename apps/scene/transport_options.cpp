@@ -187,15 +187,23 @@ core::Transport transport_of(const TransportOptions& options, const core::Vec3d&
   return transport;
 }
 
-std::string emitters_text(std::uint64_t emitters, std::uint64_t others, const TransportOptions& options) {
-  return others == 0 || options.emitters_max() == 0
-             ? ""
-             : counted(others, "primitive") + (others == 1 ? " shines" : " shine") + " and " + (others == 1 ? "is" : "are") +
-                   " met by chance alone, which is noisy: " +
-                   (emitters == options.emitters
-                        ? "--emitters=" + std::to_string(options.emitters) + " aims at no more"
-                        : "cones, what is a millionth as strong as others, and what alpha or other faces in its plane leave a "
-                          "part of");
+std::string emitters_text(const EmitterCounts& counts, const TransportOptions& options) {
+  if (options.emitters_max() == 0) {
+    return "";
+  }
+  const auto shine = [](std::uint64_t count) { return counted(count, "primitive") + (count == 1 ? " shines" : " shine"); };
+  const std::string others = counts.others == 0
+                                 ? ""
+                                 : shine(counts.others) + " and " + (counts.others == 1 ? "is" : "are") +
+                                       " met by chance alone, which is noisy: " +
+                                       (counts.emitters == options.emitters
+                                            ? "--emitters=" + std::to_string(options.emitters) + " aims at no more"
+                                            : "cones, what is a millionth as strong as others, and what alpha leaves a part of");
+  const std::string covered = counts.covered == 0 ? ""
+                                                  : shine(counts.covered) +
+                                                        " in the plane of faces that show before: what these leave of that, if "
+                                                        "anything, is met by chance alone";
+  return others + (others.empty() || covered.empty() ? "" : "; ") + covered;
 }
 
 std::string gain_text(const std::vector<core::Material>& materials, const TransportOptions& options) {
