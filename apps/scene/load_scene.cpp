@@ -220,7 +220,8 @@ core::Scene load_scene(const PictureOptions& picture, LoadNotes notes, OpenedFil
       picture.transport.light_radius ? core::make_lights_spheres(scene, *picture.transport.light_radius) : 0;
   if (notes == LoadNotes::said) {
     const bool may_be_black = kind == SceneKind::mesh && !picture.transport.is_by_paths();
-    say_once({note, sky_note, may_be_black ? shadow_note(picture.staging) : "", picture.is_one_path_unasked ? one_path_note : "",
+    say_once({note, sky_note, contrast_text(scene.sky), may_be_black ? shadow_note(picture.staging) : "",
+              picture.is_one_path_unasked ? one_path_note : "",
               picture.transport.light_radius && !has_points ? no_points_note : "", points_text(points_left)});
     say_what_is_missing(scene, picture.transport, is_below_own_sky(picture.scene));
   }
