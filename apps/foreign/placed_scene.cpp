@@ -262,14 +262,24 @@ class PlacedScene {
     for (const PolygonMesh& back : backs_) {
       writer.add(behind(back), file_.materials[back.material].material);
     }
-    if (!writer.has_area()) {
-      refuse_without_area(file_, result_.notes);
-    }
+    settle_empty(writer.has_area());
     note_count(result_.notes, "meshes whose texture is not shown, since no corner has a place on it", writer.unplaced());
     note_count(result_.notes, "spheres that are turned inside out, shown as if they were not", inside_out_);
     note_count(result_.notes, "meshes that let all light through, so that nothing of them is seen", writer.unseen());
     note_count(result_.notes, "meshes whose vertex colours are not used, since there is a texture",
                writer.meshes_without_colors());
+    note_count(
+        result_.notes,
+        "vertices that are no numbers or beyond 1e30, left out as no face has them (the first: " + writer.first_stray() + ")",
+        writer.strays());
+  }
+
+  /// A frame of an animation may show nothing; the view of a whole that is but a point is one of unit size.
+  void settle_empty(bool has_area) {
+    if (!has_area && (file_.shapes.empty() || !options_.animation)) {
+      refuse_without_area(file_, result_.notes);
+    }
+    result_.bounds.radius = result_.bounds.radius > 0 ? result_.bounds.radius : 1;
   }
 
   void add_shape(const ShapePlace& place, GeometryWriter& writer) {

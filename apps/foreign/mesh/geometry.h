@@ -45,8 +45,8 @@ class GeometryWriter {
   GeometryWriter(core::Scene& scene, IndexedVertices& vertices, std::optional<double> smooth_degrees)
       : scene_(scene), builder_(scene), vertices_(vertices), smooth_degrees_(smooth_degrees) {}
 
-  /// A mesh without places loses the material's texture. Throws core::InputError with the mesh's name for a coordinate that is
-  /// not finite or beyond 1e30, an index of a vertex that does not exist, or a polygon with too many corners.
+  /// A mesh without places loses the material's texture. Throws core::InputError with the mesh's name for a corner's coordinate
+  /// that is not finite or beyond 1e30, an index of a vertex that does not exist, or a polygon with too many corners.
   void add(PolygonMesh mesh, core::Material material);
 
   /// Adds a mesh in coordinates of its own, which stands nowhere yet. Returns what place() calls it; nothing if it has no faces.
@@ -70,6 +70,9 @@ class GeometryWriter {
   std::uint64_t unplaced() const { return unplaced_; }
   /// Meshes whose material lets all light through as it comes, and so shows nothing.
   std::uint64_t unseen() const { return unseen_; }
+  /// Vertices that no face has, of coordinates that are not finite or beyond 1e30, and the first of them.
+  std::uint64_t strays() const { return strays_; }
+  const std::string& first_stray() const { return first_stray_; }
   /// Meshes some of whose faces show a texture, and not the colours that their corners have, too.
   std::uint64_t meshes_without_colors() const { return meshes_without_colors_; }
 
@@ -82,6 +85,7 @@ class GeometryWriter {
   };
 
   void add_objects(PolygonMesh mesh, core::Material material);
+  void settle_vertices(PolygonMesh& mesh);
   bool has_area_in(const core::SharedMesh& mesh, const core::Transform& world) const;
   /// The face of these corners.
   void add_face(const PolygonMesh& mesh, const core::Material& material, std::size_t first, std::size_t end);
@@ -98,7 +102,8 @@ class GeometryWriter {
   std::vector<Shared> shared_;  ///< by Instances::meshes
   bool is_shared_ = false;      ///< what is being added
   bool has_area_ = false, hides_colors_ = false;
-  std::uint64_t unplaced_ = 0, unseen_ = 0, meshes_without_colors_ = 0;
+  std::uint64_t unplaced_ = 0, unseen_ = 0, meshes_without_colors_ = 0, strays_ = 0;
+  std::string first_stray_;
   std::set<std::array<double, 3>> face_colors_;  ///< of faces of one colour
   std::vector<core::Vec3d> face_vertices_, face_normals_;
   std::vector<core::Vec3d> smooth_;  ///< normals that were reckoned anew, a corner of the mesh each

@@ -94,6 +94,9 @@ class Resolver {
  private:
   std::uint32_t add(const MtlMaterial& source);
   MtlMaterial colored(MtlMaterial material) const;
+  const MtlMaterial* source_of(std::uint32_t name) const;
+  /// MeshLab (until 2023) and OpenMVS write a Tr of 1 for what is opaque: what every face has is not meant to be unseen.
+  bool is_tr_of_what_is_opaque() const;
   std::uint32_t index_of(std::uint32_t name);
   /// Leaves textures out that lie on no face.
   void judge_textures();
@@ -104,7 +107,21 @@ class Resolver {
   Losses losses_;
   std::map<const MtlMaterial*, std::uint32_t> known_;
   std::vector<std::string> unknown_;
+  bool is_tr_opaque_ = false;  ///< that of every material
 };
+
+bool is_unseen_by_tr(const MtlMaterial& material) { return !material.d && material.transparency == 1; }
+
+const MtlMaterial* Resolver::source_of(std::uint32_t name) const {
+  return name == none ? nullptr : libraries_.find(geometry_.material_names[name]);
+}
+
+bool Resolver::is_tr_of_what_is_opaque() const {
+  return !geometry_.runs.empty() && std::ranges::all_of(geometry_.runs, [this](const Run& run) {
+    const MtlMaterial* const source = source_of(run.name);
+    return source != nullptr && is_unseen_by_tr(*source);
+  });
+}
 
 /// What names no colour is white below colours of vertices.
 MtlMaterial Resolver::colored(MtlMaterial material) const {
@@ -130,14 +147,18 @@ std::uint32_t Resolver::add(const MtlMaterial& source) {
 
 /// Of the run's name. All without a material share one, whose key is null.
 std::uint32_t Resolver::index_of(std::uint32_t name) {
-  const MtlMaterial* const source = name == none ? nullptr : libraries_.find(geometry_.material_names[name]);
+  const MtlMaterial* const source = source_of(name);
   if (name != none && source == nullptr) {
     unknown_.push_back(geometry_.material_names[name]);
   }
   const auto [known, is_new] = known_.try_emplace(source, 0);
   if (is_new) {
-    known->second = add(source == nullptr ? MtlMaterial{} : *source);
-    losses_.add(source == nullptr ? MtlMaterial{} : *source);
+    MtlMaterial shown = source == nullptr ? MtlMaterial{} : *source;
+    if (is_tr_opaque_) {
+      shown.transparency.reset();
+    }
+    known->second = add(shown);
+    losses_.add(shown);
   }
   return known->second;
 }
@@ -170,6 +191,7 @@ void Resolver::judge_textures() {
 }
 
 Materials Resolver::resolve() {
+  is_tr_opaque_ = is_tr_of_what_is_opaque();
   std::map<std::uint32_t, std::uint32_t> of_names;
   for (const Run& run : geometry_.runs) {
     const auto [known, is_new] = of_names.try_emplace(run.name, 0);
@@ -178,6 +200,9 @@ Materials Resolver::resolve() {
     }
     result_.of_runs.push_back(known->second);
   }
+  note_count(result_.notes,
+             "materials with a Tr of 1 and no d, as all are, shown as opaque: some programs write it so (a d of 0 hides them)",
+             is_tr_opaque_ ? known_.size() : 0);
   note_names(result_.notes, "materials that are named and in no file of materials, shown grey", unknown_);
   judge_textures();
   losses_.note(result_.notes);

@@ -45,8 +45,8 @@ bool is_see_through(const PlyRow& row) {
 
 std::uint64_t count_beyond(const std::vector<Color>& colors, double full) {
   return static_cast<std::uint64_t>(std::count_if(colors.begin(), colors.end(), [full](const Color& color) {
-    const auto [least, most] = std::minmax_element(color.begin(), color.end());
-    return color != no_ply_color && (*least < 0 || double{*most} > full);
+    const auto is_within = [full](float channel) { return channel >= 0 && double{channel} <= full; };
+    return color != no_ply_color && !std::ranges::all_of(color, is_within);
   }));
 }
 

@@ -9,6 +9,7 @@
 
 #include "apps/edge/line/parsed_number.h"
 #include "apps/edge/line/shown_text.h"
+#include "apps/foreign/text/small_letters.h"
 #include "core/base/expect.h"
 
 namespace dmpc::apps {
@@ -54,6 +55,12 @@ std::optional<double> decimal_number(std::string_view word) {
     return std::nullopt;
   }
   return error == std::errc{} ? std::optional(value) : extreme_number(plain);
+}
+
+bool is_no_number(std::string_view word) {
+  word.remove_prefix(word.starts_with('-') || word.starts_with('+') ? 1 : 0);
+  const std::string small = in_small_letters(word);
+  return small.starts_with("nan") || small == "inf" || small == "infinity" || small.starts_with("1.#");
 }
 
 void LineWords::skip_blanks() {

@@ -13,6 +13,9 @@ namespace dmpc::apps {
 /// `nan`, `inf`, hexadecimal digits, or a number beyond what a double holds. One below that is 0.
 std::optional<double> decimal_number(std::string_view word);
 
+/// Whether programs write it for what is no finite number: `nan`, `-nan(ind)`, `inf`, `-1.#IND`, `1.#QNAN`.
+bool is_no_number(std::string_view word);
+
 /// A line's words, one after the other. Blanks are spaces, tabulators, and a backslash before a line end (text_lines.h). What
 /// follows a # is a remark, but for one behind a point, as in `1.#INF`.
 class LineWords {
