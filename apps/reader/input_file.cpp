@@ -50,6 +50,9 @@ InputFile find_input_file(const fs::path& path) {
   file.resolved = fs::read_symlink(link_of(file.descriptor), error);
   if (error) {
     throw core::InputError("lies so deep in folders that its name cannot be told; move it");
+  if (std::error_code none; error && !fs::exists("/proc/self/fd", none)) {
+    throw core::InputError("cannot be opened, as there is no /proc here, which says what its name leads to: mount it");
+  }
   }
   file.bytes = static_cast<std::uint64_t>(status.st_size);
   return file;

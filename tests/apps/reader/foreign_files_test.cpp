@@ -385,7 +385,10 @@ namespace {
 /// Stands in for a kernel without these calls; with "seccomp" goes the older way to it.
 bool forget_call(const std::string& call) {
   const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ALLOW);
-  const scmp_arg_cmp mode{0, SCMP_CMP_EQ, PR_SET_SECCOMP, 0};
+  const scmp_arg_cmp mode{0, SCMP_CMP_EQ, PR_SET_SECCOMP, 0}, end{0, SCMP_CMP_EQ, PR_SET_PDEATHSIG, 0};
+  if (call == "end with the parent") {
+    return ::seccomp_rule_add_array(filter, SCMP_ACT_ERRNO(EINVAL), SCMP_SYS(prctl), 1, &end) == 0 && ::seccomp_load(filter) == 0;
+  }
   const bool is_made =
       ::seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), ::seccomp_syscall_resolve_name(call.c_str()), 0) == 0 &&
       (call != "seccomp" || ::seccomp_rule_add_array(filter, SCMP_ACT_ERRNO(EINVAL), SCMP_SYS(prctl), 1, &mode) == 0);
@@ -421,7 +424,8 @@ Reading reading_without(const std::string& call, apps::Sandbox sandbox) {
 
 TEST_CASE("where a reader's calls cannot be filtered, or the kernel has no Landlock, that is said, once, and what is missing") {
   for (const auto& [call, missing] : {std::pair<std::string, std::string>("seccomp", "no filter of system calls (seccomp)"),
-                                      {"landlock_create_ruleset", "files not forbidden (Landlock)"}}) {
+                                      {"landlock_create_ruleset", "files not forbidden (Landlock)"},
+                                      {"end with the parent", "no end with dmpc's own (PR_SET_PDEATHSIG)"}}) {
     CAPTURE(call);
     const Reading reading = reading_without(call, apps::Sandbox::available);
     CHECK(reading.status == 0);
@@ -433,6 +437,12 @@ TEST_CASE("where a reader's calls cannot be filtered, or the kernel has no Landl
 }
 
 TEST_CASE("where the whole sandbox is required, nothing is read behind half of one") {
+TEST_CASE("a computer that makes no file in memory is told of as one, and not as a bug") {
+  const Reading reading = reading_without("memfd_create", apps::Sandbox::available);
+  CHECK(reading.status == 2);
+  CHECK(says(reading.said, "this computer lets no file in memory be made (memfd_create)"));
+}
+
   for (const char* const call : {"seccomp", "landlock_create_ruleset"}) {
     const Reading reading = reading_without(call, apps::Sandbox::required);
     CHECK(reading.status == 2);
@@ -497,7 +507,7 @@ TEST_CASE("a device is no scene, and neither is a pipe that nobody writes to") {
     CHECK(says(complaint_of([&] { apps::read_nff_file(device); }), device + ": is a device or the like"));
   }
   REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-  CHECK(says(complaint_of([&] { apps::read_nff_file(folder / "pipe"); }), "nobody writes to"));
+  CHECK(says(complaint_of([&] { apps::read_nff_file(folder / "pipe"); }), folder / "pipe: is a pipe that nobody writes to"));
 }
 
 TEST_CASE("a line that does not end, and endless comments, are refused") {

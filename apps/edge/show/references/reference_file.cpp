@@ -237,7 +237,7 @@ ReferenceTrace read_references(const std::filesystem::path& path, const Referenc
   try {
     input = std::make_unique<TextInput>(is_standard ? "/dev/stdin" : path);
   } catch (const core::InputError& error) {
-    throw core::InputError(name + ": " + error.what() + "; a CSV file of page references was expected");
+    throw core::InputError(std::string(error.what()) + "; a CSV file of page references was expected");
   }
   if (unpack && is_packed(*input, name)) {
     return read_packed(*unpack(*input), name, columns);
