@@ -38,6 +38,8 @@ const Refusal values[] = {
     {"render --tracer=magic", "--tracer"},
     {"render --samples=0|32769|automatic|-1|1.5|AUTO|4x", "--samples={}: expected a whole number"},
     {"render --depth=0|256", "--depth={}: expected"},
+    {"render --patience=60", "--patience goes with --runner=mpi"},
+    {"render --patience=0|90000 --runner=mpi", "--patience"},
     {"render --convention=mine", "--convention"},
     {"render --cache-pages=0", "--cache-pages={}: expected"},
     {"render --in-flight=0|4097", "--in-flight={}: expected"},
