@@ -226,8 +226,9 @@ void MeshSession::answer_open(const std::string& path) {
     const InputFile file = access_.open(path);
     const bool is_new = access_.opened().paths().size() > known;  // else it would get time for each of a thousand mentions
     current_ = path;
-    pictures_.add_bytes(is_new ? file.bytes : 0);
-    process_.send(Saying::file, Packer().add(file.bytes), &file.descriptor, is_new ? file.bytes : 0);
+    const std::uint64_t there = is_new ? bytes_without_holes(file.descriptor, file.bytes) : 0;
+    pictures_.add_bytes(there);
+    process_.send(Saying::file, Packer().add(file.bytes), &file.descriptor, there);
   } catch (const ReaderDeath&) {
     throw;
   } catch (const core::RoomError&) {
@@ -277,7 +278,7 @@ core::Texture MeshSession::texture_of_file(Unpacker fields) {
   const std::size_t known = access_.opened().paths().size();
   InputFile file = access_.open(path);
   const bool is_new = access_.opened().paths().size() > known;
-  budget_.add_bytes(is_new ? file.bytes : 0);
+  budget_.add_bytes(is_new ? bytes_without_holes(file.descriptor, file.bytes) : 0);
   std::string ending = fs::path(path).extension().string();
   ending.erase(0, 1);
   return pictures_.read_texture({std::move(file.descriptor), file.bytes, path, ending, is_new}, edges);

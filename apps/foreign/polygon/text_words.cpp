@@ -13,6 +13,8 @@ namespace {
 
 bool is_space(char letter) { return letter == ' ' || letter == '\t' || letter == '\v' || letter == '\f'; }
 bool is_line_end(char letter) { return letter == '\n' || letter == '\r'; }
+/// Of a hole in a file, whose end may be far: each is a word of its own.
+bool is_no_text(char letter) { return letter == '\0'; }
 
 }  // namespace
 
@@ -32,9 +34,10 @@ void TextWords::skip_line_end() {
 
 std::string_view TextWords::word() {
   const std::size_t begin = at_;
-  while (at_ < text_.size() && !is_space(text_[at_]) && !is_line_end(text_[at_]) && !is_at_remark()) {
+  while (at_ < text_.size() && !is_space(text_[at_]) && !is_line_end(text_[at_]) && !is_no_text(text_[at_]) && !is_at_remark()) {
     ++at_;
   }
+  at_ += at_ == begin && at_ < text_.size() && is_no_text(text_[at_]) ? 1 : 0;
   return text_.substr(begin, at_ - begin);
 }
 

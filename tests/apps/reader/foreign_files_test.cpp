@@ -25,6 +25,7 @@
 #include "apps/picture/image_file.h"
 #include "apps/picture/picture_reader.h"
 #include "apps/reader/file_access.h"
+#include "apps/reader/input_file.h"
 #include "apps/reader/process.h"
 #include "core/base/expect.h"
 #include "tests/support/forked_process.h"
@@ -382,7 +383,7 @@ TEST_CASE("a crash of the reader of pictures is an error of the picture, which i
 #if !defined(__SANITIZE_ADDRESS__)  // under which nothing is confined
 namespace {
 
-/// Stands in for a kernel without these calls; with "seccomp" goes the older way to it.
+/// Stands in for a kernel without these calls; with "seccomp" goes the older way to it. "end with the parent" is one of prctl's.
 bool forget_call(const std::string& call) {
   const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ALLOW);
   const scmp_arg_cmp mode{0, SCMP_CMP_EQ, PR_SET_SECCOMP, 0}, end{0, SCMP_CMP_EQ, PR_SET_PDEATHSIG, 0};
@@ -436,13 +437,13 @@ TEST_CASE("where a reader's calls cannot be filtered, or the kernel has no Landl
   }
 }
 
-TEST_CASE("where the whole sandbox is required, nothing is read behind half of one") {
 TEST_CASE("a computer that makes no file in memory is told of as one, and not as a bug") {
   const Reading reading = reading_without("memfd_create", apps::Sandbox::available);
   CHECK(reading.status == 2);
   CHECK(says(reading.said, "this computer lets no file in memory be made (memfd_create)"));
 }
 
+TEST_CASE("where the whole sandbox is required, nothing is read behind half of one") {
   for (const char* const call : {"seccomp", "landlock_create_ruleset"}) {
     const Reading reading = reading_without(call, apps::Sandbox::required);
     CHECK(reading.status == 2);
@@ -462,11 +463,11 @@ TEST_CASE("a whole sandbox is there, is read in, and is told of all readers toge
 TEST_CASE("textures have a budget of memory that is all of theirs, and the one that is too much is named") {
   const TemporaryFolder folder;
   apps::write_image(folder / "a.png", apps::Image(100, 10));
-  apps::PictureReader reader({.texture_bytes_max = 12'000});  // of 1000 texels and a third more
+  apps::PictureReader reader({.texture_bytes_max = 24'000});  // of 1000 texels and a third more, twice
   CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().width == 100);
   CHECK(reader.read_texture(apps::open_picture(folder / "a.png"), {}).levels.front().width == 100);
   CHECK_THROWS_WITH_AS(reader.read_texture(apps::open_picture(folder / "a.png"), {}),
-                       doctest::Contains("a.png: with it the scene's textures take"), core::RoomError);
+                       doctest::Contains("a.png: with its 100x10 texels the scene's textures take"), core::RoomError);
 }
 
 TEST_CASE("a texture without a name and one with an endless one are said") {
@@ -499,6 +500,22 @@ TEST_CASE("a picture that says to be larger than its file can hold is refused") 
   const std::string text = complaint_of([&] { apps::read_image(folder / "t.exr"); });
   CHECK(says(text, "t.exr: "));
   CHECK(says(text, "it is damaged"));
+}
+
+TEST_CASE("what is a hole in a file gives its reader no time") {
+  const TemporaryFolder folder;
+  const auto bytes_in = [&](const std::string& text, std::uint64_t length) {
+    write_text(folder / "a.obj", text);
+    fs::resize_file(folder / "a.obj", length);
+    apps::InputFile file = apps::find_input_file(folder / "a.obj");
+    apps::open_input_file(file);
+    CHECK(file.bytes == length);
+    return apps::bytes_without_holes(file.descriptor, file.bytes);
+  };
+  CHECK(bytes_in("v 0 0 0\n", 8) == 8);
+  CHECK(bytes_in("", 1 << 30) == 0);
+  CHECK(bytes_in(std::string(10'000, 'v'), 1 << 30) < 1'000'000);
+  CHECK(bytes_in(std::string(10'000, 'v'), 1 << 30) >= 10'000);
 }
 
 TEST_CASE("a device is no scene, and neither is a pipe that nobody writes to") {

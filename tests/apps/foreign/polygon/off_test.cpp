@@ -109,8 +109,8 @@ TEST_CASE("what is no number in OFF and PLY is left out and said where no face h
 
 TEST_CASE("a hole in OFF or PLY is refused where it begins, however long it is") {
   const std::string hole(1000, '\0');
-  CHECK(contains(mesh_refusal("a.off", hole), "line 1: expected text, found byte 0"));
-  CHECK(contains(mesh_refusal("a.off", "OFF\n3 1 0\n0 0 " + hole), "line 3: expected text, found byte 0"));
+  CHECK(contains(mesh_refusal("a.off", hole), "line 1: found '\\x00', expected OFF"));
+  CHECK(contains(mesh_refusal("a.off", "OFF\n3 1 0\n0 0 " + hole), "line 3: found '\\x00', expected a coordinate"));
   CHECK(contains(mesh_refusal("a.ply", "ply\nformat" + hole), "line 2: expected text, found byte 0"));
 }
 
