@@ -131,7 +131,9 @@ void MeshSession::note_alpha() {
                                    [](const core::Material& material) { return material.alpha != core::AlphaUse::none; });
   if (count > 0) {
     result_.notes.push_back(
-        "materials that alpha cuts out or blends, whose faces cast whole shadows, and each take one of --depth or a bounce: " +
+        "materials that alpha cuts out or blends, each of whose faces takes one of --depth or a bounce; they cast whole shadows "
+        "of lights "
+        "that are points, while by paths what skies and lamps send comes through, with more noise: " +
         grouped(static_cast<std::uint64_t>(count)));
   }
   if (pictures_.hidden_alphas() > 0) {
