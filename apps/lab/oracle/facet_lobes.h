@@ -134,7 +134,10 @@ class FacetLobes {
   }
   /// Where a direction outside leads, by Snell.
   Vec below_surface(const Vec& outside) const {
-    const Vec beside = (outside - place_.normal * dot(outside, place_.normal)) * (1 / std::max(Real{1}, place_.index));
+    if (!(place_.index > 1)) {
+      return outside;
+    }
+    const Vec beside = (outside - place_.normal * dot(outside, place_.normal)) * (1 / place_.index);
     return beside + place_.normal * std::sqrt(std::max(Real{0}, 1 - dot(beside, beside)));
   }
   Vec tinted(Real cosine) const { return straight_ + (grey(place_.there) - straight_) * (1 - unreflected(cosine)); }
